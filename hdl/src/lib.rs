@@ -1,0 +1,1 @@
+//! The incircle core in rust-hdl, and its export to Verilog.

@@ -1,0 +1,1 @@
+//! Exact canonical Delaunay triangulation of integer points, in hardware or software.

@@ -1,0 +1,55 @@
+//! What the core and its host both know: commands, answers, status codes, word layouts and limits.
+//!
+//! The link between them is two streams of 32-bit words. A command is one word, its arguments follow.
+//! Every command is answered by a header word, a word that counts the payload words, and the payload.
+//! `protocol/README.md` describes the same in prose with an example exchange.
+//!
+//! This crate has no dependencies and holds no logic beyond packing and unpacking words.
+#![no_std]
+
+mod command;
+mod config;
+mod counters;
+mod layout;
+mod status;
+
+pub use command::{
+    answer_header, answer_opcode, answer_status, command_opcode, command_word, Opcode,
+};
+pub use config::{Config, ConfigError, FULL, LARGE, NAMED, SMALL, TINY};
+pub use counters::{Counter, COUNTER_WORDS};
+pub use layout::{Identity, InsertReport, Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS};
+pub use status::Status;
+
+/// First word of the identity: the letters `inCi`.
+pub const MAGIC: u32 = 0x696e_4369;
+/// Version of the protocol, `major << 16 | minor`. A host refuses a device of another major version.
+pub const PROTOCOL_VERSION: u32 = 1 << 16;
+/// Bits of one coordinate in the standard core.
+pub const CORE_COORD_BITS: u32 = 16;
+/// Largest coordinate width that any implementation (the software model) takes.
+pub const MAX_COORD_BITS: u32 = 31;
+/// Smallest coordinate width an implementation may be configured for.
+pub const MIN_COORD_BITS: u32 = 1;
+
+/// Triangles held for `points` points: exactly `2n - 2`, ghosts included, once there are three.
+///
+/// Euler on the sphere that the infinite vertex closes: `n + 1` vertices, `2(n + 1) - 4` faces.
+pub const fn triangle_capacity(points: u32) -> u32 {
+    2 * points
+}
+
+/// Bits of a vertex id for a capacity of `points`: one value, all ones, is the infinite vertex.
+pub const fn vertex_id_bits(points: u32) -> u32 {
+    u32::BITS - points.leading_zeros()
+}
+
+/// Bits of a triangle id for a capacity of `points`.
+pub const fn triangle_id_bits(points: u32) -> u32 {
+    u32::BITS - (triangle_capacity(points) - 1).leading_zeros()
+}
+
+/// The infinite vertex for a capacity of `points`: all ones in the width of a vertex id.
+pub const fn infinite_vertex(points: u32) -> u32 {
+    (((1u64) << vertex_id_bits(points)) - 1) as u32
+}

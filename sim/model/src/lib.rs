@@ -1,0 +1,1 @@
+//! Bit-exact software model of the incircle core.

@@ -1,0 +1,1 @@
+//! The incircle core in Verilator, as a device that takes and gives words.

@@ -1,0 +1,1 @@
+//! Lock-step, end-to-end and gate tests of incircle.
