@@ -16,7 +16,10 @@ mod status;
 pub use command::{
     answer_header, answer_opcode, answer_status, command_opcode, command_word, Opcode,
 };
-pub use config::{Config, ConfigError, FULL, LARGE, NAMED, SMALL, TINY};
+pub use config::{
+    Config, ConfigError, FULL, LARGE, MAX_POINTS, MAX_RING, MIN_POINTS, MIN_RING, NAMED, SMALL,
+    TINY,
+};
 pub use counters::{Counter, COUNTER_WORDS};
 pub use layout::{Identity, InsertReport, Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS};
 pub use status::Status;
@@ -53,3 +56,6 @@ pub const fn triangle_id_bits(points: u32) -> u32 {
 pub const fn infinite_vertex(points: u32) -> u32 {
     (((1u64) << vertex_id_bits(points)) - 1) as u32
 }
+
+/// Version of the core and of the model that predicts it, `major << 16 | minor << 8 | patch`.
+pub const CORE_VERSION: u32 = 1 << 8;

@@ -1,1 +1,16 @@
 //! Bit-exact software model of the incircle core.
+//!
+//! Two ways to drive it. [`CommandModel`] takes the command stream whole and is fast; it is the default back end
+//! of the host library. [`ClockModel`] predicts every root port of the core at every clock; lock-step tests compare
+//! it with the Verilog. Both hold the same records under the same ids, written in the same order.
+//!
+//! The algorithm is incremental insertion: a visibility walk, a Bowyer-Watson cavity whose boundary is a ring split in
+//! place, and a commit that reuses the removed triangles' ids. Ties follow the canonical rule (see [`predicate`]).
+
+pub mod clock;
+mod command;
+mod mesh;
+pub mod predicate;
+
+pub use command::{CommandModel, ModelError};
+pub use mesh::{Counts, Insertion, Mesh, Record};

@@ -1,0 +1,294 @@
+//! The model as a device: words in, words out.
+
+use crate::mesh::Mesh;
+use crate::predicate::Point;
+use incircle_protocol as protocol;
+use protocol::{answer_header, Counter, Identity, InsertReport, Layout, Opcode, Status};
+use std::collections::VecDeque;
+use std::fmt;
+
+/// Version of the model and of the core it predicts, `major << 16 | minor << 8 | patch`.
+pub const CORE_VERSION: u32 = protocol::CORE_VERSION;
+
+/// Most points the software model holds: a record id must fit 31 bits.
+pub const MAX_CAPACITY: u32 = 1 << 30;
+
+/// A parameter the model cannot be built with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModelError {
+    /// Coordinate bits outside 1 to 31.
+    CoordBits(u32),
+    /// Capacity outside 4 to 2^30 points.
+    Capacity(u32),
+    /// Boundary list outside 3 to 64 entries.
+    Ring(u32),
+}
+
+impl fmt::Display for ModelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CoordBits(given) => write!(
+                f,
+                "the model takes coordinates of {} to {} bits, not {given}",
+                protocol::MIN_COORD_BITS,
+                protocol::MAX_COORD_BITS
+            ),
+            Self::Capacity(given) => {
+                write!(
+                    f,
+                    "the model holds {} to {MAX_CAPACITY} points, not {given}",
+                    protocol::MIN_POINTS
+                )
+            }
+            Self::Ring(given) => write!(
+                f,
+                "a boundary list holds {} to {} edges, not {given}",
+                protocol::MIN_RING,
+                protocol::MAX_RING
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ModelError {}
+
+/// What the next words mean.
+#[derive(Clone, Copy, Debug)]
+enum Awaited {
+    Command,
+    InsertCount,
+    Points { left: u32 },
+    ReadFirst,
+    ReadCount { first: u32 },
+}
+
+/// The model driven by whole commands. It carries out each command as its last word arrives.
+#[derive(Debug)]
+pub struct CommandModel {
+    identity: Identity,
+    layout: Layout,
+    mesh: Mesh,
+    awaited: Awaited,
+    /// First word of a point that takes two and was cut off by the end of a piece.
+    half_point: Option<u32>,
+    answers: VecDeque<u32>,
+    /// A range being read: records `.0` to `.1` are yet to be turned into words.
+    reading: (u32, u32),
+}
+
+impl CommandModel {
+    /// A model with an empty mesh. Memory is taken as points arrive, not up to the capacity.
+    pub fn new(coord_bits: u32, capacity: u32, ring_capacity: u32) -> Result<Self, ModelError> {
+        if !(protocol::MIN_COORD_BITS..=protocol::MAX_COORD_BITS).contains(&coord_bits) {
+            return Err(ModelError::CoordBits(coord_bits));
+        }
+        if !(protocol::MIN_POINTS..=MAX_CAPACITY).contains(&capacity) {
+            return Err(ModelError::Capacity(capacity));
+        }
+        if !(protocol::MIN_RING..=protocol::MAX_RING).contains(&ring_capacity) {
+            return Err(ModelError::Ring(ring_capacity));
+        }
+        Ok(Self {
+            identity: Identity {
+                magic: protocol::MAGIC,
+                protocol_version: protocol::PROTOCOL_VERSION,
+                core_version: CORE_VERSION,
+                coord_bits,
+                capacity,
+                contexts: 1,
+                ring_capacity,
+            },
+            layout: Layout::of(coord_bits, capacity),
+            mesh: Mesh::new(capacity, ring_capacity),
+            awaited: Awaited::Command,
+            half_point: None,
+            answers: VecDeque::new(),
+            reading: (0, 0),
+        })
+    }
+
+    /// The mesh as it stands.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Takes any piece of the command stream.
+    pub fn send(&mut self, words: &[u32]) {
+        let mut rest = words;
+        while let Some((&word, after)) = rest.split_first() {
+            rest = match self.awaited {
+                Awaited::Points { left } => self.take_points(left, rest),
+                Awaited::Command => {
+                    self.take_command(word);
+                    after
+                }
+                Awaited::InsertCount => {
+                    self.mesh.reserve(word);
+                    self.await_points(word);
+                    after
+                }
+                Awaited::ReadFirst => {
+                    self.awaited = Awaited::ReadCount { first: word };
+                    after
+                }
+                Awaited::ReadCount { first } => {
+                    self.awaited = Awaited::Command;
+                    self.take_read(first, word);
+                    after
+                }
+            };
+        }
+    }
+
+    /// Hands out answer words that are ready and returns how many.
+    pub fn receive(&mut self, buffer: &mut [u32]) -> usize {
+        let mut filled = 0;
+        while filled < buffer.len() {
+            let ready = self.answers.len().min(buffer.len() - filled);
+            for (place, word) in buffer[filled..filled + ready]
+                .iter_mut()
+                .zip(self.answers.drain(..ready))
+            {
+                *place = word;
+            }
+            filled += ready;
+            if self.answers.is_empty() && !self.read_on() {
+                break;
+            }
+        }
+        filled
+    }
+
+    /// Turns the next few records of the range being read into words; false if none is left.
+    ///
+    /// Only a window is held, so reading a large mesh takes no memory of its size.
+    fn read_on(&mut self) -> bool {
+        const WINDOW: u32 = 4096;
+        let (first, end) = self.reading;
+        let stop = end.min(first.saturating_add(WINDOW));
+        for record in &self.mesh.records()[first as usize..stop as usize] {
+            let words = self.layout.record_to_words(record.v, record.n, false);
+            self.answers.extend(&words[..self.layout.record_words]);
+        }
+        self.reading.0 = stop;
+        first < stop
+    }
+
+    /// Finishes the range being read, before another answer or a change of the mesh.
+    fn finish_reading(&mut self) {
+        while self.read_on() {}
+    }
+
+    fn take_command(&mut self, word: u32) {
+        self.finish_reading();
+        let opcode = protocol::command_opcode(word);
+        match Opcode::from_u8(opcode) {
+            Some(Opcode::Hello) => {
+                let words = self.identity.to_words();
+                self.answer(opcode, Status::Ok, &words);
+            }
+            Some(Opcode::Clear) => {
+                self.mesh.clear();
+                self.answer(opcode, Status::Ok, &[]);
+            }
+            Some(Opcode::Insert) => self.awaited = Awaited::InsertCount,
+            Some(Opcode::Read) => self.awaited = Awaited::ReadFirst,
+            Some(Opcode::Counters) => {
+                let words = self.counter_words();
+                self.answer(opcode, Status::Ok, &words);
+            }
+            None => self.answer(opcode, Status::UnknownOpcode, &[]),
+        }
+    }
+
+    fn answer(&mut self, opcode: u8, status: Status, payload: &[u32]) {
+        self.answers
+            .extend([answer_header(opcode, status), payload.len() as u32]);
+        self.answers.extend(payload);
+    }
+
+    fn await_points(&mut self, left: u32) {
+        self.awaited = Awaited::Points { left };
+        if left == 0 {
+            self.awaited = Awaited::Command;
+            self.report_insert();
+        }
+    }
+
+    /// Inserts the points in `words`, at most `left`; returns the words behind them.
+    fn take_points<'a>(&mut self, left: u32, words: &'a [u32]) -> &'a [u32] {
+        let mask = u32::MAX >> (32 - self.identity.coord_bits);
+        let mut left = left;
+        let mut rest = words;
+        while left > 0 {
+            let Some((&word, after)) = rest.split_first() else {
+                break;
+            };
+            rest = after;
+            let (x, y) = match (self.layout.point_words, self.half_point.take()) {
+                (1, _) => (word & 0xffff, word >> 16),
+                (_, Some(x)) => (x, word),
+                (_, None) => {
+                    self.half_point = Some(word);
+                    continue;
+                }
+            };
+            self.mesh.insert(Point {
+                x: x & mask,
+                y: y & mask,
+            });
+            left -= 1;
+        }
+        self.await_points(left);
+        rest
+    }
+
+    fn report_insert(&mut self) {
+        let counts = self.mesh.counts();
+        let report = InsertReport {
+            arrived: counts.arrived,
+            inserted: counts.insertions,
+            duplicates: counts.duplicates,
+            refused: counts.refused,
+            records: self.mesh.records().len() as u32,
+        };
+        let status = match (self.mesh.is_collinear(), counts.refused) {
+            (true, _) => Status::Collinear,
+            (false, 0) => Status::Ok,
+            (false, _) => Status::Full,
+        };
+        self.answer(Opcode::Insert as u8, status, &report.to_words());
+    }
+
+    fn take_read(&mut self, first: u32, count: u32) {
+        let records = self.mesh.records().len() as u32;
+        let opcode = Opcode::Read as u8;
+        let length = count.checked_mul(self.layout.record_words as u32);
+        match (first.checked_add(count), length) {
+            (Some(end), Some(length)) if end <= records => {
+                self.answers
+                    .extend([answer_header(opcode, Status::Ok), length]);
+                self.reading = (first, end);
+            }
+            _ => self.answer(opcode, Status::BadRange, &[]),
+        }
+    }
+
+    fn counter_words(&self) -> [u32; protocol::COUNTER_WORDS] {
+        let counts = self.mesh.counts();
+        let mut words = [0; protocol::COUNTER_WORDS];
+        for (counter, value) in [
+            (Counter::Insertions, counts.insertions),
+            (Counter::Duplicates, counts.duplicates),
+            (Counter::Refused, counts.refused),
+            (Counter::WalkVisits, counts.walk_visits),
+            (Counter::Tests, counts.tests),
+            (Counter::CavityTriangles, counts.cavity_triangles),
+            (Counter::Overflows, counts.overflows),
+            (Counter::Flips, counts.flips),
+        ] {
+            words[counter as usize] = value;
+        }
+        words
+    }
+}

@@ -1,0 +1,215 @@
+//! The triangulation as the core stores it, and insertion into it, one point after the other.
+
+mod cavity;
+mod solo;
+mod walk;
+
+use crate::predicate::{orient2d, Point};
+use cavity::Cavity;
+use incircle_protocol::infinite_vertex;
+
+/// A triangle record: vertex ids counter-clockwise; `n[k]` is the record across the edge opposite `v[k]`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Record {
+    /// Vertex ids; one of them is the infinite vertex in a ghost.
+    pub v: [u32; 3],
+    /// Neighbour record ids.
+    pub n: [u32; 3],
+}
+
+impl Record {
+    /// The slot whose link equals `id`; the triangulation of a sphere has at most one.
+    #[inline]
+    pub fn slot_of(&self, id: u32) -> usize {
+        // Branch-free: links differ, and the callers follow links that lead back.
+        usize::from(self.n[1] == id) | usize::from(self.n[2] == id) << 1
+    }
+
+    /// Vertices and links rotated so that slot `s` comes first.
+    #[inline]
+    pub fn rotated(&self, s: usize) -> Record {
+        let turn = |c: [u32; 3]| match s {
+            0 => c,
+            1 => [c[1], c[2], c[0]],
+            _ => [c[2], c[0], c[1]],
+        };
+        Record {
+            v: turn(self.v),
+            n: turn(self.n),
+        }
+    }
+}
+
+/// What became of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Insertion {
+    /// It is a vertex of the mesh now, or one of the first three, which wait for each other.
+    Inserted,
+    /// It fell onto a vertex.
+    Duplicate,
+    /// It completes a collinear triple; nothing was inserted, and nothing will be before a clear.
+    Collinear,
+    /// It was refused: the memory is full, or the start was collinear.
+    Refused,
+}
+
+/// Events since the last clear; see `incircle_protocol::Counter`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[allow(missing_docs)] // the names are those of `Counter`, where each is explained
+pub struct Counts {
+    pub arrived: u32,
+    pub insertions: u32,
+    pub duplicates: u32,
+    pub refused: u32,
+    pub walk_visits: u32,
+    pub tests: u32,
+    pub cavity_triangles: u32,
+    pub overflows: u32,
+    pub flips: u32,
+}
+
+/// A canonical Delaunay triangulation under construction.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    capacity: u32,
+    infinite: u32,
+    points: Vec<Point>,
+    records: Vec<Record>,
+    /// Where the next walk starts: a record at the point inserted or found last.
+    start: u32,
+    collinear: bool,
+    counts: Counts,
+    cavity: Cavity,
+}
+
+impl Mesh {
+    /// An empty mesh for `capacity` points with boundary lists of `ring_capacity` entries.
+    pub fn new(capacity: u32, ring_capacity: u32) -> Self {
+        Self {
+            capacity,
+            infinite: infinite_vertex(capacity),
+            points: Vec::new(),
+            records: Vec::new(),
+            start: 0,
+            collinear: false,
+            counts: Counts::default(),
+            cavity: Cavity::new(ring_capacity),
+        }
+    }
+
+    /// Forgets everything but its parameters. Keeps its memory.
+    pub fn clear(&mut self) {
+        self.points.clear();
+        self.records.clear();
+        self.start = 0;
+        self.collinear = false;
+        self.counts = Counts::default();
+    }
+
+    /// All records, by id; empty before the third point.
+    pub fn records(&self) -> &[Record] {
+        &self.records
+    }
+
+    /// Events since the last clear.
+    pub fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// Whether the first three points were collinear.
+    pub fn is_collinear(&self) -> bool {
+        self.collinear
+    }
+
+    /// Makes room for `more` points, if that many fit; a claim beyond a million is believed as the points come.
+    pub fn reserve(&mut self, more: u32) {
+        const BELIEVED: u32 = 1 << 20;
+        let points = more.min(self.capacity - self.counts.arrived).min(BELIEVED) as usize;
+        self.points.reserve_exact(points);
+        self.records.reserve_exact(2 * points);
+    }
+
+    /// Inserts one point.
+    pub fn insert(&mut self, p: Point) -> Insertion {
+        if self.collinear || self.counts.arrived == self.capacity {
+            self.counts.refused += 1;
+            return Insertion::Refused;
+        }
+        let id = self.counts.arrived;
+        self.counts.arrived += 1;
+        self.points.push(p);
+        match id {
+            0 | 1 => Insertion::Inserted,
+            2 => self.seed(),
+            _ => self.insert_vertex(id, p),
+        }
+    }
+
+    /// The first finite triangle and its three ghosts.
+    fn seed(&mut self) -> Insertion {
+        let turn = orient2d(self.points[0], self.points[1], self.points[2]);
+        if turn == 0 {
+            self.collinear = true;
+            return Insertion::Collinear;
+        }
+        let (b, c) = if turn > 0 { (1, 2) } else { (2, 1) };
+        let inf = self.infinite;
+        self.records.extend([
+            Record {
+                v: [0, b, c],
+                n: [1, 2, 3],
+            },
+            Record {
+                v: [c, b, inf],
+                n: [3, 2, 0],
+            },
+            Record {
+                v: [0, c, inf],
+                n: [1, 3, 0],
+            },
+            Record {
+                v: [b, 0, inf],
+                n: [2, 1, 0],
+            },
+        ]);
+        self.counts.insertions = 3;
+        Insertion::Inserted
+    }
+
+    fn insert_vertex(&mut self, id: u32, p: Point) -> Insertion {
+        let root = self.locate(p);
+        self.start = root;
+        let record = self.records[root as usize];
+        let falls_onto = |&v: &u32| v != self.infinite && self.points[v as usize] == p;
+        if record.v.iter().any(falls_onto) {
+            self.counts.duplicates += 1;
+            return Insertion::Duplicate;
+        }
+        if self.grow(root, p) {
+            self.commit(id);
+        } else {
+            self.counts.overflows += 1;
+            self.insert_alone(id, p, root);
+        }
+        self.counts.insertions += 1;
+        Insertion::Inserted
+    }
+
+    /// The infinite slot of a ghost, or `None` for a finite triangle.
+    #[inline]
+    fn infinite_slot(&self, v: [u32; 3]) -> Option<usize> {
+        v.iter().position(|&v| v == self.infinite)
+    }
+
+    /// Whether inserting `p` removes `u`, a record rotated so that slot 0 is opposite the edge that faces `p`.
+    #[inline]
+    fn in_conflict(&self, u: &Record, p: Point) -> bool {
+        let at = |k: usize| self.points[u.v[k] as usize];
+        match self.infinite_slot(u.v) {
+            None => crate::predicate::finite_conflict([at(0), at(1), at(2)], p),
+            Some(0) => crate::predicate::ghost_conflict(at(1), at(2), p),
+            Some(1) => crate::predicate::ghost_conflict(at(2), at(0), p),
+            Some(_) => crate::predicate::ghost_conflict(at(0), at(1), p),
+        }
+    }
+}

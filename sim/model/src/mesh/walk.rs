@@ -1,0 +1,43 @@
+//! Point location by a visibility walk (Devillers, Pion, Teillaud 2002), over finite triangles.
+
+use super::Mesh;
+use crate::predicate::{orient2d, Point};
+
+impl Mesh {
+    /// The record that holds `p`: a finite triangle with `p` inside or on its border, or a ghost with `p` strictly
+    /// beyond its hull edge. Leaves each triangle over its most negative edge.
+    pub(super) fn locate(&mut self, p: Point) -> u32 {
+        let mut id = self.start;
+        loop {
+            self.counts.walk_visits += 1;
+            match self.step(id, p) {
+                None => return id,
+                Some(next) => id = next,
+            }
+        }
+    }
+
+    /// The record to visit after `id`, or `None` if `p` is found.
+    #[inline]
+    fn step(&self, id: u32, p: Point) -> Option<u32> {
+        let record = &self.records[id as usize];
+        let at = |k: usize| self.points[record.v[k] as usize];
+        if let Some(slot) = self.infinite_slot(record.v) {
+            let beyond = orient2d(at((slot + 1) % 3), at((slot + 2) % 3), p) > 0;
+            return (!beyond).then(|| record.n[slot]);
+        }
+        let corners = [at(0), at(1), at(2)];
+        let sides = [
+            orient2d(corners[1], corners[2], p),
+            orient2d(corners[2], corners[0], p),
+            orient2d(corners[0], corners[1], p),
+        ];
+        let first_two = usize::from(sides[1] < sides[0]);
+        let lowest = if sides[2] < sides[first_two] {
+            2
+        } else {
+            first_two
+        };
+        (sides[lowest] < 0).then(|| record.n[lowest])
+    }
+}
