@@ -1,0 +1,110 @@
+//! Export to Verilog.
+
+use std::fmt;
+
+use rust_hdl_core::check_error::CheckError;
+use rust_hdl_core::prelude::*;
+
+use crate::leaf::{BlockMemory, DelayLine, Fifo, LockMemory, LutMemory, Multiplier};
+
+/// A design that cannot become Verilog.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ExportError {
+    /// Signals that nothing drives.
+    OpenSignals(Vec<String>),
+    /// Signals that are used before they are assigned, or that depend on themselves.
+    LogicLoops(Vec<String>),
+    /// Inputs that the block itself drives.
+    DrivenInputs(Vec<String>),
+}
+
+impl fmt::Display for ExportError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (names, fault, remedy) = match self {
+            Self::OpenSignals(names) => (
+                names,
+                "are driven by nothing",
+                "assign or connect each of them",
+            ),
+            Self::LogicLoops(names) => (
+                names,
+                "are read before they are assigned",
+                "assign them first",
+            ),
+            Self::DrivenInputs(names) => (
+                names,
+                "are inputs that their own block assigns",
+                "assign them one level up",
+            ),
+        };
+        write!(
+            f,
+            "{} signals {fault} ({}): {remedy}",
+            names.len(),
+            names.join(", ")
+        )
+    }
+}
+
+impl std::error::Error for ExportError {}
+
+impl From<CheckError> for ExportError {
+    fn from(error: CheckError) -> Self {
+        let names = |paths: Vec<rust_hdl_core::check_error::PathedName>| {
+            let mut names: Vec<_> = paths
+                .into_iter()
+                .map(|signal| format!("{}${}", signal.path, signal.name))
+                .collect();
+            names.sort();
+            names
+        };
+        match error {
+            CheckError::OpenSignal(open) => Self::OpenSignals(names(open.into_values().collect())),
+            CheckError::LogicLoops(loops) => Self::LogicLoops(names(loops)),
+            CheckError::WritesToInputs(inputs) => Self::DrivenInputs(names(inputs)),
+        }
+    }
+}
+
+/// The Verilog of a block, whose root module is called `name`.
+///
+/// `connect_all` must have been called on it. Undeclared nets are errors in the text (`default_nettype none`), because synthesis
+/// would otherwise invent them.
+///
+/// # Errors
+/// If a signal is open, in a loop, or an input is driven from inside.
+pub fn verilog<U: Block>(uut: &U, name: &str) -> Result<String, ExportError> {
+    check_all(uut)?;
+    let mut modules = ModuleDefines::default();
+    uut.accept(name, &mut modules);
+    Ok(format!(
+        "`default_nettype none\n{}\n`default_nettype wire\n",
+        modules.defines()
+    ))
+}
+
+/// Connects a block and exports it under a name.
+fn block<U: Block>(mut uut: U, name: &str) -> Result<(String, String), ExportError> {
+    uut.connect_all();
+    Ok((name.to_string(), verilog(&uut, name)?))
+}
+
+/// Every block that is tested alone: the name of its root module, and its Verilog.
+///
+/// # Errors
+/// As [`verilog`]; a test holds that there are none.
+pub fn blocks() -> Result<Vec<(String, String)>, ExportError> {
+    Ok(vec![
+        block(Multiplier::default(), "multiplier")?,
+        block(BlockMemory::<8, 12>::new(8, 12), "block_memory_8x12")?,
+        block(BlockMemory::<10, 36>::new(6, 33), "block_memory_6x33")?,
+        block(LutMemory::<4, 8>::new(4, 8), "lut_memory_4x8")?,
+        block(LutMemory::<6, 40>::new(5, 37), "lut_memory_5x37")?,
+        block(LockMemory::<14>::new(14), "lock_memory_14")?,
+        block(LockMemory::<8>::new(4), "lock_memory_4")?,
+        block(DelayLine::<8>::new(3), "delay_line_3")?,
+        block(DelayLine::<40>::new(19), "delay_line_19")?,
+        block(Fifo::<3, 8>::new(3, 8), "fifo_3x8")?,
+        block(Fifo::<6, 40>::new(2, 37), "fifo_2x37")?,
+    ])
+}

@@ -1,0 +1,78 @@
+//! Data delayed by a fixed number of clocks, kept in a ring buffer of block RAM.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `data_in` | in | D | taken at every edge |
+//! | `data_out` | out | D | `data_in` of `stages` edges ago |
+//!
+//! 1. There is no reset and no valid bit. The output is arbitrary until `stages` edges have passed; users carry a valid bit beside.
+//!
+//! Latency: data that stands before edge 1 is on the output after edge `stages`.
+//!
+//! Source: a counter writes; the same counter less `stages - 2` reads, since the memory itself takes two edges.
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+use super::BlockMemory;
+
+/// Bits of the counter; the ring uses as many of them as it needs.
+const COUNTER_BITS: usize = 10;
+
+/// A delay; see the top of this file.
+#[derive(LogicBlock)]
+pub struct DelayLine<const D: usize> {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Taken at every edge.
+    pub data_in: Signal<In, Bits<D>>,
+    /// The same, `stages` edges later.
+    pub data_out: Signal<Out, Bits<D>>,
+    ring: BlockMemory<COUNTER_BITS, D>,
+    position: DFF<Bits<COUNTER_BITS>>,
+    one: Constant<Bits<COUNTER_BITS>>,
+    distance: Constant<Bits<COUNTER_BITS>>,
+}
+
+impl<const D: usize> DelayLine<D> {
+    /// Fewest stages: the read must not meet the write of the same edge.
+    pub const MIN_STAGES: usize = 3;
+    /// Most stages that the counter can tell apart.
+    pub const MAX_STAGES: usize = 1 << COUNTER_BITS;
+
+    /// A delay of `stages` clocks.
+    ///
+    /// # Panics
+    /// If `stages` is not in `MIN_STAGES..=MAX_STAGES`.
+    pub fn new(stages: usize) -> Self {
+        let (fewest, most) = (Self::MIN_STAGES, Self::MAX_STAGES);
+        assert!(
+            (fewest..=most).contains(&stages),
+            "a delay line has {fewest} to {most} stages, not {stages}"
+        );
+        let distance = stages - BlockMemory::<COUNTER_BITS, D>::LATENCY;
+        Self {
+            clock: Signal::default(),
+            data_in: Signal::default(),
+            data_out: Signal::default(),
+            ring: BlockMemory::new(clog2(distance + 1), D),
+            position: DFF::default(),
+            one: Constant::new(Bits::from(1)),
+            distance: Constant::new(Bits::from(distance as u64)),
+        }
+    }
+}
+
+impl<const D: usize> Logic for DelayLine<D> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, ring, position);
+        self.position.d.next = self.position.q.val() + self.one.val();
+        self.ring.write_address.next = self.position.q.val();
+        self.ring.write_data.next = self.data_in.val();
+        self.ring.write_enable.next = true;
+        self.ring.read_address.next = self.position.q.val() - self.distance.val();
+        self.data_out.next = self.ring.read_data.val();
+    }
+}

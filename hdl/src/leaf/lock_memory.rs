@@ -1,0 +1,123 @@
+//! One lock bit per word: a port that tests and sets, and a port that clears.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `test_address` | in | A | lock to test |
+//! | `test_set` | in | 1 | set it at this edge |
+//! | `was_set` | out | 1 | its value before this edge |
+//! | `clear_address` | in | A | lock to clear |
+//! | `clear_enable` | in | 1 | clear it at this edge |
+//!
+//! 1. Every edge tests one lock; with `test_set` it also sets it. The test sees the lock as it was before the edge.
+//! 2. With `clear_enable` the other port clears one lock; tests from the next edge on see it clear.
+//! 3. The two ports never meet at one lock and one edge while either changes it. Clearing and setting together has no winner in
+//!    silicon, and simulation in Rust panics. A plain test that meets a clear is undefined in silicon; there the Rust gives `true`.
+//! 4. Only the low `address_bits` of an address count.
+//! 5. At power-up all locks are clear. A reset does not clear them.
+//!
+//! Latency: an address that stands before edge 1 gives `was_set` after edge 2, in step with `BlockMemory`.
+//!
+//! Source: one ECP5 block RAM of 16K x 1, true dual port, with port A in read-before-write mode.
+
+use rust_hdl_core::prelude::*;
+
+use super::{assert_shape, low_part, unused_part};
+
+/// A memory of lock bits; see the top of this file.
+#[derive(LogicBlock)]
+pub struct LockMemory<const A: usize> {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Lock to test.
+    pub test_address: Signal<In, Bits<A>>,
+    /// Set it at this edge.
+    pub test_set: Signal<In, Bit>,
+    /// Its value before the edge, [`LATENCY`](LockMemory::LATENCY) edges later.
+    pub was_set: Signal<Out, Bit>,
+    /// Lock to clear.
+    pub clear_address: Signal<In, Bits<A>>,
+    /// Clear it at this edge.
+    pub clear_enable: Signal<In, Bit>,
+    _address_bits: usize,
+    _memory: Vec<bool>,
+    _array_read: bool,
+}
+
+impl<const A: usize> LockMemory<A> {
+    /// Edges from address to `was_set`.
+    pub const LATENCY: usize = 2;
+
+    /// `2^address_bits` locks, all clear.
+    ///
+    /// # Panics
+    /// If `address_bits` is not in `1..=A` (and at most 20).
+    pub fn new(address_bits: usize) -> Self {
+        assert_shape(address_bits, A, 1, 1);
+        Self {
+            clock: Signal::default(),
+            test_address: Signal::default(),
+            test_set: Signal::default(),
+            was_set: Signal::default(),
+            clear_address: Signal::default(),
+            clear_enable: Signal::default(),
+            _address_bits: address_bits,
+            _memory: vec![false; 1 << address_bits],
+            _array_read: false,
+        }
+    }
+}
+
+impl<const A: usize> Logic for LockMemory<A> {
+    fn update(&mut self) {
+        if self.clock.pos_edge() {
+            self.was_set.next = self._array_read;
+            let last = self._memory.len() - 1;
+            let tested = self.test_address.val().index() & last;
+            let cleared = self.clear_address.val().index() & last;
+            let meet = self.clear_enable.val() && tested == cleared;
+            assert!(
+                !(meet && self.test_set.val()),
+                "lock {tested} is set and cleared at one clock edge: the two never may meet"
+            );
+            self._array_read = self._memory[tested] || meet;
+            if self.test_set.val() {
+                self._memory[tested] = true;
+            }
+            if self.clear_enable.val() {
+                self._memory[cleared] = false;
+            }
+        }
+    }
+
+    fn connect(&mut self) {
+        self.was_set.connect();
+    }
+
+    fn hdl(&self) -> Verilog {
+        let address_bits = self._address_bits;
+        let mut code = unused_part("test_address", A, address_bits);
+        code += &unused_part("clear_address", A, address_bits);
+        code += &format!(
+            "\
+(* ram_style = \"block\", no_rw_check *)
+reg memory [0:{last}];
+reg array_read;
+integer word;
+initial for (word = 0; word <= {last}; word = word + 1) memory[word] = 1'b0;
+always @(posedge clock) begin
+    array_read <= memory[{test}];
+    if (test_set) memory[{test}] <= 1'b1;
+    was_set <= array_read;
+end
+always @(posedge clock) begin
+    if (clear_enable) memory[{clear}] <= 1'b0;
+end
+",
+            last = (1 << address_bits) - 1,
+            test = low_part("test_address", A, address_bits),
+            clear = low_part("clear_address", A, address_bits),
+        );
+        Verilog::Custom(code)
+    }
+}

@@ -1,0 +1,108 @@
+//! A small memory in LUTs: one write port, and a read port that answers at once.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | writes happen at its rising edge |
+//! | `write_address` | in | A | word to write |
+//! | `write_data` | in | D | its new value |
+//! | `write_enable` | in | 1 | write at this edge |
+//! | `read_address` | in | A | word to read |
+//! | `read_data` | out | D | its value, zero above the stored bits |
+//!
+//! 1. `read_data` follows `read_address` without a clock; a word written at an edge is seen right after it.
+//! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
+//! 3. Contents are arbitrary until written.
+//!
+//! Latency: none (combinational read).
+//!
+//! Source: distributed RAM, TRELLIS_DPR16X4 on ECP5 (16 words of 4 bits each).
+
+use rust_hdl_core::prelude::*;
+
+use super::{assert_shape, low_part, unused_part, zero_extended};
+
+/// A memory with a combinational read; see the top of this file.
+#[derive(LogicBlock)]
+pub struct LutMemory<const A: usize, const D: usize> {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Word to write.
+    pub write_address: Signal<In, Bits<A>>,
+    /// Its new value.
+    pub write_data: Signal<In, Bits<D>>,
+    /// Write at this edge.
+    pub write_enable: Signal<In, Bit>,
+    /// Word to read.
+    pub read_address: Signal<In, Bits<A>>,
+    /// Its value, in the same cycle.
+    pub read_data: Signal<Out, Bits<D>>,
+    _address_bits: usize,
+    _stored_bits: usize,
+    _stored_mask: Bits<D>,
+    _memory: Vec<Bits<D>>,
+}
+
+impl<const A: usize, const D: usize> LutMemory<A, D> {
+    /// Edges from address to data.
+    pub const LATENCY: usize = 0;
+
+    /// A memory of `2^address_bits` words of `stored_bits` bits.
+    ///
+    /// # Panics
+    /// If `address_bits` is not in `1..=A` (and at most 20) or `stored_bits` not in `1..=D`.
+    pub fn new(address_bits: usize, stored_bits: usize) -> Self {
+        assert_shape(address_bits, A, stored_bits, D);
+        Self {
+            clock: Signal::default(),
+            write_address: Signal::default(),
+            write_data: Signal::default(),
+            write_enable: Signal::default(),
+            read_address: Signal::default(),
+            read_data: Signal::default(),
+            _address_bits: address_bits,
+            _stored_bits: stored_bits,
+            _stored_mask: Bits::<D>::mask() >> (D - stored_bits) as u64,
+            _memory: vec![Bits::default(); 1 << address_bits],
+        }
+    }
+}
+
+impl<const A: usize, const D: usize> Logic for LutMemory<A, D> {
+    fn update(&mut self) {
+        let last = self._memory.len() - 1;
+        if self.clock.pos_edge() && self.write_enable.val() {
+            let written = self.write_address.val().index() & last;
+            self._memory[written] = self.write_data.val() & self._stored_mask;
+        }
+        self.read_data.next = self._memory[self.read_address.val().index() & last];
+    }
+
+    fn connect(&mut self) {
+        self.read_data.connect();
+    }
+
+    fn hdl(&self) -> Verilog {
+        let (address_bits, stored_bits) = (self._address_bits, self._stored_bits);
+        let mut code = unused_part("write_address", A, address_bits);
+        code += &unused_part("read_address", A, address_bits);
+        code += &unused_part("write_data", D, stored_bits);
+        code += &format!(
+            "\
+(* ram_style = \"distributed\" *)
+reg [{top}:0] memory [0:{last}];
+wire [{top}:0] word = memory[{read}];
+always @(posedge clock) begin
+    if (write_enable) memory[{write}] <= {data};
+end
+always @(*) read_data = {result};
+",
+            top = stored_bits - 1,
+            last = (1 << address_bits) - 1,
+            write = low_part("write_address", A, address_bits),
+            data = low_part("write_data", D, stored_bits),
+            read = low_part("read_address", A, address_bits),
+            result = zero_extended("word", D, stored_bits),
+        );
+        Verilog::Custom(code)
+    }
+}
