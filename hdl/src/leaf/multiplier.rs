@@ -20,7 +20,7 @@
 use rust_hdl_core::prelude::*;
 
 /// A multiplier; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct Multiplier {
     /// Clock.
     pub clock: Signal<In, Clock>,
@@ -42,20 +42,6 @@ impl Multiplier {
     pub const FACTOR_BITS: usize = 18;
     /// Bits of the product.
     pub const PRODUCT_BITS: usize = 36;
-}
-
-impl Default for Multiplier {
-    fn default() -> Self {
-        Self {
-            clock: Signal::default(),
-            a: Signal::default(),
-            b: Signal::default(),
-            product: Signal::default(),
-            _a_input: 0,
-            _b_input: 0,
-            _pipeline: 0,
-        }
-    }
 }
 
 /// The value of 18 bits in two's complement.
