@@ -1,0 +1,205 @@
+//! The build side: Verilog in, a static library and a Rust table of models out.
+
+mod cache;
+mod runtime;
+mod shim;
+mod verilator;
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Mutex;
+
+pub use runtime::compile_runtime;
+pub use verilator::{BuildError, Verilator};
+
+/// How hard the C++ compiler works on a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Optimisation {
+    /// `-O1`: compiled in a second; for blocks that are tested over thousands of clocks.
+    Quick,
+    /// `-O2`, and Verilator's `-O3`; for whole cores that run millions of clocks.
+    Fast,
+}
+
+/// One model to build.
+#[derive(Clone, Debug)]
+pub struct ModelSource {
+    name: String,
+    top: String,
+    verilog: String,
+    trace: bool,
+    random_initial_state: bool,
+    optimisation: Optimisation,
+}
+
+impl ModelSource {
+    /// The module `top` of this Verilog text, as the model `name`: no trace, zero initial state, quick to compile.
+    ///
+    /// `name` becomes a Rust function and part of C++ names: it starts with a lower-case letter, and holds lower-case letters,
+    /// digits and single underscores; anything else is an error of [`Builder::try_compile`].
+    pub fn new(name: &str, top: &str, verilog: impl Into<String>) -> Self {
+        Self {
+            name: name.to_string(),
+            top: top.to_string(),
+            verilog: verilog.into(),
+            trace: false,
+            random_initial_state: false,
+            optimisation: Optimisation::Quick,
+        }
+    }
+
+    /// The module `top` of a Verilog file, as the model `name`; the build script runs again when the file changes.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn file(name: &str, top: &str, path: impl AsRef<Path>) -> Result<Self, BuildError> {
+        let path = path.as_ref();
+        println!("cargo:rerun-if-changed={}", path.display());
+        let verilog = std::fs::read_to_string(path).map_err(|source| BuildError::File {
+            path: path.to_path_buf(),
+            source,
+        })?;
+        Ok(Self::new(name, top, verilog))
+    }
+
+    /// Whether the model can write VCD waveforms. Costs compile time and some speed, also while no trace is open.
+    pub fn trace(mut self, on: bool) -> Self {
+        self.trace = on;
+        self
+    }
+
+    /// Whether registers and memories can start with random contents (`Model::randomized`); without it they
+    /// start as zero whatever the seed.
+    pub fn random_initial_state(mut self, on: bool) -> Self {
+        self.random_initial_state = on;
+        self
+    }
+
+    /// How hard the C++ compiler works.
+    pub fn optimisation(mut self, level: Optimisation) -> Self {
+        self.optimisation = level;
+        self
+    }
+
+    fn check_name(&self) -> Result<(), BuildError> {
+        let valid = self.name.starts_with(|c: char| c.is_ascii_lowercase())
+            && self
+                .name
+                .chars()
+                .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+            && !self.name.contains("__")
+            && self.name != "find";
+        valid.then_some(()).ok_or_else(|| BuildError::Name {
+            name: self.name.clone(),
+        })
+    }
+}
+
+/// Collects models, then builds them all.
+#[derive(Debug, Default)]
+pub struct Builder {
+    models: Vec<ModelSource>,
+}
+
+impl Builder {
+    /// No models yet. Only for use in a build script: reads the variables that cargo sets there.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a model.
+    pub fn model(mut self, model: ModelSource) -> Self {
+        self.models.push(model);
+        self
+    }
+
+    /// Builds and links all models and writes what `verilated::include_models!` includes. A model whose text and
+    /// options have not changed is taken from the last build. Works on as many models at once as cargo allows jobs.
+    ///
+    /// # Panics
+    /// With the sentence of the error, which is how a build script ends.
+    pub fn compile(self) {
+        if let Err(error) = self.try_compile() {
+            panic!("{error}");
+        }
+    }
+
+    /// As [`Builder::compile`].
+    ///
+    /// # Errors
+    /// Verilator or the compiler is missing or refuses the input, or a name is bad or used twice.
+    pub fn try_compile(self) -> Result<(), BuildError> {
+        for (position, model) in self.models.iter().enumerate() {
+            model.check_name()?;
+            let mut earlier = self.models.iter().take(position);
+            if earlier.any(|other| other.name == model.name) {
+                return Err(BuildError::NameTwice {
+                    name: model.name.clone(),
+                });
+            }
+        }
+        println!("cargo:rerun-if-changed=build.rs");
+        let out_dir = cargo_variable("OUT_DIR")?;
+        let out_dir = PathBuf::from(out_dir);
+        let package = cargo_variable("CARGO_PKG_NAME")?.replace('-', "_");
+        let verilator = Verilator::locate()?;
+        let objects = build_all(&self.models, &verilator, &out_dir, &package)?;
+        if !objects.is_empty() {
+            let mut archive = runtime::compiler(&verilator);
+            for object in objects {
+                archive.object(object);
+            }
+            archive.try_compile(&format!("{package}_models"))?;
+        }
+        let names: Vec<_> = self.models.iter().map(|m| m.name.as_str()).collect();
+        let table = out_dir.join("verilated_models.rs");
+        write(&table, &shim::rust_table(&package, &names))
+    }
+}
+
+/// The objects of all models, in their order.
+fn build_all(
+    models: &[ModelSource],
+    verilator: &Verilator,
+    out_dir: &Path,
+    package: &str,
+) -> Result<Vec<PathBuf>, BuildError> {
+    let jobs = std::env::var("NUM_JOBS")
+        .ok()
+        .and_then(|jobs| jobs.parse::<usize>().ok())
+        .unwrap_or(1)
+        .clamp(1, models.len().max(1));
+    let next = AtomicUsize::new(0);
+    let results = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..jobs {
+            scope.spawn(|| loop {
+                let position = next.fetch_add(1, Ordering::Relaxed);
+                let Some(model) = models.get(position) else {
+                    break;
+                };
+                let folder = out_dir.join("verilated").join(&model.name);
+                let object = cache::object_of(model, verilator, &folder, package);
+                if let Ok(mut results) = results.lock() {
+                    results.push((position, object));
+                }
+            });
+        }
+    });
+    let mut results = results
+        .into_inner()
+        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    results.sort_by_key(|(position, _)| *position);
+    results.into_iter().map(|(_, object)| object).collect()
+}
+
+fn cargo_variable(name: &'static str) -> Result<String, BuildError> {
+    std::env::var(name).map_err(|_| BuildError::NotABuildScript { variable: name })
+}
+
+fn write(path: &Path, text: &str) -> Result<(), BuildError> {
+    std::fs::write(path, text).map_err(|source| BuildError::File {
+        path: path.to_path_buf(),
+        source,
+    })
+}

@@ -1,0 +1,290 @@
+//! One running instance of a model.
+#![allow(unsafe_code)] // Ports are memory of a C++ object; a call per access would cost more than the model.
+
+use std::ffi::c_void;
+use std::ptr::NonNull;
+use std::sync::{Mutex, PoisonError};
+
+use crate::{Direction, ModelDescription, PortError, PortId};
+
+/// Verilator draws random state from a generator that all threads reseed together, so instances are made one at a
+/// time: then equal seeds give equal states.
+static CONSTRUCTION: Mutex<()> = Mutex::new(());
+
+/// Half a clock in nanoseconds of the waveform.
+const HALF_CLOCK: u64 = 5;
+
+/// An instance of a Verilated model: ports to set and read, and time that passes when told to.
+///
+/// Inputs keep their value until set again. Outputs are those of the last [`Model::eval`] or [`Model::clock`].
+/// Access to a port of up to 64 bits is one memory access and a few comparisons.
+#[derive(Debug)]
+pub struct Model {
+    description: &'static ModelDescription,
+    handle: NonNull<c_void>,
+    addresses: Vec<*mut c_void>,
+    clock: Option<PortId>,
+    time: u64,
+    pub(crate) tracing: bool,
+}
+
+// SAFETY: an instance has its own context, and every call into it first makes that context the thread's own.
+unsafe impl Send for Model {}
+
+impl Model {
+    /// An instance whose registers and memories are zero where the Verilog sets no initial value. All inputs are 0.
+    pub fn new(description: &'static ModelDescription) -> Self {
+        Self::create(description, 0)
+    }
+
+    /// An instance with random registers and memories, the same for the same seed. Only a model that was built
+    /// with `random_initial_state` differs from [`Model::new`]. All inputs are 0.
+    pub fn randomized(description: &'static ModelDescription, seed: u32) -> Self {
+        // 0 stands for zero state, so the seed skips it.
+        let seed = i32::from_ne_bytes(seed.to_ne_bytes());
+        Self::create(description, if seed == 0 { i32::MIN } else { seed })
+    }
+
+    /// Starts anew with random registers and memories; see [`Model::randomized`]. Inputs are 0 again and an open trace ends.
+    pub fn randomize(&mut self, seed: u32) {
+        *self = Self::randomized(self.description, seed);
+    }
+
+    fn create(description: &'static ModelDescription, seed: i32) -> Self {
+        let mut addresses = vec![std::ptr::null_mut(); description.ports().len()];
+        let _one_at_a_time = CONSTRUCTION.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: `create` fills in one address per port, and `addresses` has that many places.
+        let handle = unsafe { (description.create)(seed, addresses.as_mut_ptr()) };
+        // C++ `new` ends the program rather than give null, as the shim's functions let no exception out.
+        let handle = NonNull::new(handle).expect("C++ gives an instance or ends the program");
+        let mut model = Self {
+            description,
+            handle,
+            addresses,
+            clock: description.port("clock").ok(),
+            time: 0,
+            tracing: false,
+        };
+        for port in description.ports() {
+            // The generator has filled the inputs too.
+            if let (Direction::Input, Ok(id)) = (port.direction, model.port(port.name)) {
+                model.set_wide(id, &vec![0; words_of(port.width)]);
+            }
+        }
+        model.eval();
+        model
+    }
+
+    /// What kind of model this is.
+    pub fn description(&self) -> &'static ModelDescription {
+        self.description
+    }
+
+    /// The port of this name, to be looked up once and kept.
+    ///
+    /// # Errors
+    /// There is none; the error lists those there are.
+    pub fn port(&self, name: &str) -> Result<PortId, PortError> {
+        self.description.port(name)
+    }
+
+    /// Drives an input. Takes effect with the next [`Model::eval`] or [`Model::clock`].
+    ///
+    /// # Panics
+    /// The port belongs to another kind of model, is an output, is wider than 64 bits, or `value` has more bits than it.
+    #[inline]
+    pub fn set(&mut self, port: PortId, value: u64) {
+        let address = self.input(port);
+        assert!(
+            port.width <= 64 && (port.width == 64 || value >> port.width == 0),
+            "port {} of {} bits cannot take the value {value:#x}",
+            port.name(),
+            port.width
+        );
+        // SAFETY: Verilator keeps a port of this width in a variable of this type, aligned, at this address, for as
+        // long as the instance lives; no C++ runs now, and `&mut self` is the only access.
+        unsafe {
+            match port.width {
+                0..=8 => address.cast::<u8>().write(value as u8),
+                9..=16 => address.cast::<u16>().write(value as u16),
+                17..=32 => address.cast::<u32>().write(value as u32),
+                _ => address.cast::<u64>().write(value),
+            }
+        }
+    }
+
+    /// Reads a port, an input as it was set, an output as of the last evaluation.
+    ///
+    /// # Panics
+    /// The port belongs to another kind of model or is wider than 64 bits.
+    #[inline]
+    pub fn get(&self, port: PortId) -> u64 {
+        let address = self.address(port);
+        assert!(
+            port.width <= 64,
+            "port {} of {} bits: read it with get_wide",
+            port.name(),
+            port.width
+        );
+        // SAFETY: as in `set`; nobody writes while `&self` is borrowed.
+        unsafe {
+            match port.width {
+                0..=8 => u64::from(address.cast::<u8>().read()),
+                9..=16 => u64::from(address.cast::<u16>().read()),
+                17..=32 => u64::from(address.cast::<u32>().read()),
+                _ => address.cast::<u64>().read(),
+            }
+        }
+    }
+
+    /// Drives an input of any width; word 0 holds bits 31..0.
+    ///
+    /// # Panics
+    /// As [`Model::set`], and if `words` are not exactly as many as the port's bits fill.
+    pub fn set_wide(&mut self, port: PortId, words: &[u32]) {
+        assert!(
+            words.len() == words_of(port.width),
+            "port {} has {} bits, {} words, not {}",
+            port.name(),
+            port.width,
+            words_of(port.width),
+            words.len()
+        );
+        if port.width <= 64 {
+            let high = words.get(1).map_or(0, |&word| u64::from(word) << 32);
+            let low = words.first().map_or(0, |&word| u64::from(word));
+            return self.set(port, high | low);
+        }
+        let address = self.input(port).cast::<u32>();
+        let spare = words.len() as u32 * 32 - port.width;
+        assert!(
+            words
+                .last()
+                .is_some_and(|last| spare == 0 || last >> (32 - spare) == 0),
+            "port {} of {} bits cannot take the words {words:x?}",
+            port.name(),
+            port.width
+        );
+        // SAFETY: as in `set`; a port wider than 64 bits is an array of `words_of(width)` 32-bit words.
+        unsafe { std::ptr::copy_nonoverlapping(words.as_ptr(), address, words.len()) }
+    }
+
+    /// Reads a port of any width into as many words as its bits fill; word 0 gets bits 31..0.
+    ///
+    /// # Panics
+    /// As [`Model::get`] for a port of another kind of model, and if `words` are not exactly as many as the port's bits fill.
+    pub fn get_wide(&self, port: PortId, words: &mut [u32]) {
+        assert!(
+            words.len() == words_of(port.width),
+            "port {} has {} bits, {} words, not {}",
+            port.name(),
+            port.width,
+            words_of(port.width),
+            words.len()
+        );
+        if port.width <= 64 {
+            let value = self.get(port);
+            for (place, shift) in words.iter_mut().zip([0, 32]) {
+                *place = (value >> shift) as u32;
+            }
+            return;
+        }
+        let address = self.address(port).cast::<u32>();
+        // SAFETY: as in `set_wide`.
+        unsafe { std::ptr::copy_nonoverlapping(address, words.as_mut_ptr(), words.len()) }
+    }
+
+    /// Brings all outputs up to date with the inputs. No time passes.
+    #[inline]
+    pub fn eval(&mut self) {
+        // SAFETY: the handle is a live instance of this description.
+        unsafe { (self.description.eval)(self.handle.as_ptr()) }
+    }
+
+    /// One clock on the input `clock`: a rising edge that sees the inputs as set, then the falling edge. Ten
+    /// nanoseconds of the waveform pass.
+    ///
+    /// # Panics
+    /// The model has no input `clock`.
+    #[inline]
+    pub fn clock(&mut self) {
+        match self.clock {
+            Some(clock) => self.clock_on(clock),
+            None => panic!(
+                "model {} has no input `clock`: name one with clock_on",
+                self.description.name()
+            ),
+        }
+    }
+
+    /// One clock on this input; see [`Model::clock`].
+    ///
+    /// # Panics
+    /// As [`Model::set`].
+    #[inline]
+    pub fn clock_on(&mut self, clock: PortId) {
+        if self.tracing {
+            // Without this the inputs would seem to change at the rising edge.
+            self.eval();
+            self.dump_at(self.time + 1);
+        }
+        self.set(clock, 1);
+        self.eval();
+        self.dump_at(self.time + HALF_CLOCK);
+        self.set(clock, 0);
+        self.eval();
+        self.time += 2 * HALF_CLOCK;
+        self.dump_at(self.time);
+    }
+
+    /// Nanoseconds that passed.
+    pub fn time(&self) -> u64 {
+        self.time
+    }
+
+    pub(crate) fn dump_at(&mut self, time: u64) {
+        if let (true, Some(dump)) = (self.tracing, self.description.trace_dump) {
+            // SAFETY: the handle is live, and `tracing` says that its trace is open.
+            unsafe { dump(self.handle.as_ptr(), time) }
+        }
+    }
+
+    pub(crate) fn handle(&mut self) -> *mut c_void {
+        self.handle.as_ptr()
+    }
+
+    #[inline]
+    fn input(&self, port: PortId) -> *mut c_void {
+        assert!(
+            port.direction == Direction::Input,
+            "port {} is an output and cannot be set",
+            port.name()
+        );
+        self.address(port)
+    }
+
+    #[inline]
+    fn address(&self, port: PortId) -> *mut c_void {
+        // The address must be that of a port of this width, or the accesses above would be unsound.
+        assert!(
+            std::ptr::eq(port.model, self.description),
+            "port {} belongs to model {}, not to {}",
+            port.name(),
+            port.model.name(),
+            self.description.name()
+        );
+        self.addresses[port.index]
+    }
+}
+
+impl Drop for Model {
+    fn drop(&mut self) {
+        // SAFETY: the handle is live, and nobody uses it after this.
+        unsafe { (self.description.destroy)(self.handle.as_ptr()) }
+    }
+}
+
+/// Words that this many bits fill.
+fn words_of(width: u32) -> usize {
+    width.div_ceil(32) as usize
+}

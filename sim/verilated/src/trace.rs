@@ -1,0 +1,70 @@
+//! Waveforms of a model.
+#![allow(unsafe_code)] // Calls into the C++ instance.
+
+use std::ffi::CString;
+use std::path::{Path, PathBuf};
+
+use crate::Model;
+
+/// Why no waveform can be written.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TraceError {
+    /// Built without tracing.
+    #[error("model {model} was built without tracing: build it with `trace(true)`")]
+    NotBuilt {
+        /// The model.
+        model: &'static str,
+    },
+    /// The file cannot be made.
+    #[error("cannot write the waveform {path}: check that its folder exists and can be written", path = .path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+impl Model {
+    /// Writes a VCD waveform of all signals from now on, into a new file; a trace that was open ends.
+    ///
+    /// # Errors
+    /// The model was built without tracing, or the file cannot be made.
+    pub fn trace_to(&mut self, path: impl AsRef<Path>) -> Result<(), TraceError> {
+        let path = path.as_ref();
+        let open = self.description().trace_open.ok_or(TraceError::NotBuilt {
+            model: self.description().name(),
+        })?;
+        let failed = || TraceError::File {
+            path: path.to_path_buf(),
+        };
+        let name = CString::new(path.as_os_str().as_encoded_bytes()).map_err(|_| failed())?;
+        // SAFETY: a live instance and a zero-terminated name that outlives the call.
+        self.tracing = unsafe { open(self.handle(), name.as_ptr()) } != 0;
+        if !self.tracing {
+            return Err(failed());
+        }
+        self.dump_at(self.time());
+        Ok(())
+    }
+
+    /// Whether a waveform is being written.
+    pub fn is_tracing(&self) -> bool {
+        self.tracing
+    }
+
+    /// Puts what was traced so far into the file. Dropping the model does the same.
+    pub fn trace_flush(&mut self) {
+        if let (true, Some(flush)) = (self.tracing, self.description().trace_flush) {
+            // SAFETY: a live instance whose trace is open.
+            unsafe { flush(self.handle()) }
+        }
+    }
+
+    /// Ends the waveform.
+    pub fn trace_close(&mut self) {
+        if let (true, Some(close)) = (self.tracing, self.description().trace_close) {
+            // SAFETY: a live instance whose trace is open.
+            unsafe { close(self.handle()) }
+        }
+        self.tracing = false;
+    }
+}
