@@ -1,1 +1,86 @@
 //! Exact canonical Delaunay triangulation of integer points, in hardware or software.
+//!
+//! For a set of distinct grid points there is exactly one answer, and every device gives it: the embedded software
+//! model, the simulated core, a board. Where four or more points lie on one empty circle, the diagonal takes the
+//! lexicographically smallest of them.
+//!
+//! ```
+//! let mesh = incircle::triangulate(&[(0, 0), (4, 0), (4, 4), (0, 4), (4, 0)])?;
+//! assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+//! assert_eq!(mesh.hull, [0, 1, 2, 3]);
+//! assert_eq!(mesh.duplicates[0].of, 1);
+//! mesh.verify()?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! With a device that stays open, and choices for the job:
+//!
+//! ```
+//! use incircle::{Device, Options, Order, Point};
+//!
+//! let points: Vec<Point> = (0..100).map(|k| Point::new(k * k % 83, k * 7 % 89)).collect();
+//! let mut device = Device::open("model?coord-bits=12")?;
+//! let mut session = device.session()?;
+//! assert_eq!(session.identity().coord_bits, 12);
+//! let options = Options { order: Order::Hilbert, ..Options::default() };
+//! let mesh = session.triangulate_with(&points, &options)?;
+//! assert_eq!(mesh.triangles.len(), 2 * mesh.report.distinct - 2 - mesh.hull.len());
+//! # Ok::<(), incircle::Error>(())
+//! ```
+//!
+//! Floating-point values pass [`quantize`] first, which reports what it did.
+#![warn(missing_docs)]
+
+mod assemble;
+mod device;
+mod edges;
+mod error;
+mod fault;
+mod hilbert;
+mod link;
+mod mesh;
+mod model;
+mod options;
+pub mod order;
+mod point;
+mod prepare;
+pub mod quantize;
+mod report;
+mod session;
+mod sort;
+mod transport;
+pub mod verify;
+
+pub use device::Device;
+pub use error::{Error, ErrorKind};
+pub use fault::DeviceFault;
+pub use incircle_protocol::Identity;
+pub use mesh::{Duplicate, Mesh, EMPTY};
+pub use model::ModelTransport;
+pub use options::{Options, Order, Progress, ProgressListener, Stage, INSERT_CHUNK};
+pub use point::Point;
+pub use quantize::{Quantization, Quantize};
+pub use report::{Counters, Report};
+pub use session::{Session, MAX_POINTS};
+pub use transport::{Transport, TransportError};
+pub use verify::{verify, VerifyError, VerifySummary};
+
+use incircle_protocol::{CORE_COORD_BITS, MAX_COORD_BITS};
+
+/// Triangulates on an embedded model made for the job: coordinates up to 31 bits, default [`Options`].
+///
+/// # Errors
+/// A coordinate of more than 31 bits, or more than [`MAX_POINTS`] points.
+pub fn triangulate<P: Into<Point> + Copy>(points: &[P]) -> Result<Mesh, Error> {
+    let points: Vec<Point> = points.iter().map(|&point| point.into()).collect();
+    let used = points.iter().fold(0, |all, point| all | point.x | point.y);
+    let coord_bits = if used >> CORE_COORD_BITS == 0 {
+        CORE_COORD_BITS
+    } else {
+        MAX_COORD_BITS
+    };
+    let capacity = u32::try_from(points.len()).unwrap_or(u32::MAX);
+    let mut device = Device::model(coord_bits, capacity.clamp(4, link::MAX_CAPACITY))?;
+    let mut session = device.session()?;
+    session.triangulate_owned(points, &Options::default())
+}

@@ -1,0 +1,164 @@
+//! Devices: opened by address, or made around a transport.
+
+use std::time::Duration;
+
+use incircle_protocol::{CORE_COORD_BITS, MAX_COORD_BITS, MIN_COORD_BITS};
+
+use crate::error::Error;
+use crate::link::{Limit, Link, MAX_CAPACITY};
+use crate::model::ModelTransport;
+use crate::session::Session;
+use crate::transport::Transport;
+
+/// Time for the greeting unless chosen otherwise.
+const GREETING_TIMEOUT: Duration = Duration::from_secs(10);
+
+/// Something that triangulates: the embedded software model, or what is behind a [`Transport`].
+pub struct Device {
+    link: Link,
+}
+
+impl Device {
+    /// Opens the device at `address`.
+    ///
+    /// - `model`: the embedded software model with 16-bit coordinates. It takes memory as points arrive.
+    /// - `model?coord-bits=B`: the same with `B` bits, 1 to 31.
+    /// - `model?coord-bits=B&capacity=N`: a model that holds `N` points and no more.
+    ///
+    /// Other devices come through [`Device::from_transport`].
+    ///
+    /// # Errors
+    /// [`Error::Address`] for an unknown address, and the errors of [`Device::model`].
+    pub fn open(address: &str) -> Result<Self, Error> {
+        let choice = ModelChoice::parse(address).map_err(|reason| Error::Address {
+            address: address.to_owned(),
+            reason,
+        })?;
+        Self::model(choice.coord_bits, choice.capacity)
+    }
+
+    /// The software model for `capacity` points of `coord_bits` bits. It takes memory as points arrive.
+    ///
+    /// # Errors
+    /// [`Error::CoordBits`] outside 1 to 31, [`Error::Model`] for a capacity below 4 or beyond 32-bit ids.
+    pub fn model(coord_bits: u32, capacity: u32) -> Result<Self, Error> {
+        check_coord_bits(coord_bits)?;
+        let transport = ModelTransport::new(coord_bits, capacity)?;
+        Ok(Self::from_transport(Box::new(transport)))
+    }
+
+    /// The device behind a transport: a simulation, a board, a test double. Nothing is sent yet.
+    pub fn from_transport(transport: Box<dyn Transport>) -> Self {
+        Self {
+            link: Link::new(transport),
+        }
+    }
+
+    /// Greets the device and checks what it says of itself; gives it ten seconds.
+    ///
+    /// # Errors
+    /// [`Error::Link`], [`Error::Timeout`], or [`Error::Device`] for one that is no incircle device, speaks another
+    /// major version, or claims coordinate bits or a capacity that cannot be.
+    pub fn session(&mut self) -> Result<Session<'_>, Error> {
+        self.session_within(GREETING_TIMEOUT)
+    }
+
+    /// As [`Device::session`], with another time for the greeting.
+    ///
+    /// # Errors
+    /// As [`Device::session`].
+    pub fn session_within(&mut self, timeout: Duration) -> Result<Session<'_>, Error> {
+        let identity = self.link.hello(Limit::of(timeout))?;
+        Ok(Session::new(&mut self.link, identity))
+    }
+}
+
+/// Coordinate bits must be possible.
+pub(crate) fn check_coord_bits(coord_bits: u32) -> Result<(), Error> {
+    if (MIN_COORD_BITS..=MAX_COORD_BITS).contains(&coord_bits) {
+        Ok(())
+    } else {
+        Err(Error::CoordBits(coord_bits))
+    }
+}
+
+/// What a model address asks for.
+#[derive(Debug, PartialEq, Eq)]
+struct ModelChoice {
+    coord_bits: u32,
+    capacity: u32,
+}
+
+impl ModelChoice {
+    /// Parses `model`, optionally with `?coord-bits=B&capacity=N`; the error is a sentence without the address.
+    fn parse(address: &str) -> Result<Self, String> {
+        let (name, choices) = address.split_once('?').unwrap_or((address, ""));
+        if name != crate::model::MODEL_NAME {
+            return Err(
+                "this library opens \"model\" by name, other devices from a transport".to_owned(),
+            );
+        }
+        let mut choice = Self {
+            coord_bits: CORE_COORD_BITS,
+            capacity: MAX_CAPACITY,
+        };
+        for item in choices.split('&').filter(|item| !item.is_empty()) {
+            let (key, value) = item.split_once('=').unwrap_or((item, ""));
+            let number = || {
+                let parsed = value.parse::<u32>();
+                parsed.map_err(|_| format!("\"{key}\" wants a whole number, not \"{value}\""))
+            };
+            match key {
+                "coord-bits" => choice.coord_bits = number()?,
+                "capacity" => choice.capacity = number()?,
+                _ => {
+                    return Err(format!(
+                        "\"{key}\" is unknown; \"coord-bits\" and \"capacity\" are known"
+                    ))
+                }
+            }
+        }
+        Ok(choice)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::ErrorKind;
+
+    #[test]
+    fn model_addresses_are_parsed() {
+        let choice = |coord_bits, capacity| ModelChoice {
+            coord_bits,
+            capacity,
+        };
+        assert_eq!(ModelChoice::parse("model"), Ok(choice(16, MAX_CAPACITY)));
+        assert_eq!(
+            ModelChoice::parse("model?coord-bits=20"),
+            Ok(choice(20, MAX_CAPACITY))
+        );
+        let both = ModelChoice::parse("model?coord-bits=8&capacity=99");
+        assert_eq!(both, Ok(choice(8, 99)));
+    }
+
+    #[test]
+    fn bad_addresses_are_refused_with_a_reason() {
+        for address in [
+            "",
+            "modem",
+            "serial:/dev/x",
+            "model?bits=3",
+            "model?capacity=many",
+            "model?capacity",
+        ] {
+            let error = Device::open(address).err().expect(address);
+            assert_eq!(error.kind(), ErrorKind::BadChoice, "{error}");
+            assert!(error.to_string().contains(address));
+        }
+        for bits in [0, 32] {
+            let error = Device::model(bits, 8).err().expect("impossible bits");
+            assert!(matches!(error, Error::CoordBits(given) if given == bits));
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! What a caller can choose for one job, and what it hears while the job runs.
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+/// The order in which points reach the device. The mesh does not depend on it, the time does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Order {
+    /// Rounds of growing random samples (a quarter of the points in all rounds but the last), each along a Hilbert
+    /// curve. Good for every distribution: the default. See [`order::brio_hilbert`](crate::order::brio_hilbert).
+    #[default]
+    BrioHilbert,
+    /// One pass along a Hilbert curve: fast on even distributions, without a guarantee on others.
+    Hilbert,
+    /// As the points come.
+    Input,
+}
+
+impl Order {
+    /// All orders.
+    pub const ALL: [Self; 3] = [Self::BrioHilbert, Self::Hilbert, Self::Input];
+
+    /// The name in reports and on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::BrioHilbert => "brio-hilbert",
+            Self::Hilbert => "hilbert",
+            Self::Input => "input",
+        }
+    }
+
+    /// The order of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|order| order.name() == name)
+    }
+}
+
+/// A part of a job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// The host removes duplicates and chooses the order.
+    Order,
+    /// The device takes points.
+    Insert,
+    /// The device hands out triangle records.
+    Read,
+    /// The host sorts the triangles into the canonical list.
+    Assemble,
+}
+
+impl Stage {
+    /// The name in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Order => "order",
+            Self::Insert => "insert",
+            Self::Read => "read",
+            Self::Assemble => "assemble",
+        }
+    }
+}
+
+/// How far a job is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// The part of the job.
+    pub stage: Stage,
+    /// Points (records in [`Stage::Read`]) done in this part.
+    pub done: usize,
+    /// Points (records in [`Stage::Read`]) of this part.
+    pub total: usize,
+}
+
+/// A listener: [`ControlFlow::Break`] cancels the job with [`Error::Cancelled`](crate::Error::Cancelled).
+pub type ProgressListener<'a> = &'a dyn Fn(Progress) -> ControlFlow<()>;
+
+/// Points of one `Insert` command unless chosen otherwise.
+pub const INSERT_CHUNK: usize = 65_536;
+
+/// Choices for one job; [`Options::default`] suits most.
+#[derive(Clone, Copy)]
+pub struct Options<'a> {
+    /// Time the device may take for the whole job. `None`: [`Options::default_timeout`].
+    pub timeout: Option<Duration>,
+    /// Order of insertion.
+    pub order: Order,
+    /// Called at the start of each stage and after every chunk.
+    pub progress: Option<ProgressListener<'a>>,
+    /// Points of one `Insert` command; at least 3 are sent. Progress and cancellation come between chunks.
+    pub insert_chunk: usize,
+}
+
+impl Options<'_> {
+    /// The time a job of this many points may take when none is chosen: a minute and 2 ms per point, an order of
+    /// magnitude above what the slowest device (a traced simulation) needs.
+    pub fn default_timeout(points: usize) -> Duration {
+        let milliseconds = u64::try_from(points).unwrap_or(u64::MAX).saturating_mul(2);
+        Duration::from_secs(60).saturating_add(Duration::from_millis(milliseconds))
+    }
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self {
+            timeout: None,
+            order: Order::default(),
+            progress: None,
+            insert_chunk: INSERT_CHUNK,
+        }
+    }
+}
+
+impl std::fmt::Debug for Options<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Options")
+            .field("timeout", &self.timeout)
+            .field("order", &self.order)
+            .field("progress", &self.progress.is_some())
+            .field("insert_chunk", &self.insert_chunk)
+            .finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_order_is_found_by_its_name() {
+        for order in Order::ALL {
+            assert_eq!(Order::named(order.name()), Some(order));
+        }
+        assert_eq!(Order::named("spiral"), None);
+    }
+
+    #[test]
+    fn default_timeout_grows_with_the_points() {
+        assert_eq!(Options::default_timeout(0), Duration::from_secs(60));
+        assert_eq!(Options::default_timeout(500_000), Duration::from_secs(1060));
+    }
+}

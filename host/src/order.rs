@@ -1,0 +1,201 @@
+//! Orders of insertion.
+//!
+//! The mesh does not depend on the order, the time does: a point whose predecessor lies near is found in a few steps,
+//! and random rounds keep any input from making many triangles that do not last.
+//! Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003; Buchin, *Constructing Delaunay triangulations along
+//! space-filling curves*, 2009.
+
+use crate::hilbert::{position_16, position_32};
+use crate::point::Point;
+use crate::sort::{sort_by_key, Entry, Narrow, Wide};
+
+/// The first round of a biased order has at least about this many points.
+const FIRST_ROUND: usize = 16;
+/// Each round has four times the points of all before it, less one part: α = 1/4 as a shift.
+const ALPHA_SHIFT: u32 = 2;
+
+/// The biased randomised order of α = 1/4 along a Hilbert curve: a permutation of `0..points.len()`.
+///
+/// The last round takes three quarters of the points, the round before it three quarters of the rest, down to about 16
+/// points. Each round runs along the Hilbert curve of the grid. The round of a point follows from a hash of its
+/// coordinates: the same set always gives the same order, however the input was arranged. Equal points stay together, in
+/// input order. O(n), about 20 ns per point; twice that where a coordinate has more than 16 bits.
+pub fn brio_hilbert(points: &[Point]) -> Vec<u32> {
+    rounds(&along_curve(points))
+}
+
+/// One pass along the Hilbert curve: a permutation of `0..points.len()`. Equal points stay together, in input order.
+pub fn hilbert(points: &[Point]) -> Vec<u32> {
+    along_curve(points).into_indices()
+}
+
+/// Points sorted along the curve, in the smallest form that holds them.
+pub(crate) enum Curve {
+    /// Coordinates below 2^16: 8 bytes per point.
+    Narrow(Vec<Narrow>),
+    /// Any: 16 bytes per point.
+    Wide(Vec<Wide>),
+}
+
+impl Curve {
+    /// The indices along the curve.
+    pub(crate) fn into_indices(self) -> Vec<u32> {
+        match self {
+            Self::Narrow(entries) => entries.iter().map(Entry::value).collect(),
+            Self::Wide(entries) => entries.iter().map(Entry::value).collect(),
+        }
+    }
+}
+
+/// Sorts indices by position along the curve; equal positions are equal points, and stay in input order.
+pub(crate) fn along_curve(points: &[Point]) -> Curve {
+    let all = points.iter().fold(0, |all, point| all | point.x | point.y);
+    if all < 1 << 16 {
+        let mut entries: Vec<Narrow> = points
+            .iter()
+            .zip(0..)
+            .map(|(point, index)| Narrow::new(position_16(point.x, point.y), index))
+            .collect();
+        sort_by_key(&mut entries);
+        Curve::Narrow(entries)
+    } else {
+        let mut entries: Vec<Wide> = points
+            .iter()
+            .zip(0..)
+            .map(|(point, index)| Wide::new(position_32(point.x, point.y), index))
+            .collect();
+        sort_by_key(&mut entries);
+        Curve::Wide(entries)
+    }
+}
+
+/// Deals points that are sorted along the curve into rounds.
+pub(crate) fn rounds(curve: &Curve) -> Vec<u32> {
+    match curve {
+        Curve::Narrow(entries) => deal(entries),
+        Curve::Wide(entries) => deal(entries),
+    }
+}
+
+/// Counting sort by round, first round first; the curve's order stays inside a round.
+fn deal<E: Entry>(entries: &[E]) -> Vec<u32> {
+    let last = last_level(entries.len());
+    let mut starts = [0usize; LEVELS];
+    for entry in entries {
+        starts[level(entry.key(), last)] += 1;
+    }
+    let mut sum = 0;
+    for start in starts.iter_mut().rev() {
+        sum += std::mem::replace(start, sum);
+    }
+    let mut order = vec![0; entries.len()];
+    for entry in entries {
+        let slot = &mut starts[level(entry.key(), last)];
+        order[*slot] = entry.value();
+        *slot += 1;
+    }
+    order
+}
+
+/// Levels there can be: the trailing zeros of a 64-bit hash in steps of `ALPHA_SHIFT`, and all of them zero.
+const LEVELS: usize = (u64::BITS / ALPHA_SHIFT) as usize + 1;
+
+/// How many levels below the last round `points` points have.
+fn last_level(points: usize) -> usize {
+    let mut level = 0;
+    let mut sample = points >> ALPHA_SHIFT;
+    while sample >= FIRST_ROUND {
+        level += 1;
+        sample >>= ALPHA_SHIFT;
+    }
+    level
+}
+
+/// The level of a point: 0 is the last round, and one in four reaches the next level.
+fn level(key: u64, last: usize) -> usize {
+    ((mix(key).trailing_zeros() / ALPHA_SHIFT) as usize).min(last)
+}
+
+/// A fixed hash: the output function of the SplitMix64 generator (Steele, Lea, Flood 2014), at the state `key`
+/// steps from 0.
+fn mix(key: u64) -> u64 {
+    let z = key.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ z >> 31
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn lattice(side: u32, step: u32) -> Vec<Point> {
+        (0..side * side)
+            .map(|k| Point::new(k / side * step, k % side * step))
+            .collect()
+    }
+
+    #[test]
+    fn a_quarter_of_a_lattice_comes_before_the_last_round() {
+        let points = lattice(64, 1000);
+        let curve = along_curve(&points);
+        let Curve::Narrow(entries) = &curve else {
+            panic!("16-bit points take the narrow form");
+        };
+        let last = last_level(points.len());
+        assert_eq!(last, 4);
+        let early = entries
+            .iter()
+            .filter(|e| level(crate::sort::Keyed::key(*e), last) > 0)
+            .count();
+        assert!(
+            (900..1150).contains(&early),
+            "{early} of 4096 before the last round"
+        );
+    }
+
+    #[test]
+    fn the_order_follows_from_the_set_alone() {
+        let points = lattice(40, 7);
+        let mut reversed = points.clone();
+        reversed.reverse();
+        let in_order = |points: &[Point]| -> Vec<Point> {
+            brio_hilbert(points)
+                .iter()
+                .map(|&i| points[i as usize])
+                .collect()
+        };
+        assert_eq!(in_order(&points), in_order(&reversed));
+    }
+
+    proptest! {
+        #[test]
+        fn both_orders_are_permutations(
+            raw in prop::collection::vec((any::<u32>(), any::<u32>()), 0..1500),
+            bits in 1u32..32,
+        ) {
+            let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(x >> (32 - bits), y >> (32 - bits))).collect();
+            for order in [brio_hilbert(&points), hilbert(&points)] {
+                let mut sorted = order;
+                sorted.sort_unstable();
+                prop_assert!(sorted.iter().copied().eq(0..points.len() as u32));
+            }
+        }
+
+        #[test]
+        fn neighbours_in_the_last_round_are_near(seed in any::<u64>()) {
+            let points: Vec<Point> = (0..4096u64)
+                .map(|k| mix(seed ^ k << 40))
+                .map(|h| Point::new(h as u32 & 0xffff, (h >> 32) as u32 & 0xffff))
+                .collect();
+            let order = brio_hilbert(&points);
+            let step = |pair: &[u32]| {
+                let (a, b) = (points[pair[0] as usize], points[pair[1] as usize]);
+                u64::from(a.x.abs_diff(b.x) + a.y.abs_diff(b.y))
+            };
+            let sum: u64 = order[2048..].windows(2).map(step).sum();
+            prop_assert!(sum / 2047 < 3000, "mean step {}", sum / 2047);
+        }
+    }
+}

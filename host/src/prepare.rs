@@ -1,0 +1,170 @@
+//! What the host does before the device: remove duplicates, choose the order, find three points that are not
+//! collinear.
+
+use crate::mesh::Duplicate;
+use crate::options::Order;
+use crate::order::{along_curve, rounds, Curve};
+use crate::point::Point;
+use crate::sort::Entry;
+
+/// A job, ready for the device.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Prepared {
+    /// Input index of each vertex, in the order of insertion: one index, the lowest, per distinct point.
+    pub(crate) order: Vec<u32>,
+    /// Points that fell onto an earlier one, by index.
+    pub(crate) duplicates: Vec<Duplicate>,
+    /// Fewer than three distinct points, or all on one line; `order` is then lexicographic.
+    pub(crate) collinear: bool,
+}
+
+/// Sorts, removes duplicates and orders. The input must be shorter than 2^32. O(n), 16 bytes per point while it runs (32
+/// where a coordinate has more than 16 bits).
+pub(crate) fn prepare(points: &[Point], order: Order) -> Prepared {
+    let mut curve = along_curve(points);
+    let mut duplicates = match &mut curve {
+        Curve::Narrow(entries) => remove_duplicates(entries),
+        Curve::Wide(entries) => remove_duplicates(entries),
+    };
+    duplicates.sort_unstable();
+    let mut order = match order {
+        Order::BrioHilbert => rounds(&curve),
+        Order::Hilbert => curve.into_indices(),
+        Order::Input => {
+            let mut indices = curve.into_indices();
+            indices.sort_unstable();
+            indices
+        }
+    };
+    let collinear = !start_with_a_triangle(&mut order, points);
+    if collinear {
+        order.sort_unstable_by_key(|&index| points[index as usize]);
+    }
+    Prepared {
+        order,
+        duplicates,
+        collinear,
+    }
+}
+
+/// Keeps the first entry of each key, which has the lowest index because the sort was stable.
+fn remove_duplicates<E: Entry>(entries: &mut Vec<E>) -> Vec<Duplicate> {
+    let mut duplicates = Vec::new();
+    entries.dedup_by(|later, kept| {
+        let equal = later.key() == kept.key();
+        if equal {
+            duplicates.push(Duplicate {
+                index: later.value(),
+                of: kept.value(),
+            });
+        }
+        equal
+    });
+    duplicates
+}
+
+/// Moves the first point that is not collinear with the first two to the third place; all others keep their order.
+/// False if there is none.
+fn start_with_a_triangle(order: &mut [u32], points: &[Point]) -> bool {
+    let at = |index: u32| points[index as usize];
+    let [first, second, rest @ ..] = &*order else {
+        return false;
+    };
+    let (a, b) = (at(*first), at(*second));
+    let Some(found) = rest
+        .iter()
+        .position(|&index| doubled_area(a, b, at(index)) != 0)
+    else {
+        return false;
+    };
+    order[2..=found + 2].rotate_right(1);
+    true
+}
+
+/// Twice the signed area of the triangle; positive if it is counter-clockwise.
+///
+/// Exact for coordinates below 2^31: differences stay below 2^31 in magnitude, each product below 2^62, their
+/// difference below 2^63.
+pub(crate) fn doubled_area(a: Point, b: Point, c: Point) -> i64 {
+    let minus = |one: u32, other: u32| i64::from(one) - i64::from(other);
+    minus(b.x, a.x) * minus(c.y, a.y) - minus(b.y, a.y) * minus(c.x, a.x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn points(raw: &[(u32, u32)]) -> Vec<Point> {
+        raw.iter().map(|&pair| pair.into()).collect()
+    }
+
+    #[test]
+    fn tiny_sets_are_collinear() {
+        for raw in [&[][..], &[(5, 5)], &[(5, 5), (5, 5)], &[(9, 1), (2, 3)]] {
+            let prepared = prepare(&points(raw), Order::default());
+            assert!(prepared.collinear);
+        }
+    }
+
+    #[test]
+    fn collinear_points_come_in_lexicographic_order() {
+        let prepared = prepare(
+            &points(&[(6, 3), (2, 1), (4, 2), (2, 1), (0, 0)]),
+            Order::Input,
+        );
+        assert!(prepared.collinear);
+        assert_eq!(prepared.order, [4, 1, 2, 0]);
+        assert_eq!(prepared.duplicates, [Duplicate { index: 3, of: 1 }]);
+    }
+
+    #[test]
+    fn the_first_point_off_the_line_becomes_the_third() {
+        let prepared = prepare(
+            &points(&[(0, 0), (1, 1), (2, 2), (3, 3), (3, 0), (9, 1)]),
+            Order::Input,
+        );
+        assert!(!prepared.collinear);
+        assert_eq!(prepared.order, [0, 1, 4, 2, 3, 5]);
+    }
+
+    #[test]
+    fn doubled_area_holds_the_widest_coordinates() {
+        let m = (1 << 31) - 1;
+        let corner = doubled_area(Point::new(0, 0), Point::new(m, 0), Point::new(m, m));
+        assert_eq!(corner, i64::from(m) * i64::from(m));
+        let back = doubled_area(Point::new(m, 0), Point::new(0, 0), Point::new(0, m));
+        assert_eq!(back, -i64::from(m) * i64::from(m));
+    }
+
+    proptest! {
+        #[test]
+        fn every_distinct_point_is_there_once_under_its_lowest_index(
+            raw in prop::collection::vec((0u32..6, 0u32..6), 0..60),
+            which in 0usize..3,
+            shift in prop::sample::select(vec![0u32, 20]),
+        ) {
+            let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(x << shift, y << shift)).collect();
+            let prepared = prepare(&points, Order::ALL[which]);
+            let lowest = |index: u32| points.iter().position(|p| *p == points[index as usize]);
+            for &index in &prepared.order {
+                prop_assert_eq!(lowest(index), Some(index as usize));
+            }
+            for pair in prepared.duplicates.windows(2) {
+                prop_assert!(pair[0].index < pair[1].index);
+            }
+            for duplicate in &prepared.duplicates {
+                prop_assert!(duplicate.of < duplicate.index);
+                prop_assert_eq!(lowest(duplicate.index), Some(duplicate.of as usize));
+            }
+            let mut all: Vec<u32> = prepared.order.clone();
+            all.extend(prepared.duplicates.iter().map(|d| d.index));
+            all.sort_unstable();
+            prop_assert!(all.iter().copied().eq(0..points.len() as u32));
+            if let ([a, b, c, ..], false) = (&prepared.order[..], prepared.collinear) {
+                let at = |index: u32| points[index as usize];
+                prop_assert!(doubled_area(at(*a), at(*b), at(*c)) != 0);
+            }
+        }
+    }
+}

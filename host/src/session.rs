@@ -1,0 +1,292 @@
+//! A session: exclusive use of a greeted device.
+
+use std::time::{Duration, Instant};
+
+use incircle_protocol::{command_word, Identity, InsertReport, Layout, Opcode};
+
+use crate::assemble::Assembly;
+use crate::error::Error;
+use crate::fault::DeviceFault;
+use crate::link::{Limit, Link};
+use crate::mesh::Mesh;
+use crate::options::{Options, Progress, Stage};
+use crate::point::Point;
+use crate::prepare::{prepare, Prepared};
+use crate::report::Report;
+
+/// Most points of one job: ids of triangles and half-edges must fit 32 bits.
+pub const MAX_POINTS: usize = (1 << 29) - 1;
+/// Records of one `Read` command: 384 kB at most.
+const READ_CHUNK: usize = 16_384;
+/// Fewest points of an `Insert` command: the device can judge its report only after the first triangle.
+const MIN_INSERT_CHUNK: usize = 3;
+
+/// Exclusive use of a device that has been greeted and checked.
+pub struct Session<'d> {
+    link: &'d mut Link,
+    identity: Identity,
+}
+
+impl<'d> Session<'d> {
+    pub(crate) fn new(link: &'d mut Link, identity: Identity) -> Self {
+        Self { link, identity }
+    }
+
+    /// What the device says of itself, checked.
+    pub fn identity(&self) -> &Identity {
+        &self.identity
+    }
+
+    /// Triangulates with the default [`Options`].
+    ///
+    /// # Errors
+    /// As [`Session::triangulate_with`].
+    pub fn triangulate<P: Into<Point> + Copy>(&mut self, points: &[P]) -> Result<Mesh, Error> {
+        let points = points.iter().map(|&point| point.into()).collect();
+        self.triangulate_owned(points, &Options::default())
+    }
+
+    /// Triangulates: the Delaunay triangulation of the distinct points, in canonical form.
+    ///
+    /// Duplicates collapse onto their lowest index and are listed. Fewer than three distinct points, or points on one
+    /// line, are answered by the host alone. O(n log n) on the device in the mean, O(n) on the host.
+    ///
+    /// # Errors
+    /// A coordinate beyond the device's bits, more distinct points than it holds, a failing link, an answer that no
+    /// sound device gives, a passed deadline, or a cancelled job. After an error of link or device the session is out of
+    /// step; after all others it can be used again.
+    pub fn triangulate_with(
+        &mut self,
+        points: &[Point],
+        options: &Options<'_>,
+    ) -> Result<Mesh, Error> {
+        self.triangulate_owned(points.to_vec(), options)
+    }
+
+    pub(crate) fn triangulate_owned(
+        &mut self,
+        points: Vec<Point>,
+        options: &Options<'_>,
+    ) -> Result<Mesh, Error> {
+        let timeout = options
+            .timeout
+            .unwrap_or_else(|| Options::default_timeout(points.len()));
+        let job = Job {
+            identity: self.identity,
+            layout: Layout::of(self.identity.coord_bits, self.identity.capacity),
+            limit: Limit::of(timeout),
+            link: self.link,
+            options,
+            watch: Stopwatch::start(),
+            points: &points,
+        };
+        job.check_input()?;
+        let answer = job.run()?;
+        Ok(Mesh { points, ..answer })
+    }
+}
+
+/// Times stages.
+struct Stopwatch {
+    since: Instant,
+    stages: Vec<(&'static str, Duration)>,
+}
+
+impl Stopwatch {
+    fn start() -> Self {
+        Self {
+            since: Instant::now(),
+            stages: Vec::with_capacity(4),
+        }
+    }
+
+    fn ended(&mut self, stage: Stage) {
+        let now = Instant::now();
+        self.stages.push((stage.name(), now - self.since));
+        self.since = now;
+    }
+}
+
+/// One triangulation under way.
+struct Job<'j> {
+    identity: Identity,
+    layout: Layout,
+    limit: Limit,
+    link: &'j mut Link,
+    options: &'j Options<'j>,
+    watch: Stopwatch,
+    points: &'j [Point],
+}
+
+impl<'j> Job<'j> {
+    /// Every point must fit the device's grid, and all of them 32-bit indices.
+    fn check_input(&self) -> Result<(), Error> {
+        if self.points.len() > MAX_POINTS {
+            return Err(Error::TooManyPoints {
+                points: self.points.len(),
+                max: MAX_POINTS,
+            });
+        }
+        let coord_bits = self.identity.coord_bits;
+        let outside = |point: &Point| (point.x | point.y) >> coord_bits != 0;
+        match self.points.iter().position(outside) {
+            Some(index) => Err(Error::CoordinateOutOfRange {
+                index,
+                x: self.points[index].x,
+                y: self.points[index].y,
+                coord_bits,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Everything but the points of the mesh.
+    fn run(mut self) -> Result<Mesh, Error> {
+        self.tell(Stage::Order, 0, self.points.len())?;
+        let prepared = prepare(self.points, self.options.order);
+        self.watch.ended(Stage::Order);
+        self.check_capacity(prepared.order.len())?;
+        let mut report = self.begin_report(&prepared);
+        let (triangles, hull) = if prepared.collinear {
+            (Vec::new(), prepared.order)
+        } else {
+            self.insert(&prepared.order)?;
+            let assembly = self.read(&prepared.order)?;
+            report.counters = Some(self.link.counters(self.limit)?);
+            self.assemble(assembly)?
+        };
+        report.triangles = triangles.len();
+        report.hull = hull.len();
+        report.stages = self.watch.stages;
+        Ok(Mesh {
+            points: Vec::new(),
+            triangles,
+            hull,
+            duplicates: prepared.duplicates,
+            report,
+        })
+    }
+
+    fn check_capacity(&self, distinct: usize) -> Result<(), Error> {
+        let capacity = self.identity.capacity;
+        if distinct > capacity as usize {
+            return Err(Error::Capacity {
+                distinct,
+                capacity,
+                device: self.link.name(),
+            });
+        }
+        Ok(())
+    }
+
+    fn begin_report(&self, prepared: &Prepared) -> Report {
+        Report {
+            points: self.points.len(),
+            distinct: prepared.order.len(),
+            duplicates: prepared.duplicates.len(),
+            collinear: prepared.collinear,
+            backend: self.link.name(),
+            order: self.options.order.name(),
+            coord_bits: self.identity.coord_bits,
+            capacity: self.identity.capacity,
+            ..Report::default()
+        }
+    }
+
+    /// Clears the device and inserts all points, a chunk per command.
+    fn insert(&mut self, order: &[u32]) -> Result<(), Error> {
+        self.link.clear(self.limit)?;
+        let chunk = self.options.insert_chunk.max(MIN_INSERT_CHUNK);
+        let mut words = Vec::with_capacity(2 + chunk.min(order.len()) * self.layout.point_words);
+        let mut sent = 0;
+        for indices in order.chunks(chunk) {
+            self.tell(Stage::Insert, sent, order.len())?;
+            words.clear();
+            words.extend([command_word(Opcode::Insert), indices.len() as u32]);
+            for &index in indices {
+                let point = self.points[index as usize];
+                let pair = self.layout.point_to_words(point.x, point.y);
+                words.extend_from_slice(&pair[..self.layout.point_words]);
+            }
+            let report = self.link.insert(&words, self.limit)?;
+            sent += indices.len();
+            check_insert(&report, sent as u32)
+                .map_err(|fault| self.link.distrust(Opcode::Insert, fault))?;
+        }
+        self.tell(Stage::Insert, sent, order.len())?;
+        self.watch.ended(Stage::Insert);
+        Ok(())
+    }
+
+    /// Reads all records, a range per command.
+    fn read<'a>(&mut self, order: &'a [u32]) -> Result<Assembly<'a>, Error>
+    where
+        'j: 'a,
+    {
+        let mut assembly = Assembly::new(order, self.points, self.layout, self.identity.capacity);
+        let records = assembly.records();
+        let width = self.layout.record_words;
+        let mut words = vec![0; READ_CHUNK.min(records) * width];
+        for first in (0..records).step_by(READ_CHUNK) {
+            self.tell(Stage::Read, first, records)?;
+            let count = READ_CHUNK.min(records - first);
+            let words = &mut words[..count * width];
+            self.link
+                .read(first as u32, count as u32, words, self.limit)?;
+            assembly
+                .take(first, words)
+                .map_err(|fault| self.link.distrust(Opcode::Read, fault))?;
+        }
+        self.tell(Stage::Read, records, records)?;
+        self.watch.ended(Stage::Read);
+        Ok(assembly)
+    }
+
+    /// The canonical triangles and the hull.
+    fn assemble(&mut self, assembly: Assembly<'_>) -> Result<(Vec<[u32; 3]>, Vec<u32>), Error> {
+        self.tell(Stage::Assemble, 0, self.points.len())?;
+        let finished = assembly
+            .finish()
+            .map_err(|fault| self.link.distrust(Opcode::Read, fault))?;
+        self.watch.ended(Stage::Assemble);
+        Ok(finished)
+    }
+
+    /// Tells the listener, which may cancel.
+    fn tell(&self, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
+        let Some(listener) = self.options.progress else {
+            return Ok(());
+        };
+        let progress = Progress { stage, done, total };
+        if listener(progress).is_break() {
+            return Err(Error::Cancelled {
+                stage: stage.name(),
+                done,
+                total,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// All points sent so far must be in, and none of them twice.
+fn check_insert(report: &InsertReport, sent: u32) -> Result<(), DeviceFault> {
+    let counts = [
+        ("points arrived", report.arrived, sent),
+        ("points inserted", report.inserted, sent),
+        ("duplicates", report.duplicates, 0),
+        ("points refused", report.refused, 0),
+        ("records", report.records, 2 * sent - 2),
+    ];
+    match counts
+        .into_iter()
+        .find(|(_, found, expected)| found != expected)
+    {
+        Some((what, found, expected)) => Err(DeviceFault::Count {
+            what,
+            found,
+            expected,
+        }),
+        None => Ok(()),
+    }
+}

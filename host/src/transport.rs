@@ -1,0 +1,47 @@
+//! The way to a device: two streams of 32-bit words.
+
+use std::time::Instant;
+
+/// A way to a device: commands go out as words, answers come back as words.
+///
+/// The trait is object-safe; `Box<dyn Transport>` is what [`Device::from_transport`](crate::Device::from_transport)
+/// takes. An implementation only carries words: everything a device says is checked above it. After an error the
+/// stream is out of step, and the session that saw it refuses further work.
+pub trait Transport {
+    /// Sends all `words`, or fails by `deadline`.
+    fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError>;
+
+    /// Fills the whole of `words` with the next words of the device, or fails by `deadline`.
+    fn receive(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError>;
+
+    /// Short name for reports: `model`, `sim:full`.
+    fn name(&self) -> String;
+}
+
+/// Why words did not get through.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TransportError {
+    /// The deadline passed with this many words of the call done.
+    #[error("the deadline passed after {done} of {wanted} words")]
+    Timeout {
+        /// Words carried before the deadline.
+        done: usize,
+        /// Words the call asked for.
+        wanted: usize,
+    },
+    /// The device has nothing more to say, and more was expected.
+    #[error("the device ended its answer after {done} of {wanted} words")]
+    Closed {
+        /// Words carried before the end.
+        done: usize,
+        /// Words the call asked for.
+        wanted: usize,
+    },
+    /// The operating system refused.
+    #[error("{0}")]
+    Io(#[from] std::io::Error),
+    /// Anything else, in one sentence.
+    #[error("{0}")]
+    Other(String),
+}
