@@ -7,10 +7,11 @@
 //! The algorithm is incremental insertion: a visibility walk, a Bowyer-Watson cavity whose boundary is a ring split in
 //! place, and a commit that reuses the removed triangles' ids. Ties follow the canonical rule (see [`predicate`]).
 
-pub mod clock;
+mod clock;
 mod command;
 mod mesh;
 pub mod predicate;
 
+pub use clock::{ClockModel, Inputs, Outputs, Write};
 pub use command::{CommandModel, ModelError};
 pub use mesh::{Counts, Insertion, Mesh, Record};

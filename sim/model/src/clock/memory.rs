@@ -1,0 +1,137 @@
+//! The memories, and the registered write port of the triangle memory.
+
+use super::wires::Wires;
+use super::Registers;
+use crate::mesh::Record;
+use crate::predicate::Point;
+use incircle_protocol::{infinite_vertex, triangle_capacity, Config, Layout};
+
+/// One write into the triangle memory: a whole record, or one link of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Write {
+    /// There is a write.
+    pub valid: bool,
+    /// The record written.
+    pub id: u32,
+    /// All vertex columns are written.
+    pub vertices: bool,
+    /// These link columns are written.
+    pub links: [bool; 3],
+    /// Data of the columns.
+    pub record: Record,
+}
+
+impl Write {
+    /// A whole record.
+    pub(super) fn record(id: u32, v: [u32; 3], n: [u32; 3]) -> Self {
+        Self {
+            valid: true,
+            id,
+            vertices: true,
+            links: [true; 3],
+            record: Record { v, n },
+        }
+    }
+
+    /// One link; its value stands in all three columns, the other columns' data are zero.
+    pub(super) fn link(id: u32, slot: usize, value: u32) -> Self {
+        let mut links = [false; 3];
+        links[slot] = true;
+        Self {
+            valid: true,
+            id,
+            vertices: false,
+            links,
+            record: Record {
+                v: [0; 3],
+                n: [value; 3],
+            },
+        }
+    }
+
+    /// Takes the request of whichever block makes one; holds its data while none does.
+    pub(super) fn clock(&mut self, was: &Registers) {
+        let sources = [was.commit.write, was.solo.write, was.context.write];
+        match sources.into_iter().find(|write| write.valid) {
+            Some(write) => *self = write,
+            None => self.valid = false,
+        }
+    }
+}
+
+/// A final boundary edge.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Entry {
+    pub a: u32,
+    pub u: u32,
+    pub slot: usize,
+    pub f: u32,
+    pub next: usize,
+}
+
+/// All memories.
+#[derive(Clone, Debug)]
+pub(super) struct Memory {
+    pub infinite: u32,
+    layout: Layout,
+    records: Vec<Record>,
+    vertices: Vec<Point>,
+    pub locks: Vec<bool>,
+    pub entries: Vec<Entry>,
+    pub inner: Vec<u32>,
+    pub lock_log: Vec<u32>,
+}
+
+impl Memory {
+    pub(super) fn new(config: Config) -> Self {
+        let records = triangle_capacity(config.points) as usize;
+        Self {
+            infinite: infinite_vertex(config.points),
+            layout: Layout::of(incircle_protocol::CORE_COORD_BITS, config.points),
+            records: vec![Record::default(); records],
+            vertices: vec![Point::default(); config.points as usize],
+            locks: vec![false; records],
+            entries: vec![Entry::default(); config.ring as usize],
+            inner: vec![0; config.ring as usize],
+            lock_log: vec![0; 2 * config.ring as usize],
+        }
+    }
+
+    /// A record as it stands; ids wrap at the depth of the memory, as address bits above it are ignored.
+    pub(super) fn record(&self, id: u32) -> Record {
+        self.records[id as usize % self.records.len()]
+    }
+
+    /// A vertex; that of the infinite one is arbitrary and never decides anything.
+    pub(super) fn vertex(&self, id: u32) -> Point {
+        self.vertices[id as usize % self.vertices.len()]
+    }
+
+    pub(super) fn record_words(&self, id: u32) -> [u32; 3] {
+        let record = self.record(id);
+        let words = self.layout.record_to_words(
+            record.v,
+            record.n,
+            self.locks[id as usize % self.locks.len()],
+        );
+        [words[0], words[1], words[2]]
+    }
+
+    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires) {
+        let port = was.write;
+        if port.valid {
+            let record = &mut self.records[port.id as usize];
+            if port.vertices {
+                record.v = port.record.v;
+            }
+            for k in 0..3 {
+                if port.links[k] {
+                    record.n[k] = port.record.n[k];
+                }
+            }
+        }
+        if let Some((id, position)) = wires.new_vertex {
+            self.vertices[id as usize] = position;
+        }
+    }
+}

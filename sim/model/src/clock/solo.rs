@@ -1,0 +1,191 @@
+//! Insertion alone, in constant state: splits the located triangle and flips once round the star.
+
+use super::context::Phase;
+use super::memory::Write;
+use super::pipeline::{Bundle, Completion, Token};
+use super::wires::Wires;
+use super::Registers;
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum State {
+    #[default]
+    Idle,
+    /// Three records replace the located one.
+    Split,
+    /// The outer neighbours of the second and third learn of them.
+    Mend,
+    /// The star triangle at work is read.
+    Fetch,
+    /// The triangle outside it is tested.
+    Test,
+    /// The edge between the two is flipped.
+    Flip,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Solo {
+    pub state: State,
+    /// Clock of `Split` and `Flip`, neighbour of `Mend`.
+    step: u32,
+    /// A visit is out.
+    awaits: bool,
+    /// The star triangle: `v = (p, a, b)`, `n = (outer, after, before)`.
+    id: u32,
+    a: u32,
+    b: u32,
+    outer: u32,
+    after: u32,
+    before: u32,
+    /// The link by which `outer` leads back.
+    back: u32,
+    /// The apex of `outer` and the links that the flip passes on.
+    apex: u32,
+    apex_after_a: u32,
+    apex_before_b: u32,
+    pub write: Write,
+}
+
+impl Solo {
+    /// The visit asked for at this edge.
+    pub(super) fn push_request(&self, was: &Registers) -> Option<Bundle> {
+        if self.awaits {
+            return None;
+        }
+        let turned = |f, u| Bundle {
+            first: Token {
+                rotates: true,
+                f,
+                u,
+                ..Token::default()
+            },
+            second: None,
+        };
+        match self.state {
+            State::Mend if self.step == 0 => {
+                Some(turned(was.context.root_id, was.context.root.n[1]))
+            }
+            State::Mend => Some(turned(was.context.root_id, was.context.root.n[2])),
+            State::Fetch => Some(Bundle::look(self.id)),
+            State::Test => Some(turned(self.back, self.outer)),
+            State::Idle | State::Split | State::Flip => None,
+        }
+    }
+
+    /// A test finds no conflict at the last edge of the star.
+    pub(super) fn ends(&self, was: &Registers, done: Option<Completion>) -> bool {
+        let rests = done.is_some_and(|done| !done.conflict);
+        self.state == State::Test && rests && self.b == was.context.root.v[1]
+    }
+
+    /// A flip is finished at this edge.
+    pub(super) fn flips(&self) -> bool {
+        self.state == State::Flip && self.step == 2
+    }
+
+    /// A conflict test completes at this edge.
+    pub(super) fn tests(&self, done: Option<Completion>) -> bool {
+        self.state == State::Test && done.is_some()
+    }
+
+    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires) {
+        self.write.valid = false;
+        self.awaits |= wires.solo_push.is_some();
+        match (was.solo.state, wires.done) {
+            (State::Idle, _) => {
+                if was.context.phase == Phase::Solo && !was.release.is_busy {
+                    self.state = State::Split;
+                    self.step = 0;
+                }
+            }
+            (State::Split, _) => self.split(was),
+            (State::Flip, _) => self.flip(was),
+            (State::Mend, Some(done)) => self.mend(was, &done),
+            (State::Fetch, Some(done)) => self.take_star(&done),
+            (State::Test, Some(done)) => self.take_test(was, wires, &done),
+            (State::Mend | State::Fetch | State::Test, None) => {}
+        }
+    }
+
+    fn split(&mut self, was: &Registers) {
+        let (id, root) = (was.context.root_id, was.context.root);
+        let (p, second) = (was.context.id, was.context.records);
+        let third = second + 1;
+        let [v0, v1, v2] = root.v;
+        self.write = match was.solo.step {
+            0 => Write::record(id, [p, v1, v2], [root.n[0], second, third]),
+            1 => Write::record(second, [p, v2, v0], [root.n[1], third, id]),
+            _ => Write::record(third, [p, v0, v1], [root.n[2], id, second]),
+        };
+        self.step += 1;
+        if was.solo.step == 2 {
+            self.step = 0;
+            self.state = State::Mend;
+        }
+    }
+
+    fn mend(&mut self, was: &Registers, done: &Completion) {
+        self.awaits = false;
+        self.write = Write::link(done.token.u, done.slot, was.context.records + was.solo.step);
+        self.step = 1;
+        if was.solo.step == 1 {
+            self.id = was.context.root_id;
+            self.state = State::Fetch;
+        }
+    }
+
+    fn take_star(&mut self, done: &Completion) {
+        self.awaits = false;
+        let [_, a, b] = done.record.v;
+        let [outer, after, before] = done.record.n;
+        (self.a, self.b, self.outer, self.after, self.before) = (a, b, outer, after, before);
+        self.back = self.id;
+        self.state = State::Test;
+    }
+
+    fn take_test(&mut self, was: &Registers, wires: &Wires, done: &Completion) {
+        self.awaits = false;
+        self.apex = done.record.v[0];
+        self.apex_after_a = done.record.n[1];
+        self.apex_before_b = done.record.n[2];
+        if done.conflict {
+            self.step = 0;
+            self.state = State::Flip;
+            return;
+        }
+        if self.back != self.id {
+            self.write = Write::link(was.solo.outer, done.slot, was.solo.id);
+        }
+        self.id = was.solo.after;
+        self.state = if wires.solo_ends {
+            State::Idle
+        } else {
+            State::Fetch
+        };
+    }
+
+    fn flip(&mut self, was: &Registers) {
+        let solo = &was.solo;
+        let p = was.context.id;
+        self.write = match solo.step {
+            0 => Write::record(
+                solo.id,
+                [p, solo.a, solo.apex],
+                [solo.apex_after_a, solo.outer, solo.before],
+            ),
+            1 => Write::record(
+                solo.outer,
+                [p, solo.apex, solo.b],
+                [solo.apex_before_b, solo.after, solo.id],
+            ),
+            _ => Write::link(solo.after, 2, solo.outer),
+        };
+        self.step += 1;
+        if solo.step == 2 {
+            self.b = solo.apex;
+            self.after = solo.outer;
+            self.back = solo.outer;
+            self.outer = solo.apex_after_a;
+            self.state = State::Test;
+        }
+    }
+}
