@@ -1,1 +1,7 @@
 //! Lock-step, end-to-end and gate tests of incircle.
+//!
+//! The library holds what several tests share: [`gate`], which the Verilog of every block passes, and [`blocks`], every
+//! exported block as a model that runs.
+
+pub mod blocks;
+pub mod gate;

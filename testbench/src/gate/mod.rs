@@ -1,0 +1,106 @@
+//! The gate that the Verilog of every block passes: lint, then synthesis with its checks.
+//!
+//! rust-hdl's Rust behaviour and its Verilog can disagree without a word from rust-hdl; this gate finds the half of it that tools
+//! can see in the text (undeclared names, latches, loops, undriven nets). Co-simulation finds the other half.
+
+mod scratch;
+mod synthesis;
+mod tool;
+
+use scratch::Scratch;
+pub use synthesis::{cell_count, synthesise, Cells};
+use tool::run;
+
+/// Why Verilog does not pass.
+#[derive(Debug, thiserror::Error)]
+pub enum GateError {
+    /// The tool cannot be started.
+    #[error("cannot run {tool} ({source}): install the Debian package {tool}")]
+    Missing {
+        /// The program.
+        tool: &'static str,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The tool ended with an error.
+    #[error("{tool} refuses {top}:\n{output}")]
+    Refused {
+        /// The program.
+        tool: &'static str,
+        /// The top module.
+        top: String,
+        /// All that the tool printed.
+        output: String,
+    },
+    /// The tool ended well but printed what is a fault in this project.
+    #[error("{tool} says of {top}:\n{lines}")]
+    Complaint {
+        /// The program.
+        tool: &'static str,
+        /// The top module.
+        top: String,
+        /// The lines that complain.
+        lines: String,
+    },
+    /// The tool's report is not in the form known.
+    #[error("the report of {tool} on {top} cannot be read: {reason}")]
+    Report {
+        /// The program.
+        tool: &'static str,
+        /// The top module.
+        top: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The scratch folder fails.
+    #[error("cannot use the scratch folder: {0}")]
+    Scratch(#[from] std::io::Error),
+}
+
+/// Lint warnings that rust-hdl's output needs waived, and why none of them hides a fault that the gate is there to find.
+const WAIVED: [&str; 4] = [
+    // All modules of a design come in one file.
+    "DECLFILENAME",
+    // Literals are emitted as 32 bits. Real width faults hide behind this waiver: co-simulation is there to find them.
+    "WIDTH",
+    // A port that is connected to a local of the same name further in.
+    "VARHIDDEN",
+    // Every constant of a kernel is emitted, used or not.
+    "UNUSEDPARAM",
+];
+
+/// Passes Verilog through `verilator --lint-only -Wall` with four waivers, each with its reason in the source.
+///
+/// # Errors
+/// Verilator is missing, or warns.
+pub fn lint(verilog: &str, top: &str) -> Result<(), GateError> {
+    lint_with(verilog, top, &WAIVED)
+}
+
+/// As [`lint`] without any waiver: for Verilog written by hand.
+///
+/// # Errors
+/// As [`lint`].
+pub fn lint_strictly(verilog: &str, top: &str) -> Result<(), GateError> {
+    lint_with(verilog, top, &[])
+}
+
+fn lint_with(verilog: &str, top: &str, waived: &[&str]) -> Result<(), GateError> {
+    let scratch = Scratch::new(top)?;
+    // Named as its top module, so that hand-written files need no waiver for their name.
+    let file = format!("{top}.v");
+    scratch.write(&file, verilog)?;
+    let mut arguments = vec!["--lint-only".to_string(), "-Wall".to_string()];
+    arguments.extend(waived.iter().map(|warning| format!("-Wno-{warning}")));
+    arguments.extend(["--top-module".to_string(), top.to_string(), file]);
+    run("verilator", &arguments, top, &scratch).map(|_| ())
+}
+
+/// The whole gate: [`lint`], then [`synthesise`].
+///
+/// # Errors
+/// Theirs.
+pub fn pass(verilog: &str, top: &str) -> Result<(), GateError> {
+    lint(verilog, top)?;
+    synthesise(verilog, top)
+}

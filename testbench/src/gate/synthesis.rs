@@ -1,0 +1,95 @@
+//! The half of the gate that is synthesis: yosys must take the Verilog, without latches or invented nets.
+
+use super::{run, GateError, Scratch};
+
+const YOSYS: &str = "yosys";
+
+/// What yosys only mentions, and what is a fault here.
+const COMPLAINTS: [&str; 2] = [
+    // A name that nobody declared becomes a net of one bit that nobody drives.
+    "implicitly declared",
+    "Latch inferred",
+];
+
+/// Passes Verilog through yosys: hierarchy, processes, and its own check for undriven nets, double drivers and loops.
+///
+/// # Errors
+/// Yosys is missing or refuses the text, or infers a latch or a net that nobody declared.
+pub fn synthesise(verilog: &str, top: &str) -> Result<(), GateError> {
+    let passes = format!("hierarchy -check -top {top}; proc; check -assert");
+    yosys(verilog, top, &passes, &Scratch::new(top)?)
+}
+
+/// Cells of an ECP5 that a block takes after mapping, without placement.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cells {
+    /// Tables of four inputs. Those of carry chains and of memory are not among them.
+    pub lut4: u64,
+    /// Carry cells, two tables each.
+    pub carry: u64,
+    /// Memories of 16 x 4 bits, two tables each and two more that address them.
+    pub distributed_ram: u64,
+    /// Flip-flops.
+    pub flip_flops: u64,
+    /// Multipliers of 18 x 18 bits.
+    pub multipliers: u64,
+    /// Block memories of 18 kbit.
+    pub block_ram: u64,
+}
+
+/// What a block takes in an ECP5, by `synth_ecp5 -abc9`. Takes seconds for a block, a minute or more for a core.
+///
+/// # Errors
+/// As [`synthesise`], and if the report cannot be read.
+pub fn cell_count(verilog: &str, top: &str) -> Result<Cells, GateError> {
+    let scratch = Scratch::new(top)?;
+    let passes = format!("synth_ecp5 -abc9 -top {top}; tee -q -o cells.json stat -json");
+    yosys(verilog, top, &passes, &scratch)?;
+    cells(&scratch.read("cells.json")?).map_err(|reason| GateError::Report {
+        tool: YOSYS,
+        top: top.to_string(),
+        reason,
+    })
+}
+
+fn yosys(verilog: &str, top: &str, passes: &str, scratch: &Scratch) -> Result<(), GateError> {
+    scratch.write("design.v", verilog)?;
+    let script = format!("read_verilog design.v; {passes}");
+    let printed = run(YOSYS, &["-p".to_string(), script], top, scratch)?;
+    let complaints: Vec<_> = printed
+        .lines()
+        .filter(|line| COMPLAINTS.iter().any(|complaint| line.contains(complaint)))
+        .collect();
+    if complaints.is_empty() {
+        Ok(())
+    } else {
+        Err(GateError::Complaint {
+            tool: YOSYS,
+            top: top.to_string(),
+            lines: complaints.join("\n"),
+        })
+    }
+}
+
+fn cells(report: &str) -> Result<Cells, String> {
+    let report: serde_json::Value =
+        serde_json::from_str(report).map_err(|error| error.to_string())?;
+    let counts = report
+        .pointer("/design/num_cells_by_type")
+        .and_then(serde_json::Value::as_object)
+        .ok_or("it has no table design/num_cells_by_type")?;
+    let count = |cell: &str| {
+        counts
+            .get(cell)
+            .and_then(serde_json::Value::as_u64)
+            .unwrap_or(0)
+    };
+    Ok(Cells {
+        lut4: count("LUT4"),
+        carry: count("CCU2C"),
+        distributed_ram: count("TRELLIS_DPR16X4"),
+        flip_flops: count("TRELLIS_FF"),
+        multipliers: count("MULT18X18D"),
+        block_ram: count("DP16KD"),
+    })
+}
