@@ -5,7 +5,10 @@ use std::fmt;
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
-use crate::leaf::{BlockMemory, DelayLine, Fifo, LockMemory, LutMemory, Multiplier};
+use crate::leaf::{BlockMemory, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier};
+use crate::predicate::{
+    CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
+};
 
 /// A design that cannot become Verilog.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -109,5 +112,15 @@ pub fn blocks() -> Vec<(String, String)> {
         block(DelayLine::<40>::new(19), "delay_line_19"),
         block(Fifo::<3, 8>::new(3, 8), "fifo_3x8"),
         block(Fifo::<6, 40>::new(2, 37), "fifo_2x37"),
+        block(FlagDelay::new(1), "flag_delay_1"),
+        block(FlagDelay::new(2), "flag_delay_2"),
+        block(FlagDelay::new(9), "flag_delay_9"),
+        block(PointDifference::default(), "point_difference"),
+        block(CrossProduct::default(), "cross_product"),
+        block(DotProduct::default(), "dot_product"),
+        block(WideProduct::default(), "wide_product"),
+        block(EdgeSigns::new(2), "edge_signs"),
+        block(VertexOrder::new(1), "vertex_order"),
+        block(VisitPredicates::default(), "visit_predicates"),
     ]
 }

@@ -1,4 +1,5 @@
 //! The incircle core in rust-hdl, and its export to Verilog.
 
+pub mod engine;
 pub mod export;
 pub mod leaf;

@@ -6,6 +6,7 @@
 mod block_memory;
 mod delay_line;
 mod fifo;
+mod flag_delay;
 mod lock_memory;
 mod lut_memory;
 mod multiplier;
@@ -13,6 +14,7 @@ mod multiplier;
 pub use block_memory::BlockMemory;
 pub use delay_line::DelayLine;
 pub use fifo::Fifo;
+pub use flag_delay::FlagDelay;
 pub use lock_memory::LockMemory;
 pub use lut_memory::LutMemory;
 pub use multiplier::Multiplier;

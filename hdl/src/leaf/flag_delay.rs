@@ -1,0 +1,71 @@
+//! A flag delayed by a fixed number of clocks, in plain registers.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `flag_in` | in | 1 | taken at every edge |
+//! | `flag_out` | out | 1 | `flag_in` of `stages` edges ago |
+//!
+//! 1. There is no reset: the output is arbitrary until `stages` edges have passed.
+//!
+//! Latency: a flag that stands before edge 1 is on the output after edge `stages`.
+//!
+//! Source: a shift register.
+
+use rust_hdl_core::prelude::*;
+
+/// A delayed flag; see the top of this file.
+#[derive(LogicBlock)]
+pub struct FlagDelay {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Taken at every edge.
+    pub flag_in: Signal<In, Bit>,
+    /// The same, `stages` edges later.
+    pub flag_out: Signal<Out, Bit>,
+    _line: Vec<bool>,
+}
+
+impl FlagDelay {
+    /// A delay of `stages` clocks.
+    ///
+    /// # Panics
+    /// If `stages` is 0.
+    pub fn new(stages: usize) -> Self {
+        assert!(stages >= 1, "a flag delay has at least 1 stage, not 0");
+        Self {
+            clock: Signal::default(),
+            flag_in: Signal::default(),
+            flag_out: Signal::default(),
+            // The last stage is the output register.
+            _line: vec![false; stages - 1],
+        }
+    }
+}
+
+impl Logic for FlagDelay {
+    fn update(&mut self) {
+        if self.clock.pos_edge() {
+            self._line.insert(0, self.flag_in.val());
+            if let Some(last) = self._line.pop() {
+                self.flag_out.next = last;
+            }
+        }
+    }
+
+    fn connect(&mut self) {
+        self.flag_out.connect();
+    }
+
+    fn hdl(&self) -> Verilog {
+        let always = "always @(posedge clock)";
+        Verilog::Custom(match self._line.len() {
+            0 => format!("{always} flag_out <= flag_in;\n"),
+            1 => format!("reg line;\n{always} {{flag_out, line}} <= {{line, flag_in}};\n"),
+            held => format!(
+                "reg [{top}:0] line;\n{always} {{flag_out, line}} <= {{line, flag_in}};\n",
+                top = held - 1
+            ),
+        })
+    }
+}

@@ -1,0 +1,79 @@
+//! Bits as a structure: what a memory stores, read by field.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `bits` | in | N | packed fields, the first in the lowest bits |
+//! | `value` | out | T | the same as a structure |
+//!
+//! Latency: none. No logic: both sides are the same wires.
+
+use rust_hdl_core::prelude::*;
+
+/// A structure that can be read back from its packed bits. [`packed!`](crate::packed) implements it.
+pub trait Unpacked: Synth {
+    /// The structure with these packed bits.
+    fn unpacked<const N: usize>(bits: Bits<N>) -> Self;
+}
+
+/// A field of a packed structure.
+pub trait Field: Synth {
+    /// The field whose lowest bit stands at `offset`.
+    fn field<const N: usize>(bits: Bits<N>, offset: usize) -> Self;
+}
+
+impl Field for bool {
+    fn field<const N: usize>(bits: Bits<N>, offset: usize) -> Self {
+        bits.get_bit(offset)
+    }
+}
+
+impl<const M: usize> Field for Bits<M> {
+    fn field<const N: usize>(bits: Bits<N>, offset: usize) -> Self {
+        bits.get_bits::<M>(offset)
+    }
+}
+
+/// Declares structures that travel on one signal, with a way back from their packed bits.
+#[macro_export]
+macro_rules! packed {
+    ($($(#[$about:meta])* pub struct $name:ident { $($(#[$field_about:meta])* pub $field:ident: $kind:ty,)* })*) => {$(
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, LogicStruct)]
+        pub struct $name { $($(#[$field_about])* pub $field: $kind,)* }
+
+        impl $crate::leaf::Unpacked for $name {
+            fn unpacked<const N: usize>(bits: Bits<N>) -> Self {
+                let mut offset = 0;
+                $(
+                    let $field = <$kind as $crate::leaf::Field>::field(bits, offset);
+                    offset += <$kind as Synth>::BITS;
+                )*
+                assert_eq!(offset, N, "packed bits and structure differ in width");
+                Self { $($field,)* }
+            }
+        }
+    )*};
+}
+
+/// Bits as a structure; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Unpack<T: Unpacked, const N: usize> {
+    /// Packed fields.
+    pub bits: Signal<In, Bits<N>>,
+    /// The structure.
+    pub value: Signal<Out, T>,
+}
+
+impl<T: Unpacked, const N: usize> Logic for Unpack<T, N> {
+    fn update(&mut self) {
+        self.value.next = T::unpacked(self.bits.val());
+    }
+
+    fn connect(&mut self) {
+        self.value.connect();
+    }
+
+    fn hdl(&self) -> Verilog {
+        Verilog::Custom("always @(*) value = bits;".into())
+    }
+}

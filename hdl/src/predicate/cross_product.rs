@@ -1,0 +1,56 @@
+//! The cross product of two vectors: two multipliers and a subtraction.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `a_x`, `a_y`, `b_x`, `b_y` | in | 18 | the vectors, two's complement |
+//! | `product` | out | 36 | `a_x * b_y - a_y * b_x`, two's complement |
+//!
+//! 1. New vectors are taken at every edge. There is no reset.
+//! 2. Parts of the vectors are differences of 16-bit coordinates, so each product is below `2^32` and the result fits 34 bits; the
+//!    upper bits of the 36 repeat the sign.
+//!
+//! Latency: vectors that stand before edge 1 give the result after edge 3. The subtraction is behind the last register: the user
+//! registers the result at edge 4.
+//!
+//! Source: `orient2d(u, v, p)` is the cross product of `u - p` and `v - p`.
+
+use rust_hdl_core::prelude::*;
+
+use crate::leaf::Multiplier;
+
+/// A cross product; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct CrossProduct {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// First vector, horizontal.
+    pub a_x: Signal<In, Bits<18>>,
+    /// First vector, vertical.
+    pub a_y: Signal<In, Bits<18>>,
+    /// Second vector, horizontal.
+    pub b_x: Signal<In, Bits<18>>,
+    /// Second vector, vertical.
+    pub b_y: Signal<In, Bits<18>>,
+    /// Product, two's complement.
+    pub product: Signal<Out, Bits<36>>,
+    x_by_y: Multiplier,
+    y_by_x: Multiplier,
+}
+
+impl CrossProduct {
+    /// Edges from vectors to result.
+    pub const LATENCY: usize = Multiplier::LATENCY;
+}
+
+impl Logic for CrossProduct {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, x_by_y, y_by_x);
+        self.x_by_y.a.next = self.a_x.val();
+        self.x_by_y.b.next = self.b_y.val();
+        self.y_by_x.a.next = self.a_y.val();
+        self.y_by_x.b.next = self.b_x.val();
+        self.product.next = self.x_by_y.product.val() - self.y_by_x.product.val();
+    }
+}

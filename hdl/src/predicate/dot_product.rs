@@ -1,0 +1,56 @@
+//! The dot product of two vectors: two multipliers and a addition.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `a_x`, `a_y`, `b_x`, `b_y` | in | 18 | the vectors, two's complement |
+//! | `product` | out | 36 | `a_x * b_x + a_y * b_y`, two's complement |
+//!
+//! 1. New vectors are taken at every edge. There is no reset.
+//! 2. Parts of the vectors are differences of 16-bit coordinates, so each product is below `2^32` and the result fits 34 bits; the
+//!    upper bits of the 36 repeat the sign.
+//!
+//! Latency: vectors that stand before edge 1 give the result after edge 3. The addition is behind the last register: the user
+//! registers the result at edge 4.
+//!
+//! Source: the dot products of the Cline-Renka form of incircle.
+
+use rust_hdl_core::prelude::*;
+
+use crate::leaf::Multiplier;
+
+/// A dot product; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct DotProduct {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// First vector, horizontal.
+    pub a_x: Signal<In, Bits<18>>,
+    /// First vector, vertical.
+    pub a_y: Signal<In, Bits<18>>,
+    /// Second vector, horizontal.
+    pub b_x: Signal<In, Bits<18>>,
+    /// Second vector, vertical.
+    pub b_y: Signal<In, Bits<18>>,
+    /// Product, two's complement.
+    pub product: Signal<Out, Bits<36>>,
+    x_by_x: Multiplier,
+    y_by_y: Multiplier,
+}
+
+impl DotProduct {
+    /// Edges from vectors to result.
+    pub const LATENCY: usize = Multiplier::LATENCY;
+}
+
+impl Logic for DotProduct {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, x_by_x, y_by_y);
+        self.x_by_x.a.next = self.a_x.val();
+        self.x_by_x.b.next = self.b_x.val();
+        self.y_by_y.a.next = self.a_y.val();
+        self.y_by_y.b.next = self.b_y.val();
+        self.product.next = self.x_by_x.product.val() + self.y_by_y.product.val();
+    }
+}

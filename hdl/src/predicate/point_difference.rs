@@ -1,0 +1,51 @@
+//! The vector from one point to another, ready for a multiplier.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `from`, `to` | in | 32 | points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned |
+//! | `x`, `y` | out | 18 | `to - from`, two's complement |
+//!
+//! 1. Coordinates are widened by two zero bits before the subtraction, so it never wraps: 17 bits hold the result, 18 carry it.
+//!
+//! Latency: none (combinational).
+//!
+//! Source: the differences of `orient2d` and `incircle`.
+
+use rust_hdl_core::prelude::*;
+
+/// A vector between two points; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct PointDifference {
+    /// Start.
+    pub from: Signal<In, Bits<32>>,
+    /// End.
+    pub to: Signal<In, Bits<32>>,
+    /// Horizontal part, two's complement.
+    pub x: Signal<Out, Bits<18>>,
+    /// Vertical part, two's complement.
+    pub y: Signal<Out, Bits<18>>,
+    from_x: Signal<Local, Bits<16>>,
+    from_y: Signal<Local, Bits<16>>,
+    to_x: Signal<Local, Bits<16>>,
+    to_y: Signal<Local, Bits<16>>,
+    wide_from_x: Signal<Local, Bits<18>>,
+    wide_from_y: Signal<Local, Bits<18>>,
+    wide_to_x: Signal<Local, Bits<18>>,
+    wide_to_y: Signal<Local, Bits<18>>,
+}
+
+impl Logic for PointDifference {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.from_x.next = self.from.val().get_bits::<16>(0);
+        self.from_y.next = self.from.val().get_bits::<16>(16);
+        self.to_x.next = self.to.val().get_bits::<16>(0);
+        self.to_y.next = self.to.val().get_bits::<16>(16);
+        self.wide_from_x.next = bit_cast::<18, 16>(self.from_x.val());
+        self.wide_from_y.next = bit_cast::<18, 16>(self.from_y.val());
+        self.wide_to_x.next = bit_cast::<18, 16>(self.to_x.val());
+        self.wide_to_y.next = bit_cast::<18, 16>(self.to_y.val());
+        self.x.next = self.wide_to_x.val() - self.wide_from_x.val();
+        self.y.next = self.wide_to_y.val() - self.wide_from_y.val();
+    }
+}

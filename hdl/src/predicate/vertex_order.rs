@@ -1,0 +1,164 @@
+//! The lexicographic order of the new point and a triangle's vertices.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `r0`, `r1`, `r2`, `p` | in | 32 | points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned |
+//! | `p_before_r0`, `p_before_r1`, `p_before_r2` | out | 1 | `p` comes before that vertex: by `x`, then by `y` |
+//! | `p_equals_r0`, `p_equals_r1`, `p_equals_r2` | out | 1 | `p` is that vertex |
+//! | `r0_before_r1`, `r0_before_r2` | out | 1 | `r0` comes before that vertex |
+//!
+//! 1. New points are taken at every edge. There is no reset.
+//!
+//! Latency: points that stand before edge 1 give all flags after edge `latency` of the constructor.
+//!
+//! Source: the canonical order of ties; a point as the number `x * 2^16 + y` sorts lexicographically.
+
+use rust_hdl_core::prelude::*;
+
+use crate::leaf::FlagDelay;
+
+/// Order of four points; see the top of this file.
+#[derive(LogicBlock)]
+pub struct VertexOrder {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// First vertex.
+    pub r0: Signal<In, Bits<32>>,
+    /// Second vertex.
+    pub r1: Signal<In, Bits<32>>,
+    /// Third vertex.
+    pub r2: Signal<In, Bits<32>>,
+    /// New point.
+    pub p: Signal<In, Bits<32>>,
+    /// `p` comes before `r0`.
+    pub p_before_r0: Signal<Out, Bit>,
+    /// `p` comes before `r1`.
+    pub p_before_r1: Signal<Out, Bit>,
+    /// `p` comes before `r2`.
+    pub p_before_r2: Signal<Out, Bit>,
+    /// `p` is `r0`.
+    pub p_equals_r0: Signal<Out, Bit>,
+    /// `p` is `r1`.
+    pub p_equals_r1: Signal<Out, Bit>,
+    /// `p` is `r2`.
+    pub p_equals_r2: Signal<Out, Bit>,
+    /// `r0` comes before `r1`.
+    pub r0_before_r1: Signal<Out, Bit>,
+    /// `r0` comes before `r2`.
+    pub r0_before_r2: Signal<Out, Bit>,
+    key_r0: SortKey,
+    key_r1: SortKey,
+    key_r2: SortKey,
+    key_p: SortKey,
+    delay_before_r0: FlagDelay,
+    delay_before_r1: FlagDelay,
+    delay_before_r2: FlagDelay,
+    delay_equals_r0: FlagDelay,
+    delay_equals_r1: FlagDelay,
+    delay_equals_r2: FlagDelay,
+    delay_r0_before_r1: FlagDelay,
+    delay_r0_before_r2: FlagDelay,
+}
+
+impl VertexOrder {
+    /// Flags that come `latency` edges after the points.
+    ///
+    /// # Panics
+    /// If `latency` is 0.
+    pub fn new(latency: usize) -> Self {
+        let delay = || FlagDelay::new(latency);
+        Self {
+            clock: Signal::default(),
+            r0: Signal::default(),
+            r1: Signal::default(),
+            r2: Signal::default(),
+            p: Signal::default(),
+            p_before_r0: Signal::default(),
+            p_before_r1: Signal::default(),
+            p_before_r2: Signal::default(),
+            p_equals_r0: Signal::default(),
+            p_equals_r1: Signal::default(),
+            p_equals_r2: Signal::default(),
+            r0_before_r1: Signal::default(),
+            r0_before_r2: Signal::default(),
+            key_r0: SortKey::default(),
+            key_r1: SortKey::default(),
+            key_r2: SortKey::default(),
+            key_p: SortKey::default(),
+            delay_before_r0: delay(),
+            delay_before_r1: delay(),
+            delay_before_r2: delay(),
+            delay_equals_r0: delay(),
+            delay_equals_r1: delay(),
+            delay_equals_r2: delay(),
+            delay_r0_before_r1: delay(),
+            delay_r0_before_r2: delay(),
+        }
+    }
+}
+
+impl Logic for VertexOrder {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(
+            self,
+            clock,
+            delay_before_r0,
+            delay_before_r1,
+            delay_before_r2
+        );
+        clock!(
+            self,
+            clock,
+            delay_equals_r0,
+            delay_equals_r1,
+            delay_equals_r2
+        );
+        clock!(self, clock, delay_r0_before_r1, delay_r0_before_r2);
+        self.key_r0.point.next = self.r0.val();
+        self.key_r1.point.next = self.r1.val();
+        self.key_r2.point.next = self.r2.val();
+        self.key_p.point.next = self.p.val();
+        self.delay_before_r0.flag_in.next = self.key_p.key.val() < self.key_r0.key.val();
+        self.delay_before_r1.flag_in.next = self.key_p.key.val() < self.key_r1.key.val();
+        self.delay_before_r2.flag_in.next = self.key_p.key.val() < self.key_r2.key.val();
+        self.delay_equals_r0.flag_in.next = self.p.val() == self.r0.val();
+        self.delay_equals_r1.flag_in.next = self.p.val() == self.r1.val();
+        self.delay_equals_r2.flag_in.next = self.p.val() == self.r2.val();
+        self.delay_r0_before_r1.flag_in.next = self.key_r0.key.val() < self.key_r1.key.val();
+        self.delay_r0_before_r2.flag_in.next = self.key_r0.key.val() < self.key_r2.key.val();
+        self.p_before_r0.next = self.delay_before_r0.flag_out.val();
+        self.p_before_r1.next = self.delay_before_r1.flag_out.val();
+        self.p_before_r2.next = self.delay_before_r2.flag_out.val();
+        self.p_equals_r0.next = self.delay_equals_r0.flag_out.val();
+        self.p_equals_r1.next = self.delay_equals_r1.flag_out.val();
+        self.p_equals_r2.next = self.delay_equals_r2.flag_out.val();
+        self.r0_before_r1.next = self.delay_r0_before_r1.flag_out.val();
+        self.r0_before_r2.next = self.delay_r0_before_r2.flag_out.val();
+    }
+}
+
+/// A point as a number that sorts lexicographically: the halves change places.
+#[derive(LogicBlock, Default)]
+struct SortKey {
+    pub point: Signal<In, Bits<32>>,
+    pub key: Signal<Out, Bits<32>>,
+    x: Signal<Local, Bits<16>>,
+    y: Signal<Local, Bits<16>>,
+    x_wide: Signal<Local, Bits<32>>,
+    y_wide: Signal<Local, Bits<32>>,
+    x_shifted: Signal<Local, Bits<32>>,
+}
+
+impl Logic for SortKey {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.x.next = self.point.val().get_bits::<16>(0);
+        self.y.next = self.point.val().get_bits::<16>(16);
+        self.x_wide.next = bit_cast::<32, 16>(self.x.val());
+        self.y_wide.next = bit_cast::<32, 16>(self.y.val());
+        self.x_shifted.next = self.x_wide.val() << 16;
+        self.key.next = self.x_shifted.val() | self.y_wide.val();
+    }
+}

@@ -1,0 +1,255 @@
+//! All predicates that one visit of a triangle needs, for one new visit per clock.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `r0`, `r1`, `r2` | in | 32 | vertices: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned |
+//! | `p` | in | 32 | new point, in the same form |
+//! | `e0_negative`, `e1_negative`, `e2_negative` | out | 1 | `E_k < 0`: `p` lies right of edge `k` |
+//! | `e0_zero`, `e1_zero`, `e2_zero` | out | 1 | `E_k = 0`: `p` lies on the line of edge `k` |
+//! | `e1_below_e0`, `e2_below_e0`, `e2_below_e1` | out | 1 | `E_i < E_j`, signed |
+//! | `incircle_positive`, `incircle_zero` | out | 1 | sign of `I` |
+//! | `p_before_r0`, `p_before_r1`, `p_before_r2` | out | 1 | `p` comes before that vertex: by `x`, then by `y` |
+//! | `p_equals_r0`, `p_equals_r1`, `p_equals_r2` | out | 1 | `p` is that vertex |
+//! | `r0_before_r1`, `r0_before_r2` | out | 1 | `r0` comes before that vertex |
+//!
+//! 1. Inputs come straight from registers. New ones are taken at every edge; there is no reset.
+//! 2. `E_k = orient2d(r[k+1], r[k+2], p)`, indices modulo 3: edge `k` is opposite vertex `k`.
+//! 3. `I = E_0 * dot(r1 - r0, r2 - r0) - orient2d(r0, r1, r2) * dot(r1 - p, r2 - p)`. For `r0`, `r1`, `r2` counter-clockwise, `I > 0` if
+//!    and only if `p` lies strictly inside their circle; clockwise the sign turns.
+//! 4. Every flag is exact for all inputs, also for equal and collinear points.
+//!
+//! Latency: inputs that stand before edge 1 give all flags after edge 9. Edges 1 to 3 small products, 4 sums, 4 to 6 large
+//! products, 7 and 8 their sums, 9 the comparison of the two.
+//!
+//! Source: the Cline-Renka form of incircle (A. K. Cline, R. J. Renka, 1984). 20 multipliers: 12 for small products, 8 for large ones.
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+use super::{CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, WideProduct};
+
+/// Predicates of a visit; see the top of this file.
+#[derive(LogicBlock)]
+pub struct VisitPredicates {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// First vertex, the apex.
+    pub r0: Signal<In, Bits<32>>,
+    /// Second vertex.
+    pub r1: Signal<In, Bits<32>>,
+    /// Third vertex.
+    pub r2: Signal<In, Bits<32>>,
+    /// New point.
+    pub p: Signal<In, Bits<32>>,
+    /// `E_0 < 0`.
+    pub e0_negative: Signal<Out, Bit>,
+    /// `E_1 < 0`.
+    pub e1_negative: Signal<Out, Bit>,
+    /// `E_2 < 0`.
+    pub e2_negative: Signal<Out, Bit>,
+    /// `E_0 = 0`.
+    pub e0_zero: Signal<Out, Bit>,
+    /// `E_1 = 0`.
+    pub e1_zero: Signal<Out, Bit>,
+    /// `E_2 = 0`.
+    pub e2_zero: Signal<Out, Bit>,
+    /// `E_1 < E_0`.
+    pub e1_below_e0: Signal<Out, Bit>,
+    /// `E_2 < E_0`.
+    pub e2_below_e0: Signal<Out, Bit>,
+    /// `E_2 < E_1`.
+    pub e2_below_e1: Signal<Out, Bit>,
+    /// `I > 0`.
+    pub incircle_positive: Signal<Out, Bit>,
+    /// `I = 0`.
+    pub incircle_zero: Signal<Out, Bit>,
+    /// `p` comes before `r0`.
+    pub p_before_r0: Signal<Out, Bit>,
+    /// `p` comes before `r1`.
+    pub p_before_r1: Signal<Out, Bit>,
+    /// `p` comes before `r2`.
+    pub p_before_r2: Signal<Out, Bit>,
+    /// `p` is `r0`.
+    pub p_equals_r0: Signal<Out, Bit>,
+    /// `p` is `r1`.
+    pub p_equals_r1: Signal<Out, Bit>,
+    /// `p` is `r2`.
+    pub p_equals_r2: Signal<Out, Bit>,
+    /// `r0` comes before `r1`.
+    pub r0_before_r1: Signal<Out, Bit>,
+    /// `r0` comes before `r2`.
+    pub r0_before_r2: Signal<Out, Bit>,
+    p_to_r0: PointDifference,
+    p_to_r1: PointDifference,
+    p_to_r2: PointDifference,
+    r0_to_r1: PointDifference,
+    r0_to_r2: PointDifference,
+    cross_0: CrossProduct,
+    cross_1: CrossProduct,
+    cross_2: CrossProduct,
+    cross_apex: CrossProduct,
+    dot_apex: DotProduct,
+    dot_point: DotProduct,
+    edges: EdgeSigns,
+    order: VertexOrder,
+    point_by_apex: WideProduct,
+    apex_by_point: WideProduct,
+    biased_first: Signal<Local, Bits<68>>,
+    biased_second: Signal<Local, Bits<68>>,
+    positive: DFF<Bit>,
+    zero: DFF<Bit>,
+    sign: Constant<Bits<68>>,
+}
+
+impl VisitPredicates {
+    /// Edges from inputs to flags: the small products, the large ones, and their comparison.
+    pub const LATENCY: usize = CrossProduct::LATENCY + WideProduct::LATENCY + 1;
+    /// 18 x 18 multipliers: two each for four cross and two dot products, four each for two wide products.
+    pub const MULTIPLIERS: usize = 2 * (4 + 2) + 4 * 2;
+}
+
+impl Default for VisitPredicates {
+    fn default() -> Self {
+        Self {
+            clock: Signal::default(),
+            r0: Signal::default(),
+            r1: Signal::default(),
+            r2: Signal::default(),
+            p: Signal::default(),
+            e0_negative: Signal::default(),
+            e1_negative: Signal::default(),
+            e2_negative: Signal::default(),
+            e0_zero: Signal::default(),
+            e1_zero: Signal::default(),
+            e2_zero: Signal::default(),
+            e1_below_e0: Signal::default(),
+            e2_below_e0: Signal::default(),
+            e2_below_e1: Signal::default(),
+            incircle_positive: Signal::default(),
+            incircle_zero: Signal::default(),
+            p_before_r0: Signal::default(),
+            p_before_r1: Signal::default(),
+            p_before_r2: Signal::default(),
+            p_equals_r0: Signal::default(),
+            p_equals_r1: Signal::default(),
+            p_equals_r2: Signal::default(),
+            r0_before_r1: Signal::default(),
+            r0_before_r2: Signal::default(),
+            p_to_r0: PointDifference::default(),
+            p_to_r1: PointDifference::default(),
+            p_to_r2: PointDifference::default(),
+            r0_to_r1: PointDifference::default(),
+            r0_to_r2: PointDifference::default(),
+            cross_0: CrossProduct::default(),
+            cross_1: CrossProduct::default(),
+            cross_2: CrossProduct::default(),
+            cross_apex: CrossProduct::default(),
+            dot_apex: DotProduct::default(),
+            dot_point: DotProduct::default(),
+            edges: EdgeSigns::new(Self::LATENCY - CrossProduct::LATENCY),
+            order: VertexOrder::new(Self::LATENCY),
+            point_by_apex: WideProduct::default(),
+            apex_by_point: WideProduct::default(),
+            biased_first: Signal::default(),
+            biased_second: Signal::default(),
+            positive: DFF::default(),
+            zero: DFF::default(),
+            sign: Constant::new(Bits::<68>::default().replace_bit(67, true)),
+        }
+    }
+}
+
+impl Logic for VisitPredicates {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, cross_0, cross_1, cross_2, cross_apex, dot_apex, dot_point);
+        clock!(
+            self,
+            clock,
+            edges,
+            order,
+            point_by_apex,
+            apex_by_point,
+            positive,
+            zero
+        );
+
+        // Vectors between the points.
+        self.p_to_r0.from.next = self.p.val();
+        self.p_to_r0.to.next = self.r0.val();
+        self.p_to_r1.from.next = self.p.val();
+        self.p_to_r1.to.next = self.r1.val();
+        self.p_to_r2.from.next = self.p.val();
+        self.p_to_r2.to.next = self.r2.val();
+        self.r0_to_r1.from.next = self.r0.val();
+        self.r0_to_r1.to.next = self.r1.val();
+        self.r0_to_r2.from.next = self.r0.val();
+        self.r0_to_r2.to.next = self.r2.val();
+
+        // Orientations of the three edges, and of the triangle.
+        self.cross_0.a_x.next = self.p_to_r1.x.val();
+        self.cross_0.a_y.next = self.p_to_r1.y.val();
+        self.cross_0.b_x.next = self.p_to_r2.x.val();
+        self.cross_0.b_y.next = self.p_to_r2.y.val();
+        self.cross_1.a_x.next = self.p_to_r2.x.val();
+        self.cross_1.a_y.next = self.p_to_r2.y.val();
+        self.cross_1.b_x.next = self.p_to_r0.x.val();
+        self.cross_1.b_y.next = self.p_to_r0.y.val();
+        self.cross_2.a_x.next = self.p_to_r0.x.val();
+        self.cross_2.a_y.next = self.p_to_r0.y.val();
+        self.cross_2.b_x.next = self.p_to_r1.x.val();
+        self.cross_2.b_y.next = self.p_to_r1.y.val();
+        self.cross_apex.a_x.next = self.r0_to_r1.x.val();
+        self.cross_apex.a_y.next = self.r0_to_r1.y.val();
+        self.cross_apex.b_x.next = self.r0_to_r2.x.val();
+        self.cross_apex.b_y.next = self.r0_to_r2.y.val();
+        self.dot_apex.a_x.next = self.r0_to_r1.x.val();
+        self.dot_apex.a_y.next = self.r0_to_r1.y.val();
+        self.dot_apex.b_x.next = self.r0_to_r2.x.val();
+        self.dot_apex.b_y.next = self.r0_to_r2.y.val();
+        self.dot_point.a_x.next = self.p_to_r1.x.val();
+        self.dot_point.a_y.next = self.p_to_r1.y.val();
+        self.dot_point.b_x.next = self.p_to_r2.x.val();
+        self.dot_point.b_y.next = self.p_to_r2.y.val();
+
+        // Edge 4: the sums go to registers there and in the wide products.
+        self.edges.e0.next = self.cross_0.product.val();
+        self.edges.e1.next = self.cross_1.product.val();
+        self.edges.e2.next = self.cross_2.product.val();
+        self.point_by_apex.a.next = self.cross_0.product.val();
+        self.point_by_apex.b.next = self.dot_apex.product.val();
+        self.apex_by_point.a.next = self.cross_apex.product.val();
+        self.apex_by_point.b.next = self.dot_point.product.val();
+
+        // Edge 9: the sign of their difference.
+        self.biased_first.next = self.point_by_apex.product.val() ^ self.sign.val();
+        self.biased_second.next = self.apex_by_point.product.val() ^ self.sign.val();
+        self.positive.d.next = self.biased_second.val() < self.biased_first.val();
+        self.zero.d.next = self.point_by_apex.product.val() == self.apex_by_point.product.val();
+        self.incircle_positive.next = self.positive.q.val();
+        self.incircle_zero.next = self.zero.q.val();
+
+        self.order.r0.next = self.r0.val();
+        self.order.r1.next = self.r1.val();
+        self.order.r2.next = self.r2.val();
+        self.order.p.next = self.p.val();
+        self.e0_negative.next = self.edges.e0_negative.val();
+        self.e1_negative.next = self.edges.e1_negative.val();
+        self.e2_negative.next = self.edges.e2_negative.val();
+        self.e0_zero.next = self.edges.e0_zero.val();
+        self.e1_zero.next = self.edges.e1_zero.val();
+        self.e2_zero.next = self.edges.e2_zero.val();
+        self.e1_below_e0.next = self.edges.e1_below_e0.val();
+        self.e2_below_e0.next = self.edges.e2_below_e0.val();
+        self.e2_below_e1.next = self.edges.e2_below_e1.val();
+        self.p_before_r0.next = self.order.p_before_r0.val();
+        self.p_before_r1.next = self.order.p_before_r1.val();
+        self.p_before_r2.next = self.order.p_before_r2.val();
+        self.p_equals_r0.next = self.order.p_equals_r0.val();
+        self.p_equals_r1.next = self.order.p_equals_r1.val();
+        self.p_equals_r2.next = self.order.p_equals_r2.val();
+        self.r0_before_r1.next = self.order.r0_before_r1.val();
+        self.r0_before_r2.next = self.order.r0_before_r2.val();
+    }
+}
