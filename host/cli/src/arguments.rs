@@ -1,0 +1,260 @@
+//! The arguments of the command.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use incircle::{Order, Quantize};
+
+use crate::formats::{MeshFormat, PointFormat};
+use crate::generate::Distribution;
+
+/// Exact Delaunay triangulation: one canonical answer, in software or hardware
+#[derive(Debug, Parser)]
+#[command(name = "incircle", version, about, after_help = EXIT_CODES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT_CODES: &str =
+    "Exit codes: 0 ok, 1 verification failed, 2 usage, 3 bad input, 4 device not found or no \
+permission, 5 link error, 6 device error or timeout, 7 capacity, 130 interrupted.";
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Triangulate a file of points
+    Triangulate(TriangulateArguments),
+    /// Check that a mesh is the canonical Delaunay triangulation of its points
+    Verify(VerifyArguments),
+    /// Make a set of points
+    Generate(GenerateArguments),
+    /// Say what a back end is
+    Info(InfoArguments),
+    /// Print a completion script for a shell
+    Completions(CompletionsArguments),
+}
+
+/// How coordinates come onto the grid.
+#[derive(Debug, Args)]
+pub struct GridArguments {
+    /// Bits of a coordinate: points lie on the grid 0 to 2^BITS - 1
+    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(8..=31))]
+    pub coord_bits: u32,
+    /// Lay the points onto the grid: 'fit' (the bounding box fills it, one scale), or 'SCALE' or 'SCALE,X0,Y0' for
+    /// (x - X0) * SCALE; integers on the grid are untouched without it, others are fitted
+    #[arg(long, value_name = "HOW", value_parser = quantize_from, allow_hyphen_values = true)]
+    pub quantize: Option<Quantize>,
+}
+
+/// Which device works.
+#[derive(Debug, Args)]
+pub struct BackendArguments {
+    /// Who triangulates: the software model, or the simulated core
+    #[arg(long, value_enum, default_value_t = BackendName::Model)]
+    pub backend: BackendName,
+    /// Configuration of the simulated core (default: the smallest that holds the points)
+    #[arg(long, value_enum)]
+    pub config: Option<ConfigName>,
+}
+
+/// Arguments of `triangulate`.
+#[derive(Debug, Args)]
+pub struct TriangulateArguments {
+    /// Points: csv, xyz, node, obj, ply or geojson; '-' is CSV from standard input
+    pub points: PathBuf,
+    /// The mesh: ele, obj, ply, vtk, geojson, json, csv or svg; '-' is standard output
+    #[arg(short, long, value_name = "MESH")]
+    pub output: PathBuf,
+    /// Format of the mesh (default: by extension)
+    #[arg(long, value_enum)]
+    pub format: Option<MeshFormat>,
+    /// Format of the points (default: by extension)
+    #[arg(long, value_enum)]
+    pub from: Option<PointFormat>,
+    #[command(flatten)]
+    pub grid: GridArguments,
+    #[command(flatten)]
+    pub backend: BackendArguments,
+    /// Order in which points are inserted: it changes the time, never the mesh
+    #[arg(long, value_parser = order_parser(), default_value = Order::BrioHilbert.name())]
+    pub order: Order,
+    /// Seconds that the device may take
+    #[arg(long, value_name = "SECONDS", value_parser = seconds_from)]
+    pub timeout: Option<Duration>,
+    /// Print one JSON object about the run on standard output
+    #[arg(long)]
+    pub json: bool,
+    /// Print nothing but errors
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Print times and counters
+    #[arg(short, long)]
+    pub verbose: bool,
+}
+
+/// Arguments of `verify`.
+#[derive(Debug, Args)]
+pub struct VerifyArguments {
+    /// The points
+    pub points: PathBuf,
+    /// The mesh: ele, obj, ply, json or csv
+    pub mesh: PathBuf,
+    /// Format of the points (default: by extension)
+    #[arg(long, value_enum)]
+    pub from: Option<PointFormat>,
+    /// Format of the mesh (default: by extension)
+    #[arg(long, value_enum)]
+    pub format: Option<MeshFormat>,
+    #[command(flatten)]
+    pub grid: GridArguments,
+    /// Print one JSON object on standard output
+    #[arg(long)]
+    pub json: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `generate`.
+#[derive(Debug, Args)]
+pub struct GenerateArguments {
+    /// The set
+    #[arg(value_enum)]
+    pub distribution: Distribution,
+    /// Number of points
+    #[arg(short, value_name = "N")]
+    pub n: u32,
+    /// Bits of a coordinate
+    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
+    pub bits: u32,
+    /// Seed: the same seed gives the same points on every machine
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// The points: csv, xyz or node; '-' is CSV on standard output
+    #[arg(short, long, value_name = "POINTS")]
+    pub output: PathBuf,
+}
+
+/// Arguments of `info`.
+#[derive(Debug, Args)]
+pub struct InfoArguments {
+    #[command(flatten)]
+    pub backend: BackendArguments,
+}
+
+/// Arguments of `completions`.
+#[derive(Debug, Args)]
+pub struct CompletionsArguments {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: clap_complete::Shell,
+}
+
+/// The back ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum BackendName {
+    /// The software model
+    Model,
+    /// The core's Verilog in Verilator (needs a build with `--features sim`)
+    Sim,
+}
+
+/// The named configurations of the core.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ConfigName {
+    /// 8 points
+    Tiny,
+    /// 1024 points
+    Small,
+    /// 8192 points
+    Full,
+    /// 16384 points
+    Large,
+}
+
+#[cfg(any(test, feature = "sim"))]
+impl ConfigName {
+    /// The configuration of this name.
+    pub fn config(self) -> incircle_protocol::Config {
+        match self {
+            Self::Tiny => incircle_protocol::TINY,
+            Self::Small => incircle_protocol::SMALL,
+            Self::Full => incircle_protocol::FULL,
+            Self::Large => incircle_protocol::LARGE,
+        }
+    }
+}
+
+fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
+    use clap::builder::{PossibleValuesParser, TypedValueParser};
+    let names = PossibleValuesParser::new(Order::ALL.map(Order::name));
+    // Only names of orders come through, so the default is never taken.
+    names.map(|name| Order::named(&name).unwrap_or_default())
+}
+
+fn quantize_from(text: &str) -> Result<Quantize, String> {
+    if text == "fit" {
+        return Ok(Quantize::Fit);
+    }
+    let numbers: Result<Vec<f64>, _> = text
+        .split(',')
+        .map(|part| part.trim().parse::<f64>())
+        .collect();
+    let (scale, offset) = match numbers.as_deref() {
+        Ok(&[scale]) => (scale, [0.0, 0.0]),
+        Ok(&[scale, x, y]) => (scale, [x, y]),
+        _ => return Err("give 'fit', a scale, or a scale and an offset 'SCALE,X0,Y0'".to_owned()),
+    };
+    if scale > 0.0 && scale.is_finite() && offset.iter().all(|value| value.is_finite()) {
+        Ok(Quantize::Scale { scale, offset })
+    } else {
+        Err("the scale must be positive, and all numbers finite".to_owned())
+    }
+}
+
+fn seconds_from(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text
+        .parse()
+        .map_err(|_| "give seconds, such as 2.5".to_owned())?;
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(duration) if !duration.is_zero() => Ok(duration),
+        _ => Err("give a positive number of seconds".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arguments_are_consistent() {
+        use clap::CommandFactory;
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_configuration_has_its_name() {
+        for name in ConfigName::value_variants() {
+            let shown = name
+                .to_possible_value()
+                .map(|value| value.get_name().to_owned());
+            assert_eq!(shown.as_deref(), Some(name.config().name));
+        }
+    }
+
+    #[test]
+    fn quantisation_is_read() {
+        assert_eq!(quantize_from("fit"), Ok(Quantize::Fit));
+        let scale = Quantize::Scale {
+            scale: 2.0,
+            offset: [-1.5, 0.0],
+        };
+        assert_eq!(quantize_from("2,-1.5,0"), Ok(scale));
+        for bad in ["", "0", "-1", "nan", "1,2", "fill", "1,inf,0"] {
+            assert!(quantize_from(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! The subcommands.
+
+pub mod completions;
+pub mod generate;
+pub mod info;
+pub mod triangulate;
+pub mod verify;

@@ -1,0 +1,130 @@
+//! `incircle triangulate`: points in, the canonical mesh out.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use incircle::{Mesh, Options};
+
+use crate::arguments::TriangulateArguments;
+use crate::backend::{self, Backend};
+use crate::failure::Failure;
+use crate::formats::{extension, MeshFormat, MeshView};
+use crate::grid::{self, failure_of, Laid};
+use crate::output::{self, Output};
+use crate::points::PointTable;
+use crate::progress::Meter;
+use crate::report::RunReport;
+use crate::{interrupt, source};
+
+/// Runs the subcommand.
+pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
+    let format = format_of(arguments)?;
+    let output = Output::prepare(&arguments.output, Some(&arguments.points))?;
+    if arguments.json && output.is_standard() {
+        return Err(Failure::usage(
+            "the mesh and the report of --json cannot both go to standard output: give -o a file",
+        ));
+    }
+    let mut watch = Watch::start();
+    let table = source::read_points(&arguments.points, arguments.from)?;
+    watch.ended("load");
+    interrupt::check()?;
+    let Laid {
+        points,
+        quantization,
+    } = grid::lay(&table, &arguments.grid)
+        .map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
+    watch.ended("quantise");
+    let mut backend = backend::open(&arguments.backend, arguments.grid.coord_bits, Some(&points))?;
+    watch.ended("open");
+    let mesh = triangulate(&mut backend, &points, arguments)?;
+    watch.stages.extend(&mesh.report.stages);
+    drop(points);
+    watch.since = Instant::now();
+    let written = output.write(|out| write(&table, &mesh, format, out))?;
+    watch.ended("write");
+    let mut report = RunReport::new(&mesh.report, &backend, quantization.as_ref());
+    report.stages = watch.stages;
+    if arguments.json {
+        output::print(&format!("{}\n", report.to_json()))?;
+    } else if !arguments.quiet {
+        report
+            .lines(arguments.verbose)
+            .iter()
+            .for_each(|line| output::note(line));
+    }
+    written.finish()
+}
+
+fn format_of(arguments: &TriangulateArguments) -> Result<MeshFormat, Failure> {
+    let path: &Path = &arguments.output;
+    let format = arguments
+        .format
+        .or_else(|| MeshFormat::of_extension(extension(path)));
+    format.ok_or_else(|| {
+        Failure::usage(format!(
+            "{}: the extension names no format of meshes: add --format ele, obj, ply, vtk, geojson, json, csv or svg",
+            path.display()
+        ))
+    })
+}
+
+fn triangulate(
+    backend: &mut Backend,
+    points: &[incircle::Point],
+    arguments: &TriangulateArguments,
+) -> Result<Mesh, Failure> {
+    let meter = Meter::new(arguments.quiet);
+    let listener = |progress| meter.hear(progress);
+    let options = Options {
+        timeout: arguments.timeout,
+        order: arguments.order,
+        progress: Some(&listener),
+        insert_chunk: backend.insert_chunk,
+    };
+    let session = backend.device.session();
+    let mesh = session.and_then(|mut session| session.triangulate_with(points, &options));
+    mesh.map_err(|error| failure_of(&error))
+}
+
+/// The mesh goes out with the coordinates that came in, not with those of the grid.
+fn write(
+    table: &PointTable,
+    mesh: &Mesh,
+    format: MeshFormat,
+    out: &mut dyn std::io::Write,
+) -> std::io::Result<()> {
+    let duplicates: Vec<_> = mesh
+        .duplicates
+        .iter()
+        .map(|duplicate| [duplicate.index, duplicate.of])
+        .collect();
+    let view = MeshView {
+        points: &table.points,
+        triangles: &mesh.triangles,
+        hull: &mesh.hull,
+        duplicates: &duplicates,
+    };
+    format.write(&view, out)
+}
+
+/// Times the stages of the command.
+struct Watch {
+    since: Instant,
+    stages: Vec<(&'static str, Duration)>,
+}
+
+impl Watch {
+    fn start() -> Self {
+        Self {
+            since: Instant::now(),
+            stages: Vec::new(),
+        }
+    }
+
+    fn ended(&mut self, stage: &'static str) {
+        let now = Instant::now();
+        self.stages.push((stage, now - self.since));
+        self.since = now;
+    }
+}

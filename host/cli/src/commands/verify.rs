@@ -1,0 +1,64 @@
+//! `incircle verify`: is this mesh the canonical Delaunay triangulation of these points?
+
+use serde_json::{json, Value};
+
+use crate::arguments::VerifyArguments;
+use crate::failure::{Exit, Failure};
+use crate::report::quantization_json;
+use crate::{grid, output, source};
+
+/// Runs the subcommand. A mesh that is not right ends with exit code 1.
+pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
+    let table = source::read_points(&arguments.points, arguments.from)?;
+    let points_name = source::name(&arguments.points);
+    let laid =
+        grid::lay(&table, &arguments.grid).map_err(|failure| failure.in_file(&points_name))?;
+    let mesh_name = source::name(&arguments.mesh);
+    let checked = source::read_mesh(&arguments.mesh, arguments.format).and_then(|triangles| {
+        incircle::verify(&laid.points, &triangles).map_err(|error| {
+            Failure::new(
+                Exit::Rejected,
+                format!("{mesh_name} is not the canonical Delaunay triangulation of {points_name}: {error}"),
+            )
+        })
+    });
+    let summary = match checked {
+        Ok(summary) => summary,
+        Err(failure) => {
+            if arguments.json && failure.exit == Exit::Rejected {
+                output::print(&format!(
+                    "{}\n",
+                    json!({ "valid": false, "reason": failure.message })
+                ))?;
+            }
+            return Err(failure);
+        }
+    };
+    if arguments.json {
+        let quantization: Option<Value> = laid.quantization.as_ref().map(quantization_json);
+        let object = json!({
+            "valid": true,
+            "points": summary.points,
+            "distinct": summary.distinct,
+            "duplicates": summary.duplicates,
+            "triangles": summary.triangles,
+            "edges": summary.edges,
+            "ties": summary.ties,
+            "hull": summary.hull.len(),
+            "collinear": summary.collinear,
+            "quantisation": quantization,
+        });
+        output::print(&format!("{object}\n"))
+    } else if arguments.quiet {
+        Ok(())
+    } else {
+        output::print(&format!(
+            "{mesh_name} is the canonical Delaunay triangulation of {points_name}: {} points, {} triangles, \
+             {} points on the hull, {} ties\n",
+            summary.points,
+            summary.triangles,
+            summary.hull.len(),
+            summary.ties
+        ))
+    }
+}

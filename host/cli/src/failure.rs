@@ -1,0 +1,119 @@
+//! How a run can fail: one sentence for the user and an exit code for scripts.
+
+use std::fmt;
+
+/// The exit codes of the command; scripts rely on the numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Exit {
+    /// A mesh did not pass verification.
+    Rejected = 1,
+    /// The command was called wrongly.
+    Usage = 2,
+    /// A file could not be read or written, or what it says is wrong.
+    Input = 3,
+    /// The device is not there, or may not be used.
+    NoDevice = 4,
+    /// The link to the device does not work.
+    Link = 5,
+    /// The device reported an error or was silent for too long.
+    Device = 6,
+    /// The device cannot hold the job.
+    Capacity = 7,
+    /// Interrupted by the user.
+    Interrupted = 130,
+}
+
+/// A failed run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failure {
+    /// What scripts see.
+    pub exit: Exit,
+    /// What people see: one sentence, no newline. Empty: nothing is printed (a reader closed our output).
+    pub message: String,
+}
+
+impl Failure {
+    /// A failure with this exit code and this sentence.
+    pub fn new(exit: Exit, message: impl Into<String>) -> Self {
+        Self {
+            exit,
+            message: message.into(),
+        }
+    }
+
+    /// Wrong input, exit code 3.
+    pub fn input(message: impl Into<String>) -> Self {
+        Self::new(Exit::Input, message)
+    }
+
+    /// Wrong use of the command, exit code 2.
+    pub fn usage(message: impl Into<String>) -> Self {
+        Self::new(Exit::Usage, message)
+    }
+
+    /// The same failure, its sentence opened with the name of the file it is about.
+    pub fn in_file(mut self, name: impl fmt::Display) -> Self {
+        self.message = format!("{name}: {}", self.message);
+        self
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// Characters of a wrong value that a message quotes.
+const QUOTED: usize = 40;
+
+/// A value as messages quote it: in quotes, control characters escaped, cut after 40 characters.
+pub fn quoted(value: &[u8]) -> String {
+    // Four bytes are the longest character, so the cut loses nothing that would be shown.
+    let head = &value[..value.len().min(4 * QUOTED + 4)];
+    let text = String::from_utf8_lossy(head);
+    let mut characters = text.chars();
+    let shown: String = characters
+        .by_ref()
+        .take(QUOTED)
+        .flat_map(char::escape_debug)
+        .collect();
+    if characters.next().is_some() || head.len() < value.len() {
+        format!("'{shown}…' ({} bytes)", value.len())
+    } else {
+        format!("'{shown}'")
+    }
+}
+
+/// Longest text of a library's own message, in characters.
+const LONGEST: usize = 200;
+
+/// The message of a library as one line of bounded length.
+pub fn one_line(message: &str) -> String {
+    let words: Vec<&str> = message.split_whitespace().collect();
+    let line = words.join(" ");
+    match line.char_indices().nth(LONGEST) {
+        Some((cut, _)) => format!("{}…", &line[..cut]),
+        None => line,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_values_are_cut() {
+        assert_eq!(quoted(b"12a"), "'12a'");
+        assert_eq!(quoted(b"a\nb"), "'a\\nb'");
+        let long = vec![b'7'; 1_000_000];
+        let shown = quoted(&long);
+        assert!(
+            shown.len() < 80 && shown.ends_with("(1000000 bytes)"),
+            "{shown}"
+        );
+    }
+}

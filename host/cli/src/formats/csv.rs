@@ -1,0 +1,174 @@
+//! Comma-separated values: points as `x,y` rows, meshes as `a,b,c` rows.
+//!
+//! A first row without numbers is a header; names such as `x`, `y` or `lon`, `lat` choose the columns, else the first two
+//! count. The separator is a comma, or the semicolon or tab that the first row has instead. Further columns are not
+//! read, but every row must have as many as the first: a short row is a lost point. Empty rows and rows that start with
+//! `#` are left out. An empty file is an empty list of points.
+
+use std::io::{self, Write};
+
+use csv::{ByteRecord, Reader, ReaderBuilder};
+
+use crate::failure::Failure;
+use crate::formats::MeshView;
+use crate::points::{Place, PointTable};
+use crate::text;
+
+/// Header names of the two columns, in lower case.
+const NAMES: [(&str, &str); 6] = [
+    ("x", "y"),
+    ("lon", "lat"),
+    ("lng", "lat"),
+    ("long", "lat"),
+    ("longitude", "latitude"),
+    ("easting", "northing"),
+];
+
+/// Reads points.
+pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+    let bytes = text::without_mark(bytes)?;
+    let mut reader = reader(bytes);
+    let mut record = ByteRecord::new();
+    let mut table = PointTable::of_rows([1, 2]);
+    let mut columns = [0, 1];
+    let mut width = 0;
+    while next(&mut reader, &mut record)? {
+        let row = row_of(&record);
+        if width == 0 {
+            width = record.len();
+            refuse_one_column(&record, row)?;
+            if !record.iter().any(text::looks_like_number) {
+                columns = named_columns(&record);
+                table = PointTable::of_rows(columns.map(|column| column + 1));
+                continue;
+            }
+        }
+        refuse_other_width(&record, width, row)?;
+        let value = |axis: usize| {
+            let column = columns[axis];
+            let place = Place::Cell {
+                row,
+                column: column + 1,
+            };
+            text::coordinate(record.get(column).unwrap_or_default(), place)
+        };
+        table.push([value(0)?, value(1)?], row);
+    }
+    Ok(table)
+}
+
+/// Reads triangles.
+pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+    let bytes = text::without_mark(bytes)?;
+    let mut reader = reader(bytes);
+    let mut record = ByteRecord::new();
+    let mut triangles = Vec::new();
+    let mut first = true;
+    while next(&mut reader, &mut record)? {
+        let row = row_of(&record);
+        let header = first && !record.iter().any(text::looks_like_number);
+        first = false;
+        if header {
+            continue;
+        }
+        if record.len() != 3 {
+            return Err(Failure::input(format!(
+                "row {row} has {} columns: a triangle is a row of three point indices",
+                record.len()
+            )));
+        }
+        let mut triangle = [0; 3];
+        for (column, (corner, value)) in triangle.iter_mut().zip(&record).enumerate() {
+            let place = Place::Cell {
+                row,
+                column: column + 1,
+            };
+            *corner = text::whole(value, "a point index", place)?;
+        }
+        triangles.push(triangle);
+    }
+    Ok(triangles)
+}
+
+/// Writes the triangles, without a header.
+pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    for [a, b, c] in mesh.triangles {
+        writeln!(out, "{a},{b},{c}")?;
+    }
+    Ok(())
+}
+
+/// Writes points, without a header.
+pub fn write_points(points: &[[u32; 2]], out: &mut dyn Write) -> io::Result<()> {
+    for [x, y] in points {
+        writeln!(out, "{x},{y}")?;
+    }
+    Ok(())
+}
+
+fn reader(bytes: &[u8]) -> Reader<&[u8]> {
+    ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .comment(Some(b'#'))
+        .delimiter(delimiter(bytes))
+        .from_reader(bytes)
+}
+
+/// A comma, or what the first row has instead.
+fn delimiter(bytes: &[u8]) -> u8 {
+    let mut rows = text::rows(bytes).map(|(_, row)| row);
+    let first = rows.find(|row| !row.trim_ascii().is_empty() && !row.starts_with(b"#"));
+    let first = first.unwrap_or_default();
+    let candidates = [b',', b';', b'\t'];
+    candidates
+        .into_iter()
+        .find(|byte| first.contains(byte))
+        .unwrap_or(b',')
+}
+
+/// Reads the next row that is not blank.
+fn next(reader: &mut Reader<&[u8]>, record: &mut ByteRecord) -> Result<bool, Failure> {
+    loop {
+        match reader.read_byte_record(record) {
+            Ok(true) if record.len() == 1 && record[0].trim_ascii().is_empty() => {}
+            Ok(more) => return Ok(more),
+            Err(error) => return Err(Failure::input(error.to_string())),
+        }
+    }
+}
+
+fn row_of(record: &ByteRecord) -> usize {
+    let line = record.position().map_or(0, csv::Position::line);
+    usize::try_from(line).unwrap_or(usize::MAX)
+}
+
+fn named_columns(header: &ByteRecord) -> [usize; 2] {
+    let find = |name: &str| {
+        header
+            .iter()
+            .position(|field| field.trim_ascii().eq_ignore_ascii_case(name.as_bytes()))
+    };
+    let mut pairs = NAMES.iter().filter_map(|(x, y)| Some([find(x)?, find(y)?]));
+    pairs.next().unwrap_or([0, 1])
+}
+
+fn refuse_one_column(record: &ByteRecord, row: usize) -> Result<(), Failure> {
+    if record.len() >= 2 {
+        return Ok(());
+    }
+    let shown = crate::failure::quoted(record.get(0).unwrap_or_default());
+    Err(Failure::input(format!(
+        "row {row} has 1 column, {shown}: a point is a row 'x,y' (for values parted by spaces: --from xyz)"
+    )))
+}
+
+fn refuse_other_width(record: &ByteRecord, width: usize, row: usize) -> Result<(), Failure> {
+    if record.len() == width {
+        return Ok(());
+    }
+    Err(Failure::input(format!(
+        "row {row} has {} columns, the first row has {width}: all rows need the same",
+        record.len()
+    )))
+}

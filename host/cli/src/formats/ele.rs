@@ -1,0 +1,94 @@
+//! `.ele`, the triangles of Shewchuk's Triangle: `N 3 attributes`, then `id a b c …`.
+//!
+//! Written with everything counted from 0. Read with ids from 0 or from 1: vertices are counted from 1 where the first
+//! id is 1 and no vertex is 0. Source: <https://www.cs.cmu.edu/~quake/triangle.ele.html>.
+
+use std::io::{self, Write};
+
+use crate::failure::{quoted, Exit, Failure};
+use crate::formats::MeshView;
+use crate::points::Place;
+use crate::text;
+
+/// Reads triangles. A list that is longer or shorter than its first row promises is no right mesh, whatever it holds.
+pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+    let bytes = text::without_mark(bytes)?;
+    let mut rows = text::rows(bytes)
+        .map(|(row, content)| (row, text::without_comment(content)))
+        .filter(|(_, content)| text::words(content).next().is_some());
+    let Some((row, header)) = rows.next() else {
+        return Err(Failure::input(
+            "the file is empty: an .ele file starts with a row 'N 3 0'",
+        ));
+    };
+    let promised = read_header(header, row)?;
+    let mut triangles = Vec::new();
+    let mut first_id = 0;
+    for (row, content) in rows {
+        let [id, a, b, c] = read_row(content, row)?;
+        if triangles.is_empty() {
+            first_id = id;
+        }
+        triangles.push([a, b, c]);
+    }
+    if triangles.len() as u64 != u64::from(promised) {
+        let found = triangles.len();
+        return Err(Failure::new(
+            Exit::Rejected,
+            format!("the first row promises {promised} triangles, the file holds {found}"),
+        ));
+    }
+    if first_id == 1 && triangles.iter().flatten().all(|&vertex| vertex > 0) {
+        triangles
+            .iter_mut()
+            .flatten()
+            .for_each(|vertex| *vertex -= 1);
+    }
+    Ok(triangles)
+}
+
+fn read_header(content: &[u8], row: usize) -> Result<u32, Failure> {
+    let mut values = text::words(content);
+    let cell = |column| Place::Cell { row, column };
+    let promised = text::whole(
+        values.next().unwrap_or_default(),
+        "a number of triangles",
+        cell(1),
+    )?;
+    match values.next() {
+        None | Some(b"3") => Ok(promised),
+        Some(other) => Err(Failure::input(format!(
+            "{}: a triangle has {} corners here, not 3",
+            cell(2),
+            quoted(other)
+        ))),
+    }
+}
+
+fn read_row(content: &[u8], row: usize) -> Result<[u32; 4], Failure> {
+    let mut values = [0; 4];
+    let mut words = text::words(content);
+    for (index, value) in values.iter_mut().enumerate() {
+        let Some(word) = words.next() else {
+            return Err(Failure::input(format!(
+                "row {row} has {index} values: a triangle is a row 'id a b c'"
+            )));
+        };
+        let what = if index == 0 { "an id" } else { "a point index" };
+        let place = Place::Cell {
+            row,
+            column: index + 1,
+        };
+        *value = text::whole(word, what, place)?;
+    }
+    Ok(values)
+}
+
+/// Writes the triangles in their order.
+pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "{} 3 0", mesh.triangles.len())?;
+    for (id, [a, b, c]) in mesh.triangles.iter().enumerate() {
+        writeln!(out, "{id} {a} {b} {c}")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,102 @@
+//! GeoJSON (RFC 7946): points in, a polygon per triangle out.
+//!
+//! Points are read from `Point` and `MultiPoint` geometries, bare or in features and collections, in the order of the file;
+//! a height is not read. Any other geometry is refused, or its corners would be lost unseen.
+
+use std::io::{self, Write};
+
+use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
+
+use crate::failure::{one_line, Failure};
+use crate::formats::MeshView;
+use crate::points::PointTable;
+
+/// Reads points.
+pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+    let bytes = crate::text::without_mark(bytes)?;
+    if bytes.trim_ascii().is_empty() {
+        return Err(Failure::input(
+            "the file is empty: GeoJSON is an object such as a FeatureCollection",
+        ));
+    }
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return Err(Failure::input("the file is not UTF-8 text"));
+    };
+    let document: GeoJson = text.parse().map_err(|error: geojson::Error| {
+        Failure::input(format!("not GeoJSON: {}", one_line(&error.to_string())))
+    })?;
+    let mut table = PointTable::of_items("point");
+    match &document {
+        GeoJson::Geometry(geometry) => add_geometry(geometry, &mut table, "the geometry")?,
+        GeoJson::Feature(feature) => add_feature(feature, &mut table, 1)?,
+        GeoJson::FeatureCollection(collection) => {
+            for (index, feature) in collection.features.iter().enumerate() {
+                add_feature(feature, &mut table, index + 1)?;
+            }
+        }
+    }
+    Ok(table)
+}
+
+fn add_feature(feature: &Feature, table: &mut PointTable, number: usize) -> Result<(), Failure> {
+    match &feature.geometry {
+        Some(geometry) => add_geometry(geometry, table, &format!("feature {number}")),
+        None => Err(Failure::input(format!(
+            "feature {number} has no geometry, so no point"
+        ))),
+    }
+}
+
+fn add_geometry(geometry: &Geometry, table: &mut PointTable, place: &str) -> Result<(), Failure> {
+    match &geometry.value {
+        GeometryValue::Point { coordinates } => add_position(coordinates, table, place),
+        GeometryValue::MultiPoint { coordinates } => coordinates
+            .iter()
+            .try_for_each(|position| add_position(position, table, place)),
+        // The JSON parser has bounded how deep collections nest.
+        GeometryValue::GeometryCollection { geometries } => geometries
+            .iter()
+            .try_for_each(|inner| add_geometry(inner, table, place)),
+        other => Err(Failure::input(format!(
+            "{place} is a {}: only Point and MultiPoint are read",
+            other.type_name()
+        ))),
+    }
+}
+
+fn add_position(position: &Position, table: &mut PointTable, place: &str) -> Result<(), Failure> {
+    match position.as_slice() {
+        // JSON has no NaN or infinity, and its parser refuses numbers too large for a double.
+        [x, y, ..] if x.is_finite() && y.is_finite() => {
+            table.push([*x, *y], 0);
+            Ok(())
+        }
+        other => Err(Failure::input(format!(
+            "{place} has {} coordinates: a point needs two finite numbers",
+            other.len()
+        ))),
+    }
+}
+
+/// Writes a feature per triangle: its number as `id`, its corners as the property `vertices`.
+pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    write!(out, "{{\"type\":\"FeatureCollection\",\"features\":[")?;
+    for (id, &triangle) in mesh.triangles.iter().enumerate() {
+        let comma = if id == 0 { "" } else { "," };
+        let [a, b, c] = triangle;
+        let corner = |vertex| {
+            let [x, y] = mesh.position(vertex);
+            format!("[{x},{y}]")
+        };
+        write!(
+            out,
+            "{comma}\n{{\"type\":\"Feature\",\"id\":{id},\"properties\":{{\"vertices\":[{a},{b},{c}]}},\
+             \"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[{},{},{},{}]]}}}}",
+            corner(a),
+            corner(b),
+            corner(c),
+            corner(a)
+        )?;
+    }
+    writeln!(out, "\n]}}")
+}

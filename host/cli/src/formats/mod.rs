@@ -1,0 +1,159 @@
+//! File formats: one file each, with all that is read and written in it.
+
+pub mod csv;
+pub mod ele;
+pub mod geojson;
+pub mod json;
+pub mod node;
+pub mod obj;
+pub mod ply;
+pub mod svg;
+pub mod vtk;
+pub mod xyz;
+
+use std::io::{self, Write};
+
+use clap::ValueEnum;
+
+use crate::failure::Failure;
+use crate::points::PointTable;
+
+/// Formats that points are read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PointFormat {
+    /// `x,y` rows, header optional
+    Csv,
+    /// `x y [z]` rows
+    Xyz,
+    /// Triangle's .node
+    Node,
+    /// Vertices of a Wavefront OBJ
+    Obj,
+    /// Vertices of a PLY, ascii or binary
+    Ply,
+    /// Points of a GeoJSON
+    Geojson,
+}
+
+impl PointFormat {
+    /// The format of files with this extension.
+    pub fn of_extension(extension: &str) -> Option<Self> {
+        Some(match extension.to_ascii_lowercase().as_str() {
+            "csv" | "tsv" => Self::Csv,
+            "xyz" => Self::Xyz,
+            "node" => Self::Node,
+            "obj" => Self::Obj,
+            "ply" => Self::Ply,
+            "geojson" | "json" => Self::Geojson,
+            _ => return None,
+        })
+    }
+
+    /// Reads all points of a file with these bytes. Every wrong value is refused with its place.
+    pub fn read(self, bytes: &[u8]) -> Result<PointTable, Failure> {
+        match self {
+            Self::Csv => csv::read_points(bytes),
+            Self::Xyz => xyz::read_points(bytes),
+            Self::Node => node::read_points(bytes),
+            Self::Obj => obj::read_points(bytes),
+            Self::Ply => ply::read_points(bytes),
+            Self::Geojson => geojson::read_points(bytes),
+        }
+    }
+}
+
+/// Formats that meshes are written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MeshFormat {
+    /// Triangle's .ele: `N 3 0`, then `id a b c`, all from 0
+    Ele,
+    /// Wavefront OBJ
+    Obj,
+    /// PLY, ascii
+    Ply,
+    /// Legacy VTK, ascii
+    Vtk,
+    /// A polygon feature per triangle
+    Geojson,
+    /// Points, triangles, hull and duplicates
+    Json,
+    /// `a,b,c` rows
+    Csv,
+    /// A picture
+    Svg,
+}
+
+impl MeshFormat {
+    /// The format of files with this extension.
+    pub fn of_extension(extension: &str) -> Option<Self> {
+        Some(match extension.to_ascii_lowercase().as_str() {
+            "ele" => Self::Ele,
+            "obj" => Self::Obj,
+            "ply" => Self::Ply,
+            "vtk" => Self::Vtk,
+            "geojson" => Self::Geojson,
+            "json" => Self::Json,
+            "csv" => Self::Csv,
+            "svg" => Self::Svg,
+            _ => return None,
+        })
+    }
+
+    /// Writes the mesh.
+    pub fn write(self, mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::Ele => ele::write_mesh(mesh, out),
+            Self::Obj => obj::write_mesh(mesh, out),
+            Self::Ply => ply::write_mesh(mesh, out),
+            Self::Vtk => vtk::write_mesh(mesh, out),
+            Self::Geojson => geojson::write_mesh(mesh, out),
+            Self::Json => json::write_mesh(mesh, out),
+            Self::Csv => csv::write_mesh(mesh, out),
+            Self::Svg => svg::write_mesh(mesh, out),
+        }
+    }
+
+    /// Reads the triangles of a mesh, as they stand in the file: nothing but their form is checked.
+    pub fn read(self, bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+        match self {
+            Self::Ele => ele::read_mesh(bytes),
+            Self::Obj => obj::read_mesh(bytes),
+            Self::Ply => ply::read_mesh(bytes),
+            Self::Json => json::read_mesh(bytes),
+            Self::Csv => csv::read_mesh(bytes),
+            Self::Vtk | Self::Geojson | Self::Svg => Err(Failure::usage(
+                "a mesh can be read back from ele, obj, ply, json and csv only: write it in one of them",
+            )),
+        }
+    }
+}
+
+/// A mesh and the points it is of, as writers see it.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshView<'a> {
+    /// All input points, with the coordinates of the input file.
+    pub points: &'a [[f64; 2]],
+    /// Counter-clockwise triples of indices into `points`.
+    pub triangles: &'a [[u32; 3]],
+    /// The hull, counter-clockwise; without triangles the distinct points along their line.
+    pub hull: &'a [u32],
+    /// Pairs (duplicate, the lowest index with the same place).
+    pub duplicates: &'a [[u32; 2]],
+}
+
+impl MeshView<'_> {
+    /// The coordinates of a vertex. Vertices that do not exist (there are none in a mesh of the library) are the origin.
+    pub fn position(&self, vertex: u32) -> [f64; 2] {
+        self.points
+            .get(vertex as usize)
+            .copied()
+            .unwrap_or_default()
+    }
+}
+
+/// The extension of a path; empty if there is none.
+pub fn extension(path: &std::path::Path) -> &str {
+    path.extension()
+        .and_then(|extension| extension.to_str())
+        .unwrap_or_default()
+}

@@ -1,0 +1,107 @@
+//! `.node`, the points of Shewchuk's Triangle: `N 2 attributes markers`, then `id x y …`.
+//!
+//! Ids count from 0 or from 1, as the first one says, and must rise by one. Attributes and markers are not read. `#`
+//! starts a comment. The list must hold exactly the points that its first row promises.
+//! Source: <https://www.cs.cmu.edu/~quake/triangle.node.html>.
+
+use std::io::{self, Write};
+
+use crate::failure::Failure;
+use crate::points::{Place, PointTable};
+use crate::text;
+
+/// Values of a row before its attributes: the id and two coordinates.
+const FIXED: usize = 3;
+
+/// Reads points.
+pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+    let bytes = text::without_mark(bytes)?;
+    let mut rows = text::rows(bytes)
+        .map(|(row, content)| (row, text::without_comment(content)))
+        .filter(|(_, content)| text::words(content).next().is_some());
+    let Some((row, header)) = rows.next() else {
+        return Err(Failure::input(
+            "the file is empty: a .node file starts with a row 'N 2 attributes markers'",
+        ));
+    };
+    let promised = read_header(header, row)?;
+    let mut table = PointTable::of_rows([2, 3]);
+    let mut base = 0;
+    for (row, content) in rows {
+        let count = table.points.len();
+        if count as u64 == u64::from(promised) {
+            return Err(Failure::input(format!(
+                "row {row} is one point more than the {promised} that the first row promises"
+            )));
+        }
+        let (id, point) = read_point(content, row)?;
+        if count == 0 {
+            base = u64::from(id);
+        }
+        let expected = base + count as u64;
+        if base > 1 || u64::from(id) != expected {
+            let wanted = if count == 0 {
+                "0 or 1".to_string()
+            } else {
+                expected.to_string()
+            };
+            return Err(Failure::input(format!(
+                "row {row}, column 1: the id is {id}, not {wanted}: ids count from 0 or 1 and rise by one"
+            )));
+        }
+        table.push(point, row);
+    }
+    let found = table.points.len();
+    if found as u64 != u64::from(promised) {
+        return Err(Failure::input(format!(
+            "the first row promises {promised} points, the file holds {found}"
+        )));
+    }
+    Ok(table)
+}
+
+fn read_header(content: &[u8], row: usize) -> Result<u32, Failure> {
+    let mut values = text::words(content);
+    let cell = |column| Place::Cell { row, column };
+    let promised = text::whole(
+        values.next().unwrap_or_default(),
+        "a number of points",
+        cell(1),
+    )?;
+    match values.next() {
+        None | Some(b"2") => Ok(promised),
+        Some(other) => Err(Failure::input(format!(
+            "{}: the dimension is {}, not 2",
+            cell(2),
+            crate::failure::quoted(other)
+        ))),
+    }
+}
+
+fn read_point(content: &[u8], row: usize) -> Result<(u32, [f64; 2]), Failure> {
+    let mut values = [&[][..]; FIXED];
+    let mut count = 0;
+    for (slot, value) in values.iter_mut().zip(text::words(content)) {
+        *slot = value;
+        count += 1;
+    }
+    if count < FIXED {
+        return Err(Failure::input(format!(
+            "row {row} has {count} values: a point is a row 'id x y'"
+        )));
+    }
+    let cell = |column| Place::Cell { row, column };
+    let id = text::whole(values[0], "an id", cell(1))?;
+    let x = text::coordinate(values[1], cell(2))?;
+    let y = text::coordinate(values[2], cell(3))?;
+    Ok((id, [x, y]))
+}
+
+/// Writes points, ids from 0.
+pub fn write_points(points: &[[u32; 2]], out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "{} 2 0 0", points.len())?;
+    for (id, [x, y]) in points.iter().enumerate() {
+        writeln!(out, "{id} {x} {y}")?;
+    }
+    Ok(())
+}

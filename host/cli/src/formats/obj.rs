@@ -1,0 +1,91 @@
+//! Wavefront OBJ: `v x y z` and `f a b c`, indices from 1.
+//!
+//! Points are the vertices' x and y; all other statements are left out. Meshes hold every input point as a vertex at
+//! height 0, so indices stay those of the input.
+
+use std::io::{self, Write};
+
+use crate::failure::{quoted, Failure};
+use crate::formats::MeshView;
+use crate::points::{Place, PointTable};
+use crate::text;
+
+/// Reads the vertices.
+pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+    let mut table = PointTable::of_rows([2, 3]);
+    for (row, mut values) in statements(bytes, b"v")? {
+        let mut point = [0.0; 2];
+        for (axis, coordinate) in point.iter_mut().enumerate() {
+            let place = Place::Cell {
+                row,
+                column: axis + 2,
+            };
+            *coordinate = text::coordinate(values.next().unwrap_or_default(), place)?;
+        }
+        table.push(point, row);
+    }
+    Ok(table)
+}
+
+/// Reads the faces, which must be triangles.
+pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+    let mut triangles = Vec::new();
+    for (row, values) in statements(bytes, b"f")? {
+        let mut triangle = [0; 3];
+        let mut count = 0;
+        for value in values {
+            if let Some(corner) = triangle.get_mut(count) {
+                *corner = read_corner(value, row, count + 2)?;
+            }
+            count += 1;
+        }
+        if count != 3 {
+            return Err(Failure::input(format!(
+                "row {row}: the face has {count} corners, not 3"
+            )));
+        }
+        triangles.push(triangle);
+    }
+    Ok(triangles)
+}
+
+/// The statements that start with this word: their rows and the values after it.
+fn statements<'a>(
+    bytes: &'a [u8],
+    keyword: &'static [u8],
+) -> Result<impl Iterator<Item = (usize, impl Iterator<Item = &'a [u8]>)>, Failure> {
+    let bytes = text::without_mark(bytes)?;
+    Ok(text::rows(bytes).filter_map(move |(row, content)| {
+        let mut words = text::words(text::without_comment(content));
+        (words.next() == Some(keyword)).then_some((row, words))
+    }))
+}
+
+/// A corner `vertex[/texture[/normal]]`, counted from 1; back to 0.
+fn read_corner(value: &[u8], row: usize, column: usize) -> Result<u32, Failure> {
+    let vertex = value.split(|&byte| byte == b'/').next().unwrap_or_default();
+    let place = Place::Cell { row, column };
+    let number = std::str::from_utf8(vertex)
+        .ok()
+        .and_then(|text| text.parse::<u32>().ok());
+    number
+        .and_then(|number| number.checked_sub(1))
+        .ok_or_else(|| {
+            let shown = quoted(value);
+            Failure::input(format!(
+                "{place}: {shown} is not a vertex, which are counted from 1"
+            ))
+        })
+}
+
+/// Writes all input points and the triangles.
+pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    for [x, y] in mesh.points {
+        writeln!(out, "v {x} {y} 0")?;
+    }
+    for triangle in mesh.triangles {
+        let [a, b, c] = triangle.map(|vertex| u64::from(vertex) + 1);
+        writeln!(out, "f {a} {b} {c}")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,279 @@
+//! PLY, the Stanford polygon format: ascii and both binary forms in, ascii out.
+//!
+//! Points are `x` and `y` of the element `vertex`, triangles the list `vertex_indices` (or `vertex_index`) of `face`; all
+//! else is left out. Headers and binary elements are decoded by `ply-rs-bw`, one element at a time, so nothing is
+//! allocated because a header claims it. Meshes hold every input point at height 0, so indices stay those of the input.
+
+use std::io::{self, Write};
+
+use ply_rs_bw::parser::{Parser, Reader};
+use ply_rs_bw::ply::{
+    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
+};
+
+use crate::failure::{one_line, quoted, Failure};
+use crate::formats::MeshView;
+use crate::points::PointTable;
+use crate::text;
+
+/// Reads the vertices.
+pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+    let mut table = PointTable::of_items("vertex");
+    read_element(bytes, "vertex", |item, index| {
+        let mut point = [0.0; 2];
+        for (axis, coordinate) in point.iter_mut().enumerate() {
+            let place = table.place(index, axis);
+            *coordinate = match item.point[axis] {
+                Some(value) if value.is_finite() => value,
+                Some(value) => return Err(text::not_finite(&format!("'{value}'"), place)),
+                None => return Err(Failure::input(format!("{place}: the value is missing"))),
+            };
+        }
+        table.push(point, 0);
+        Ok(())
+    })?;
+    Ok(table)
+}
+
+/// Reads the faces, which must be triangles.
+pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
+    let mut triangles = Vec::new();
+    read_element(bytes, "face", |item, index| {
+        let number = index + 1;
+        let Ok(corners) = <[f64; 3]>::try_from(item.corners.as_slice()) else {
+            let count = item.corners.len();
+            return Err(Failure::input(format!(
+                "face {number} has {count} corners, not 3"
+            )));
+        };
+        let mut triangle = [0; 3];
+        for (vertex, corner) in triangle.iter_mut().zip(corners) {
+            if !(corner >= 0.0 && corner <= f64::from(u32::MAX) && corner.fract() == 0.0) {
+                return Err(Failure::input(format!(
+                    "face {number}: {corner} is not a point index"
+                )));
+            }
+            *vertex = corner as u32;
+        }
+        triangles.push(triangle);
+        Ok(())
+    })?;
+    Ok(triangles)
+}
+
+/// What is taken from an element.
+struct Item {
+    point: [Option<f64>; 2],
+    corners: Vec<f64>,
+}
+
+impl Item {
+    /// Keeps a property, given as its numbers, if it is one of those that are read.
+    fn keep(&mut self, name: &str, values: Vec<f64>) {
+        match name {
+            "x" => self.point[0] = values.first().copied(),
+            "y" => self.point[1] = values.first().copied(),
+            "vertex_indices" | "vertex_index" => self.corners = values,
+            _ => {}
+        }
+    }
+}
+
+impl PropertyAccess for Item {
+    fn new() -> Self {
+        Self {
+            point: [None; 2],
+            corners: Vec::new(),
+        }
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        self.keep(name, numbers(property));
+        PropertyAccessResult::Set
+    }
+}
+
+/// The numbers of a property; doubles hold each of its types exactly.
+fn numbers(property: Property) -> Vec<f64> {
+    fn all<T: Into<f64>>(list: Vec<T>) -> Vec<f64> {
+        list.into_iter().map(Into::into).collect()
+    }
+    match property {
+        Property::Char(value) => vec![value.into()],
+        Property::UChar(value) => vec![value.into()],
+        Property::Short(value) => vec![value.into()],
+        Property::UShort(value) => vec![value.into()],
+        Property::Int(value) => vec![value.into()],
+        Property::UInt(value) => vec![value.into()],
+        Property::Float(value) => vec![value.into()],
+        Property::Double(value) => vec![value],
+        Property::ListChar(list) => all(list),
+        Property::ListUChar(list) => all(list),
+        Property::ListShort(list) => all(list),
+        Property::ListUShort(list) => all(list),
+        Property::ListInt(list) => all(list),
+        Property::ListUInt(list) => all(list),
+        Property::ListFloat(list) => all(list),
+        Property::ListDouble(list) => list,
+    }
+}
+
+type Take<'a> = &'a mut dyn FnMut(Item, usize) -> Result<(), Failure>;
+
+/// Hands every item of the element `wanted` to `take`, with its index.
+fn read_element(
+    bytes: &[u8],
+    wanted: &str,
+    mut take: impl FnMut(Item, usize) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut reader = Reader::new(bytes);
+    let header = Parser::<Item>::new().read_header(&mut reader);
+    let header = header.map_err(|error| {
+        Failure::input(format!(
+            "not a PLY header: {}",
+            one_line(&error.to_string())
+        ))
+    })?;
+    if !header.elements.contains_key(wanted) {
+        return Err(Failure::input(format!(
+            "the header has no element '{wanted}'"
+        )));
+    }
+    let mut rest: &[u8] = reader.into_inner();
+    for (name, element) in &header.elements {
+        refuse_false_count(element, &header, rest)?;
+        if name == wanted {
+            return read_items(element, &header, &mut rest, &mut take);
+        }
+        read_items(element, &header, &mut rest, &mut |_, _| Ok(()))?;
+    }
+    Ok(())
+}
+
+/// Refuses a count that the bytes present cannot hold: every value takes at least one.
+fn refuse_false_count(element: &ElementDef, header: &Header, rest: &[u8]) -> Result<(), Failure> {
+    let name = &element.name;
+    if element.properties.is_empty() {
+        return Err(Failure::input(format!(
+            "element '{name}' has no properties"
+        )));
+    }
+    let room = match header.encoding {
+        Encoding::Ascii => text::rows(rest).count(),
+        Encoding::BinaryBigEndian | Encoding::BinaryLittleEndian => {
+            rest.len() / element.properties.len()
+        }
+    };
+    if element.count > room {
+        return Err(Failure::input(format!(
+            "the header promises {} of element '{name}', the file ends after {room} at most",
+            element.count
+        )));
+    }
+    Ok(())
+}
+
+fn read_items(
+    element: &ElementDef,
+    header: &Header,
+    rest: &mut &[u8],
+    take: Take<'_>,
+) -> Result<(), Failure> {
+    let parser = Parser::<Item>::new();
+    for index in 0..element.count {
+        let item = match header.encoding {
+            Encoding::Ascii => read_row(element, rest, index)?,
+            Encoding::BinaryBigEndian => binary(
+                parser.read_big_endian_element(rest, element),
+                element,
+                index,
+            )?,
+            Encoding::BinaryLittleEndian => binary(
+                parser.read_little_endian_element(rest, element),
+                element,
+                index,
+            )?,
+        };
+        take(item, index)?;
+    }
+    Ok(())
+}
+
+fn binary(
+    item: Result<Item, ply_rs_bw::parser::ParseError>,
+    element: &ElementDef,
+    index: usize,
+) -> Result<Item, Failure> {
+    item.map_err(|error| match error.kind() {
+        io::ErrorKind::UnexpectedEof => Failure::input(format!(
+            "the header promises {} of element '{}', the file ends in number {}",
+            element.count,
+            element.name,
+            index + 1
+        )),
+        _ => Failure::input(format!(
+            "{} {}: {}",
+            element.name,
+            index + 1,
+            one_line(&error.to_string())
+        )),
+    })
+}
+
+/// Takes the next text row off `rest` and reads it as an item.
+fn read_row(element: &ElementDef, rest: &mut &[u8], index: usize) -> Result<Item, Failure> {
+    let end = rest
+        .iter()
+        .position(|&byte| byte == b'\n')
+        .unwrap_or(rest.len());
+    let (row, after) = rest.split_at(end);
+    *rest = after.strip_prefix(b"\n").unwrap_or(after);
+    let mut words = text::words(row);
+    let place = |name: &str| format!("{} {}, {name}", element.name, index + 1);
+    let number = |word: Option<&[u8]>, name: &str| -> Result<f64, Failure> {
+        let word =
+            word.ok_or_else(|| Failure::input(format!("{}: the value is missing", place(name))))?;
+        let parsed = std::str::from_utf8(word)
+            .ok()
+            .and_then(|text| text.parse::<f64>().ok());
+        parsed.ok_or_else(|| {
+            Failure::input(format!("{}: {} is not a number", place(name), quoted(word)))
+        })
+    };
+    let mut item = Item::new();
+    for (name, property) in &element.properties {
+        let count = match property.data_type {
+            PropertyType::Scalar(_) => 1,
+            // A count that is no count becomes one that the row cannot hold or an empty list.
+            PropertyType::List(..) => number(words.next(), name)? as usize,
+        };
+        let mut values = Vec::new();
+        for _ in 0..count {
+            values.push(number(words.next(), name)?);
+        }
+        item.keep(name, values);
+    }
+    Ok(item)
+}
+
+/// Writes all input points and the triangles.
+pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "ply\nformat ascii 1.0\ncomment Delaunay triangulation by incircle"
+    )?;
+    writeln!(out, "element vertex {}", mesh.points.len())?;
+    writeln!(
+        out,
+        "property double x\nproperty double y\nproperty double z"
+    )?;
+    writeln!(out, "element face {}", mesh.triangles.len())?;
+    writeln!(out, "property list uchar int vertex_indices\nend_header")?;
+    for [x, y] in mesh.points {
+        writeln!(out, "{x} {y} 0")?;
+    }
+    for [a, b, c] in mesh.triangles {
+        writeln!(out, "3 {a} {b} {c}")?;
+    }
+    Ok(())
+}

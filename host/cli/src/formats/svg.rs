@@ -1,0 +1,228 @@
+//! SVG: a picture of the mesh to look at. Written only.
+//!
+//! The picture fits its frame, y points up. Triangles are grouped by size into classes; each class is one path with a
+//! colour of its own, small triangles dark and large ones light, and with lines as thin as its triangles are small.
+//! Coordinates are rounded to the canvas and written relative to each triangle's first corner, which keeps files short:
+//! about 20 bytes per triangle.
+
+use std::io::{self, Write};
+
+use crate::formats::MeshView;
+
+/// Canvas units along the longer side of the points' bounding box.
+const CANVAS: f64 = 20_000.0;
+/// Canvas units around the points.
+const MARGIN: f64 = 500.0;
+/// Width of the picture in pixels, unless the viewer chooses its own.
+const PIXELS: f64 = 1000.0;
+/// Size classes.
+const CLASSES: usize = 24;
+/// Beyond this many points no dots are drawn: they would cover the triangles.
+const MOST_DOTS: usize = 2000;
+/// Colours from the smallest to the largest triangles; classes lie between them.
+const RAMP: [[u8; 3]; 6] = [
+    [0x1d, 0x2b, 0x53],
+    [0x23, 0x52, 0x7c],
+    [0x2a, 0x8c, 0x98],
+    [0x6f, 0xbf, 0xa0],
+    [0xd3, 0xe0, 0xa5],
+    [0xfb, 0xec, 0xc4],
+];
+
+/// Writes the picture.
+pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let canvas = Canvas::around(mesh.points);
+    let [width, height] = canvas.size;
+    let shown = PIXELS * height / width;
+    writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{PIXELS}\" height=\"{shown:.0}\">"
+    )?;
+    let (points, triangles) = (mesh.points.len(), mesh.triangles.len());
+    writeln!(
+        out,
+        "<title>Delaunay triangulation: {points} points, {triangles} triangles</title>"
+    )?;
+    writeln!(
+        out,
+        "<rect width=\"100%\" height=\"100%\" fill=\"#fdfcf9\"/>"
+    )?;
+    write_triangles(mesh, &canvas, out)?;
+    write_hull(mesh, &canvas, out)?;
+    write_dots(mesh, &canvas, out)?;
+    writeln!(out, "</svg>")
+}
+
+/// The map from input coordinates to whole canvas units.
+struct Canvas {
+    low: [f64; 2],
+    scale: f64,
+    shrink: f64,
+    size: [f64; 2],
+}
+
+impl Canvas {
+    fn around(points: &[[f64; 2]]) -> Self {
+        let largest = points
+            .iter()
+            .flatten()
+            .fold(0.0, |most: f64, value| most.max(value.abs()));
+        // Differences of huge doubles would overflow.
+        let shrink = if largest > 1e150 { 1e-200 } else { 1.0 };
+        let bound = |axis: usize, pick: fn(f64, f64) -> f64| {
+            let values = points.iter().map(|point| point[axis] * shrink);
+            values.reduce(pick).unwrap_or(0.0)
+        };
+        let low = [bound(0, f64::min), bound(1, f64::min)];
+        let extent = [bound(0, f64::max) - low[0], bound(1, f64::max) - low[1]];
+        let longer = extent[0].max(extent[1]);
+        let scale = if longer > 0.0 { CANVAS / longer } else { 0.0 };
+        let size = extent.map(|side| (side * scale).round() + 2.0 * MARGIN);
+        Self {
+            low,
+            scale,
+            shrink,
+            size,
+        }
+    }
+
+    /// The place on the canvas, y down as SVG wants it.
+    fn place(&self, point: [f64; 2]) -> [i64; 2] {
+        let unit =
+            |axis: usize| ((point[axis] * self.shrink - self.low[axis]) * self.scale).round();
+        let x = MARGIN + unit(0);
+        let y = self.size[1] - MARGIN - unit(1);
+        [x as i64, y as i64]
+    }
+
+    fn corners(&self, mesh: &MeshView<'_>, triangle: [u32; 3]) -> [[i64; 2]; 3] {
+        triangle.map(|vertex| self.place(mesh.position(vertex)))
+    }
+}
+
+/// Side of the square that is as large as the triangle, at least one unit.
+fn side([a, b, c]: [[i64; 2]; 3]) -> f64 {
+    let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    (twice.abs() as f64 / 2.0).sqrt().max(1.0)
+}
+
+/// The scale from triangle sides to size classes.
+struct Classes {
+    middle: f64,
+    spread: f64,
+}
+
+impl Classes {
+    /// Centred on the median size. The ramp spans the sizes of all but the outer fiftieths, and at least a factor of 4
+    /// to both sides: meshes of even triangles stay calm.
+    fn of(mut sides: Vec<f64>) -> Self {
+        sides.sort_unstable_by(f64::total_cmp);
+        let at = |share: f64| {
+            let index = (sides.len().saturating_sub(1) as f64 * share) as usize;
+            sides.get(index).copied().unwrap_or(1.0).log2()
+        };
+        let middle = at(0.5);
+        let spread = (middle - at(0.02)).max(at(0.98) - middle).max(2.0);
+        Self { middle, spread }
+    }
+
+    fn class(&self, side: f64) -> usize {
+        let along = (side.log2() - self.middle) / (2.0 * self.spread) + 0.5;
+        let last = (CLASSES - 1) as f64;
+        (along * last).round().clamp(0.0, last) as usize
+    }
+
+    /// The side in the middle of a class.
+    fn side(&self, class: usize) -> f64 {
+        let along = class as f64 / (CLASSES - 1) as f64;
+        (self.middle + (along - 0.5) * 2.0 * self.spread).exp2()
+    }
+}
+
+fn write_triangles(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::Result<()> {
+    let sides = mesh
+        .triangles
+        .iter()
+        .map(|&triangle| side(canvas.corners(mesh, triangle)));
+    let classes = Classes::of(sides.collect());
+    let mut members = vec![Vec::new(); CLASSES];
+    for &triangle in mesh.triangles {
+        let corners = canvas.corners(mesh, triangle);
+        members[classes.class(side(corners))].push(corners);
+    }
+    writeln!(
+        out,
+        "<g stroke=\"#fff\" stroke-opacity=\".6\" stroke-linejoin=\"round\">"
+    )?;
+    // The largest first: thin lines of small triangles stay above thick ones.
+    for (class, triangles) in members.iter().enumerate().rev() {
+        if triangles.is_empty() {
+            continue;
+        }
+        let width = (classes.side(class) * 0.05).clamp(1.0, 30.0);
+        write!(
+            out,
+            "<path fill=\"{}\" stroke-width=\"{width:.1}\" d=\"",
+            colour(class)
+        )?;
+        for [a, b, c] in triangles {
+            let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
+            write!(
+                out,
+                "M{} {}l{} {} {} {}z",
+                a[0], a[1], u[0], u[1], v[0], v[1]
+            )?;
+        }
+        writeln!(out, "\"/>")?;
+    }
+    writeln!(out, "</g>")
+}
+
+fn colour(class: usize) -> String {
+    let along = class as f64 / (CLASSES - 1) as f64 * (RAMP.len() - 1) as f64;
+    let below = (along as usize).min(RAMP.len() - 2);
+    let share = along - below as f64;
+    let mix = |channel: usize| {
+        let (from, to) = (
+            f64::from(RAMP[below][channel]),
+            f64::from(RAMP[below + 1][channel]),
+        );
+        (from + (to - from) * share).round() as u8
+    };
+    format!("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2))
+}
+
+/// The hull as a closed line; without triangles the line through the points.
+fn write_hull(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::Result<()> {
+    let mut d = String::new();
+    for (index, &vertex) in mesh.hull.iter().enumerate() {
+        let [x, y] = canvas.place(mesh.position(vertex));
+        let command = if index == 0 { "M" } else { "L" };
+        d.push_str(&format!("{command}{x} {y}"));
+    }
+    if !mesh.triangles.is_empty() {
+        d.push('z');
+    }
+    writeln!(
+        out,
+        "<path fill=\"none\" stroke=\"#e4572e\" stroke-width=\"45\" stroke-linejoin=\"round\" stroke-linecap=\"round\" d=\"{d}\"/>"
+    )
+}
+
+/// A dot per point: subpaths of no length with round ends.
+fn write_dots(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::Result<()> {
+    let count = mesh.points.len();
+    if count == 0 || count > MOST_DOTS {
+        return Ok(());
+    }
+    let width = (CANVAS * 0.15 / (count as f64).sqrt()).clamp(60.0, 280.0);
+    write!(
+        out,
+        "<path fill=\"none\" stroke=\"#1d2b53\" stroke-width=\"{width:.0}\" stroke-linecap=\"round\" d=\""
+    )?;
+    for &point in mesh.points {
+        let [x, y] = canvas.place(point);
+        write!(out, "M{x} {y}h0")?;
+    }
+    writeln!(out, "\"/>")
+}

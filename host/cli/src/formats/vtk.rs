@@ -1,0 +1,32 @@
+//! Legacy VTK, ascii: an unstructured grid of triangles. Written only.
+//!
+//! Source: "VTK file formats", version 3.0 of the legacy format.
+
+use std::io::{self, Write};
+
+use crate::formats::MeshView;
+
+/// VTK's number of the triangle among the cell types.
+const VTK_TRIANGLE: u8 = 5;
+
+/// Writes all input points at height 0, and the triangles.
+pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let triangles = mesh.triangles.len();
+    writeln!(out, "# vtk DataFile Version 3.0")?;
+    writeln!(out, "Delaunay triangulation by incircle")?;
+    writeln!(out, "ASCII\nDATASET UNSTRUCTURED_GRID")?;
+    writeln!(out, "POINTS {} double", mesh.points.len())?;
+    for [x, y] in mesh.points {
+        writeln!(out, "{x} {y} 0")?;
+    }
+    // A cell is the number of its corners and the corners: four numbers.
+    writeln!(out, "CELLS {triangles} {}", 4 * triangles)?;
+    for [a, b, c] in mesh.triangles {
+        writeln!(out, "3 {a} {b} {c}")?;
+    }
+    writeln!(out, "CELL_TYPES {triangles}")?;
+    for _ in mesh.triangles {
+        writeln!(out, "{VTK_TRIANGLE}")?;
+    }
+    Ok(())
+}

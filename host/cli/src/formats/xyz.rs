@@ -1,0 +1,59 @@
+//! XYZ: a point per row, two or more numbers parted by spaces or tabs.
+//!
+//! The first two are x and y; further ones (height, colour) are not read, but every row must have as many as the first.
+//! A first row without numbers is a header. `#` starts a comment; empty rows are left out.
+
+use std::io::{self, Write};
+
+use crate::failure::{quoted, Failure};
+use crate::points::{Place, PointTable};
+use crate::text;
+
+/// Reads points.
+pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+    let bytes = text::without_mark(bytes)?;
+    let mut table = PointTable::of_rows([1, 2]);
+    let mut width = 0;
+    for (row, content) in text::rows(bytes) {
+        let content = text::without_comment(content);
+        let count = text::words(content).count();
+        if count == 0 {
+            continue;
+        }
+        if width == 0 {
+            width = count;
+            if !text::words(content).any(text::looks_like_number) {
+                continue;
+            }
+        }
+        if count < 2 {
+            let shown = quoted(content.trim_ascii());
+            return Err(Failure::input(format!(
+                "row {row} has 1 value, {shown}: a point is a row 'x y'"
+            )));
+        }
+        if count != width {
+            return Err(Failure::input(format!(
+                "row {row} has {count} values, the first row has {width}: all rows need the same"
+            )));
+        }
+        let mut point = [0.0; 2];
+        for (axis, (coordinate, value)) in point.iter_mut().zip(text::words(content)).enumerate() {
+            let place = Place::Cell {
+                row,
+                column: axis + 1,
+            };
+            *coordinate = text::coordinate(value, place)?;
+        }
+        table.push(point, row);
+    }
+    Ok(table)
+}
+
+/// Writes points.
+pub fn write_points(points: &[[u32; 2]], out: &mut dyn Write) -> io::Result<()> {
+    for [x, y] in points {
+        writeln!(out, "{x} {y}")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,255 @@
+//! Point sets by name: the distributions of the literature, and the hard cases.
+//!
+//! Every set is a list of exactly `n` points with integer coordinates in `[0, 2^bits)`, and depends on nothing but its
+//! name, `n`, `bits` and the seed: the random numbers are SplitMix64 and the elementary functions those of `libm`, so all
+//! machines give the same points. Points may fall together; where a definition has room for fewer distinct points than
+//! asked for, they do. Sets with a fixed shape are shuffled, so that the seed chooses their order.
+
+mod random;
+mod sampled;
+mod shaped;
+
+use std::fmt;
+
+use clap::ValueEnum;
+
+pub use random::SplitMix64;
+
+/// The sets that can be generated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
+pub enum Distribution {
+    /// Every grid point alike
+    Uniform,
+    /// Gaussian around the centre
+    Normal,
+    /// Kuzmin's disc, crowded in the centre with long tails
+    Kuzmin,
+    /// Crowded towards a vertical line
+    Line,
+    /// A chequered board, 7/8 of the points on black squares
+    Checkers,
+    /// A square lattice
+    Lattice,
+    /// A square lattice, turned by an exact rotation
+    RotatedLattice,
+    /// Near a circle
+    Circle,
+    /// Gaussian clusters
+    Clusters,
+    /// On a parabola
+    Parabola,
+    /// Two convex chains that face each other
+    TwoChains,
+    /// On a spiral
+    Spiral,
+    /// All points of a small box, each about four times
+    Box,
+}
+
+impl Distribution {
+    /// All distributions.
+    pub fn all() -> &'static [Self] {
+        Self::value_variants()
+    }
+
+    /// The five distributions of the literature.
+    pub const LITERATURE: [Self; 5] = [
+        Self::Uniform,
+        Self::Normal,
+        Self::Kuzmin,
+        Self::Line,
+        Self::Checkers,
+    ];
+}
+
+impl fmt::Display for Distribution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let value = self.to_possible_value();
+        f.write_str(value.as_ref().map_or("hidden", |value| value.get_name()))
+    }
+}
+
+/// Coordinate bits that a grid can have.
+pub const BITS: std::ops::RangeInclusive<u32> = 1..=31;
+
+/// A grid that is no grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BitsError(
+    /// The bits asked for.
+    pub u32,
+);
+
+impl fmt::Display for BitsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} coordinate bits are not possible: choose 1 to 31",
+            self.0
+        )
+    }
+}
+
+impl std::error::Error for BitsError {}
+
+/// Exactly `n` points of a distribution on the grid `[0, 2^bits)` squared. O(n).
+///
+/// # Errors
+/// `bits` outside [`BITS`].
+pub fn generate(
+    distribution: Distribution,
+    n: usize,
+    bits: u32,
+    seed: u64,
+) -> Result<Vec<[u32; 2]>, BitsError> {
+    if !BITS.contains(&bits) {
+        return Err(BitsError(bits));
+    }
+    let grid = Grid { size: 1 << bits };
+    let mut random = SplitMix64::new(seed);
+    let random = &mut random;
+    Ok(match distribution {
+        Distribution::Uniform => sampled::uniform(n, grid, random),
+        Distribution::Normal => sampled::normal(n, grid, random),
+        Distribution::Kuzmin => sampled::kuzmin(n, grid, random),
+        Distribution::Line => sampled::line(n, grid, random),
+        Distribution::Checkers => sampled::checkers(n, grid, random),
+        Distribution::Circle => sampled::circle(n, grid, random),
+        Distribution::Clusters => sampled::clusters(n, grid, random),
+        Distribution::Lattice => shaped::lattice(n, grid, random),
+        Distribution::RotatedLattice => shaped::rotated_lattice(n, grid, random),
+        Distribution::Parabola => shaped::parabola(n, grid, random),
+        Distribution::TwoChains => shaped::two_chains(n, grid, random),
+        Distribution::Spiral => shaped::spiral(n, grid, random),
+        Distribution::Box => shaped::filled_box(n, grid, random),
+    })
+}
+
+/// The grid that points lie on.
+#[derive(Clone, Copy)]
+struct Grid {
+    /// Points along a side: 2^bits.
+    size: u64,
+}
+
+impl Grid {
+    /// Half the side, in grid units.
+    fn half(self) -> f64 {
+        self.size as f64 / 2.0
+    }
+
+    /// The grid point below and left of this place; `None` outside the grid.
+    fn cell(self, x: f64, y: f64) -> Option<[u32; 2]> {
+        let inside = |value: f64| value >= 0.0 && value < self.size as f64;
+        (inside(x) && inside(y)).then_some([x as u32, y as u32])
+    }
+
+    /// The nearest grid point of the closed grid square.
+    fn nearest(self, x: f64, y: f64) -> [u32; 2] {
+        let last = (self.size - 1) as f64;
+        [
+            libm::rint(x).clamp(0.0, last) as u32,
+            libm::rint(y).clamp(0.0, last) as u32,
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// FNV-1a over the coordinates: a change in any bit of any point shows.
+    fn fingerprint(points: &[[u32; 2]]) -> u64 {
+        let bytes = points
+            .iter()
+            .flatten()
+            .flat_map(|value| value.to_le_bytes());
+        bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        })
+    }
+
+    #[test]
+    fn every_set_has_exactly_n_points_of_the_grid() {
+        for &distribution in Distribution::all() {
+            for (n, bits) in [
+                (0, 8),
+                (1, 1),
+                (2, 31),
+                (3, 4),
+                (100, 3),
+                (1000, 16),
+                (1000, 31),
+                (5000, 1),
+            ] {
+                let points = generate(distribution, n, bits, 7).expect("the bits are possible");
+                assert_eq!(points.len(), n, "{distribution} {n} {bits}");
+                let inside = points
+                    .iter()
+                    .flatten()
+                    .all(|&value| u64::from(value) < 1 << bits);
+                assert!(inside, "{distribution} {n} {bits}");
+            }
+        }
+    }
+
+    #[test]
+    fn impossible_bits_are_refused() {
+        assert_eq!(generate(Distribution::Uniform, 1, 0, 0), Err(BitsError(0)));
+        assert_eq!(
+            generate(Distribution::Uniform, 1, 32, 0),
+            Err(BitsError(32))
+        );
+    }
+
+    #[test]
+    fn the_seed_matters_and_nothing_else() {
+        for &distribution in Distribution::all() {
+            let set = |seed| generate(distribution, 500, 16, seed).expect("the bits are possible");
+            assert_eq!(set(1), set(1), "{distribution}");
+            assert_ne!(set(1), set(2), "{distribution}");
+        }
+    }
+
+    #[test]
+    fn the_points_are_those_of_every_machine() {
+        let golden = [
+            (Distribution::Uniform, 0x5bf4_822a_a2ba_194c),
+            (Distribution::Normal, 0x6b01_e4e3_4bf0_2852),
+            (Distribution::Kuzmin, 0xbccd_e871_5f30_8ccb),
+            (Distribution::Line, 0x5206_3189_6965_c706),
+            (Distribution::Checkers, 0x84c7_e621_51a0_daa6),
+            (Distribution::Lattice, 0xebff_db71_96c4_4819),
+            (Distribution::RotatedLattice, 0xb41a_a2d8_9464_d5ef),
+            (Distribution::Circle, 0x3d82_963c_351b_7ba5),
+            (Distribution::Clusters, 0x17fd_9532_2e4d_5bdb),
+            (Distribution::Parabola, 0x9dd9_7cf6_5e4f_2322),
+            (Distribution::TwoChains, 0x5710_cb7c_8bb8_6415),
+            (Distribution::Spiral, 0xc204_e26f_90eb_aca4),
+            (Distribution::Box, 0xdd99_a946_87f1_34e9),
+        ];
+        let found = Distribution::all().iter().map(|&distribution| {
+            let points = generate(distribution, 1000, 16, 1).expect("the bits are possible");
+            (distribution, fingerprint(&points))
+        });
+        assert_eq!(found.collect::<Vec<_>>(), golden);
+    }
+
+    #[test]
+    fn distinct_points_are_many_where_the_shape_has_room() {
+        for &distribution in Distribution::all() {
+            let mut points = generate(distribution, 1000, 16, 1).expect("the bits are possible");
+            points.sort_unstable();
+            points.dedup();
+            let expected = if distribution == Distribution::Box {
+                225..=256
+            } else {
+                950..=1000
+            };
+            assert!(
+                expected.contains(&points.len()),
+                "{distribution}: {}",
+                points.len()
+            );
+        }
+    }
+}

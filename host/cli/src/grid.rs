@@ -1,0 +1,92 @@
+//! From the values of a file to points of the grid.
+
+use incircle::quantize::{integers, quantize};
+use incircle::{Error, ErrorKind, Point, Quantization, Quantize};
+
+use crate::arguments::GridArguments;
+use crate::failure::{Exit, Failure};
+use crate::points::PointTable;
+
+/// Points on the grid, and how they came there.
+pub struct Laid {
+    /// All points, in input order.
+    pub points: Vec<Point>,
+    /// What quantisation did; `None` if the values were integers of the grid and are untouched.
+    pub quantization: Option<Quantization>,
+}
+
+/// Lays points onto the grid. Integers of the grid stay as they are unless quantisation is asked for; values with
+/// fractions are fitted; integers outside the grid are refused with their place.
+pub fn lay(table: &PointTable, grid: &GridArguments) -> Result<Laid, Failure> {
+    let bits = grid.coord_bits;
+    let how = match grid.quantize {
+        Some(how) => how,
+        None => match integers(&table.points, bits) {
+            Ok(points) => {
+                return Ok(Laid {
+                    points,
+                    quantization: None,
+                });
+            }
+            Err(Error::NotInteger { .. }) => Quantize::Fit,
+            Err(error) => return Err(refuse(&error, table, false)),
+        },
+    };
+    let (points, quantization) =
+        quantize(&table.points, bits, how).map_err(|error| refuse(&error, table, true))?;
+    Ok(Laid {
+        points,
+        quantization: Some(quantization),
+    })
+}
+
+/// Library errors that name a point name its place in the file here.
+fn refuse(error: &Error, table: &PointTable, quantized: bool) -> Failure {
+    let Error::OutOfGrid {
+        index,
+        axis,
+        value,
+        coord_bits,
+    } = error
+    else {
+        return failure_of(error);
+    };
+    let place = table.place(*index, usize::from(*axis == 'y'));
+    let last = (1u64 << coord_bits) - 1;
+    let shown = if value.abs() < 1e15 {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    };
+    if quantized {
+        return Failure::input(format!(
+            "{place}: the value falls on {shown}, outside 0 to {last} ({coord_bits} bits): choose another scale or --quantize fit"
+        ));
+    }
+    let needed =
+        (*coord_bits..=31).find(|bits| (0.0..=((1u64 << bits) - 1) as f64).contains(value));
+    let advice = match needed {
+        Some(bits) => format!("give --coord-bits {bits} or --quantize fit"),
+        None => "give --quantize fit".to_owned(),
+    };
+    Failure::input(format!(
+        "{place}: {shown} is outside 0 to {last} ({coord_bits} bits): {advice}"
+    ))
+}
+
+/// The exit code of a library error.
+pub fn failure_of(error: &Error) -> Failure {
+    let exit = match error.kind() {
+        ErrorKind::BadInput => Exit::Input,
+        ErrorKind::BadChoice => Exit::Usage,
+        ErrorKind::DeviceNotFound => Exit::NoDevice,
+        ErrorKind::Link => Exit::Link,
+        ErrorKind::Capacity => Exit::Capacity,
+        ErrorKind::Cancelled => {
+            return Failure::new(Exit::Interrupted, "interrupted: nothing was written")
+        }
+        // Timeouts, wrong answers, and whatever is added later.
+        _ => Exit::Device,
+    };
+    Failure::new(exit, error.to_string())
+}

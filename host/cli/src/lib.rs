@@ -1,0 +1,64 @@
+//! The command line of incircle as a library, so that tests and benches can use its formats and generators.
+//!
+//! [`generate`] makes point sets by name, [`formats`] reads points and writes meshes, [`run`] is the whole command. The
+//! exit codes are those of [`Exit`].
+#![warn(missing_docs)]
+
+mod arguments;
+mod backend;
+mod commands;
+mod failure;
+pub mod formats;
+pub mod generate;
+mod grid;
+mod interrupt;
+mod output;
+mod points;
+mod progress;
+mod report;
+#[cfg(feature = "sim")]
+mod sim_backend;
+mod source;
+mod text;
+
+use std::ffi::OsString;
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+pub use failure::{Exit, Failure};
+pub use points::{Place, PointTable};
+
+use arguments::{Cli, Command};
+
+/// Runs the command with these arguments, the program's name first, and gives its exit code. Never panics.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(refusal) => {
+            // A closed standard output is no matter here.
+            let _ = refusal.print();
+            return ExitCode::from(if refusal.use_stderr() {
+                Exit::Usage as u8
+            } else {
+                0
+            });
+        }
+    };
+    let result = interrupt::watch().and_then(|()| match &cli.command {
+        Command::Triangulate(arguments) => commands::triangulate::run(arguments),
+        Command::Verify(arguments) => commands::verify::run(arguments),
+        Command::Generate(arguments) => commands::generate::run(arguments),
+        Command::Info(arguments) => commands::info::run(arguments),
+        Command::Completions(arguments) => commands::completions::run(arguments),
+    });
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            // Nobody is left to tell if standard error is closed.
+            let _ = writeln!(std::io::stderr(), "incircle: {failure}");
+            ExitCode::from(failure.exit as u8)
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! Progress of long jobs, on standard error and only on a terminal.
+
+use std::cell::OnceCell;
+use std::io::{stderr, IsTerminal};
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use incircle::{Progress, Stage};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::interrupt;
+
+/// A job shorter than this shows no bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// Listens to a job: shows how far it is, and ends it when the user interrupts.
+pub struct Meter {
+    shown: bool,
+    since: Instant,
+    bar: OnceCell<ProgressBar>,
+}
+
+impl Meter {
+    /// A meter that shows nothing if `quiet`, or if nobody watches.
+    pub fn new(quiet: bool) -> Self {
+        Self {
+            shown: !quiet && stderr().is_terminal(),
+            since: Instant::now(),
+            bar: OnceCell::new(),
+        }
+    }
+
+    /// Takes news of the job.
+    pub fn hear(&self, progress: Progress) -> ControlFlow<()> {
+        if interrupt::raised() {
+            return ControlFlow::Break(());
+        }
+        if self.shown && self.since.elapsed() >= PATIENCE {
+            let bar = self.bar.get_or_init(new_bar);
+            bar.set_message(verb(progress.stage));
+            bar.set_length(progress.total as u64);
+            bar.set_position(progress.done as u64);
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Drop for Meter {
+    fn drop(&mut self) {
+        if let Some(bar) = self.bar.get() {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn new_bar() -> ProgressBar {
+    let bar = ProgressBar::new(0);
+    // The pattern is fixed and right; were it not, the library's own style would do.
+    if let Ok(style) =
+        ProgressStyle::with_template("{msg:>10} {bar:40} {human_pos}/{human_len} {eta}")
+    {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn verb(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Order => "ordering",
+        Stage::Insert => "inserting",
+        Stage::Read => "reading",
+        Stage::Assemble => "assembling",
+    }
+}

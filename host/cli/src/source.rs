@@ -1,0 +1,68 @@
+//! Input files: their bytes, their names, their formats.
+
+use std::io::Read;
+use std::path::Path;
+
+use crate::failure::Failure;
+use crate::formats::{extension, MeshFormat, PointFormat};
+use crate::points::PointTable;
+
+/// Whether the path means standard input or output.
+pub fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Reads all points of a file, or of standard input. `from` overrides the extension; standard input is CSV without it.
+pub fn read_points(path: &Path, from: Option<PointFormat>) -> Result<PointTable, Failure> {
+    let format = match from {
+        Some(format) => format,
+        None if is_standard(path) => PointFormat::Csv,
+        None => PointFormat::of_extension(extension(path)).ok_or_else(|| {
+            let name = path.display();
+            Failure::usage(format!(
+                "{name}: the extension names no format of points: add --from csv, xyz, node, obj, ply or geojson"
+            ))
+        })?,
+    };
+    let bytes = read_bytes(path)?;
+    format
+        .read(&bytes)
+        .map_err(|failure| failure.in_file(name(path)))
+}
+
+/// Reads the triangles of a mesh file; `format` overrides the extension.
+pub fn read_mesh(path: &Path, format: Option<MeshFormat>) -> Result<Vec<[u32; 3]>, Failure> {
+    let format = format.or_else(|| MeshFormat::of_extension(extension(path)));
+    let format = format.ok_or_else(|| {
+        let name = name(path);
+        Failure::usage(format!(
+            "{name}: the extension names no format of meshes: add --format ele, obj, ply, json or csv"
+        ))
+    })?;
+    let bytes = read_bytes(path)?;
+    format
+        .read(&bytes)
+        .map_err(|failure| failure.in_file(name(path)))
+}
+
+/// The name of a file as messages say it.
+pub fn name(path: &Path) -> String {
+    if is_standard(path) {
+        "standard input".to_owned()
+    } else {
+        path.display().to_string()
+    }
+}
+
+fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    let result = if is_standard(path) {
+        let mut bytes = Vec::new();
+        std::io::stdin()
+            .lock()
+            .read_to_end(&mut bytes)
+            .map(|_| bytes)
+    } else {
+        std::fs::read(path)
+    };
+    result.map_err(|error| Failure::input(format!("{} cannot be read: {error}", name(path))))
+}
