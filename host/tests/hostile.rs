@@ -1,0 +1,348 @@
+//! Devices that lie: every lie ends in a typed error, never in a panic, a hang or wrong memory use.
+
+mod common;
+
+use std::time::{Duration, Instant};
+
+use common::Random;
+use incircle::{
+    Device, DeviceFault, Error, ErrorKind, Mesh, ModelTransport, Options, Point, Transport,
+    TransportError,
+};
+use incircle_protocol::{answer_header, command_opcode, Opcode, Status};
+
+/// What a lying device does with an answer: opcode, header and length, payload.
+type Lie = Box<dyn FnMut(Opcode, &mut Vec<u32>)>;
+
+/// A real model whose answers pass through a liar.
+struct Liar {
+    model: ModelTransport,
+    lie: Lie,
+    answer: Vec<u32>,
+    silent_for: Duration,
+}
+
+impl Liar {
+    fn new(coord_bits: u32, lie: impl FnMut(Opcode, &mut Vec<u32>) + 'static) -> Self {
+        Self {
+            model: ModelTransport::new(coord_bits, 64).expect("a model"),
+            lie: Box::new(lie),
+            answer: Vec::new(),
+            silent_for: Duration::ZERO,
+        }
+    }
+}
+
+impl Transport for Liar {
+    fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
+        self.model.send(words, deadline)?;
+        let mut answer = vec![0; 2];
+        self.model.receive(&mut answer, deadline)?;
+        answer.resize(2 + answer[1] as usize, 0);
+        self.model.receive(&mut answer[2..], deadline)?;
+        let opcode = Opcode::from_u8(command_opcode(words[0])).expect("the host knows its opcodes");
+        (self.lie)(opcode, &mut answer);
+        self.answer.extend(answer);
+        Ok(())
+    }
+
+    fn receive(&mut self, words: &mut [u32], _deadline: Instant) -> Result<(), TransportError> {
+        std::thread::sleep(self.silent_for);
+        let wanted = words.len();
+        if self.answer.len() < wanted {
+            return Err(TransportError::Timeout {
+                done: self.answer.len(),
+                wanted,
+            });
+        }
+        for (word, answer) in words.iter_mut().zip(self.answer.drain(..wanted)) {
+            *word = answer;
+        }
+        Ok(())
+    }
+
+    fn name(&self) -> String {
+        "liar".to_owned()
+    }
+}
+
+fn points() -> Vec<Point> {
+    Random(11).points(40, 1 << 8)
+}
+
+fn run(liar: Liar) -> Result<Mesh, Error> {
+    let mut device = Device::from_transport(Box::new(liar));
+    let mut session = device.session()?;
+    session.triangulate(&points())
+}
+
+/// The fault that a lie is found out as.
+fn fault(lie: impl FnMut(Opcode, &mut Vec<u32>) + 'static) -> DeviceFault {
+    match run(Liar::new(16, lie)) {
+        Err(Error::Device { fault, .. }) => fault,
+        other => panic!("not found out: {other:?}"),
+    }
+}
+
+/// Changes one word of the answers to one command.
+fn word(
+    of: Opcode,
+    place: usize,
+    change: impl Fn(u32) -> u32 + 'static,
+) -> impl FnMut(Opcode, &mut Vec<u32>) + 'static {
+    move |opcode, answer| {
+        if opcode == of {
+            answer[place] = change(answer[place]);
+        }
+    }
+}
+
+#[test]
+fn an_honest_device_passes() {
+    let mesh = run(Liar::new(16, |_, _| {})).expect("an honest mesh");
+    common::assert_right(&mesh);
+    assert_eq!(mesh.report.backend, "liar");
+}
+
+#[test]
+fn lies_about_the_identity() {
+    let hello = |place: usize, value: u32| fault(word(Opcode::Hello, 2 + place, move |_| value));
+    assert!(matches!(
+        hello(0, 0xdead_beef),
+        DeviceFault::Magic {
+            found: 0xdead_beef,
+            ..
+        }
+    ));
+    assert!(matches!(
+        hello(1, 2 << 16),
+        DeviceFault::ProtocolVersion { .. }
+    ));
+    for bits in [0, 32, u32::MAX] {
+        assert_eq!(hello(3, bits), DeviceFault::CoordBits(bits));
+    }
+    for capacity in [0, 3, 1 << 30, u32::MAX] {
+        assert_eq!(hello(4, capacity), DeviceFault::Capacity(capacity));
+    }
+}
+
+#[test]
+fn a_larger_minor_version_is_welcome() {
+    let mesh = run(Liar::new(16, word(Opcode::Hello, 3, |version| version + 7)));
+    assert!(mesh.is_ok());
+}
+
+#[test]
+fn an_absurd_capacity_takes_no_memory() {
+    // A device that claims a billion points speaks wide records; the model behind it does not, and that shows.
+    let found = fault(word(Opcode::Hello, 2 + 4, |_| (1 << 30) - 1));
+    assert!(
+        matches!(found, DeviceFault::PayloadLength { .. }),
+        "{found}"
+    );
+}
+
+#[test]
+fn wrong_headers_and_lengths() {
+    let header = |change: fn(u32) -> u32| fault(word(Opcode::Clear, 0, change));
+    assert!(matches!(
+        header(|h| h ^ 1 << 24),
+        DeviceFault::Header { opcode: 2, .. }
+    ));
+    assert!(matches!(header(|h| h | 1), DeviceFault::Header { .. }));
+    assert!(matches!(
+        header(|h| h | 200 << 16),
+        DeviceFault::Header { .. }
+    ));
+    for length in [0, 1, 4, 6, u32::MAX] {
+        let found = fault(word(Opcode::Insert, 1, move |_| length));
+        assert_eq!(
+            found,
+            DeviceFault::PayloadLength {
+                found: length,
+                expected: 5
+            }
+        );
+    }
+}
+
+#[test]
+fn every_failure_status_is_reported() {
+    for status in [
+        Status::UnknownOpcode,
+        Status::BadRange,
+        Status::Collinear,
+        Status::Full,
+    ] {
+        let found = fault(move |opcode, answer| {
+            if opcode == Opcode::Insert {
+                answer[0] = answer_header(opcode as u8, status);
+            }
+        });
+        assert!(matches!(found, DeviceFault::Status { status: s, .. } if s == status as u8));
+    }
+}
+
+#[test]
+fn wrong_counts() {
+    for place in 0..5 {
+        for change in [|n: u32| n + 1, |n: u32| n.wrapping_sub(1)] {
+            let found = fault(word(Opcode::Insert, 2 + place, change));
+            assert!(matches!(found, DeviceFault::Count { .. }), "{found}");
+        }
+    }
+}
+
+#[test]
+fn wrong_records() {
+    let record =
+        |place: usize, change: fn(u32) -> u32| fault(word(Opcode::Read, 2 + 3 * 5 + place, change));
+    assert_eq!(
+        record(0, |w| w | 1 << 31),
+        DeviceFault::Locked { record: 5 }
+    );
+    let outside = record(1, |w| w & !0x7fff | 63);
+    assert!(matches!(
+        outside,
+        DeviceFault::VertexOutOfRange {
+            record: 5,
+            vertex: 63,
+            points: 40
+        }
+    ));
+    let outside = record(1, |w| w & 0x7fff | 78 << 15);
+    assert!(matches!(
+        outside,
+        DeviceFault::NeighborOutOfRange {
+            record: 5,
+            neighbor: 78,
+            ..
+        }
+    ));
+}
+
+/// Changes whole records; most such lies show only in the whole.
+fn records(change: impl Fn(&mut [[u32; 3]]) + 'static) -> DeviceFault {
+    fault(move |opcode, answer| {
+        if opcode == Opcode::Read {
+            let (records, _) = answer[2..].as_chunks_mut::<3>();
+            change(records);
+        }
+    })
+}
+
+fn is_ghost(record: &[u32; 3]) -> bool {
+    record.iter().any(|word| word & 0x7fff == 127)
+}
+
+#[test]
+fn wrong_meshes() {
+    let finite = |records: &[[u32; 3]]| {
+        records
+            .iter()
+            .position(|r| !is_ghost(r))
+            .expect("a triangle")
+    };
+    let ghost = |records: &[[u32; 3]]| records.iter().position(is_ghost).expect("a ghost");
+    let found = records(move |r| r[finite(r)].swap(0, 1));
+    assert!(matches!(found, DeviceFault::Orientation { .. }), "{found}");
+    let found = records(move |r| r[finite(r)][1] = r[finite(r)][0]);
+    assert!(
+        matches!(found, DeviceFault::RepeatedVertex { .. }),
+        "{found}"
+    );
+    let found = records(move |r| r[ghost(r)] = r[finite(r)]);
+    assert!(matches!(found, DeviceFault::OpenHull { .. }), "{found}");
+    let found = records(move |r| r[finite(r)] = r[ghost(r)]);
+    assert!(matches!(found, DeviceFault::OpenHull { .. }), "{found}");
+    let found = records(|r| {
+        let triangle = r
+            .iter()
+            .copied()
+            .find(|record| !is_ghost(record))
+            .expect("a triangle");
+        r.iter_mut()
+            .filter(|record| !is_ghost(record))
+            .for_each(|record| *record = triangle);
+    });
+    assert!(matches!(found, DeviceFault::Area { .. }), "{found}");
+    let found = records(|r| {
+        r.iter_mut()
+            .filter(|record| is_ghost(record))
+            .for_each(|ghost| ghost.reverse())
+    });
+    assert!(matches!(found, DeviceFault::Area { .. }), "{found}");
+}
+
+#[test]
+fn short_answers_are_timeouts_and_the_session_ends() {
+    for opcode in [
+        Opcode::Hello,
+        Opcode::Clear,
+        Opcode::Insert,
+        Opcode::Read,
+        Opcode::Counters,
+    ] {
+        let result = run(Liar::new(16, move |asked, answer| {
+            if asked == opcode {
+                answer.pop();
+            }
+        }));
+        let error = result.expect_err("cut short");
+        assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
+    }
+    let mut device = Device::from_transport(Box::new(Liar::new(16, |asked, answer| {
+        if asked == Opcode::Counters {
+            answer.clear();
+        }
+    })));
+    let mut session = device.session().expect("greeted");
+    assert!(session.triangulate(&points()).is_err());
+    let error = session.triangulate(&points()).expect_err("out of step");
+    assert_eq!(error.kind(), ErrorKind::Link);
+}
+
+#[test]
+fn a_slow_device_does_not_pass_its_deadline_unnoticed() {
+    let mut liar = Liar::new(16, |_, _| {});
+    liar.silent_for = Duration::from_millis(30);
+    let mut device = Device::from_transport(Box::new(liar));
+    let mut session = device.session().expect("greeted");
+    let options = Options {
+        timeout: Some(Duration::from_millis(20)),
+        ..Options::default()
+    };
+    let error = session
+        .triangulate_with(&points(), &options)
+        .expect_err("too slow");
+    assert_eq!(error.kind(), ErrorKind::Timeout);
+}
+
+#[test]
+fn noise_in_any_word_never_panics() {
+    let mut random = Random(12);
+    let honest = run(Liar::new(16, |_, _| {})).expect("an honest mesh");
+    let mut wrong = 0;
+    for round in 0..3000u64 {
+        let mut noise = Random(random.next());
+        let bits = if round % 2 == 0 { 16 } else { 20 };
+        let target = noise.below(5) + 1;
+        let lie = move |opcode: Opcode, answer: &mut Vec<u32>| {
+            if opcode as u32 == target {
+                let place = noise.below(answer.len() as u32) as usize;
+                answer[place] ^= match noise.below(3) {
+                    0 => noise.next() as u32,
+                    1 => 1 << noise.below(32),
+                    _ => noise.below(64),
+                };
+            }
+        };
+        match run(Liar::new(bits, lie)) {
+            // A lie about a link, a counter or a version leaves the mesh right; any other is found by the validator.
+            Ok(mesh) if mesh.triangles == honest.triangles => {}
+            Ok(mesh) => assert!(mesh.verify().is_err()),
+            Err(_) => wrong += 1,
+        }
+    }
+    assert!(wrong > 1000, "{wrong}");
+}

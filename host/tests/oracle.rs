@@ -1,0 +1,61 @@
+//! The embedded model against a brute-force oracle on tiny grids, and the validator against the oracle's meshes.
+
+mod common;
+
+use common::{assert_right, brute_force, Random};
+use incircle::{triangulate, verify, Point};
+
+#[test]
+fn every_subset_of_a_three_by_four_grid() {
+    let grid: Vec<Point> = (0..12).map(|k| Point::new(k / 4, k % 4)).collect();
+    for subset in 0u32..1 << 12 {
+        let points: Vec<Point> = (0..12)
+            .filter(|k| subset >> k & 1 == 1)
+            .map(|k| grid[k as usize * 5 % 12])
+            .collect();
+        let mesh = triangulate(&points).expect("a mesh");
+        assert_eq!(mesh.triangles, brute_force(&points), "{points:?}");
+        assert_right(&mesh);
+    }
+}
+
+#[test]
+fn random_sets_with_duplicates_on_a_small_grid() {
+    let mut random = Random(1);
+    for round in 0..2000 {
+        let count = 3 + random.below(14) as usize;
+        let points = random.points(count, 3 + round % 8);
+        let mesh = triangulate(&points).expect("a mesh");
+        let expected = brute_force(&points);
+        assert_eq!(mesh.triangles, expected, "{points:?}");
+        assert!(verify(&points, &expected).is_ok(), "{points:?}");
+        assert_right(&mesh);
+    }
+}
+
+#[test]
+fn the_validator_refuses_every_flip_of_the_one_right_mesh() {
+    let mut random = Random(2);
+    for _ in 0..200 {
+        let points = random.points(9, 6);
+        let mesh = triangulate(&points).expect("a mesh");
+        for (halfedge, &twin) in mesh.halfedges().iter().enumerate() {
+            if twin == incircle::EMPTY {
+                continue;
+            }
+            let (t, k) = (halfedge / 3, halfedge % 3);
+            let (u, j) = (twin as usize / 3, twin as usize % 3);
+            let (a, c) = (mesh.triangles[t][k], mesh.triangles[t][(k + 2) % 3]);
+            let (b, d) = (mesh.triangles[u][j], mesh.triangles[u][(j + 2) % 3]);
+            let mut flipped = mesh.triangles.clone();
+            flipped[t] = [a, d, c];
+            flipped[u] = [d, b, c];
+            for triangle in [t, u] {
+                let smallest = (0..3).min_by_key(|&k| flipped[triangle][k]).unwrap_or(0);
+                flipped[triangle].rotate_left(smallest);
+            }
+            flipped.sort_unstable();
+            assert!(verify(&points, &flipped).is_err(), "{points:?} {halfedge}");
+        }
+    }
+}
