@@ -56,39 +56,57 @@ impl<'a> Assembly<'a> {
             if self.layout.record_words == 3 && words[0] & LOCK != 0 {
                 return Err(DeviceFault::Locked { record });
             }
-            let (v, n) = self.layout.record_from_words(words);
-            self.take_record(record, v, n)?;
+            let ([a, b, c], [x, y, z]) = self.layout.record_from_words(words);
+            let neighbor = x.max(y).max(z);
+            if neighbor as usize >= self.records {
+                return Err(DeviceFault::NeighborOutOfRange {
+                    record,
+                    neighbor,
+                    records: self.records,
+                });
+            }
+            self.take_vertices(record, a, b, c)?;
         }
         Ok(())
     }
 
-    fn take_record(&mut self, record: usize, v: [u32; 3], n: [u32; 3]) -> Result<(), DeviceFault> {
-        if let Some(&neighbor) = n.iter().find(|&&n| n as usize >= self.records) {
-            return Err(DeviceFault::NeighborOutOfRange {
-                record,
-                neighbor,
-                records: self.records,
-            });
-        }
-        if v[0] == v[1] || v[1] == v[2] || v[2] == v[0] {
+    fn take_vertices(&mut self, record: usize, a: u32, b: u32, c: u32) -> Result<(), DeviceFault> {
+        if (a == b) | (b == c) | (c == a) {
             return Err(DeviceFault::RepeatedVertex { record });
         }
-        match v.iter().position(|&vertex| vertex == self.infinite) {
-            None => {
-                let triangle = [
-                    self.input_index(record, v[0])?,
-                    self.input_index(record, v[1])?,
-                    self.input_index(record, v[2])?,
-                ];
-                self.take_triangle(record, triangle)
-            }
-            Some(k) => {
-                let a = self.input_index(record, v[(k + 1) % 3])?;
-                let b = self.input_index(record, v[(k + 2) % 3])?;
-                self.hull_edges.push([b, a]);
-                Ok(())
-            }
+        if a == self.infinite {
+            self.take_ghost(record, b, c)
+        } else if b == self.infinite {
+            self.take_ghost(record, c, a)
+        } else if c == self.infinite {
+            self.take_ghost(record, a, b)
+        } else {
+            self.take_triangle(record, a, b, c)
         }
+    }
+
+    /// The ghost behind the hull edge from `b` to `a`.
+    fn take_ghost(&mut self, record: usize, a: u32, b: u32) -> Result<(), DeviceFault> {
+        let edge = [self.input_index(record, b)?, self.input_index(record, a)?];
+        self.hull_edges.push(edge);
+        Ok(())
+    }
+
+    fn take_triangle(&mut self, record: usize, a: u32, b: u32, c: u32) -> Result<(), DeviceFault> {
+        let a = self.input_index(record, a)?;
+        let b = self.input_index(record, b)?;
+        let c = self.input_index(record, c)?;
+        let at = |index: u32| self.points[index as usize];
+        let area = doubled_area(at(a), at(b), at(c));
+        if area <= 0 {
+            return Err(DeviceFault::Orientation {
+                record,
+                corners: [at(a), at(b), at(c)],
+            });
+        }
+        self.area += i128::from(area);
+        self.triangles.push(smallest_first(a, b, c));
+        Ok(())
     }
 
     fn input_index(&self, record: usize, vertex: u32) -> Result<u32, DeviceFault> {
@@ -98,17 +116,6 @@ impl<'a> Assembly<'a> {
             vertex,
             points: self.order.len(),
         })
-    }
-
-    fn take_triangle(&mut self, record: usize, triangle: [u32; 3]) -> Result<(), DeviceFault> {
-        let corners = triangle.map(|index| self.points[index as usize]);
-        let area = doubled_area(corners[0], corners[1], corners[2]);
-        if area <= 0 {
-            return Err(DeviceFault::Orientation { record, corners });
-        }
-        self.area += i128::from(area);
-        self.triangles.push(smallest_first(triangle));
-        Ok(())
     }
 
     /// Sorts and checks the whole: the canonical triangles and the hull.
@@ -129,15 +136,19 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// The same triangle with its smallest index first.
-fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
+/// The triangle with its smallest index first. Selections instead of branches: no processor predicts which one it is.
+fn smallest_first(a: u32, b: u32, c: u32) -> [u32; 3] {
+    let b_is_first = (b < a) & (b < c);
+    let c_is_first = (c < a) & (c < b);
+    let select = |if_a: u32, if_b: u32, if_c: u32| {
+        let not_c = if b_is_first { if_b } else { if_a };
+        if c_is_first {
+            if_c
+        } else {
+            not_c
+        }
+    };
+    [select(a, b, c), select(b, c, a), select(c, a, b)]
 }
 
 /// Chains the hull edges into one cycle that starts at its lowest index.
@@ -203,4 +214,38 @@ fn sort_triangles(triangles: Vec<[u32; 3]>, points: usize) -> Vec<[u32; 3]> {
         corner.sort_unstable();
     }
     sorted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_turn_of_a_triangle_is_the_same_triangle() {
+        for turn in [[1, 5, 3], [5, 3, 1], [3, 1, 5]] {
+            assert_eq!(smallest_first(turn[0], turn[1], turn[2]), [1, 5, 3]);
+        }
+    }
+
+    #[test]
+    fn hull_edges_close_one_cycle_or_none() {
+        assert_eq!(close_hull(vec![[7, 2], [4, 7], [2, 4]]), Ok(vec![2, 4, 7]));
+        let open = |edges: Vec<[u32; 2]>| close_hull(edges).is_err();
+        assert!(open(vec![]));
+        assert!(open(vec![[1, 2], [2, 1]]));
+        assert!(open(vec![[1, 2], [2, 3], [3, 4]]));
+        assert!(open(vec![[1, 2], [2, 3], [3, 1], [4, 5], [5, 6], [6, 4]]));
+        assert!(open(vec![[1, 2], [2, 3], [3, 2]]));
+        assert!(open(vec![[1, 2], [1, 3], [3, 1]]));
+    }
+
+    #[test]
+    fn triangles_sort_like_the_standard_library() {
+        let mut triangles: Vec<[u32; 3]> = (0..500u32)
+            .map(|k| [k * 37 % 11, k * 101 % 97, k * 53 % 89])
+            .collect();
+        let sorted = sort_triangles(triangles.clone(), 11);
+        triangles.sort_unstable();
+        assert_eq!(sorted, triangles);
+    }
 }
