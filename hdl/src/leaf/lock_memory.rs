@@ -14,7 +14,8 @@
 //! 3. The two ports never meet at one lock and one edge while either changes it. Clearing and setting together has no winner in
 //!    silicon, and simulation in Rust panics. A plain test that meets a clear is undefined in silicon; there the Rust gives `true`.
 //! 4. Only the low `address_bits` of an address count.
-//! 5. At power-up all locks are clear. A reset does not clear them.
+//! 5. At power-up all locks are clear: a bitstream loads block RAM of no stated contents with zeros, and simulation starts so. (Stating
+//!    the zeros costs yosys most of a minute.) A reset does not clear them.
 //!
 //! Latency: an address that stands before edge 1 gives `was_set` after edge 2, in step with `BlockMemory`.
 //!
@@ -68,6 +69,12 @@ impl<const A: usize> LockMemory<A> {
     }
 }
 
+impl<const A: usize> Default for LockMemory<A> {
+    fn default() -> Self {
+        Self::new(A.min(super::MAX_ADDRESS_BITS))
+    }
+}
+
 impl<const A: usize> Logic for LockMemory<A> {
     fn update(&mut self) {
         if self.clock.pos_edge() {
@@ -103,8 +110,10 @@ impl<const A: usize> Logic for LockMemory<A> {
 (* ram_style = \"block\", no_rw_check *)
 reg memory [0:{last}];
 reg array_read;
+`ifndef SYNTHESIS
 integer word;
 initial for (word = 0; word <= {last}; word = word + 1) memory[word] = 1'b0;
+`endif
 always @(posedge clock) begin
     array_read <= memory[{test}];
     if (test_set) memory[{test}] <= 1'b1;
