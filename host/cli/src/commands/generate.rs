@@ -5,15 +5,14 @@ use crate::failure::Failure;
 use crate::formats::{csv, extension, node, xyz, PointFormat};
 use crate::generate::generate;
 use crate::output::Output;
-use crate::source::is_standard;
 
 /// Runs the subcommand.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     let path = arguments.output.as_path();
-    let format = if is_standard(path) {
-        Some(PointFormat::Csv)
-    } else {
-        PointFormat::of_extension(extension(path))
+    // What has no extension (standard output, a device) takes CSV.
+    let format = match extension(path) {
+        "" => Some(PointFormat::Csv),
+        extension => PointFormat::of_extension(extension),
     };
     let write_points = match format {
         Some(PointFormat::Csv) => csv::write_points,

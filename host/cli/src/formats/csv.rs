@@ -33,7 +33,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let mut columns = [0, 1];
     let mut width = 0;
     while next(&mut reader, &mut record)? {
-        let row = row_of(&record);
+        let row = row_of(&record, bytes);
         if width == 0 {
             width = record.len();
             refuse_one_column(&record, row)?;
@@ -65,7 +65,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
     let mut triangles = Vec::new();
     let mut first = true;
     while next(&mut reader, &mut record)? {
-        let row = row_of(&record);
+        let row = row_of(&record, bytes);
         let header = first && !record.iter().any(text::looks_like_number);
         first = false;
         if header {
@@ -138,9 +138,20 @@ fn next(reader: &mut Reader<&[u8]>, record: &mut ByteRecord) -> Result<bool, Fai
     }
 }
 
-fn row_of(record: &ByteRecord) -> usize {
-    let line = record.position().map_or(0, csv::Position::line);
-    usize::try_from(line).unwrap_or(usize::MAX)
+/// The row of a record: the reader counts from the end of the record before, so the rows it left out come on top.
+fn row_of(record: &ByteRecord, bytes: &[u8]) -> usize {
+    let Some(start) = record.position() else {
+        return 0;
+    };
+    let number = |wide: u64| usize::try_from(wide).unwrap_or(usize::MAX);
+    let mut row = number(start.line());
+    let mut rest = bytes.get(number(start.byte())..).unwrap_or_default();
+    while rest.starts_with(b"\n") || rest.starts_with(b"\r\n") || rest.starts_with(b"#") {
+        let end = rest.iter().position(|&byte| byte == b'\n');
+        rest = end.and_then(|end| rest.get(end + 1..)).unwrap_or_default();
+        row += 1;
+    }
+    row
 }
 
 fn named_columns(header: &ByteRecord) -> [usize; 2] {

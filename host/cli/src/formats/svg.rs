@@ -15,8 +15,8 @@ const CANVAS: f64 = 20_000.0;
 const MARGIN: f64 = 500.0;
 /// Width of the picture in pixels, unless the viewer chooses its own.
 const PIXELS: f64 = 1000.0;
-/// Size classes.
-const CLASSES: usize = 24;
+/// Size classes; odd, so that the median lies in the middle of one.
+const CLASSES: usize = 25;
 /// Beyond this many points no dots are drawn: they would cover the triangles.
 const MOST_DOTS: usize = 2000;
 /// Colours from the smallest to the largest triangles; classes lie between them.
@@ -113,7 +113,7 @@ struct Classes {
 }
 
 impl Classes {
-    /// Centred on the median size. The ramp spans the sizes of all but the outer fiftieths, and at least a factor of 4
+    /// Centred on the median size. The ramp spans the sizes of all but the outer fiftieths, and at least a factor of 8
     /// to both sides: meshes of even triangles stay calm.
     fn of(mut sides: Vec<f64>) -> Self {
         sides.sort_unstable_by(f64::total_cmp);
@@ -122,7 +122,7 @@ impl Classes {
             sides.get(index).copied().unwrap_or(1.0).log2()
         };
         let middle = at(0.5);
-        let spread = (middle - at(0.02)).max(at(0.98) - middle).max(2.0);
+        let spread = (middle - at(0.02)).max(at(0.98) - middle).max(3.0);
         Self { middle, spread }
     }
 
@@ -152,7 +152,7 @@ fn write_triangles(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) ->
     }
     writeln!(
         out,
-        "<g stroke=\"#fff\" stroke-opacity=\".6\" stroke-linejoin=\"round\">"
+        "<g stroke=\"#12304a\" stroke-opacity=\".45\" stroke-linejoin=\"round\">"
     )?;
     // The largest first: thin lines of small triangles stay above thick ones.
     for (class, triangles) in members.iter().enumerate().rev() {

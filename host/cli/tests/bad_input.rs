@@ -1,0 +1,351 @@
+//! Each bad input gets one clear sentence and the right exit code, and leaves no file behind.
+
+mod common;
+
+use common::Scratch;
+
+/// Triangulates a file of this name and content, which must be refused with a sentence that holds the file's name and
+/// these parts.
+#[track_caller]
+fn refuse(name: &str, content: impl AsRef<[u8]>, parts: &[&str]) {
+    let scratch = Scratch::new();
+    scratch.write(name, content);
+    let run = scratch.run(&format!("triangulate {name} -o m.ele"));
+    run.fails(3, parts).fails(3, &[name]);
+    assert_eq!(scratch.files(), [name]);
+}
+
+/// Triangulates a file of this content, which must give this many triangles.
+#[track_caller]
+fn accept(name: &str, content: impl AsRef<[u8]>, triangles: usize) {
+    let scratch = Scratch::new();
+    scratch.write(name, content);
+    scratch.run(&format!("triangulate {name} -o m.ele")).ok();
+    let mesh = scratch.read("m.ele");
+    assert_eq!(
+        mesh.lines().next(),
+        Some(format!("{triangles} 3 0").as_str()),
+        "{name}"
+    );
+}
+
+#[test]
+fn csv_values_that_are_no_finite_numbers() {
+    refuse(
+        "p.csv",
+        "0,0\n1,NaN\n",
+        &["row 2, column 2", "'NaN'", "finite"],
+    );
+    refuse(
+        "p.csv",
+        "0,0\ninf,1\n",
+        &["row 2, column 1", "'inf'", "finite"],
+    );
+    refuse(
+        "p.csv",
+        "0,0\n1,-Infinity\n",
+        &["row 2, column 2", "finite"],
+    );
+    refuse(
+        "p.csv",
+        "1e999,0\n",
+        &["row 1, column 1", "'1e999'", "finite"],
+    );
+    refuse(
+        "p.csv",
+        "0,0\n1,abc\n",
+        &["row 2, column 2", "'abc'", "not a number"],
+    );
+    refuse("p.csv", "0,0\n1,0x10\n", &["row 2, column 2", "'0x10'"]);
+    refuse("p.csv", "0,0\n1,\n", &["row 2, column 2", "missing"]);
+    refuse("p.csv", "12a,0\n1,2\n", &["row 1, column 1", "'12a'"]);
+    refuse("p.csv", "x,y\nx,y\n", &["row 2, column 1", "'x'"]);
+}
+
+#[test]
+fn values_out_of_range() {
+    refuse(
+        "p.csv",
+        "x,y\n0,0\n70000,1\n",
+        &["row 3, column 1", "70000", "65535", "--coord-bits 17"],
+    );
+    refuse(
+        "p.csv",
+        "0,0\n\n5,-1\n",
+        &["row 3, column 2", "-1", "--quantize fit"],
+    );
+    refuse(
+        "p.csv",
+        "# a\r\n\r\n0,0\r\n\r\n# b\r\n  \r\n5,-1\r\n",
+        &["row 7, column 2"],
+    );
+    refuse(
+        "p.csv",
+        "lat,name,lon\n1,a,2\n3,b,99999\n",
+        &["row 3, column 3", "99999"],
+    );
+    refuse("p.csv", "0,0\n1e300,1\n", &["row 2, column 1", "1e300"]);
+    refuse(
+        "p.node",
+        "2 2 0 0\n1 0 0\n2 0 65536\n",
+        &["row 3, column 3", "65536"],
+    );
+    refuse(
+        "p.obj",
+        "v 0 0 0\nvn 1 1 1\nv -3 0 0\n",
+        &["row 3, column 2", "-3"],
+    );
+    refuse("p.csv", "1e308,0\n-1e308,0.5\n", &["p.csv"]);
+}
+
+#[test]
+fn csv_rows_of_wrong_form() {
+    refuse("p.csv", "0,0\n1\n", &["row 2", "1 column"]);
+    refuse("p.csv", "0,0\n1,2,3\n", &["row 2", "3 columns", "has 2"]);
+    refuse("p.csv", "0 0\n1 2\n", &["row 1", "'0 0'", "--from xyz"]);
+    refuse("p.csv", "7\n", &["row 1", "'7'"]);
+}
+
+#[test]
+fn long_lines_and_wrong_encodings() {
+    let long = "9".repeat(1_000_000);
+    refuse(
+        "p.csv",
+        format!("0,0\n1,{long}\n"),
+        &["row 2, column 2", "bytes"],
+    );
+    refuse("p.csv", &long, &["row 1", "(1000000 bytes)"]);
+    refuse(
+        "p.csv",
+        format!("0,0\n{}\n", ",".repeat(1_000_000)),
+        &["row 2", "1000001 columns"],
+    );
+    refuse("p.xyz", &long, &["row 1", "(1000000 bytes)"]);
+    refuse("p.node", &long, &["row 1, column 1", "(1000000 bytes)"]);
+    refuse(
+        "p.obj",
+        format!("v 1 {long}x\n"),
+        &["row 1, column 3", "bytes"],
+    );
+    refuse("p.ply", format!("ply\n{long}\n"), &["PLY"]);
+    refuse("p.geojson", &long, &["GeoJSON"]);
+    refuse(
+        "p.csv",
+        b"0,0\n\xff\xfe\xfd,1\n",
+        &["row 2, column 1", "UTF-8"],
+    );
+    refuse("p.csv", b"\xff\xfe0\0,\x001\0", &["UTF-16"]);
+    refuse("p.xyz", b"0 0\n1 \xe9\n", &["row 2, column 2", "UTF-8"]);
+    refuse("p.geojson", b"{\"type\":\"\xff\"}", &["UTF-8"]);
+    accept("p.csv", b"\xef\xbb\xbfx,y\r\n0,0\r\n1,0\r\n0,1\r\n", 1);
+    accept("p.xyz", b"\xef\xbb\xbf0 0\r\n1\t0\r\n0 1", 1);
+}
+
+#[test]
+fn empty_files() {
+    accept("p.csv", "", 0);
+    accept("p.csv", "\n\n", 0);
+    accept("p.csv", "x,y\r\n", 0);
+    accept("p.xyz", "", 0);
+    accept("p.xyz", "x y z\n# nothing\n", 0);
+    accept("p.obj", "", 0);
+    accept("p.node", "0 2 0 0\n", 0);
+    accept(
+        "p.geojson",
+        r#"{"type":"FeatureCollection","features":[]}"#,
+        0,
+    );
+    refuse("p.node", "", &["empty", "N 2"]);
+    refuse("p.ply", "", &["PLY header"]);
+    refuse("p.geojson", " ", &["empty"]);
+}
+
+#[test]
+fn xyz_of_wrong_form() {
+    refuse("p.xyz", "0 0 0\n1\n", &["row 2", "1 value"]);
+    refuse("p.xyz", "0 0 0\n1 2\n", &["row 2", "2 values", "has 3"]);
+    refuse("p.xyz", "0 0 0\n1 nan 3\n", &["row 2, column 2", "'nan'"]);
+}
+
+#[test]
+fn node_counts_and_ids() {
+    refuse(
+        "p.node",
+        "3 2 0 0\n0 0 0\n1 1 1\n",
+        &["promises 3", "holds 2"],
+    );
+    refuse(
+        "p.node",
+        "1 2 0 0\n0 0 0\n1 1 1\n",
+        &["row 3", "one point more", "promises"],
+    );
+    refuse(
+        "p.node",
+        "4294967295 2 0 0\n0 0 0\n",
+        &["promises 4294967295", "holds 1"],
+    );
+    refuse(
+        "p.node",
+        "2 3 0 0\n0 0 0\n1 1 1\n",
+        &["row 1, column 2", "'3'"],
+    );
+    refuse(
+        "p.node",
+        "2 2 0 0\n5 0 0\n6 1 1\n",
+        &["row 2, column 1", "0 or 1"],
+    );
+    refuse(
+        "p.node",
+        "2 2 0 0\n0 0 0\n2 1 1\n",
+        &["row 3, column 1", "not 1"],
+    );
+    refuse("p.node", "2 2 0 0\n0 0 0\n1 1\n", &["row 3", "2 values"]);
+    refuse("p.node", "-1 2 0 0\n", &["row 1, column 1", "'-1'"]);
+    accept(
+        "p.node",
+        "3 2 1 1\n# ids from 0\n0 0 0 0.5 1\n1 5 0 0.5 1\n\n2 0 5 0.5 0\n",
+        1,
+    );
+    accept("p.node", "3 2 0 0\n1 0 0\n2 5 0\n3 0 5 # the last\n", 1);
+}
+
+#[test]
+fn obj_of_wrong_form() {
+    refuse("p.obj", "v 1\n", &["row 1, column 3", "missing"]);
+    refuse("p.obj", "v 1 inf 0\n", &["row 1, column 3", "finite"]);
+}
+
+fn ply_header(format: &str, count: &str) -> String {
+    format!("ply\nformat {format} 1.0\nelement vertex {count}\nproperty float x\nproperty float y\nend_header\n")
+}
+
+#[test]
+fn ply_that_is_cut_or_lies() {
+    let ascii = |count| ply_header("ascii", count);
+    refuse(
+        "p.ply",
+        ascii("3") + "0 0\n1 0\n",
+        &["promises 3", "vertex", "2"],
+    );
+    refuse(
+        "p.ply",
+        ascii("3") + "0 0\n1 0\n1",
+        &["vertex 3, y", "missing"],
+    );
+    refuse(
+        "p.ply",
+        ascii("2") + "0 0\n1 nan\n",
+        &["vertex 2, y", "finite"],
+    );
+    refuse("p.ply", ascii("2") + "0 0\n1 a\n", &["vertex 2, y", "'a'"]);
+    refuse(
+        "p.ply",
+        ascii("18446744073709551615") + "0 0\n",
+        &["promises 18446744073709551615"],
+    );
+    refuse(
+        "p.ply",
+        ascii("99999999999999999999") + "0 0\n",
+        &["PLY header"],
+    );
+    refuse("p.ply", "ply\nformat ascii 1.0\n", &["PLY header"]);
+    refuse("p.ply", "solid\n", &["PLY header"]);
+    refuse(
+        "p.ply",
+        "ply\nformat ascii 1.0\nelement face 0\nend_header\n",
+        &["no element 'vertex'"],
+    );
+    let no_y = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n";
+    refuse("p.ply", no_y, &["vertex 1, y", "missing"]);
+    let no_properties =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 9999999999999\nend_header\n";
+    refuse("p.ply", no_properties, &["no properties"]);
+    let list = "ply\nformat ascii 1.0\nelement vertex 1\nproperty list int float x\nend_header\n4294967295 1\n";
+    refuse("p.ply", list, &["vertex 1, x", "missing"]);
+
+    let mut binary = ply_header("binary_little_endian", "3").into_bytes();
+    binary.extend([0; 20]);
+    refuse("p.ply", &binary, &["promises 3", "number 3"]);
+    let mut binary = ply_header("binary_big_endian", "4294967295").into_bytes();
+    binary.extend([0; 8]);
+    refuse("p.ply", &binary, &["promises 4294967295"]);
+    let mut binary = ply_header("binary_big_endian", "1").into_bytes();
+    binary.extend([0x7f, 0xc0, 0, 0, 0, 0, 0, 0]);
+    refuse("p.ply", &binary, &["vertex 1, x", "NaN"]);
+}
+
+#[test]
+fn geojson_of_wrong_form() {
+    refuse("p.geojson", "{", &["GeoJSON"]);
+    refuse(
+        "p.geojson",
+        r#"{"type":"Point","coordinates":[1]}"#,
+        &["p.geojson"],
+    );
+    refuse(
+        "p.geojson",
+        r#"{"type":"Point","coordinates":[1,1e999]}"#,
+        &["GeoJSON"],
+    );
+    refuse(
+        "p.geojson",
+        r#"{"type":"LineString","coordinates":[[1,2],[3,4]]}"#,
+        &["LineString"],
+    );
+    let no_geometry = r#"{"type":"FeatureCollection","features":[{"type":"Feature","geometry":null,"properties":null}]}"#;
+    refuse("p.geojson", no_geometry, &["feature 1", "no geometry"]);
+    let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));
+    refuse("p.geojson", &deep, &["GeoJSON"]);
+    refuse(
+        "p.geojson",
+        r#"{"type":"MultiPoint","coordinates":[[1,2],[3,70000]]}"#,
+        &["point 2, y", "70000"],
+    );
+}
+
+#[test]
+fn files_that_are_not_there_or_cannot_be_read() {
+    let scratch = Scratch::new();
+    scratch
+        .run("triangulate none.csv -o m.ele")
+        .fails(3, &["none.csv", "No such file"]);
+    std::fs::create_dir(scratch.path("folder.csv")).expect("a folder can be made");
+    scratch
+        .run("triangulate folder.csv -o m.ele")
+        .fails(3, &["folder.csv", "directory"]);
+    scratch.write("p.dat", "0,0\n");
+    scratch
+        .run("triangulate p.dat -o m.ele")
+        .fails(2, &["p.dat", "--from"]);
+    scratch.run("triangulate p.dat --from csv -o m.ele").ok();
+}
+
+#[test]
+fn meshes_that_cannot_be_read() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n4,0\n0,4\n");
+    let meshes = [
+        ("m.ele", "", "empty"),
+        ("m.ele", "1 3 0\n0 0 1\n", "row 2 has 3 values"),
+        ("m.ele", "1 3 0\n0 0 1 -2\n", "row 2, column 4"),
+        ("m.ele", "1 6 0\n0 0 1 2\n", "row 1, column 2"),
+        ("m.obj", "f 0 1 2\n", "row 1, column 2"),
+        ("m.obj", "f 1 2 3 4\n", "4 corners"),
+        ("m.csv", "0,1\n", "2 columns"),
+        ("m.csv", "0,1,b\n", "row 1, column 3"),
+        ("m.json", "[", "not JSON"),
+        ("m.json", "{}", "'triangles'"),
+        ("m.json", r#"{"triangles":[[0,1,2],[0,1]]}"#, "triangles[1]"),
+        (
+            "m.ply",
+            "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n",
+            "no element 'face'",
+        ),
+    ];
+    for (name, content, part) in meshes {
+        scratch.write(name, content);
+        scratch
+            .run(&format!("verify p.csv {name}"))
+            .fails(3, &[name, part]);
+    }
+}
