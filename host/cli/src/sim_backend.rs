@@ -4,31 +4,25 @@ use std::time::Instant;
 
 use incircle::{Device, Transport, TransportError};
 use incircle_protocol::Config;
-use incircle_sim::SimDevice;
+use incircle_sim::{SimDevice, SimError};
 
 use crate::failure::{Exit, Failure};
+use crate::interrupt;
 
-/// Words carried between two looks at the clock on the wall.
-const PIECE: usize = 1024;
-/// Core clocks that a piece may take: more than any core needs to insert all its points, some ten seconds at most.
-const PIECE_CLOCKS: u64 = 20_000_000;
+/// Clocks simulated between two looks at the deadline: about a tenth of a second.
+const SLICE: u64 = 100_000;
 
 /// A freshly made core of this configuration.
 pub fn open(config: Config) -> Result<Device, Failure> {
-    let device = SimDevice::new(config).map_err(|error| {
-        let name = config.name;
-        Failure::new(
-            Exit::NoDevice,
-            format!("the simulated core '{name}' cannot be made: {error}"),
-        )
-    })?;
+    let device =
+        SimDevice::new(config).map_err(|error| Failure::new(Exit::NoDevice, error.to_string()))?;
     Ok(Device::from_transport(Box::new(SimTransport {
         device,
         name: config.name,
     })))
 }
 
-/// A simulated core as a transport.
+/// A simulated core as a transport. A slice of clocks that did not suffice is followed by the next, until the deadline.
 struct SimTransport {
     device: SimDevice,
     name: &'static str,
@@ -37,22 +31,28 @@ struct SimTransport {
 impl Transport for SimTransport {
     fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
         let wanted = words.len();
-        for (index, piece) in words.chunks(PIECE).enumerate() {
-            check(deadline, index * PIECE, wanted)?;
-            let sent = self.device.send(piece, PIECE_CLOCKS);
-            sent.map_err(|error| TransportError::Other(error.to_string()))?;
+        let mut sent = 0;
+        loop {
+            let rest = words.get(sent..).unwrap_or_default();
+            match self.device.send(rest, SLICE) {
+                Ok(()) => return Ok(()),
+                Err(SimError::Timeout { done, .. }) => sent += done,
+                Err(error) => return Err(TransportError::Other(error.to_string())),
+            }
+            go_on(deadline, sent, wanted)?;
         }
-        Ok(())
     }
 
     fn receive(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError> {
         let wanted = words.len();
-        for (index, piece) in words.chunks_mut(PIECE).enumerate() {
-            check(deadline, index * PIECE, wanted)?;
-            let received = self.device.receive(piece, PIECE_CLOCKS);
-            received.map_err(|error| TransportError::Other(error.to_string()))?;
+        loop {
+            match self.device.receive(words, SLICE) {
+                Ok(()) => return Ok(()),
+                // What has come is kept by the device for the next call.
+                Err(SimError::Timeout { done, .. }) => go_on(deadline, done, wanted)?,
+                Err(error) => return Err(TransportError::Other(error.to_string())),
+            }
         }
-        Ok(())
     }
 
     fn name(&self) -> String {
@@ -60,7 +60,11 @@ impl Transport for SimTransport {
     }
 }
 
-fn check(deadline: Instant, done: usize, wanted: usize) -> Result<(), TransportError> {
+/// Ends the call at the deadline, and when the user interrupts.
+fn go_on(deadline: Instant, done: usize, wanted: usize) -> Result<(), TransportError> {
+    if interrupt::raised() {
+        return Err(TransportError::Other("interrupted".to_owned()));
+    }
     if Instant::now() >= deadline {
         return Err(TransportError::Timeout { done, wanted });
     }

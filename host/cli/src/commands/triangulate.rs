@@ -84,7 +84,12 @@ fn triangulate(
     };
     let session = backend.device.session();
     let mesh = session.and_then(|mut session| session.triangulate_with(points, &options));
-    mesh.map_err(|error| failure_of(&error))
+    // An interrupt may show as any error.
+    mesh.map_err(|error| {
+        interrupt::check()
+            .err()
+            .unwrap_or_else(|| failure_of(&error))
+    })
 }
 
 /// The mesh goes out with the coordinates that came in, not with those of the grid.
