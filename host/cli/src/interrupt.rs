@@ -28,12 +28,14 @@ pub fn watch() -> Result<(), Failure> {
         }
         std::process::exit(Exit::Interrupted as i32);
     };
-    ctrlc::set_handler(handler).map_err(|error| {
-        Failure::new(
+    match ctrlc::set_handler(handler) {
+        // Set by an earlier run in this process.
+        Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(()),
+        Err(error) => Err(Failure::new(
             Exit::Device,
             format!("interrupts cannot be watched: {error}"),
-        )
-    })
+        )),
+    }
 }
 
 /// Whether the run was interrupted.

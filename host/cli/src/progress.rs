@@ -36,7 +36,7 @@ impl Meter {
             return ControlFlow::Break(());
         }
         if self.shown && self.since.elapsed() >= PATIENCE {
-            let bar = self.bar.get_or_init(new_bar);
+            let bar = self.bar.get_or_init(|| new_bar(progress.total));
             bar.set_message(verb(progress.stage));
             bar.set_length(progress.total as u64);
             bar.set_position(progress.done as u64);
@@ -53,8 +53,8 @@ impl Drop for Meter {
     }
 }
 
-fn new_bar() -> ProgressBar {
-    let bar = ProgressBar::new(0);
+fn new_bar(total: usize) -> ProgressBar {
+    let bar = ProgressBar::new(total as u64);
     // The pattern is fixed and right; were it not, the library's own style would do.
     if let Ok(style) =
         ProgressStyle::with_template("{msg:>10} {bar:40} {human_pos}/{human_len} {eta}")

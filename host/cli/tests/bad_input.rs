@@ -107,6 +107,12 @@ fn csv_rows_of_wrong_form() {
 }
 
 #[test]
+fn csv_quotes_that_are_not_closed() {
+    refuse("p.csv", "x,y,name\n1,1,\"a\n2,2,b\n", &["row 2", "quote"]);
+    refuse("p.csv", "1,\"1\n2,2\n", &["row 1", "quote"]);
+}
+
+#[test]
 fn long_lines_and_wrong_encodings() {
     let long = "9".repeat(1_000_000);
     refuse(

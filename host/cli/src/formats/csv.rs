@@ -132,6 +132,13 @@ fn next(reader: &mut Reader<&[u8]>, record: &mut ByteRecord) -> Result<bool, Fai
     loop {
         match reader.read_byte_record(record) {
             Ok(true) if record.len() == 1 && record[0].trim_ascii().is_empty() => {}
+            // An unclosed quote would swallow the points that follow.
+            Ok(true) if record.as_slice().contains(&b'\n') => {
+                let row = record.position().map_or(0, csv::Position::line);
+                return Err(Failure::input(format!(
+                    "row {row} or soon after: a quoted value runs over the end of its row: close the quote"
+                )));
+            }
             Ok(more) => return Ok(more),
             Err(error) => return Err(Failure::input(error.to_string())),
         }
