@@ -1,0 +1,72 @@
+//! The whole job beside two well-known libraries: 16,384 uniform points of 16 bits, one thread, fresh points each time.
+//!
+//! `incircle/model` is the one-call door: duplicates, order, the software model behind its word stream, every answer
+//! checked, canonical triangles. `spade/bulk` builds its half-edge structure, `delaunator` its three arrays; both take
+//! doubles and decide ties their own way. Criterion counts points, so `1e9 / thrpt` is nanoseconds per point.
+//!
+//! ```text
+//! cargo bench -p incircle-testbench --bench triangulate
+//! ```
+
+use criterion::{criterion_group, criterion_main, BatchSize, Criterion, Throughput};
+use spade::Triangulation;
+
+const POINTS: usize = 16_384;
+
+/// Uniform 16-bit points that never come twice in a run: a counter through the SplitMix64 output function.
+struct Uniform(u64);
+
+impl Uniform {
+    fn point(&mut self) -> [u16; 2] {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let bits = z ^ z >> 31;
+        [bits as u16, (bits >> 16) as u16]
+    }
+
+    fn points<P>(&mut self, make: impl Fn([u16; 2]) -> P) -> Vec<P> {
+        (0..POINTS).map(|_| make(self.point())).collect()
+    }
+}
+
+fn triangulate(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("uniform-16k");
+    group.throughput(Throughput::Elements(POINTS as u64));
+    group.bench_function("incircle/model", |bencher| {
+        let mut source = Uniform(1);
+        bencher.iter_batched(
+            || source.points(|[x, y]| incircle::Point::new(x.into(), y.into())),
+            |points| incircle::triangulate(&points).expect("a mesh"),
+            BatchSize::LargeInput,
+        );
+    });
+    group.bench_function("spade/bulk", |bencher| {
+        let mut source = Uniform(1);
+        bencher.iter_batched(
+            || source.points(|[x, y]| spade::Point2::new(f64::from(x), f64::from(y))),
+            |points| {
+                spade::DelaunayTriangulation::<spade::Point2<f64>>::bulk_load(points)
+                    .expect("a mesh")
+            },
+            BatchSize::LargeInput,
+        );
+    });
+    group.bench_function("delaunator", |bencher| {
+        let mut source = Uniform(1);
+        bencher.iter_batched(
+            || {
+                source.points(|[x, y]| delaunator::Point {
+                    x: x.into(),
+                    y: y.into(),
+                })
+            },
+            |points| delaunator::triangulate(&points),
+            BatchSize::LargeInput,
+        );
+    });
+    group.finish();
+}
+
+criterion_group!(benches, triangulate);
+criterion_main!(benches);
