@@ -1,1 +1,27 @@
 //! The incircle core in Verilator, as a device that takes and gives words.
+//!
+//! The Verilog of every named configuration ([`incircle_protocol::NAMED`]) is exported and translated when this crate is built.
+//! [`SimDevice`] drives the two streams at its root: `command_{valid,ready,data}` and `response_{valid,ready,data}`.
+//!
+//! ```no_run
+//! use incircle_protocol::{command_word, Opcode, SMALL};
+//! let mut device = incircle_sim::SimDevice::new(SMALL)?;
+//! device.send(&[command_word(Opcode::Hello)], 100)?;
+//! let mut answer = [0; 9];
+//! device.receive(&mut answer, 1000)?;
+//! println!("{answer:x?} after {} clocks", device.clocks());
+//! # Ok::<(), incircle_sim::SimError>(())
+//! ```
+
+mod device;
+mod error;
+#[cfg(test)]
+mod tests;
+
+pub use device::SimDevice;
+pub use error::{Awaited, SimError};
+
+/// The models that the build script made.
+mod models {
+    verilated::include_models!();
+}

@@ -1,0 +1,183 @@
+//! A core behind its two streams.
+
+use std::collections::VecDeque;
+use std::path::Path;
+
+use incircle_protocol::{Config, NAMED};
+use verilated::{Model, ModelDescription, PortId};
+
+use crate::{models, Awaited, SimError};
+
+/// Clocks that reset is held: one is enough for registers, more flush what has no reset.
+const RESET_CLOCKS: u32 = 4;
+
+/// What the build script puts before the name of a configuration.
+const CORE: &str = "core_";
+
+/// A simulated core, started and reset.
+///
+/// Time passes only inside [`SimDevice::send`] and [`SimDevice::receive`]. Answers are taken from the core as they come, also
+/// while words are sent, and kept until asked for; so no order of calls can block the core.
+#[derive(Debug)]
+pub struct SimDevice {
+    model: Model,
+    ports: Ports,
+    answers: VecDeque<u32>,
+    command: Option<u32>,
+    clocks: u64,
+}
+
+#[derive(Debug)]
+struct Ports {
+    command_valid: PortId,
+    command_ready: PortId,
+    command_data: PortId,
+    response_valid: PortId,
+    response_data: PortId,
+}
+
+impl SimDevice {
+    /// A core of this configuration.
+    ///
+    /// # Errors
+    /// It is not one of [`incircle_protocol::NAMED`]: others were not translated when this crate was built.
+    pub fn new(config: Config) -> Result<Self, SimError> {
+        let description = NAMED
+            .contains(&config)
+            .then(|| models::find(&format!("{CORE}{}", config.name)))
+            .flatten()
+            .ok_or_else(|| SimError::NotBuilt {
+                name: config.name,
+                points: config.points,
+                ring: config.ring,
+                built: built().join(", "),
+            })?;
+        Self::of(description)
+    }
+
+    /// Any model that has the two streams.
+    pub(crate) fn of(description: &'static ModelDescription) -> Result<Self, SimError> {
+        let mut model = Model::new(description);
+        let ports = Ports {
+            command_valid: model.port("command_valid")?,
+            command_ready: model.port("command_ready")?,
+            command_data: model.port("command_data")?,
+            response_valid: model.port("response_valid")?,
+            response_data: model.port("response_data")?,
+        };
+        let reset = model.port("reset")?;
+        let response_ready = model.port("response_ready")?;
+        model.port("clock")?;
+        model.set(reset, 1);
+        for _ in 0..RESET_CLOCKS {
+            model.clock();
+        }
+        model.set(reset, 0);
+        model.set(response_ready, 1);
+        model.eval();
+        Ok(Self {
+            model,
+            ports,
+            answers: VecDeque::new(),
+            command: None,
+            clocks: u64::from(RESET_CLOCKS),
+        })
+    }
+
+    /// Hands all `words` to the core, within `max_clocks` clocks.
+    ///
+    /// # Errors
+    /// [`SimError::Timeout`]: the core did not take them all; the first `done` words are with it.
+    pub fn send(&mut self, words: &[u32], max_clocks: u64) -> Result<(), SimError> {
+        let start = self.clocks;
+        for (done, &word) in words.iter().enumerate() {
+            self.offer(Some(word));
+            loop {
+                if self.clocks - start >= max_clocks {
+                    self.offer(None);
+                    return Err(self.timeout(Awaited::CommandWords, done, words.len(), start));
+                }
+                let is_taken = self.model.get(self.ports.command_ready) != 0;
+                self.clock();
+                if is_taken {
+                    break;
+                }
+            }
+        }
+        self.offer(None);
+        Ok(())
+    }
+
+    /// Fills `words` with the next words of the core, within `max_clocks` clocks.
+    ///
+    /// # Errors
+    /// [`SimError::Timeout`]: the core has not given so many. Those it gave are kept for the next call, and `words` is as before.
+    pub fn receive(&mut self, words: &mut [u32], max_clocks: u64) -> Result<(), SimError> {
+        let start = self.clocks;
+        while self.answers.len() < words.len() {
+            if self.clocks - start >= max_clocks {
+                let done = self.answers.len();
+                return Err(self.timeout(Awaited::AnswerWords, done, words.len(), start));
+            }
+            self.clock();
+        }
+        // There are enough, so every place is filled.
+        words.fill_with(|| self.answers.pop_front().unwrap_or(0));
+        Ok(())
+    }
+
+    /// Clocks since the device was made, reset included.
+    pub fn clocks(&self) -> u64 {
+        self.clocks
+    }
+
+    /// Writes a VCD waveform of all signals from now on; dropping the device completes the file. Slows the
+    /// simulation by a factor of 10 and more.
+    ///
+    /// # Errors
+    /// [`SimError::Trace`]: the file cannot be made.
+    pub fn trace_to(&mut self, path: impl AsRef<Path>) -> Result<(), SimError> {
+        Ok(self.model.trace_to(path)?)
+    }
+
+    /// Offers a word to the core, or none.
+    fn offer(&mut self, command: Option<u32>) {
+        if self.command == command {
+            return;
+        }
+        self.command = command;
+        let data = command.unwrap_or(0);
+        self.model
+            .set(self.ports.command_valid, u64::from(command.is_some()));
+        self.model.set(self.ports.command_data, u64::from(data));
+        // Outputs may depend on inputs of the same clock.
+        self.model.eval();
+    }
+
+    /// One clock; an answer that the core offers is taken.
+    fn clock(&mut self) {
+        if self.model.get(self.ports.response_valid) != 0 {
+            let word = self.model.get(self.ports.response_data);
+            // A port of 32 bits.
+            self.answers.push_back(word as u32);
+        }
+        self.model.clock();
+        self.clocks += 1;
+    }
+
+    fn timeout(&self, awaited: Awaited, done: usize, wanted: usize, start: u64) -> SimError {
+        SimError::Timeout {
+            awaited,
+            done,
+            wanted,
+            clocks: self.clocks - start,
+            total: self.clocks,
+        }
+    }
+}
+
+/// Names of the configurations that were translated when this crate was built.
+fn built() -> Vec<&'static str> {
+    let names = models::NAMES.iter();
+    names.filter_map(|name| name.strip_prefix(CORE)).collect()
+}

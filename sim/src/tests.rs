@@ -1,0 +1,116 @@
+//! The two streams against a device that echoes.
+
+use incircle_protocol::{Config, SMALL};
+
+use crate::{models, Awaited, SimDevice, SimError};
+
+fn echo() -> SimDevice {
+    SimDevice::of(models::echo()).unwrap()
+}
+
+#[test]
+fn words_come_back_in_order() {
+    let mut device = echo();
+    let words: Vec<u32> = (0..100).map(|n| n * n).collect();
+    device.send(&words, 1000).unwrap();
+    let mut answers = vec![0; 200];
+    device.receive(&mut answers, 1000).unwrap();
+    let expected: Vec<u32> = words.iter().flat_map(|word| [word + 1, word + 1]).collect();
+    assert_eq!(answers, expected);
+}
+
+#[test]
+fn equal_words_in_a_row_are_as_many_words() {
+    let mut device = echo();
+    device.send(&[7, 7, 7], 100).unwrap();
+    device.send(&[7], 100).unwrap();
+    let mut answers = [0; 8];
+    device.receive(&mut answers, 100).unwrap();
+    assert_eq!(answers, [8; 8]);
+    let error = device.receive(&mut [0], 50).unwrap_err();
+    assert!(
+        matches!(error, SimError::Timeout { done: 0, .. }),
+        "{error}"
+    );
+}
+
+#[test]
+fn nothing_takes_no_time() {
+    let mut device = echo();
+    let before = device.clocks();
+    device.send(&[], 0).unwrap();
+    device.receive(&mut [], 0).unwrap();
+    assert_eq!(device.clocks(), before);
+}
+
+#[test]
+fn a_deaf_device_is_a_timeout_with_its_figures() {
+    let mut device = echo();
+    let before = device.clocks();
+    let error = device.send(&[1, u32::MAX, 2, 3], 500).unwrap_err();
+    let expected = SimError::Timeout {
+        awaited: Awaited::CommandWords,
+        done: 2,
+        wanted: 4,
+        clocks: 500,
+        total: before + 500,
+    };
+    assert_eq!(error, expected);
+    assert!(
+        error
+            .to_string()
+            .contains("took 2 of 4 words in 500 clocks"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_missing_answer_is_a_timeout_that_loses_nothing() {
+    let mut device = echo();
+    device.send(&[41], 100).unwrap();
+    let mut answers = [0; 3];
+    let error = device.receive(&mut answers, 60).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            SimError::Timeout {
+                awaited: Awaited::AnswerWords,
+                done: 2,
+                wanted: 3,
+                clocks: 60,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert_eq!(answers, [0; 3]);
+    device.send(&[1], 100).unwrap();
+    device.receive(&mut answers, 60).unwrap();
+    assert_eq!(answers, [42, 42, 2]);
+}
+
+#[test]
+fn a_configuration_that_was_not_built_is_refused() {
+    let other = Config { ring: 31, ..SMALL };
+    let error = SimDevice::new(other).unwrap_err();
+    let start =
+        "there is no simulated core \"small\" of 1024 points with 31 boundary edges: choose one of";
+    assert!(error.to_string().starts_with(start), "{error}");
+}
+
+#[test]
+fn a_waveform_is_written() {
+    let folder = std::env::temp_dir().join(format!("incircle-sim-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("echo.vcd");
+    let mut device = echo();
+    device.trace_to(&path).unwrap();
+    device.send(&[1, 2, 3], 100).unwrap();
+    drop(device);
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert!(
+        text.contains("command_ready") && text.contains("#100\n"),
+        "{text}"
+    );
+}
