@@ -153,7 +153,7 @@ mod tests {
             "model?capacity",
         ] {
             let error = Device::open(address).err().expect(address);
-            assert_eq!(error.kind(), ErrorKind::BadChoice, "{error}");
+            assert_eq!(error.kind(), ErrorKind::DeviceNotFound, "{error}");
             assert!(error.to_string().contains(address));
         }
         for bits in [0, 32] {

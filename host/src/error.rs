@@ -11,9 +11,9 @@ use crate::transport::TransportError;
 pub enum ErrorKind {
     /// The points cannot be used as they are.
     BadInput,
-    /// A choice that does not exist or does not fit, such as an unknown device address.
+    /// A choice that does not exist, such as 32 coordinate bits.
     BadChoice,
-    /// There is no such device, or it may not be opened.
+    /// There is no device at the address, or it may not be opened.
     DeviceNotFound,
     /// Words did not get through.
     Link,
@@ -186,9 +186,8 @@ impl Error {
             | Self::NotInteger { .. }
             | Self::OutOfGrid { .. }
             | Self::Extent { .. } => ErrorKind::BadInput,
-            Self::Scale { .. } | Self::CoordBits(_) | Self::Model(_) | Self::Address { .. } => {
-                ErrorKind::BadChoice
-            }
+            Self::Scale { .. } | Self::CoordBits(_) | Self::Model(_) => ErrorKind::BadChoice,
+            Self::Address { .. } => ErrorKind::DeviceNotFound,
             Self::TooManyPoints { .. } | Self::Capacity { .. } => ErrorKind::Capacity,
             Self::Link { .. } | Self::OutOfStep { .. } => ErrorKind::Link,
             Self::Timeout { .. } => ErrorKind::Timeout,

@@ -4,6 +4,8 @@
 //! and random rounds keep any input from making many triangles that do not last.
 //! Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003; Buchin, *Constructing Delaunay triangulations along
 //! space-filling curves*, 2009.
+//!
+//! Indices are 32 bits wide: points past the 2^32nd are left out.
 
 use crate::hilbert::{position_16, position_32};
 use crate::point::Point;
@@ -53,7 +55,7 @@ pub(crate) fn along_curve(points: &[Point]) -> Curve {
     if all < 1 << 16 {
         let mut entries: Vec<Narrow> = points
             .iter()
-            .zip(0..)
+            .zip(0..=u32::MAX)
             .map(|(point, index)| Narrow::new(position_16(point.x, point.y), index))
             .collect();
         sort_by_key(&mut entries);
@@ -61,7 +63,7 @@ pub(crate) fn along_curve(points: &[Point]) -> Curve {
     } else {
         let mut entries: Vec<Wide> = points
             .iter()
-            .zip(0..)
+            .zip(0..=u32::MAX)
             .map(|(point, index)| Wide::new(position_32(point.x, point.y), index))
             .collect();
         sort_by_key(&mut entries);

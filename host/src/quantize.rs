@@ -3,6 +3,7 @@
 use crate::device::check_coord_bits;
 use crate::error::Error;
 use crate::point::Point;
+use crate::session::MAX_POINTS;
 
 /// How values are laid onto the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,9 +49,11 @@ impl Quantization {
 /// # Errors
 /// The first value that is not finite ([`Error::NotFinite`]); else the first that has a fraction
 /// ([`Error::NotInteger`]); else the first outside 0 to 2^`coord_bits` - 1 ([`Error::OutOfGrid`]). So a set that could
-/// be quantised and one that is plainly wrong can be told apart. [`Error::CoordBits`] outside 1 to 31.
+/// be quantised and one that is plainly wrong can be told apart. [`Error::CoordBits`] outside 1 to 31,
+/// [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
 pub fn integers(points: &[[f64; 2]], coord_bits: u32) -> Result<Vec<Point>, Error> {
     check_coord_bits(coord_bits)?;
+    check_count(points)?;
     check_finite(points)?;
     if let Some((index, axis, value)) = values(points).find(|&(.., value)| value.fract() != 0.0) {
         return Err(Error::NotInteger { index, axis, value });
@@ -83,13 +86,14 @@ pub fn integers(points: &[[f64; 2]], coord_bits: u32) -> Result<Vec<Point>, Erro
 /// # Errors
 /// [`Error::NotFinite`] with the first value that is NaN or infinite, [`Error::Extent`] if the box is too large or too
 /// small for a scale, [`Error::Scale`] and [`Error::OutOfGrid`] with [`Quantize::Scale`], [`Error::CoordBits`] outside 1
-/// to 31.
+/// to 31, [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
 pub fn quantize(
     points: &[[f64; 2]],
     coord_bits: u32,
     how: Quantize,
 ) -> Result<(Vec<Point>, Quantization), Error> {
     check_coord_bits(coord_bits)?;
+    check_count(points)?;
     check_finite(points)?;
     let (scale, offset) = match how {
         Quantize::Fit => fit(points, coord_bits)?,
@@ -150,6 +154,16 @@ fn largest_coordinate(coord_bits: u32) -> f64 {
 fn values(points: &[[f64; 2]]) -> impl Iterator<Item = (usize, char, f64)> + '_ {
     let both = |(index, &[x, y]): (usize, &[f64; 2])| [(index, 'x', x), (index, 'y', y)];
     points.iter().enumerate().flat_map(both)
+}
+
+fn check_count(points: &[[f64; 2]]) -> Result<(), Error> {
+    if points.len() > MAX_POINTS {
+        return Err(Error::TooManyPoints {
+            points: points.len(),
+            max: MAX_POINTS,
+        });
+    }
+    Ok(())
 }
 
 fn check_finite(points: &[[f64; 2]]) -> Result<(), Error> {

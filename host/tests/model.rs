@@ -238,6 +238,23 @@ fn a_passed_deadline_is_a_timeout() {
 }
 
 #[test]
+fn pairs_arrays_and_vectors_are_points() {
+    let expected = mesh_of(&[Point::new(0, 0), Point::new(9, 0), Point::new(0, 9)]).triangles;
+    assert_eq!(expected, [[0, 1, 2]]);
+    let pairs = [(0, 0), (9, 0), (0, 9)];
+    let arrays = pairs.map(|(x, y)| [x, y]);
+    let vectors = pairs.map(|(x, y)| glam::UVec2::new(x, y));
+    assert_eq!(triangulate(&pairs).expect("pairs").triangles, expected);
+    assert_eq!(triangulate(&arrays).expect("arrays").triangles, expected);
+    let mut device = Device::open("model").expect("the model");
+    let mut session = device.session().expect("a session");
+    assert_eq!(
+        session.triangulate(&vectors).expect("vectors").triangles,
+        expected
+    );
+}
+
+#[test]
 fn counters_count_the_insertions() {
     let points = Random(10).points(1000, 1 << 16);
     let mesh = mesh_of(&points);

@@ -59,3 +59,46 @@ fn the_validator_refuses_every_flip_of_the_one_right_mesh() {
         }
     }
 }
+
+/// Any list but the canonical one is wrong: spoils it in some way.
+fn spoil(triangles: &mut Vec<[u32; 3]>, points: u32, random: &mut Random) {
+    let place = random.below(triangles.len() as u32) as usize;
+    let corner = random.below(3) as usize;
+    match random.below(6) {
+        0 => triangles[place][corner] = random.below(points),
+        1 => triangles[place].rotate_left(1),
+        2 => triangles[place].swap(0, corner),
+        3 => drop(triangles.remove(place)),
+        4 => triangles.insert(place, triangles[place]),
+        _ => triangles[place] = [0, 1 + random.below(points), 1 + random.below(points)],
+    }
+    if random.below(2) == 0 {
+        triangles.sort_unstable();
+    }
+}
+
+#[test]
+fn the_validator_accepts_the_canonical_list_and_no_other() {
+    let mut random = Random(14);
+    let mut refused = 0;
+    for _ in 0..20_000 {
+        let points = random.points(8, 5);
+        let expected = triangulate(&points).expect("a mesh").triangles;
+        if expected.is_empty() {
+            continue;
+        }
+        let mut spoilt = expected.clone();
+        for _ in 0..=random.below(2) {
+            if !spoilt.is_empty() {
+                spoil(&mut spoilt, points.len() as u32, &mut random);
+            }
+        }
+        assert_eq!(
+            verify(&points, &spoilt).is_ok(),
+            spoilt == expected,
+            "{points:?} {spoilt:?}"
+        );
+        refused += usize::from(spoilt != expected);
+    }
+    assert!(refused > 15_000, "{refused}");
+}
