@@ -79,19 +79,7 @@ impl<'a> RunReport<'a> {
                 q.coord_bits, q.scale, q.largest_error
             ));
         }
-        let total: Duration = self.stages.iter().map(|&(_, duration)| duration).sum();
-        let duplicates = match job.duplicates {
-            0 => String::new(),
-            count => format!(" ({count} of them on the place of an earlier one)"),
-        };
-        lines.push(format!(
-            "{} points{duplicates}, {} triangles, {} points on the hull; {}, {:.3} s",
-            job.points,
-            job.triangles,
-            job.hull,
-            job.backend,
-            total.as_secs_f64()
-        ));
+        lines.push(self.counts_line());
         if job.collinear {
             let why = if job.distinct < 3 {
                 "fewer than three distinct points"
@@ -113,6 +101,23 @@ impl<'a> RunReport<'a> {
             );
         }
         lines
+    }
+
+    fn counts_line(&self) -> String {
+        let job = self.job;
+        let total: Duration = self.stages.iter().map(|&(_, duration)| duration).sum();
+        let duplicates = match job.duplicates {
+            0 => String::new(),
+            count => format!(" ({count} of them on the place of an earlier one)"),
+        };
+        format!(
+            "{} points{duplicates}, {} triangles, {} points on the hull; {}, {:.3} s",
+            job.points,
+            job.triangles,
+            job.hull,
+            job.backend,
+            total.as_secs_f64()
+        )
     }
 }
 

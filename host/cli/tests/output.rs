@@ -185,7 +185,7 @@ fn an_interrupt_leaves_no_file() {
             .stderr(Stdio::piped())
             .spawn();
         let mut child = child.expect("it starts");
-        std::thread::sleep(std::time::Duration::from_millis(300));
+        std::thread::sleep(std::time::Duration::from_millis(600));
         interrupt(signal, child.id());
         // Closed only now, so that the run could not end before.
         let stdin = child.stdin.take();

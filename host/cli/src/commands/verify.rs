@@ -1,5 +1,6 @@
 //! `incircle verify`: is this mesh the canonical Delaunay triangulation of these points?
 
+use incircle::{Quantization, VerifySummary};
 use serde_json::{json, Value};
 
 use crate::arguments::VerifyArguments;
@@ -35,20 +36,10 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
         }
     };
     if arguments.json {
-        let quantization: Option<Value> = laid.quantization.as_ref().map(quantization_json);
-        let object = json!({
-            "valid": true,
-            "points": summary.points,
-            "distinct": summary.distinct,
-            "duplicates": summary.duplicates,
-            "triangles": summary.triangles,
-            "edges": summary.edges,
-            "ties": summary.ties,
-            "hull": summary.hull.len(),
-            "collinear": summary.collinear,
-            "quantisation": quantization,
-        });
-        output::print(&format!("{object}\n"))
+        output::print(&format!(
+            "{}\n",
+            to_json(&summary, laid.quantization.as_ref())
+        ))
     } else if arguments.quiet {
         Ok(())
     } else {
@@ -61,4 +52,19 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
             summary.ties
         ))
     }
+}
+
+fn to_json(summary: &VerifySummary, quantization: Option<&Quantization>) -> Value {
+    json!({
+        "valid": true,
+        "points": summary.points,
+        "distinct": summary.distinct,
+        "duplicates": summary.duplicates,
+        "triangles": summary.triangles,
+        "edges": summary.edges,
+        "ties": summary.ties,
+        "hull": summary.hull.len(),
+        "collinear": summary.collinear,
+        "quantisation": quantization.map(quantization_json),
+    })
 }

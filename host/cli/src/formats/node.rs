@@ -36,19 +36,9 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
         }
         let (id, point) = read_point(content, row)?;
         if count == 0 {
-            base = u64::from(id);
+            base = id;
         }
-        let expected = base + count as u64;
-        if base > 1 || u64::from(id) != expected {
-            let wanted = if count == 0 {
-                "0 or 1".to_string()
-            } else {
-                expected.to_string()
-            };
-            return Err(Failure::input(format!(
-                "row {row}, column 1: the id is {id}, not {wanted}: ids count from 0 or 1 and rise by one"
-            )));
-        }
+        check_id(id, base, count, row)?;
         table.push(point, row);
     }
     let found = table.points.len();
@@ -58,6 +48,22 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
         )));
     }
     Ok(table)
+}
+
+/// Ids start at `base`, which must be 0 or 1, and rise by one.
+fn check_id(id: u32, base: u32, count: usize, row: usize) -> Result<(), Failure> {
+    let expected = u64::from(base) + count as u64;
+    if base <= 1 && u64::from(id) == expected {
+        return Ok(());
+    }
+    let wanted = if count == 0 {
+        "0 or 1".to_owned()
+    } else {
+        expected.to_string()
+    };
+    Err(Failure::input(format!(
+        "row {row}, column 1: the id is {id}, not {wanted}: ids count from 0 or 1 and rise by one"
+    )))
 }
 
 fn read_header(content: &[u8], row: usize) -> Result<u32, Failure> {

@@ -122,3 +122,28 @@ impl Run {
         self
     }
 }
+
+/// Triangulates a file of this name and content, which must be refused with a sentence that holds the file's name and
+/// these parts.
+#[track_caller]
+pub fn refuse(name: &str, content: impl AsRef<[u8]>, parts: &[&str]) {
+    let scratch = Scratch::new();
+    scratch.write(name, content);
+    let run = scratch.run(&format!("triangulate {name} -o m.ele"));
+    run.fails(3, parts).fails(3, &[name]);
+    assert_eq!(scratch.files(), [name]);
+}
+
+/// Triangulates a file of this content, which must give this many triangles.
+#[track_caller]
+pub fn accept(name: &str, content: impl AsRef<[u8]>, triangles: usize) {
+    let scratch = Scratch::new();
+    scratch.write(name, content);
+    scratch.run(&format!("triangulate {name} -o m.ele")).ok();
+    let mesh = scratch.read("m.ele");
+    assert_eq!(
+        mesh.lines().next(),
+        Some(format!("{triangles} 3 0").as_str()),
+        "{name}"
+    );
+}
