@@ -44,7 +44,7 @@ impl Mesh {
 
     /// The neighbours of each triangle: the `k`-th is across the edge opposite the `k`-th vertex; `None` on the hull.
     ///
-    /// O(n): a radix sort of the edges; 96 bytes per point while it runs.
+    /// O(n): a radix sort of the edges; 190 bytes per point while it runs.
     pub fn neighbors(&self) -> Vec<[Option<u32>; 3]> {
         let mut neighbors = vec![[None; 3]; self.triangles.len()];
         for [one, other] in EdgeList::of(&self.triangles).pairs() {

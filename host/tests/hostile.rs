@@ -1,70 +1,15 @@
 //! Devices that lie: every lie ends in a typed error, never in a panic, a hang or wrong memory use.
 
 mod common;
+#[path = "common/liar.rs"]
+mod liar;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use common::Random;
-use incircle::{
-    Device, DeviceFault, Error, ErrorKind, Mesh, ModelTransport, Options, Point, Transport,
-    TransportError,
-};
-use incircle_protocol::{answer_header, command_opcode, Opcode, Status};
-
-/// What a lying device does with an answer: opcode, header and length, payload.
-type Lie = Box<dyn FnMut(Opcode, &mut Vec<u32>)>;
-
-/// A real model whose answers pass through a liar.
-struct Liar {
-    model: ModelTransport,
-    lie: Lie,
-    answer: Vec<u32>,
-    silent_for: Duration,
-}
-
-impl Liar {
-    fn new(coord_bits: u32, lie: impl FnMut(Opcode, &mut Vec<u32>) + 'static) -> Self {
-        Self {
-            model: ModelTransport::new(coord_bits, 64).expect("a model"),
-            lie: Box::new(lie),
-            answer: Vec::new(),
-            silent_for: Duration::ZERO,
-        }
-    }
-}
-
-impl Transport for Liar {
-    fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
-        self.model.send(words, deadline)?;
-        let mut answer = vec![0; 2];
-        self.model.receive(&mut answer, deadline)?;
-        answer.resize(2 + answer[1] as usize, 0);
-        self.model.receive(&mut answer[2..], deadline)?;
-        let opcode = Opcode::from_u8(command_opcode(words[0])).expect("the host knows its opcodes");
-        (self.lie)(opcode, &mut answer);
-        self.answer.extend(answer);
-        Ok(())
-    }
-
-    fn receive(&mut self, words: &mut [u32], _deadline: Instant) -> Result<(), TransportError> {
-        std::thread::sleep(self.silent_for);
-        let wanted = words.len();
-        if self.answer.len() < wanted {
-            return Err(TransportError::Timeout {
-                done: self.answer.len(),
-                wanted,
-            });
-        }
-        for (word, answer) in words.iter_mut().zip(self.answer.drain(..wanted)) {
-            *word = answer;
-        }
-        Ok(())
-    }
-
-    fn name(&self) -> String {
-        "liar".to_owned()
-    }
-}
+use incircle::{Device, DeviceFault, Error, ErrorKind, Mesh, Options, Point};
+use incircle_protocol::{answer_header, Opcode, Status};
+use liar::Liar;
 
 fn points() -> Vec<Point> {
     Random(11).points(40, 1 << 8)

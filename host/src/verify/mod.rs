@@ -42,7 +42,7 @@ pub struct VerifySummary {
     pub collinear: bool,
 }
 
-/// Checks that `triangles` is the canonical Delaunay triangulation of `points`. O(n log n), about 150 bytes per
+/// Checks that `triangles` is the canonical Delaunay triangulation of `points`. O(n log n), about 200 bytes per
 /// point.
 ///
 /// ```
