@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use incircle_protocol::{Config, ConfigError};
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
@@ -9,6 +10,7 @@ use crate::leaf::{BlockMemory, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory
 use crate::predicate::{
     CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
 };
+use crate::top::{wrapper, Core, CORE_NAME};
 
 /// A design that cannot become Verilog.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,11 +21,14 @@ pub enum ExportError {
     LogicLoops(Vec<String>),
     /// Inputs that the block itself drives.
     DrivenInputs(Vec<String>),
+    /// A parameter that no core can be built with.
+    Config(ConfigError),
 }
 
 impl fmt::Display for ExportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (names, fault, remedy) = match self {
+            Self::Config(error) => return error.fmt(f),
             Self::OpenSignals(names) => (
                 names,
                 "are driven by nothing",
@@ -95,6 +100,23 @@ fn block<U: Block>(mut uut: U, name: &str) -> (String, String) {
     }
 }
 
+/// The whole Verilog of a configuration: the core and the ANSI wrapper [`CORE_NAME`](crate::top::CORE_NAME) around it.
+///
+/// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
+    let mut uut = Core::new(config).map_err(ExportError::Config)?;
+    uut.connect_all();
+    let inside = format!("{CORE_NAME}_logic");
+    Ok(format!(
+        "{}{}",
+        verilog(&uut, &inside)?,
+        wrapper(&inside, with_probe)
+    ))
+}
+
 /// Every block that is tested alone: the name of its root module, and its Verilog.
 ///
 /// # Panics
@@ -119,7 +141,7 @@ pub fn blocks() -> Vec<(String, String)> {
         block(CrossProduct::default(), "cross_product"),
         block(DotProduct::default(), "dot_product"),
         block(WideProduct::default(), "wide_product"),
-        block(EdgeSigns::new(2), "edge_signs"),
+        block(EdgeSigns::new(3), "edge_signs"),
         block(VertexOrder::new(1), "vertex_order"),
         block(VisitPredicates::default(), "visit_predicates"),
     ]

@@ -3,3 +3,7 @@
 pub mod engine;
 pub mod export;
 pub mod leaf;
+pub mod link;
+pub mod mesh;
+pub mod predicate;
+pub mod top;

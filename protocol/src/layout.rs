@@ -128,6 +128,7 @@ impl Layout {
     }
 
     /// A record (`v`, `n`) from `record_words` words.
+    #[inline]
     pub fn record_from_words(self, words: &[u32]) -> ([u32; 3], [u32; 3]) {
         if self.record_words == 3 {
             let mask = (1 << NARROW_ID_BITS) - 1;

@@ -35,7 +35,7 @@ crate::packed! {
         /// Ring entry whose edge is tested.
         pub x: Bits<6>,
         /// The entry after it.
-        pub next: Bits<6>,
+        pub after: Bits<6>,
         /// The entry that was allocated when `f` joined the cavity; 0 for the root.
         pub f_entry: Bits<6>,
         /// The cavity triangle behind the edge.
@@ -55,7 +55,7 @@ crate::packed! {
         /// See [`Token`].
         pub x: Bits<6>,
         /// See [`Token`].
-        pub next: Bits<6>,
+        pub after: Bits<6>,
         /// See [`Token`].
         pub f_entry: Bits<6>,
         /// See [`Token`].
@@ -64,8 +64,8 @@ crate::packed! {
         pub u: Bits<15>,
         /// `x` of the second visit.
         pub second_x: Bits<6>,
-        /// `next` of the second visit.
-        pub second_next: Bits<6>,
+        /// `after` of the second visit.
+        pub second_after: Bits<6>,
         /// `u` of the second visit.
         pub second_u: Bits<15>,
     }
@@ -123,7 +123,7 @@ crate::packed! {
         /// The cavity triangle behind the edge.
         pub f: Bits<15>,
         /// The entry after this one.
-        pub next: Bits<6>,
+        pub after: Bits<6>,
     }
 
     /// A write into the triangle memory: a record, or one link.

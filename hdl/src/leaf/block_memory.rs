@@ -82,6 +82,12 @@ impl<const A: usize, const D: usize> BlockMemory<A, D> {
     }
 }
 
+impl<const A: usize, const D: usize> Default for BlockMemory<A, D> {
+    fn default() -> Self {
+        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+    }
+}
+
 impl<const A: usize, const D: usize> Logic for BlockMemory<A, D> {
     fn update(&mut self) {
         if self.clock.pos_edge() {

@@ -64,6 +64,12 @@ impl<const D: usize> DelayLine<D> {
     }
 }
 
+impl<const D: usize> Default for DelayLine<D> {
+    fn default() -> Self {
+        Self::new(Self::MIN_STAGES)
+    }
+}
+
 impl<const D: usize> Logic for DelayLine<D> {
     #[hdl_gen]
     fn update(&mut self) {

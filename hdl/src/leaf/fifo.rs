@@ -83,6 +83,12 @@ impl<const A: usize, const D: usize> Fifo<A, D> {
     }
 }
 
+impl<const A: usize, const D: usize> Default for Fifo<A, D> {
+    fn default() -> Self {
+        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+    }
+}
+
 impl<const A: usize, const D: usize> Logic for Fifo<A, D> {
     #[hdl_gen]
     fn update(&mut self) {

@@ -67,6 +67,12 @@ impl<const A: usize, const D: usize> LutMemory<A, D> {
     }
 }
 
+impl<const A: usize, const D: usize> Default for LutMemory<A, D> {
+    fn default() -> Self {
+        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+    }
+}
+
 impl<const A: usize, const D: usize> Logic for LutMemory<A, D> {
     fn update(&mut self) {
         let last = self._memory.len() - 1;

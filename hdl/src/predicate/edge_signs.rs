@@ -11,9 +11,10 @@
 //! 1. New orientations are taken at every edge. There is no reset.
 //! 2. Bits 33 to 35 of an input repeat its sign and are cut off.
 //!
-//! Latency: orientations that stand before edge 1 are registered there; their flags come after edge `latency` of the constructor.
+//! Latency: orientations that stand before edge 1 are registered there; their flags come after edge `latency` of the constructor. Edge 2
+//! takes the signs and compares the bits below them, edge 3 puts the two together: in one step they would set the clock.
 //!
-//! Source: the rules of the walk. A signed comparison is an unsigned one of numbers whose top bits are inverted.
+//! Source: the rules of the walk. Of two numbers with equal signs the lower bits decide, in two's complement also below zero.
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -52,9 +53,18 @@ pub struct EdgeSigns {
     value_0: DFF<Bits<33>>,
     value_1: DFF<Bits<33>>,
     value_2: DFF<Bits<33>>,
-    biased_0: Signal<Local, Bits<33>>,
-    biased_1: Signal<Local, Bits<33>>,
-    biased_2: Signal<Local, Bits<33>>,
+    low_0: Signal<Local, Bits<32>>,
+    low_1: Signal<Local, Bits<32>>,
+    low_2: Signal<Local, Bits<32>>,
+    negative_0: DFF<Bit>,
+    negative_1: DFF<Bit>,
+    negative_2: DFF<Bit>,
+    zero_0: DFF<Bit>,
+    zero_1: DFF<Bit>,
+    zero_2: DFF<Bit>,
+    low_1_below_0: DFF<Bit>,
+    low_2_below_0: DFF<Bit>,
+    low_2_below_1: DFF<Bit>,
     delay_negative_0: FlagDelay,
     delay_negative_1: FlagDelay,
     delay_negative_2: FlagDelay,
@@ -65,20 +75,19 @@ pub struct EdgeSigns {
     delay_2_below_0: FlagDelay,
     delay_2_below_1: FlagDelay,
     zero: Constant<Bits<33>>,
-    sign: Constant<Bits<33>>,
 }
 
 impl EdgeSigns {
     /// Flags that come `latency` edges after the orientations.
     ///
     /// # Panics
-    /// If `latency` is below 2.
+    /// If `latency` is below 3.
     pub fn new(latency: usize) -> Self {
         assert!(
-            latency >= 2,
-            "the signs of edges take at least 2 clocks, not {latency}"
+            latency >= 3,
+            "the signs of edges take at least 3 clocks, not {latency}"
         );
-        let delay = || FlagDelay::new(latency - 1);
+        let delay = || FlagDelay::new(latency - 2);
         Self {
             clock: Signal::default(),
             e0: Signal::default(),
@@ -96,9 +105,18 @@ impl EdgeSigns {
             value_0: DFF::default(),
             value_1: DFF::default(),
             value_2: DFF::default(),
-            biased_0: Signal::default(),
-            biased_1: Signal::default(),
-            biased_2: Signal::default(),
+            low_0: Signal::default(),
+            low_1: Signal::default(),
+            low_2: Signal::default(),
+            negative_0: DFF::default(),
+            negative_1: DFF::default(),
+            negative_2: DFF::default(),
+            zero_0: DFF::default(),
+            zero_1: DFF::default(),
+            zero_2: DFF::default(),
+            low_1_below_0: DFF::default(),
+            low_2_below_0: DFF::default(),
+            low_2_below_1: DFF::default(),
             delay_negative_0: delay(),
             delay_negative_1: delay(),
             delay_negative_2: delay(),
@@ -109,7 +127,6 @@ impl EdgeSigns {
             delay_2_below_0: delay(),
             delay_2_below_1: delay(),
             zero: Constant::new(Bits::default()),
-            sign: Constant::new(Bits::from(1 << 32)),
         }
     }
 }
@@ -118,6 +135,8 @@ impl Logic for EdgeSigns {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, value_0, value_1, value_2);
+        clock!(self, clock, negative_0, negative_1, negative_2, zero_0, zero_1, zero_2);
+        clock!(self, clock, low_1_below_0, low_2_below_0, low_2_below_1);
         clock!(
             self,
             clock,
@@ -133,21 +152,48 @@ impl Logic for EdgeSigns {
             delay_2_below_0,
             delay_2_below_1
         );
+        // Edge 1.
         self.value_0.d.next = bit_cast::<33, 36>(self.e0.val());
         self.value_1.d.next = bit_cast::<33, 36>(self.e1.val());
         self.value_2.d.next = bit_cast::<33, 36>(self.e2.val());
-        self.biased_0.next = self.value_0.q.val() ^ self.sign.val();
-        self.biased_1.next = self.value_1.q.val() ^ self.sign.val();
-        self.biased_2.next = self.value_2.q.val() ^ self.sign.val();
-        self.delay_negative_0.flag_in.next = self.value_0.q.val().get_bit(32);
-        self.delay_negative_1.flag_in.next = self.value_1.q.val().get_bit(32);
-        self.delay_negative_2.flag_in.next = self.value_2.q.val().get_bit(32);
-        self.delay_zero_0.flag_in.next = self.value_0.q.val() == self.zero.val();
-        self.delay_zero_1.flag_in.next = self.value_1.q.val() == self.zero.val();
-        self.delay_zero_2.flag_in.next = self.value_2.q.val() == self.zero.val();
-        self.delay_1_below_0.flag_in.next = self.biased_1.val() < self.biased_0.val();
-        self.delay_2_below_0.flag_in.next = self.biased_2.val() < self.biased_0.val();
-        self.delay_2_below_1.flag_in.next = self.biased_2.val() < self.biased_1.val();
+
+        // Edge 2: signs, and the bits below them.
+        self.negative_0.d.next = self.value_0.q.val().get_bit(32);
+        self.negative_1.d.next = self.value_1.q.val().get_bit(32);
+        self.negative_2.d.next = self.value_2.q.val().get_bit(32);
+        self.zero_0.d.next = self.value_0.q.val() == self.zero.val();
+        self.zero_1.d.next = self.value_1.q.val() == self.zero.val();
+        self.zero_2.d.next = self.value_2.q.val() == self.zero.val();
+        self.low_0.next = bit_cast::<32, 33>(self.value_0.q.val());
+        self.low_1.next = bit_cast::<32, 33>(self.value_1.q.val());
+        self.low_2.next = bit_cast::<32, 33>(self.value_2.q.val());
+        self.low_1_below_0.d.next = self.low_1.val() < self.low_0.val();
+        self.low_2_below_0.d.next = self.low_2.val() < self.low_0.val();
+        self.low_2_below_1.d.next = self.low_2.val() < self.low_1.val();
+
+        // Edge 3: the comparisons; with unequal signs the negative one is below.
+        self.delay_negative_0.flag_in.next = self.negative_0.q.val();
+        self.delay_negative_1.flag_in.next = self.negative_1.q.val();
+        self.delay_negative_2.flag_in.next = self.negative_2.q.val();
+        self.delay_zero_0.flag_in.next = self.zero_0.q.val();
+        self.delay_zero_1.flag_in.next = self.zero_1.q.val();
+        self.delay_zero_2.flag_in.next = self.zero_2.q.val();
+        if self.negative_1.q.val() ^ self.negative_0.q.val() {
+            self.delay_1_below_0.flag_in.next = self.negative_1.q.val();
+        } else {
+            self.delay_1_below_0.flag_in.next = self.low_1_below_0.q.val();
+        }
+        if self.negative_2.q.val() ^ self.negative_0.q.val() {
+            self.delay_2_below_0.flag_in.next = self.negative_2.q.val();
+        } else {
+            self.delay_2_below_0.flag_in.next = self.low_2_below_0.q.val();
+        }
+        if self.negative_2.q.val() ^ self.negative_1.q.val() {
+            self.delay_2_below_1.flag_in.next = self.negative_2.q.val();
+        } else {
+            self.delay_2_below_1.flag_in.next = self.low_2_below_1.q.val();
+        }
+
         self.e0_negative.next = self.delay_negative_0.flag_out.val();
         self.e1_negative.next = self.delay_negative_1.flag_out.val();
         self.e2_negative.next = self.delay_negative_2.flag_out.val();

@@ -168,13 +168,16 @@ impl CommandModel {
     fn read_on(&mut self) -> bool {
         const WINDOW: u32 = 4096;
         let (first, end) = self.reading;
+        if first == end {
+            return false;
+        }
         let stop = end.min(first.saturating_add(WINDOW));
         for record in &self.mesh.records()[first as usize..stop as usize] {
             let words = self.layout.record_to_words(record.v, record.n, false);
             self.answers.extend(&words[..self.layout.record_words]);
         }
         self.reading.0 = stop;
-        first < stop
+        true
     }
 
     /// Finishes the range being read, before another answer or a change of the mesh.

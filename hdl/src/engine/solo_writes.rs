@@ -1,0 +1,153 @@
+//! The writes of an insertion alone, by what it does.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `is_split`, `is_mend`, `is_test` | in | 1 | what it does; a flip if none of them |
+//! | `step` | in | 2 | which record of the split, link of the mend, write of the flip |
+//! | `p`, `records`, `root_id`, `root` | in | | the new vertex, the next new id, the located triangle |
+//! | `id`, `a`, `b`, `outer`, `after`, `preceding` | in | 15 | the star triangle at work |
+//! | `apex`, `apex_after_a`, `apex_before_b` | in | 15 | the triangle outside it, and its links beyond `a` and `b` |
+//! | `visited`, `slot` | in | 15, 2 | the record visited and its slot that leads back |
+//! | `write` | out | Write | the write |
+//!
+//! Latency: none (combinational).
+
+use super::{LinkWrite, RecordWrite, Turned, Write};
+use rust_hdl_core::prelude::*;
+
+/// Writes of an insertion alone; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct SoloWrites {
+    /// The root is split.
+    pub is_split: Signal<In, Bit>,
+    /// A link is mended after the split.
+    pub is_mend: Signal<In, Bit>,
+    /// A link is mended after a test.
+    pub is_test: Signal<In, Bit>,
+    /// Which of the writes.
+    pub step: Signal<In, Bits<2>>,
+    /// The new vertex.
+    pub p: Signal<In, Bits<15>>,
+    /// The next new id.
+    pub records: Signal<In, Bits<15>>,
+    /// The located triangle.
+    pub root_id: Signal<In, Bits<15>>,
+    /// Its record.
+    pub root: Signal<In, Turned>,
+    /// The star triangle at work.
+    pub id: Signal<In, Bits<15>>,
+    /// Its second vertex.
+    pub a: Signal<In, Bits<15>>,
+    /// Its third vertex.
+    pub b: Signal<In, Bits<15>>,
+    /// The triangle outside it.
+    pub outer: Signal<In, Bits<15>>,
+    /// The next star triangle.
+    pub after: Signal<In, Bits<15>>,
+    /// The star triangle before it.
+    pub preceding: Signal<In, Bits<15>>,
+    /// The apex of `outer`.
+    pub apex: Signal<In, Bits<15>>,
+    /// The triangle across the edge from `a` to the apex.
+    pub apex_after_a: Signal<In, Bits<15>>,
+    /// The triangle across the edge from the apex to `b`.
+    pub apex_before_b: Signal<In, Bits<15>>,
+    /// The record visited.
+    pub visited: Signal<In, Bits<15>>,
+    /// Its slot that leads back.
+    pub slot: Signal<In, Bits<2>>,
+    /// The write.
+    pub write: Signal<Out, Write>,
+    record: RecordWrite,
+    link: LinkWrite,
+    second: Signal<Local, Bits<15>>,
+    third: Signal<Local, Bits<15>>,
+    one: Signal<Local, Bits<15>>,
+    is_step0: Signal<Local, Bit>,
+    is_step1: Signal<Local, Bit>,
+    step0: Signal<Local, Bits<2>>,
+    step1: Signal<Local, Bits<2>>,
+}
+
+impl Logic for SoloWrites {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.one.next = 1.into();
+        self.step0.next = 0.into();
+        self.step1.next = 1.into();
+        self.is_step0.next = self.step.val() == self.step0.val();
+        self.is_step1.next = self.step.val() == self.step1.val();
+        self.second.next = self.records.val();
+        self.third.next = self.records.val() + self.one.val();
+
+        // Records: the last of the split, unless something else is asked for.
+        self.record.id.next = self.third.val();
+        self.record.v0.next = self.p.val();
+        self.record.v1.next = self.root.val().v0;
+        self.record.v2.next = self.root.val().v1;
+        self.record.n0.next = self.root.val().n2;
+        self.record.n1.next = self.root_id.val();
+        self.record.n2.next = self.second.val();
+        if self.is_split.val() & self.is_step0.val() {
+            self.record.id.next = self.root_id.val();
+            self.record.v1.next = self.root.val().v1;
+            self.record.v2.next = self.root.val().v2;
+            self.record.n0.next = self.root.val().n0;
+            self.record.n1.next = self.second.val();
+            self.record.n2.next = self.third.val();
+        }
+        if self.is_split.val() & self.is_step1.val() {
+            self.record.id.next = self.second.val();
+            self.record.v1.next = self.root.val().v2;
+            self.record.v2.next = self.root.val().v0;
+            self.record.n0.next = self.root.val().n1;
+            self.record.n1.next = self.third.val();
+            self.record.n2.next = self.root_id.val();
+        }
+        if (!self.is_split.val()) & self.is_step0.val() {
+            self.record.id.next = self.id.val();
+            self.record.v1.next = self.a.val();
+            self.record.v2.next = self.apex.val();
+            self.record.n0.next = self.apex_after_a.val();
+            self.record.n1.next = self.outer.val();
+            self.record.n2.next = self.preceding.val();
+        }
+        if (!self.is_split.val()) & self.is_step1.val() {
+            self.record.id.next = self.outer.val();
+            self.record.v1.next = self.apex.val();
+            self.record.v2.next = self.b.val();
+            self.record.n0.next = self.apex_before_b.val();
+            self.record.n1.next = self.after.val();
+            self.record.n2.next = self.id.val();
+        }
+
+        // Links: that of the next star triangle to the flipped one, unless one is mended.
+        self.link.id.next = self.after.val();
+        self.link.slot.next = 2.into();
+        self.link.value.next = self.outer.val();
+        if self.is_test.val() {
+            self.link.id.next = self.visited.val();
+            self.link.slot.next = self.slot.val();
+            self.link.value.next = self.id.val();
+        }
+        if self.is_mend.val() {
+            self.link.id.next = self.visited.val();
+            self.link.slot.next = self.slot.val();
+            self.link.value.next = self.second.val();
+            if self.is_step1.val() {
+                self.link.value.next = self.third.val();
+            }
+        }
+
+        self.write.next = self.link.write.val();
+        if self.is_split.val() {
+            self.write.next = self.record.write.val();
+        }
+        if (!self.is_mend.val())
+            & (!self.is_test.val())
+            & (self.is_step0.val() | self.is_step1.val())
+        {
+            self.write.next = self.record.write.val();
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! Reads the record of a visit, turns it, and fetches the coordinates of its corners.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `infinite` | in | 15 | the id of the infinite vertex, a constant |
+//! | `token` | in | Token | the visit, in clock 0 |
+//! | `v0..n2` | in | 15 | its record from the triangle memory, in clock 2 |
+//! | `was_set` | in | 1 | its lock bit, in clock 2 |
+//! | `position0..2` | in | 32 | coordinates of `v0..v2`, in clock 4 |
+//! | `turned` | out | Turned | the record turned, in clock 4 |
+//! | `r0..r2` | out | 32 | coordinates of the turned vertices, in clock 5 |
+//!
+//! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does.
+//!
+//! Latency: see the clocks above; `LATENCY` is that of the corners.
+
+use super::{Token, Turned};
+use crate::mesh::{TriangleStore, VertexStore};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Slot search and rotation; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct VisitReader {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// The id of the infinite vertex, a constant.
+    pub infinite: Signal<In, Bits<15>>,
+    /// The visit issued.
+    pub token: Signal<In, Token>,
+    /// Column of the record.
+    pub v0: Signal<In, Bits<15>>,
+    /// Column of the record.
+    pub v1: Signal<In, Bits<15>>,
+    /// Column of the record.
+    pub v2: Signal<In, Bits<15>>,
+    /// Column of the record.
+    pub n0: Signal<In, Bits<15>>,
+    /// Column of the record.
+    pub n1: Signal<In, Bits<15>>,
+    /// Column of the record.
+    pub n2: Signal<In, Bits<15>>,
+    /// Lock bit of the record.
+    pub was_set: Signal<In, Bit>,
+    /// Coordinates of `v0`.
+    pub position0: Signal<In, Bits<32>>,
+    /// Coordinates of `v1`.
+    pub position1: Signal<In, Bits<32>>,
+    /// Coordinates of `v2`.
+    pub position2: Signal<In, Bits<32>>,
+    /// The record turned.
+    pub turned: Signal<Out, Turned>,
+    /// The token of the record on the columns, for the delay to the verdict.
+    pub token_at_record: Signal<Out, Token>,
+    /// Corner of the turned record.
+    pub r0: Signal<Out, Bits<32>>,
+    /// Corner of the turned record.
+    pub r1: Signal<Out, Bits<32>>,
+    /// Corner of the turned record.
+    pub r2: Signal<Out, Bits<32>>,
+    token1: DFF<Token>,
+    token2: DFF<Token>,
+    /// The record as stored; `slot` is the one that will come first.
+    found: DFF<Turned>,
+    rotated: DFF<Turned>,
+    corner0: DFF<Bits<32>>,
+    corner1: DFF<Bits<32>>,
+    corner2: DFF<Bits<32>>,
+    first_slot: Signal<Local, Bits<2>>,
+    second_slot: Signal<Local, Bits<2>>,
+    third_slot: Signal<Local, Bits<2>>,
+}
+
+impl VisitReader {
+    /// Clocks from the token to the corners.
+    pub const LATENCY: usize = TriangleStore::LATENCY + VertexStore::LATENCY + 1;
+    /// Clocks from the token to the turned record: the record, the slot, the rotation.
+    pub const TURNED_LATENCY: usize = TriangleStore::LATENCY + 2;
+}
+
+impl Logic for VisitReader {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, token1, token2, found, rotated, corner0, corner1, corner2);
+        self.first_slot.next = 0.into();
+        self.second_slot.next = 1.into();
+        self.third_slot.next = 2.into();
+        self.token1.d.next = self.token.val();
+        self.token2.d.next = self.token1.q.val();
+        self.token_at_record.next = self.token2.q.val();
+
+        // Clock 2: the slot that comes first, and the infinite vertex.
+        self.found.d.next.v0 = self.v0.val();
+        self.found.d.next.v1 = self.v1.val();
+        self.found.d.next.v2 = self.v2.val();
+        self.found.d.next.n0 = self.n0.val();
+        self.found.d.next.n1 = self.n1.val();
+        self.found.d.next.n2 = self.n2.val();
+        self.found.d.next.was_set = self.was_set.val();
+        self.found.d.next.infinite0 = self.v0.val() == self.infinite.val();
+        self.found.d.next.infinite1 = self.v1.val() == self.infinite.val();
+        self.found.d.next.infinite2 = self.v2.val() == self.infinite.val();
+        self.found.d.next.slot = self.first_slot.val();
+        if self.token2.q.val().rotates & (self.n1.val() == self.token2.q.val().f) {
+            self.found.d.next.slot = self.second_slot.val();
+        }
+        if self.token2.q.val().rotates & (self.n2.val() == self.token2.q.val().f) {
+            self.found.d.next.slot = self.third_slot.val();
+        }
+
+        // Clock 3: the record turned.
+        self.rotated.d.next = self.found.q.val();
+        if self.found.q.val().slot == self.second_slot.val() {
+            self.rotated.d.next.v0 = self.found.q.val().v1;
+            self.rotated.d.next.v1 = self.found.q.val().v2;
+            self.rotated.d.next.v2 = self.found.q.val().v0;
+            self.rotated.d.next.n0 = self.found.q.val().n1;
+            self.rotated.d.next.n1 = self.found.q.val().n2;
+            self.rotated.d.next.n2 = self.found.q.val().n0;
+            self.rotated.d.next.infinite0 = self.found.q.val().infinite1;
+            self.rotated.d.next.infinite1 = self.found.q.val().infinite2;
+            self.rotated.d.next.infinite2 = self.found.q.val().infinite0;
+        }
+        if self.found.q.val().slot == self.third_slot.val() {
+            self.rotated.d.next.v0 = self.found.q.val().v2;
+            self.rotated.d.next.v1 = self.found.q.val().v0;
+            self.rotated.d.next.v2 = self.found.q.val().v1;
+            self.rotated.d.next.n0 = self.found.q.val().n2;
+            self.rotated.d.next.n1 = self.found.q.val().n0;
+            self.rotated.d.next.n2 = self.found.q.val().n1;
+            self.rotated.d.next.infinite0 = self.found.q.val().infinite2;
+            self.rotated.d.next.infinite1 = self.found.q.val().infinite0;
+            self.rotated.d.next.infinite2 = self.found.q.val().infinite1;
+        }
+        self.turned.next = self.rotated.q.val();
+
+        // Clock 4: the corners turned alike.
+        self.corner0.d.next = self.position0.val();
+        self.corner1.d.next = self.position1.val();
+        self.corner2.d.next = self.position2.val();
+        if self.rotated.q.val().slot == self.second_slot.val() {
+            self.corner0.d.next = self.position1.val();
+            self.corner1.d.next = self.position2.val();
+            self.corner2.d.next = self.position0.val();
+        }
+        if self.rotated.q.val().slot == self.third_slot.val() {
+            self.corner0.d.next = self.position2.val();
+            self.corner1.d.next = self.position0.val();
+            self.corner2.d.next = self.position1.val();
+        }
+        self.r0.next = self.corner0.q.val();
+        self.r1.next = self.corner1.q.val();
+        self.r2.next = self.corner2.q.val();
+    }
+}

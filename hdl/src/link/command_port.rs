@@ -1,0 +1,292 @@
+//! Takes command words: opcodes, arguments, and points one at a time.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset awaits a command |
+//! | `capacity` | in | 15 | points the core holds, a constant |
+//! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
+//! | `sweeps` | in | 1 | the core is not ready for commands yet |
+//! | `seeded`, `collinear` | in | 1 | what became of the first three points |
+//! | `is_quiet` | in | 1 | no point waits, the engine is idle, no lock is held |
+//! | `takes_point` | in | 1 | the engine takes the waiting point at this edge |
+//! | `point_valid`, `point_id`, `point` | out | 1, 15, 32 | the waiting point: x in the low half, y in the high |
+//! | `vertex_enable` | out | 1 | `point` is to be written into the vertex memory at this edge |
+//! | `clears` | out | 1 | forget the mesh at this edge |
+//! | `answers` | out | 1 | an answer is due, until `answer_ends` |
+//! | `opcode`, `first`, `count` | out | 8, 32, 32 | the command and its arguments |
+//! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
+//! | `responder_is_idle`, `answer_ends`, `answer_is_taken` | in | 1 | the responder |
+//! | `inserting`, `reading`, `awaits_point` | out | 1 | what the cycle counters count |
+//!
+//! 1. `command_ready` depends on registers only and does not wait for `command_valid`.
+//! 2. A point is taken when the one before has gone to the engine; the fourth waits until the first three are known to span a
+//!    triangle.
+//!
+//! Latency: a point accepted at an edge waits at the engine in the next clock.
+
+use incircle_protocol::Opcode;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// What the next word means, or what is awaited.
+#[derive(Clone, Copy, Debug, PartialEq, LogicState)]
+pub enum CommandState {
+    /// A command.
+    Command,
+    /// The first id of a read.
+    First,
+    /// The number of records or points.
+    Count,
+    /// Points.
+    Points,
+    /// The engine finishes.
+    Settle,
+    /// The answer is sent.
+    Answer,
+}
+
+/// The command stream; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct CommandPort {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Awaits a command.
+    pub reset: Signal<In, Bit>,
+    /// Points the core holds.
+    pub capacity: Signal<In, Bits<15>>,
+    /// A word is offered.
+    pub command_valid: Signal<In, Bit>,
+    /// A word is taken.
+    pub command_ready: Signal<Out, Bit>,
+    /// The word.
+    pub command_data: Signal<In, Bits<32>>,
+    /// The core is not ready yet.
+    pub sweeps: Signal<In, Bit>,
+    /// The first triangle stands.
+    pub seeded: Signal<In, Bit>,
+    /// The first three points are collinear.
+    pub collinear: Signal<In, Bit>,
+    /// The engine has finished.
+    pub is_quiet: Signal<In, Bit>,
+    /// The waiting point is taken.
+    pub takes_point: Signal<In, Bit>,
+    /// A point waits.
+    pub point_valid: Signal<Out, Bit>,
+    /// Its vertex id.
+    pub point_id: Signal<Out, Bits<15>>,
+    /// Its coordinates.
+    pub point: Signal<Out, Bits<32>>,
+    /// Write it into the vertex memory.
+    pub vertex_enable: Signal<Out, Bit>,
+    /// Forget the mesh.
+    pub clears: Signal<Out, Bit>,
+    /// An answer is due.
+    pub answers: Signal<Out, Bit>,
+    /// The command.
+    pub opcode: Signal<Out, Bits<8>>,
+    /// First argument of a read.
+    pub first: Signal<Out, Bits<32>>,
+    /// Second argument of a read; points still to come of an insert.
+    pub count: Signal<Out, Bits<32>>,
+    /// Points that were given an id.
+    pub arrived: Signal<Out, Bits<15>>,
+    /// Points that were refused.
+    pub refused: Signal<Out, Bits<32>>,
+    /// The responder is idle.
+    pub responder_is_idle: Signal<In, Bit>,
+    /// It loads its last word.
+    pub answer_ends: Signal<In, Bit>,
+    /// No answer word waits, or it is taken.
+    pub answer_is_taken: Signal<In, Bit>,
+    /// A job is under way.
+    pub inserting: Signal<Out, Bit>,
+    /// A read-out is under way.
+    pub reading: Signal<Out, Bit>,
+    /// A point may come.
+    pub awaits_point: Signal<Out, Bit>,
+    state: DFF<CommandState>,
+    command: DFF<Bits<8>>,
+    first_word: DFF<Bits<32>>,
+    left: DFF<Bits<32>>,
+    arrivals: DFF<Bits<15>>,
+    refusals: DFF<Bits<32>>,
+    waits: DFF<Bit>,
+    waiting_id: DFF<Bits<15>>,
+    waiting_point: DFF<Bits<32>>,
+    is_new: DFF<Bit>,
+    clearing: DFF<Bit>,
+    is_inserting: DFF<Bit>,
+    is_reading: DFF<Bit>,
+    is_ready: Signal<Local, Bit>,
+    accepts: Signal<Local, Bit>,
+    is_last: Signal<Local, Bit>,
+    start_is_open: Signal<Local, Bit>,
+    stores: Signal<Local, Bit>,
+    code: Signal<Local, Bits<8>>,
+    is_insert: Signal<Local, Bit>,
+    read_code: Signal<Local, Bits<8>>,
+    insert_code: Signal<Local, Bits<8>>,
+    clear_code: Signal<Local, Bits<8>>,
+    none_left: Signal<Local, Bits<32>>,
+    one: Signal<Local, Bits<32>>,
+    one_arrival: Signal<Local, Bits<15>>,
+    three_arrivals: Signal<Local, Bits<15>>,
+}
+
+// The kernel names opcodes by number, because rust-hdl takes literals only; a change in the protocol must come here.
+const _: () = assert!(
+    Opcode::Clear as u8 == 2 && Opcode::Insert as u8 == 3 && Opcode::Read as u8 == 4,
+    "the opcodes of this block follow the protocol"
+);
+
+impl Logic for CommandPort {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(
+            self, clock, state, command, first_word, left, arrivals, refusals, waits, waiting_id
+        );
+        dff_setup!(
+            self,
+            clock,
+            waiting_point,
+            is_new,
+            clearing,
+            is_inserting,
+            is_reading
+        );
+        self.clear_code.next = 2.into();
+        self.insert_code.next = 3.into();
+        self.read_code.next = 4.into();
+        self.none_left.next = 0.into();
+        self.one.next = 1.into();
+        self.one_arrival.next = 1.into();
+        self.three_arrivals.next = 3.into();
+
+        self.point_valid.next = self.waits.q.val();
+        self.point_id.next = self.waiting_id.q.val();
+        self.point.next = self.waiting_point.q.val();
+        self.vertex_enable.next = self.is_new.q.val();
+        self.clears.next = self.clearing.q.val();
+        self.answers.next = self.state.q.val() == CommandState::Answer;
+        self.opcode.next = self.command.q.val();
+        self.first.next = self.first_word.q.val();
+        self.count.next = self.left.q.val();
+        self.arrived.next = self.arrivals.q.val();
+        self.refused.next = self.refusals.q.val();
+        self.inserting.next = self.is_inserting.q.val();
+        self.reading.next = self.is_reading.q.val();
+
+        // Is a word taken?
+        self.is_last.next = self.left.q.val() == self.none_left.val();
+        self.start_is_open.next = (self.arrivals.q.val() == self.three_arrivals.val())
+            & (!self.seeded.val())
+            & (!self.collinear.val());
+        self.is_ready.next = false;
+        if self.state.q.val() == CommandState::Command {
+            self.is_ready.next = !self.sweeps.val();
+        }
+        if (self.state.q.val() == CommandState::First) | (self.state.q.val() == CommandState::Count)
+        {
+            self.is_ready.next = true;
+        }
+        if self.state.q.val() == CommandState::Points {
+            self.is_ready.next =
+                (!self.is_last.val()) & (!self.waits.q.val()) & (!self.start_is_open.val());
+        }
+        self.awaits_point.next =
+            (self.state.q.val() == CommandState::Points) & (!self.is_last.val());
+        self.command_ready.next = self.is_ready.val();
+        self.accepts.next = self.command_valid.val() & self.is_ready.val();
+        self.stores.next = (!self.collinear.val()) & (self.arrivals.q.val() != self.capacity.val());
+        self.code.next = self.command_data.val().get_bits::<8>(24);
+        self.is_insert.next = self.command.q.val() == self.insert_code.val();
+
+        self.clearing.d.next = false;
+        self.is_new.d.next = false;
+        if self.takes_point.val() {
+            self.waits.d.next = false;
+        }
+        if (self.state.q.val() != CommandState::Answer)
+            & self.responder_is_idle.val()
+            & self.answer_is_taken.val()
+        {
+            self.is_reading.d.next = false;
+        }
+        match self.state.q.val() {
+            CommandState::Command => {
+                if self.accepts.val() {
+                    self.command.d.next = self.code.val();
+                    self.clearing.d.next = self.code.val() == self.clear_code.val();
+                    self.state.d.next = CommandState::Answer;
+                    if self.code.val() == self.insert_code.val() {
+                        self.state.d.next = CommandState::Count;
+                    }
+                    if self.code.val() == self.read_code.val() {
+                        self.state.d.next = CommandState::First;
+                    }
+                }
+            }
+            CommandState::First => {
+                if self.accepts.val() {
+                    self.first_word.d.next = self.command_data.val();
+                    self.state.d.next = CommandState::Count;
+                }
+            }
+            CommandState::Count => {
+                if self.accepts.val() {
+                    self.left.d.next = self.command_data.val();
+                    if self.is_insert.val() {
+                        self.state.d.next = CommandState::Points;
+                    } else {
+                        self.is_reading.d.next = true;
+                        self.state.d.next = CommandState::Answer;
+                    }
+                }
+            }
+            CommandState::Points => {
+                if self.is_last.val() {
+                    self.state.d.next = CommandState::Settle;
+                }
+                if self.accepts.val() {
+                    self.left.d.next = self.left.q.val() - self.one.val();
+                    self.is_inserting.d.next = true;
+                    if self.stores.val() {
+                        self.waits.d.next = true;
+                        self.is_new.d.next = true;
+                        self.waiting_id.d.next = self.arrivals.q.val();
+                        self.waiting_point.d.next = self.command_data.val();
+                        self.arrivals.d.next = self.arrivals.q.val() + self.one_arrival.val();
+                    } else {
+                        self.refusals.d.next = self.refusals.q.val() + self.one.val();
+                    }
+                }
+            }
+            CommandState::Settle => {
+                if self.is_quiet.val() {
+                    self.is_inserting.d.next = false;
+                    self.state.d.next = CommandState::Answer;
+                }
+            }
+            CommandState::Answer => {
+                if self.answer_ends.val() {
+                    self.state.d.next = CommandState::Command;
+                }
+            }
+            _ => {
+                self.state.d.next = CommandState::Command;
+            }
+        }
+        if self.clearing.q.val() | self.reset.val() {
+            self.arrivals.d.next = 0.into();
+            self.refusals.d.next = 0.into();
+        }
+        if self.reset.val() {
+            self.state.d.next = CommandState::Command;
+            self.waits.d.next = false;
+            self.is_new.d.next = false;
+            self.clearing.d.next = false;
+            self.is_inserting.d.next = false;
+            self.is_reading.d.next = false;
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! Sends answers: header, length, payload. Records are read from the triangle memory one at a time.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset drops an answer |
+//! | `answers` | in | 1 | an answer is due, held until `ends` |
+//! | `first` | in | 32 | first record of a read |
+//! | `header`, `length`, `word`, `is_read` | in | | the answer, from `AnswerWords` |
+//! | `index` | out | 4 | word of the payload that is wanted |
+//! | `read`, `read_id` | out | 1, 15 | a record is wanted |
+//! | `read_done`, `v0..n2`, `was_set` | in | | it has come |
+//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 32 | the answer stream |
+//! | `is_idle`, `ends`, `is_taken` | out | 1 | no answer is under way; its last word is loaded at this edge; no word waits, or it is taken |
+//!
+//! 1. A word offered is held until it is taken; `response_valid` does not wait for `response_ready`.
+//! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
+//!
+//! Latency: 2 clocks from `answers` to the header; 8 clocks a record.
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Which part of an answer is loaded next.
+#[derive(Clone, Copy, Debug, PartialEq, LogicState)]
+pub enum AnswerState {
+    /// None.
+    Idle,
+    /// The header.
+    Header,
+    /// The length.
+    Length,
+    /// A word of the payload.
+    Payload,
+    /// A word of a record.
+    Records,
+}
+
+/// The answer stream; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Responder {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Drops an answer.
+    pub reset: Signal<In, Bit>,
+    /// An answer is due.
+    pub answers: Signal<In, Bit>,
+    /// First record of a read.
+    pub first: Signal<In, Bits<32>>,
+    /// First word of the answer.
+    pub header: Signal<In, Bits<32>>,
+    /// Words of the payload.
+    pub length: Signal<In, Bits<32>>,
+    /// Word of the payload.
+    pub word: Signal<In, Bits<32>>,
+    /// The payload consists of records.
+    pub is_read: Signal<In, Bit>,
+    /// Word of the payload that is wanted.
+    pub index: Signal<Out, Bits<4>>,
+    /// A record is wanted.
+    pub read: Signal<Out, Bit>,
+    /// Its id.
+    pub read_id: Signal<Out, Bits<15>>,
+    /// It has come.
+    pub read_done: Signal<In, Bit>,
+    /// Its column.
+    pub v0: Signal<In, Bits<15>>,
+    /// Its column.
+    pub v1: Signal<In, Bits<15>>,
+    /// Its column.
+    pub v2: Signal<In, Bits<15>>,
+    /// Its column.
+    pub n0: Signal<In, Bits<15>>,
+    /// Its column.
+    pub n1: Signal<In, Bits<15>>,
+    /// Its column.
+    pub n2: Signal<In, Bits<15>>,
+    /// Its lock bit.
+    pub was_set: Signal<In, Bit>,
+    /// A word is offered.
+    pub response_valid: Signal<Out, Bit>,
+    /// It is taken.
+    pub response_ready: Signal<In, Bit>,
+    /// The word.
+    pub response_data: Signal<Out, Bits<32>>,
+    /// No answer is under way.
+    pub is_idle: Signal<Out, Bit>,
+    /// The last word is loaded.
+    pub ends: Signal<Out, Bit>,
+    /// No word waits, or it is taken.
+    pub is_taken: Signal<Out, Bit>,
+    state: DFF<AnswerState>,
+    valid: DFF<Bit>,
+    data: DFF<Bits<32>>,
+    left: DFF<Bits<32>>,
+    loaded: DFF<Bits<4>>,
+    record_id: DFF<Bits<15>>,
+    fetching: DFF<Bit>,
+    buffered: DFF<Bit>,
+    /// The words of the record; the one to be loaded next stands in the first.
+    buffer0: DFF<Bits<32>>,
+    buffer1: DFF<Bits<32>>,
+    buffer2: DFF<Bits<32>>,
+    column: DFF<Bits<2>>,
+    loads: Signal<Local, Bit>,
+    asks: Signal<Local, Bit>,
+    is_last: Signal<Local, Bit>,
+    is_empty: Signal<Local, Bit>,
+    is_last_column: Signal<Local, Bit>,
+    ends_now: Signal<Local, Bit>,
+    lock: Signal<Local, Bits<32>>,
+    vertex0: Signal<Local, Bits<32>>,
+    vertex1: Signal<Local, Bits<32>>,
+    vertex2: Signal<Local, Bits<32>>,
+    link0: Signal<Local, Bits<32>>,
+    link1: Signal<Local, Bits<32>>,
+    link2: Signal<Local, Bits<32>>,
+    high0: Signal<Local, Bits<32>>,
+    high1: Signal<Local, Bits<32>>,
+    high2: Signal<Local, Bits<32>>,
+    link_shift: Signal<Local, Bits<32>>,
+    one: Signal<Local, Bits<32>>,
+    zero: Signal<Local, Bits<32>>,
+    one_word: Signal<Local, Bits<4>>,
+    one_record: Signal<Local, Bits<15>>,
+    one_column: Signal<Local, Bits<2>>,
+    last_column: Signal<Local, Bits<2>>,
+}
+
+impl Logic for Responder {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, state, valid, data, left, loaded, record_id, fetching, buffered);
+        dff_setup!(self, clock, buffer0, buffer1, buffer2, column);
+        self.link_shift.next = 15.into();
+        self.one.next = 1.into();
+        self.zero.next = 0.into();
+        self.one_word.next = 1.into();
+        self.one_record.next = 1.into();
+        self.one_column.next = 1.into();
+        self.last_column.next = 2.into();
+
+        self.response_valid.next = self.valid.q.val();
+        self.response_data.next = self.data.q.val();
+        self.index.next = self.loaded.q.val();
+        self.loads.next = (!self.valid.q.val()) | self.response_ready.val();
+        self.is_taken.next = self.loads.val();
+        self.is_idle.next = self.state.q.val() == AnswerState::Idle;
+        self.is_last.next = self.left.q.val() == self.one.val();
+        self.is_empty.next = self.length.val() == self.zero.val();
+        self.is_last_column.next = self.column.q.val() == self.last_column.val();
+
+        // A record is fetched when the one before has been loaded.
+        self.asks.next = (self.state.q.val() == AnswerState::Records)
+            & (!self.fetching.q.val())
+            & (!self.buffered.q.val());
+        self.read.next = self.asks.val();
+        self.read_id.next = self.record_id.q.val();
+        self.lock.next = 0.into();
+        if self.was_set.val() {
+            self.lock.next = 0x8000_0000u64.into();
+        }
+        self.vertex0.next = bit_cast::<32, 15>(self.v0.val());
+        self.vertex1.next = bit_cast::<32, 15>(self.v1.val());
+        self.vertex2.next = bit_cast::<32, 15>(self.v2.val());
+        self.link0.next = bit_cast::<32, 15>(self.n0.val());
+        self.link1.next = bit_cast::<32, 15>(self.n1.val());
+        self.link2.next = bit_cast::<32, 15>(self.n2.val());
+        self.high0.next = self.link0.val() << self.link_shift.val();
+        self.high1.next = self.link1.val() << self.link_shift.val();
+        self.high2.next = self.link2.val() << self.link_shift.val();
+        if self.asks.val() {
+            self.fetching.d.next = true;
+        }
+        if self.read_done.val() {
+            self.fetching.d.next = false;
+            self.buffered.d.next = true;
+            self.buffer0.d.next = self.vertex0.val() | self.high0.val() | self.lock.val();
+            self.buffer1.d.next = self.vertex1.val() | self.high1.val();
+            self.buffer2.d.next = self.vertex2.val() | self.high2.val();
+            self.record_id.d.next = self.record_id.q.val() + self.one_record.val();
+        }
+
+        self.ends_now.next = false;
+        if self.loads.val() {
+            self.valid.d.next = false;
+        }
+        match self.state.q.val() {
+            AnswerState::Idle => {
+                if self.answers.val() {
+                    self.state.d.next = AnswerState::Header;
+                }
+            }
+            AnswerState::Header => {
+                if self.loads.val() {
+                    self.valid.d.next = true;
+                    self.data.d.next = self.header.val();
+                    self.state.d.next = AnswerState::Length;
+                }
+            }
+            AnswerState::Length => {
+                self.left.d.next = self.length.val();
+                self.loaded.d.next = 0.into();
+                self.column.d.next = 0.into();
+                self.record_id.d.next = self.first.val().get_bits::<15>(0);
+                if self.loads.val() {
+                    self.valid.d.next = true;
+                    self.data.d.next = self.length.val();
+                    self.ends_now.next = self.is_empty.val();
+                    self.state.d.next = AnswerState::Payload;
+                    if self.is_read.val() {
+                        self.state.d.next = AnswerState::Records;
+                    }
+                }
+            }
+            AnswerState::Payload => {
+                if self.loads.val() {
+                    self.valid.d.next = true;
+                    self.data.d.next = self.word.val();
+                    self.loaded.d.next = self.loaded.q.val() + self.one_word.val();
+                    self.left.d.next = self.left.q.val() - self.one.val();
+                    self.ends_now.next = self.is_last.val();
+                }
+            }
+            AnswerState::Records => {
+                if self.loads.val() & self.buffered.q.val() {
+                    self.valid.d.next = true;
+                    self.data.d.next = self.buffer0.q.val();
+                    self.buffer0.d.next = self.buffer1.q.val();
+                    self.buffer1.d.next = self.buffer2.q.val();
+                    self.column.d.next = self.column.q.val() + self.one_column.val();
+                    if self.is_last_column.val() {
+                        self.column.d.next = 0.into();
+                        self.buffered.d.next = false;
+                    }
+                    self.left.d.next = self.left.q.val() - self.one.val();
+                    self.ends_now.next = self.is_last.val();
+                }
+            }
+            _ => {
+                self.state.d.next = AnswerState::Idle;
+            }
+        }
+        self.ends.next = self.ends_now.val();
+        if self.ends_now.val() {
+            self.state.d.next = AnswerState::Idle;
+        }
+        if self.reset.val() {
+            self.state.d.next = AnswerState::Idle;
+            self.valid.d.next = false;
+            self.data.d.next = 0.into();
+            self.fetching.d.next = false;
+            self.buffered.d.next = false;
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! The triangle records, a memory per column so that a link can be written alone, and a lock bit for each.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `write` | in | Write | a record or one link, written at this edge |
+//! | `read_id` | in | 15 | record to read |
+//! | `read_locks` | in | 1 | set its lock at this edge |
+//! | `v0..v2`, `n0..n2` | out | 15 | its columns |
+//! | `was_set` | out | 1 | its lock before this edge |
+//! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear at this edge |
+//!
+//! 1. A write is seen by every read from the next edge on; reading and writing one record at the same edge does not happen, because
+//!    insertions write only while none of their visits is out.
+//! 2. Setting and clearing one lock at the same edge does not happen, because a cavity starts when all locks are released.
+//!
+//! Latency: 2 clocks from `read_id` to the columns and `was_set`.
+//!
+//! Source: Cline and Renka's triangle-based structure: three vertices and three neighbours for each triangle.
+
+use crate::engine::Write;
+use crate::leaf::{BlockMemory, LockMemory};
+use rust_hdl_core::prelude::*;
+
+/// The triangle memory; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct TriangleStore {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// A record or one link to write.
+    pub write: Signal<In, Write>,
+    /// Record to read.
+    pub read_id: Signal<In, Bits<15>>,
+    /// Set its lock.
+    pub read_locks: Signal<In, Bit>,
+    /// First vertex.
+    pub v0: Signal<Out, Bits<15>>,
+    /// Second vertex.
+    pub v1: Signal<Out, Bits<15>>,
+    /// Third vertex.
+    pub v2: Signal<Out, Bits<15>>,
+    /// Link opposite the first vertex.
+    pub n0: Signal<Out, Bits<15>>,
+    /// Link opposite the second vertex.
+    pub n1: Signal<Out, Bits<15>>,
+    /// Link opposite the third vertex.
+    pub n2: Signal<Out, Bits<15>>,
+    /// The lock before this read.
+    pub was_set: Signal<Out, Bit>,
+    /// Lock to clear.
+    pub clear_id: Signal<In, Bits<15>>,
+    /// Clear it.
+    pub clear_enable: Signal<In, Bit>,
+    vertices: [BlockMemory<15, 15>; 3],
+    links: [BlockMemory<15, 15>; 3],
+    locks: LockMemory<15>,
+}
+
+impl TriangleStore {
+    /// Clocks from `read_id` to the record.
+    pub const LATENCY: usize = BlockMemory::<15, 15>::LATENCY;
+
+    /// A store of `2^id_bits` records whose vertices have `vertex_bits`.
+    pub fn new(id_bits: usize, vertex_bits: usize) -> Self {
+        Self {
+            vertices: [(); 3].map(|()| BlockMemory::new(id_bits, vertex_bits)),
+            links: [(); 3].map(|()| BlockMemory::new(id_bits, id_bits)),
+            locks: LockMemory::new(id_bits),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for TriangleStore {
+    #[hdl_gen]
+    fn update(&mut self) {
+        for i in 0..3 {
+            self.vertices[i].clock.next = self.clock.val();
+            self.vertices[i].read_address.next = self.read_id.val();
+            self.vertices[i].write_address.next = self.write.val().id;
+            self.vertices[i].write_enable.next = self.write.val().valid & self.write.val().vertices;
+            self.links[i].clock.next = self.clock.val();
+            self.links[i].read_address.next = self.read_id.val();
+            self.links[i].write_address.next = self.write.val().id;
+        }
+        self.vertices[0].write_data.next = self.write.val().v0;
+        self.vertices[1].write_data.next = self.write.val().v1;
+        self.vertices[2].write_data.next = self.write.val().v2;
+        self.links[0].write_data.next = self.write.val().n0;
+        self.links[1].write_data.next = self.write.val().n1;
+        self.links[2].write_data.next = self.write.val().n2;
+        self.links[0].write_enable.next = self.write.val().valid & self.write.val().link0;
+        self.links[1].write_enable.next = self.write.val().valid & self.write.val().link1;
+        self.links[2].write_enable.next = self.write.val().valid & self.write.val().link2;
+        self.v0.next = self.vertices[0].read_data.val();
+        self.v1.next = self.vertices[1].read_data.val();
+        self.v2.next = self.vertices[2].read_data.val();
+        self.n0.next = self.links[0].read_data.val();
+        self.n1.next = self.links[1].read_data.val();
+        self.n2.next = self.links[2].read_data.val();
+        self.locks.clock.next = self.clock.val();
+        self.locks.test_address.next = self.read_id.val();
+        self.locks.test_set.next = self.read_locks.val();
+        self.locks.clear_address.next = self.clear_id.val();
+        self.locks.clear_enable.next = self.clear_enable.val();
+        self.was_set.next = self.locks.was_set.val();
+    }
+}
