@@ -33,14 +33,18 @@ const MEMORY_PORTS: [&str; 4] = [
 ];
 const LOCK_PORTS: [&str; 4] = ["test_address", "test_set", "clear_address", "clear_enable"];
 
-/// What the exported block of this name takes in an ECP5.
-fn cells(name: &str) -> Cells {
+/// What the exported block of this name takes in an ECP5, with these lines before its Verilog.
+fn cells_with(defines: &str, name: &str) -> Cells {
     let blocks = incircle_hdl::export::blocks();
     let (_, verilog) = blocks
         .iter()
         .find(|block| block.0 == name)
         .expect("a block of this name");
-    cell_count(verilog, name).unwrap_or_else(|error| panic!("{error}"))
+    cell_count(&format!("{defines}{verilog}"), name).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn cells(name: &str) -> Cells {
+    cells_with("", name)
 }
 
 /// Runs a block in Rust alone.
@@ -345,6 +349,12 @@ fn fifo_ignores_what_is_above_its_shape() {
 #[test]
 fn multiplier_is_one_dsp_block() {
     assert_eq!(cells("multiplier").multipliers, 1);
+}
+
+#[test]
+fn multiplier_as_a_primitive_needs_no_register_outside() {
+    let cells = cells_with("`define INCIRCLE_ECP5\n", "multiplier");
+    assert_eq!((cells.multipliers, cells.flip_flops), (1, 0));
 }
 
 #[test]

@@ -376,7 +376,7 @@ fn edge_signs_compare_signed() {
             (0..3).map(|_| bits_of(value().into(), 36) as u64).collect()
         })
         .collect();
-    let latency = 2;
+    let latency = 3;
     let mut delay = Delay::new(latency);
     Cosimulation {
         name: "edge_signs",
