@@ -132,7 +132,7 @@ impl SimDevice {
     }
 
     /// Writes a VCD waveform of all signals from now on; dropping the device completes the file. Slows the
-    /// simulation by a factor of 10 and more.
+    /// simulation manyfold.
     ///
     /// # Errors
     /// [`SimError::Trace`]: the file cannot be made.

@@ -1,6 +1,9 @@
-//! The two streams against a device that echoes.
+//! The two streams against a device that echoes, and the first words of every core.
 
-use incircle_protocol::{Config, SMALL};
+use incircle_protocol::{
+    answer_header, command_word, Config, Identity, Opcode, Status, CORE_COORD_BITS, IDENTITY_WORDS,
+    MAGIC, NAMED, SMALL,
+};
 
 use crate::{models, Awaited, SimDevice, SimError};
 
@@ -93,9 +96,11 @@ fn a_missing_answer_is_a_timeout_that_loses_nothing() {
 fn a_configuration_that_was_not_built_is_refused() {
     let other = Config { ring: 31, ..SMALL };
     let error = SimDevice::new(other).unwrap_err();
-    let start =
-        "there is no simulated core \"small\" of 1024 points with 31 boundary edges: choose one of";
-    assert!(error.to_string().starts_with(start), "{error}");
+    assert_eq!(
+        error.to_string(),
+        "there is no simulated core \"small\" of 1024 points with 31 boundary edges: \
+         choose one of tiny, small, full, large"
+    );
 }
 
 #[test]
@@ -113,4 +118,29 @@ fn a_waveform_is_written() {
         text.contains("command_ready") && text.contains("#100\n"),
         "{text}"
     );
+}
+
+#[test]
+fn every_named_configuration_says_who_it_is() {
+    for config in NAMED {
+        let mut device = SimDevice::new(config).unwrap();
+        // A core clears its memories after reset, a triangle a clock.
+        device
+            .send(&[command_word(Opcode::Hello)], 100_000)
+            .unwrap();
+        let mut answer = [0; 2 + IDENTITY_WORDS];
+        device.receive(&mut answer, 100).unwrap();
+        let [header, length, identity @ ..] = answer;
+        assert_eq!(header, answer_header(Opcode::Hello as u8, Status::Ok));
+        assert_eq!(length as usize, IDENTITY_WORDS);
+        let identity = Identity::from_words(identity);
+        assert_eq!(identity.magic, MAGIC);
+        assert_eq!(identity.coord_bits, CORE_COORD_BITS);
+        assert_eq!(
+            (identity.capacity, identity.ring_capacity, identity.contexts),
+            (config.points, config.ring, config.contexts),
+            "{}",
+            config.name
+        );
+    }
 }
