@@ -20,7 +20,8 @@
 //! 4. Every flag is exact for all inputs, also for equal and collinear points.
 //!
 //! Latency: inputs that stand before edge 1 give all flags after edge 9. Edges 1 to 3 small products, 4 sums, 4 to 6 large
-//! products, 7 and 8 their sums, 9 the comparison of the two.
+//! products, 7 and 8 their sums, 9 the comparison of the two. The longest path is edge 4, from multiplier through adder to multiplier; a
+//! register between adder and large product would be the next step, at the price of a tenth clock.
 //!
 //! Source: the Cline-Renka form of incircle (A. K. Cline, R. J. Renka, 1984). 20 multipliers: 12 for small products, 8 for large ones.
 
