@@ -1,7 +1,8 @@
 //! Lock-step, end-to-end and gate tests of incircle.
 //!
-//! The library holds what several tests share: [`gate`], which the Verilog of every block passes, and [`blocks`], every
-//! exported block as a model that runs.
+//! The library holds what several tests share: [`gate`], which the Verilog of every block passes, [`blocks`], every exported
+//! block as a model that runs, and [`lockstep`], the core beside its model.
 
 pub mod blocks;
 pub mod gate;
+pub mod lockstep;

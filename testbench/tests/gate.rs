@@ -62,6 +62,16 @@ fn an_unused_signal_is_rejected() {
 }
 
 #[test]
+fn an_unused_part_of_a_bundle_is_not_a_fault() {
+    let verilog = module(
+        "wire [7:0] sum;\nassign sum = a + b;\nalways @(posedge clock) y <= {sum[6:0], 1'b0};",
+    );
+    gate::lint(&verilog, "block").unwrap();
+    let error = gate::lint_strictly(&verilog, "block").unwrap_err();
+    assert!(error.to_string().contains("UNUSED"), "{error}");
+}
+
+#[test]
 fn an_undriven_net_and_a_loop_are_rejected_by_synthesis() {
     let undriven = module("wire [7:0] nothing;\nalways @(posedge clock) y <= a + nothing;");
     let error = gate::synthesise(&undriven, "block").unwrap_err();

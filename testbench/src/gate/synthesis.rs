@@ -1,6 +1,6 @@
 //! The half of the gate that is synthesis: yosys must take the Verilog, without latches or invented nets.
 
-use super::{run, GateError, Scratch};
+use super::{complain, run, GateError, Scratch};
 
 const YOSYS: &str = "yosys";
 
@@ -55,20 +55,12 @@ pub fn cell_count(verilog: &str, top: &str) -> Result<Cells, GateError> {
 fn yosys(verilog: &str, top: &str, passes: &str, scratch: &Scratch) -> Result<(), GateError> {
     scratch.write("design.v", verilog)?;
     let script = format!("read_verilog design.v; {passes}");
-    let printed = run(YOSYS, &["-p".to_string(), script], top, scratch)?;
+    let printed = run(YOSYS, &["-p", &script], top, scratch)?;
     let complaints: Vec<_> = printed
         .lines()
         .filter(|line| COMPLAINTS.iter().any(|complaint| line.contains(complaint)))
         .collect();
-    if complaints.is_empty() {
-        Ok(())
-    } else {
-        Err(GateError::Complaint {
-            tool: YOSYS,
-            top: top.to_string(),
-            lines: complaints.join("\n"),
-        })
-    }
+    complain(YOSYS, top, &complaints)
 }
 
 fn cells(report: &str) -> Result<Cells, String> {

@@ -10,7 +10,7 @@ use super::{GateError, Scratch};
 /// It cannot be started, or its exit code is not 0; then the error holds what it printed.
 pub(super) fn run(
     tool: &'static str,
-    arguments: &[String],
+    arguments: &[&str],
     top: &str,
     scratch: &Scratch,
 ) -> Result<String, GateError> {

@@ -1,0 +1,99 @@
+//! What a mismatch tells: clock, port, both values, and the last events.
+
+use incircle_model::{Inputs, Outputs};
+use std::collections::VecDeque;
+use std::fmt;
+
+/// Events kept for the report.
+const KEPT: usize = 24;
+
+/// The first port that differs.
+#[derive(Debug)]
+pub struct Mismatch {
+    /// Clock since the start.
+    pub clock: u64,
+    /// The port.
+    pub port: &'static str,
+    /// What the model says.
+    pub expected: u64,
+    /// What the core says.
+    pub found: u64,
+    /// What the model is doing.
+    pub doing: String,
+    events: Vec<String>,
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "clock {}: port {} is {:#x}, the model says {:#x}",
+            self.clock, self.port, self.found, self.expected
+        )?;
+        writeln!(f, "the model is at: {}", self.doing)?;
+        write!(f, "last events:\n  {}", self.events.join("\n  "))
+    }
+}
+
+impl std::error::Error for Mismatch {}
+
+/// The last events: words taken on either stream, writes, resets.
+#[derive(Debug, Default)]
+pub(super) struct History {
+    events: VecDeque<(u64, Inputs, Outputs)>,
+}
+
+impl History {
+    /// Notes the clock, if anything happens in it.
+    pub(super) fn note(&mut self, clock: u64, inputs: Inputs, outputs: Outputs) {
+        let takes = inputs.command_valid && outputs.command_ready;
+        let gives = inputs.response_ready && outputs.response_valid;
+        if !(inputs.reset || takes || gives || outputs.write.valid) {
+            return;
+        }
+        if self.events.len() == KEPT {
+            self.events.pop_front();
+        }
+        self.events.push_back((clock, inputs, outputs));
+    }
+
+    pub(super) fn mismatch(
+        &self,
+        clock: u64,
+        port: &'static str,
+        expected: u64,
+        found: u64,
+        doing: String,
+    ) -> Mismatch {
+        let events = self.events.iter().map(describe).collect();
+        Mismatch {
+            clock,
+            port,
+            expected,
+            found,
+            doing,
+            events,
+        }
+    }
+}
+
+fn describe((clock, inputs, outputs): &(u64, Inputs, Outputs)) -> String {
+    let mut text = format!("{clock}:");
+    if inputs.reset {
+        text += " reset";
+    }
+    if inputs.command_valid && outputs.command_ready {
+        text += &format!(" command {:08x}", inputs.command_data);
+    }
+    if inputs.response_ready && outputs.response_valid {
+        text += &format!(" answer {:08x}", outputs.response_data);
+    }
+    let write = outputs.write;
+    if write.valid {
+        text += &format!(
+            " write {} links {:?} {:?}",
+            write.id, write.links, write.record
+        );
+    }
+    text
+}

@@ -1,0 +1,128 @@
+//! Drives a command stream through the pair, with idle clocks and back-pressure.
+
+use super::{Lockstep, Mismatch};
+use incircle_model::Inputs;
+use incircle_protocol::{command_word, Opcode};
+
+/// How often each side of the core stalls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stalls {
+    /// The host offers no word in this many of 256 clocks.
+    pub idle: u8,
+    /// The host takes no answer in this many of 256 clocks.
+    pub back_pressure: u8,
+}
+
+impl Stalls {
+    /// Neither.
+    pub const NONE: Self = Self {
+        idle: 0,
+        back_pressure: 0,
+    };
+    /// The crossing of both.
+    pub const ALL: [Self; 9] = {
+        let rates = [0, 64, 230];
+        let mut all = [Self::NONE; 9];
+        let mut k = 0;
+        while k < 9 {
+            all[k] = Self {
+                idle: rates[k / 3],
+                back_pressure: rates[k % 3],
+            };
+            k += 1;
+        }
+        all
+    };
+}
+
+/// One command stream with everything a job does, and the number of answer words.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// Command words.
+    pub commands: Vec<u32>,
+    /// Answer words it leads to.
+    pub answers: usize,
+}
+
+impl Job {
+    /// Clears, inserts the points in the given pieces, reads all records and the counters; `answers` comes from the model by
+    /// commands.
+    pub fn of(points: &[u32], piece: usize, capacity: u32, ring: u32) -> Self {
+        let mut model =
+            incircle_model::CommandModel::new(incircle_protocol::CORE_COORD_BITS, capacity, ring)
+                .unwrap_or_else(|error| panic!("{error}"));
+        let mut commands = vec![command_word(Opcode::Hello), command_word(Opcode::Clear)];
+        for piece in points.chunks(piece.max(1)) {
+            commands.extend([command_word(Opcode::Insert), piece.len() as u32]);
+            commands.extend(piece);
+        }
+        model.send(&commands);
+        let records = model.mesh().records().len() as u32;
+        let rest = [
+            command_word(Opcode::Read),
+            0,
+            records,
+            command_word(Opcode::Counters),
+        ];
+        commands.extend(rest);
+        model.send(&rest);
+        let mut answers = 0;
+        let mut buffer = [0; 1024];
+        loop {
+            match model.receive(&mut buffer) {
+                0 => break,
+                some => answers += some,
+            }
+        }
+        Self { commands, answers }
+    }
+}
+
+impl Lockstep {
+    /// Runs a job to its last answer word and returns all of them.
+    ///
+    /// # Errors
+    /// The first mismatch.
+    ///
+    /// # Panics
+    /// If the job takes more clocks than any job of its size can.
+    pub fn run(
+        &mut self,
+        job: &Job,
+        stalls: Stalls,
+        random: &mut impl FnMut() -> u64,
+    ) -> Result<Vec<u32>, Mismatch> {
+        let mut answers = Vec::with_capacity(job.answers);
+        let mut rest = job.commands.as_slice();
+        let limit = self.clocks + 1_000_000 + 40_000 * job.commands.len() as u64;
+        while !rest.is_empty() || answers.len() < job.answers {
+            let chance = random();
+            let outputs = self.outputs();
+            let is_idle = (chance & 0xff) < u64::from(stalls.idle);
+            let inputs = Inputs {
+                reset: false,
+                command_valid: !rest.is_empty() && !is_idle,
+                // What stands on the port of an idle clock must not matter.
+                command_data: if rest.is_empty() || is_idle {
+                    (chance >> 32) as u32
+                } else {
+                    rest[0]
+                },
+                response_ready: (chance >> 8 & 0xff) >= u64::from(stalls.back_pressure),
+            };
+            if inputs.response_ready && outputs.response_valid {
+                answers.push(outputs.response_data);
+            }
+            if inputs.command_valid && outputs.command_ready {
+                rest = &rest[1..];
+            }
+            self.clock(inputs)?;
+            assert!(
+                self.clocks < limit,
+                "no end after {} clocks: a hang that core and model share",
+                self.clocks
+            );
+        }
+        Ok(answers)
+    }
+}
