@@ -1,0 +1,212 @@
+//! Runs jobs on a pair of core and model, compares the answers with the model by commands, and on a mismatch leaves a waveform.
+
+use incircle::Point;
+use incircle_cli::generate::{generate, Distribution, SplitMix64};
+use incircle_model::{CommandModel, Inputs};
+use incircle_protocol::{Config, Counter, CORE_COORD_BITS, COUNTER_WORDS};
+use incircle_testbench::lockstep::{Job, Lockstep, Stalls};
+use std::path::PathBuf;
+
+/// A point as its word.
+pub fn word(x: u64, y: u64) -> u32 {
+    x as u32 | (y as u32) << 16
+}
+
+/// Points of a distribution in the order in which the host sends them, duplicates included.
+pub fn ordered(distribution: Distribution, count: usize, bits: u32, seed: u64) -> Vec<u32> {
+    let points =
+        generate(distribution, count, bits, seed).unwrap_or_else(|error| panic!("{error}"));
+    let points: Vec<Point> = points.into_iter().map(Point::from).collect();
+    let order = incircle::order::brio_hilbert(&points);
+    let mut ordered: Vec<Point> = order
+        .into_iter()
+        .map(|index| points[index as usize])
+        .collect();
+    make_first_three_span(&mut ordered);
+    ordered
+        .into_iter()
+        .map(|p| word(u64::from(p.x), u64::from(p.y)))
+        .collect()
+}
+
+/// Moves the first point that is not collinear with the first two distinct ones to place 3.
+fn make_first_three_span(points: &mut [Point]) {
+    let Some(second) = points.iter().position(|&p| p != points[0]) else {
+        return;
+    };
+    points.swap(1, second);
+    let turns = |&p: &Point| {
+        let [a, b] = [points[0], points[1]].map(|q| (i64::from(q.x), i64::from(q.y)));
+        let c = (i64::from(p.x), i64::from(p.y));
+        (b.0 - a.0) * (c.1 - a.1) != (b.1 - a.1) * (c.0 - a.0)
+    };
+    if let Some(third) = points.iter().position(turns) {
+        points.swap(2, third);
+    }
+}
+
+/// A pair that runs one job after the other.
+pub struct Rig {
+    name: &'static str,
+    config: Config,
+    seed: u32,
+    pair: Lockstep,
+    random: SplitMix64,
+    clocks: u64,
+    counters: [u64; COUNTER_WORDS],
+}
+
+impl Rig {
+    pub fn new(name: &'static str, config: Config, seed: u32) -> Self {
+        let pair = Lockstep::new(name, config, seed);
+        Self {
+            name,
+            config,
+            seed,
+            pair,
+            random: SplitMix64::new(u64::from(seed)),
+            clocks: 0,
+            counters: [0; COUNTER_WORDS],
+        }
+    }
+
+    /// Another random initial state.
+    pub fn start_anew(&mut self, salt: u32) {
+        self.clocks += self.pair.clocks();
+        self.seed = self.seed.wrapping_mul(31).wrapping_add(salt);
+        self.pair = Lockstep::new(self.name, self.config, self.seed);
+    }
+
+    /// Holds that the test ran as long as it is meant to.
+    pub fn expect_clocks(&mut self, least: u64) {
+        self.clocks += self.pair.clocks();
+        println!("{}: {} clocks", self.name, self.clocks);
+        assert!(
+            self.clocks >= least,
+            "{} clocks, {least} are meant",
+            self.clocks
+        );
+    }
+
+    /// A counter summed over all jobs.
+    pub fn counted(&self, counter: Counter) -> u64 {
+        self.counters[counter as usize]
+    }
+
+    /// A whole job: insert in pieces, read all, counters.
+    pub fn run(&mut self, points: &[u32], piece: usize, stalls: Stalls) {
+        let job = Job::of(points, piece, self.config.points, self.config.ring);
+        let mut answers = self.execute(&job, stalls);
+        let mut expected = self.by_commands(&job);
+        let counters = answers.len() - COUNTER_WORDS;
+        for (sum, &word) in self.counters.iter_mut().zip(&answers[counters..]) {
+            *sum += u64::from(word);
+        }
+        // The model by commands knows no clock.
+        let cycles = counters..counters + Counter::Insertions as usize;
+        answers[cycles.clone()].fill(0);
+        expected[cycles].fill(0);
+        assert_eq!(
+            answers, expected,
+            "the core and the model clock by clock agree, the model by commands does not"
+        );
+    }
+
+    /// Any commands; `Counters` answers may hold cycles, so answers are compared clock by clock only.
+    pub fn run_commands(&mut self, commands: &[u32], stalls: Stalls) {
+        let mut job = Job {
+            commands: commands.to_vec(),
+            answers: 0,
+        };
+        // The pair keeps its mesh from run to run, so the number of answer words comes from running dry.
+        self.execute(&job, stalls);
+        job.commands.clear();
+        for _ in 0..400 {
+            self.step(
+                Inputs {
+                    response_ready: true,
+                    ..Inputs::default()
+                },
+                &job,
+            );
+        }
+    }
+
+    /// Part of a job, then a reset at some clock.
+    pub fn run_and_reset(&mut self, points: &[u32], clocks: u64, stalls: Stalls) {
+        let job = Job::of(points, 40, self.config.points, self.config.ring);
+        let mut rest = job.commands.as_slice();
+        for _ in 0..clocks {
+            let chance = self.random.next_u64();
+            let outputs = self.pair.outputs();
+            let is_idle = (chance & 0xff) < u64::from(stalls.idle);
+            let inputs = Inputs {
+                reset: false,
+                command_valid: !rest.is_empty() && !is_idle,
+                command_data: rest.first().copied().unwrap_or(0),
+                response_ready: (chance >> 8 & 0xff) >= u64::from(stalls.back_pressure),
+            };
+            if inputs.command_valid && outputs.command_ready {
+                rest = &rest[1..];
+            }
+            self.step(inputs, &job);
+        }
+        let length = 1 + self.random.below(3);
+        for _ in 0..length {
+            let chance = self.random.next_u64();
+            let command_valid = chance & 1 == 0;
+            let inputs = Inputs {
+                reset: true,
+                command_valid,
+                command_data: chance as u32,
+                response_ready: chance & 2 == 0,
+            };
+            self.step(inputs, &job);
+        }
+    }
+
+    fn step(&mut self, inputs: Inputs, job: &Job) {
+        if let Err(mismatch) = self.pair.clock(inputs) {
+            panic!("{}: {mismatch}\njob {:x?}", self.name, job.commands);
+        }
+    }
+
+    fn execute(&mut self, job: &Job, stalls: Stalls) -> Vec<u32> {
+        let before = self.random.clone();
+        let random = &mut self.random;
+        match self.pair.run(job, stalls, &mut || random.next_u64()) {
+            Ok(answers) => answers,
+            Err(mismatch) => {
+                let wave = self.trace(job, stalls, before);
+                panic!(
+                    "{}: {mismatch}\nwaveform: {}\njob {:x?}",
+                    self.name, wave, job.commands
+                );
+            }
+        }
+    }
+
+    /// Runs the job again from reset with a waveform; says so if the mismatch does not come again there.
+    fn trace(&self, job: &Job, stalls: Stalls, mut random: SplitMix64) -> String {
+        let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{}.vcd", self.name));
+        let mut pair = Lockstep::new(self.name, self.config, self.seed);
+        pair.trace_to(&path);
+        let again = pair.run(job, stalls, &mut || random.next_u64()).is_err();
+        let remark = if again {
+            ""
+        } else {
+            " (it needs the jobs before to come again)"
+        };
+        format!("{}{remark}", path.display())
+    }
+
+    fn by_commands(&self, job: &Job) -> Vec<u32> {
+        let mut model = CommandModel::new(CORE_COORD_BITS, self.config.points, self.config.ring)
+            .unwrap_or_else(|error| panic!("{error}"));
+        model.send(&job.commands);
+        let mut answers = vec![0; job.answers + 1];
+        let count = model.receive(&mut answers);
+        answers.truncate(count);
+        answers
+    }
+}
