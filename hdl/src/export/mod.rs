@@ -1,5 +1,8 @@
 //! Export to Verilog.
 
+mod control_blocks;
+mod visit_blocks;
+
 use std::fmt;
 
 use incircle_protocol::{Config, ConfigError};
@@ -122,7 +125,7 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
 /// # Panics
 /// If a block of this crate is not fit for export, which is a fault in its source.
 pub fn blocks() -> Vec<(String, String)> {
-    vec![
+    let mut blocks = vec![
         block(Multiplier::default(), "multiplier"),
         block(BlockMemory::<8, 12>::new(8, 12), "block_memory_8x12"),
         block(BlockMemory::<10, 36>::new(6, 33), "block_memory_6x33"),
@@ -144,5 +147,8 @@ pub fn blocks() -> Vec<(String, String)> {
         block(EdgeSigns::new(3), "edge_signs"),
         block(VertexOrder::new(1), "vertex_order"),
         block(VisitPredicates::default(), "visit_predicates"),
-    ]
+    ];
+    blocks.extend(visit_blocks::visit_blocks());
+    blocks.extend(control_blocks::control_blocks());
+    blocks
 }
