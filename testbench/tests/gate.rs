@@ -72,6 +72,14 @@ fn an_unused_part_of_a_bundle_is_not_a_fault() {
 }
 
 #[test]
+fn an_input_left_open_is_rejected() {
+    let verilog = "module child(input wire a, output wire b);\nassign b = a;\nendmodule\n\
+        module block(output wire y);\nchild child(.a(), .b(y));\nendmodule\n";
+    let error = gate::lint(verilog, "block").unwrap_err();
+    assert!(error.to_string().contains("PINCONNECTEMPTY"), "{error}");
+}
+
+#[test]
 fn an_undriven_net_and_a_loop_are_rejected_by_synthesis() {
     let undriven = module("wire [7:0] nothing;\nalways @(posedge clock) y <= a + nothing;");
     let error = gate::synthesise(&undriven, "block").unwrap_err();
