@@ -1,6 +1,28 @@
 //! The blocks that carry insertions through their phases, and the command streams.
 
+use incircle_protocol::{Config, MAX_RING, TINY};
+
+use super::block;
+use crate::engine::{Commit, Context, Counters, Release, Solo, SoloWrites, WideCounter};
+use crate::link::{AnswerWords, CommandPort, Responder};
+
 /// The name of each root module, and its Verilog.
 pub(super) fn control_blocks() -> Vec<(String, String)> {
-    vec![]
+    let longest_list = Config {
+        ring: MAX_RING,
+        ..TINY
+    };
+    vec![
+        block(Commit::default(), "commit"),
+        block(Solo::default(), "solo"),
+        block(SoloWrites::default(), "solo_writes"),
+        block(Context::default(), "context"),
+        block(Counters::default(), "counters"),
+        block(WideCounter::<4>::default(), "wide_counter_4"),
+        block(Release::new(TINY), "release_6"),
+        block(Release::new(longest_list), "release_64"),
+        block(CommandPort::default(), "command_port"),
+        block(AnswerWords::default(), "answer_words"),
+        block(Responder::default(), "responder"),
+    ]
 }
