@@ -5,24 +5,23 @@ use std::path::{Path, PathBuf};
 
 use super::{runtime, shim, verilator, write, BuildError, ModelSource, Optimisation, Verilator};
 
-/// The object file of the model. Built in a fresh folder unless the folder holds it already, made from the same
+/// The object files of the model. Built in a fresh folder unless the folder holds them already, made from the same
 /// text with the same tool and options.
-pub(super) fn object_of(
+pub(super) fn objects_of(
     model: &ModelSource,
     verilator: &Verilator,
     folder: &Path,
     package: &str,
-) -> Result<PathBuf, BuildError> {
+) -> Result<Vec<PathBuf>, BuildError> {
     let class = shim::class_name(package, &model.name);
     let key = key(model, verilator, &class);
     let key_file = folder.join("key");
-    let kept = fs::read_to_string(folder.join("object"))
-        .map(PathBuf::from)
-        .ok()
-        .filter(|object| object.is_file());
-    if let Some(object) = kept {
-        if fs::read_to_string(&key_file).is_ok_and(|kept| kept == key) {
-            return Ok(object);
+    let list_file = folder.join("objects");
+    if fs::read_to_string(&key_file).is_ok_and(|kept| kept == key) {
+        let list = fs::read_to_string(&list_file).unwrap_or_default();
+        let objects: Vec<PathBuf> = list.lines().map(PathBuf::from).collect();
+        if !objects.is_empty() && objects.iter().all(|object| object.is_file()) {
+            return Ok(objects);
         }
     }
     let failed = |source| BuildError::File {
@@ -34,64 +33,81 @@ pub(super) fn object_of(
     }
     fs::create_dir_all(folder).map_err(failed)?;
     verilator.translate(model, &class, folder)?;
-    let object = compile(model, verilator, &class, folder)?;
-    write(&folder.join("object"), &object.to_string_lossy())?;
+    let objects = compile(model, verilator, &class, folder)?;
+    let list: Vec<_> = objects
+        .iter()
+        .map(|object| object.to_string_lossy())
+        .collect();
+    write(&list_file, &list.join("\n"))?;
     // Last, so that a build that was cut short is not taken for a whole one.
     write(&key_file, &key)?;
-    Ok(object)
+    Ok(objects)
 }
 
-/// Everything the object depends on, in full: equal keys mean equal objects.
+/// Everything the objects depend on, in full: equal keys mean equal objects.
 fn key(model: &ModelSource, verilator: &Verilator, class: &str) -> String {
     let arguments = verilator::arguments(model, class).join(" ");
+    let optimisation = format!("{:?}", model.optimisation);
     [
         verilator.version(),
         &arguments,
+        &optimisation,
         shim::HEADER,
         &model.verilog,
     ]
     .join("\n")
 }
 
-/// All C++ files of the model and its shim as one unit: most of the time goes into headers.
+/// Compiles the C++ of the model and its shim, in as few units as makes sense: most of a unit's time goes into headers.
 fn compile(
     model: &ModelSource,
     verilator: &Verilator,
     class: &str,
     folder: &Path,
-) -> Result<PathBuf, BuildError> {
+) -> Result<Vec<PathBuf>, BuildError> {
     let cpp = folder.join("cpp");
     let header = cpp.join(format!("{class}.h"));
-    let read = |path: PathBuf| {
-        fs::read_to_string(&path).map_err(|source| BuildError::File { path, source })
-    };
-    let ports = shim::ports(&model.name, &read(header)?)?;
+    let header = fs::read_to_string(&header).map_err(|source| BuildError::File {
+        path: header.clone(),
+        source,
+    })?;
+    let shim = shim::cpp_unit(class, &model.name, &shim::ports(&model.name, &header)?);
     write(&folder.join("shim.hpp"), shim::HEADER)?;
-    let mut unit = String::new();
-    for file in cpp_files(&cpp)? {
-        unit += &format!("#include \"cpp/{file}\"\n");
+    let files = cpp_files(&cpp)?;
+    let unit = |name: &str, level: u32, files: &[&String], shim: &str| {
+        let includes: String = files
+            .iter()
+            .map(|file| format!("#include \"cpp/{file}\"\n"))
+            .collect();
+        let file = folder.join(format!("{class}_{name}.cpp"));
+        write(&file, &(includes + shim))?;
+        let trace = if model.trace { "1" } else { "0" };
+        let mut build = runtime::compiler(verilator);
+        build
+            .opt_level(level)
+            .define("VM_TRACE", trace)
+            .define("VM_TRACE_VCD", trace)
+            .include(folder)
+            .include(&cpp)
+            .out_dir(folder);
+        Ok::<_, BuildError>(build.file(file).try_compile_intermediates()?)
+    };
+    match model.optimisation {
+        Optimisation::Quick => unit("all", 1, &files.iter().collect::<Vec<_>>(), &shim),
+        Optimisation::Fast => {
+            let (seldom, often): (Vec<_>, Vec<_>) = files.iter().partition(|file| is_seldom(file));
+            let mut objects = unit("often", 2, &often, &shim)?;
+            objects.extend(unit("seldom", 0, &seldom, "")?);
+            Ok(objects)
+        }
     }
-    unit += &shim::cpp_unit(class, &model.name, &ports);
-    let unit_file = folder.join(format!("{class}_unit.cpp"));
-    write(&unit_file, &unit)?;
-    let trace = if model.trace { "1" } else { "0" };
-    let mut build = runtime::compiler(verilator);
-    build
-        .opt_level(match model.optimisation {
-            Optimisation::Quick => 1,
-            Optimisation::Fast => 2,
-        })
-        .define("VM_TRACE", trace)
-        .define("VM_TRACE_VCD", trace)
-        .include(folder)
-        .include(&cpp)
-        .out_dir(folder)
-        .file(unit_file);
-    let objects = build.try_compile_intermediates()?;
-    objects.into_iter().next().ok_or_else(|| BuildError::File {
-        path: folder.to_path_buf(),
-        source: std::io::ErrorKind::NotFound.into(),
-    })
+}
+
+/// Whether the file holds what runs once or while tracing only: construction, symbols, traces. It is most of the code.
+fn is_seldom(file: &str) -> bool {
+    ["Slow", "__Trace__", "__Syms"]
+        .iter()
+        .any(|part| file.contains(part))
 }
 
 /// The C++ files in the folder, by name.

@@ -179,9 +179,9 @@ fn build_all(
                     break;
                 };
                 let folder = out_dir.join("verilated").join(&model.name);
-                let object = cache::object_of(model, verilator, &folder, package);
+                let objects = cache::objects_of(model, verilator, &folder, package);
                 if let Ok(mut results) = results.lock() {
-                    results.push((position, object));
+                    results.push((position, objects));
                 }
             });
         }
@@ -190,7 +190,11 @@ fn build_all(
         .into_inner()
         .unwrap_or_else(|poisoned| poisoned.into_inner());
     results.sort_by_key(|(position, _)| *position);
-    results.into_iter().map(|(_, object)| object).collect()
+    let mut objects = Vec::new();
+    for (_, built) in results {
+        objects.extend(built?);
+    }
+    Ok(objects)
 }
 
 fn cargo_variable(name: &'static str) -> Result<String, BuildError> {
