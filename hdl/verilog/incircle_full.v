@@ -2772,6 +2772,9 @@ module incircle_core_logic$counters$insert_cycles(clock,zero,count,low,high);
     output reg  [31:0] low;
     output reg  [31:0] high;
     
+    // Constant declarations
+    localparam  all_ones = 32'hffffffff;
+    
     // Stub signals
     reg  [31:0] low_word$d;
     wire  [31:0] low_word$q;
@@ -2785,7 +2788,6 @@ module incircle_core_logic$counters$insert_cycles(clock,zero,count,low,high);
     
     // Local signals
     reg  [31:0] one;
-    reg  [31:0] all_ones;
     
     // Sub module instances
     incircle_core_logic$counters$insert_cycles$low_word low_word(
@@ -2813,7 +2815,6 @@ module incircle_core_logic$counters$insert_cycles(clock,zero,count,low,high);
         high_word$d = high_word$q;
         carries$d = carries$q;
         one = 32'h1;
-        all_ones = 64'hffffffff;
         low = low_word$q;
         high = high_word$q;
         carries$d = count & (low_word$q == all_ones);
@@ -2937,6 +2938,9 @@ module incircle_core_logic$counters$read_cycles(clock,zero,count,low,high);
     output reg  [31:0] low;
     output reg  [31:0] high;
     
+    // Constant declarations
+    localparam  all_ones = 32'hffffffff;
+    
     // Stub signals
     reg  [31:0] low_word$d;
     wire  [31:0] low_word$q;
@@ -2950,7 +2954,6 @@ module incircle_core_logic$counters$read_cycles(clock,zero,count,low,high);
     
     // Local signals
     reg  [31:0] one;
-    reg  [31:0] all_ones;
     
     // Sub module instances
     incircle_core_logic$counters$read_cycles$low_word low_word(
@@ -2978,7 +2981,6 @@ module incircle_core_logic$counters$read_cycles(clock,zero,count,low,high);
         high_word$d = high_word$q;
         carries$d = carries$q;
         one = 32'h1;
-        all_ones = 64'hffffffff;
         low = low_word$q;
         high = high_word$q;
         carries$d = count & (low_word$q == all_ones);
@@ -3102,6 +3104,9 @@ module incircle_core_logic$counters$wait_cycles(clock,zero,count,low,high);
     output reg  [31:0] low;
     output reg  [31:0] high;
     
+    // Constant declarations
+    localparam  all_ones = 32'hffffffff;
+    
     // Stub signals
     reg  [31:0] low_word$d;
     wire  [31:0] low_word$q;
@@ -3115,7 +3120,6 @@ module incircle_core_logic$counters$wait_cycles(clock,zero,count,low,high);
     
     // Local signals
     reg  [31:0] one;
-    reg  [31:0] all_ones;
     
     // Sub module instances
     incircle_core_logic$counters$wait_cycles$low_word low_word(
@@ -3143,7 +3147,6 @@ module incircle_core_logic$counters$wait_cycles(clock,zero,count,low,high);
         high_word$d = high_word$q;
         carries$d = carries$q;
         one = 32'h1;
-        all_ones = 64'hffffffff;
         low = low_word$q;
         high = high_word$q;
         carries$d = count & (low_word$q == all_ones);

@@ -62,9 +62,9 @@ pub struct Counters {
     pub insertions: Signal<Out, Bits<32>>,
     /// Points that fell onto another.
     pub duplicates: Signal<Out, Bits<32>>,
-    insert_cycles: WideCounter,
-    wait_cycles: WideCounter,
-    read_cycles: WideCounter,
+    insert_cycles: WideCounter<32>,
+    wait_cycles: WideCounter<32>,
+    read_cycles: WideCounter<32>,
     inserted: DFF<Bits<32>>,
     duplicated: DFF<Bits<32>>,
     walk_visits: DFF<Bits<32>>,
@@ -194,15 +194,15 @@ impl Logic for Counters {
     }
 }
 
-/// A counter of two words.
+/// A counter of two words of `N` bits.
 ///
 /// | port | direction | bits | meaning |
 /// |---|---|---|---|
 /// | `clock`, `zero` | in | 1 | `zero` clears it |
 /// | `count` | in | 1 | this clock counts |
-/// | `low`, `high` | out | 32 | its words; `high` follows a clock after `low` has wrapped |
-#[derive(LogicBlock, Default)]
-pub struct WideCounter {
+/// | `low`, `high` | out | N | its words; `high` follows a clock after `low` has wrapped |
+#[derive(LogicBlock)]
+pub struct WideCounter<const N: usize> {
     /// Clock.
     pub clock: Signal<In, Clock>,
     /// Clears it.
@@ -210,22 +210,38 @@ pub struct WideCounter {
     /// This clock counts.
     pub count: Signal<In, Bit>,
     /// Low word.
-    pub low: Signal<Out, Bits<32>>,
+    pub low: Signal<Out, Bits<N>>,
     /// High word.
-    pub high: Signal<Out, Bits<32>>,
-    low_word: DFF<Bits<32>>,
-    high_word: DFF<Bits<32>>,
+    pub high: Signal<Out, Bits<N>>,
+    low_word: DFF<Bits<N>>,
+    high_word: DFF<Bits<N>>,
     carries: DFF<Bit>,
-    one: Signal<Local, Bits<32>>,
-    all_ones: Signal<Local, Bits<32>>,
+    one: Signal<Local, Bits<N>>,
+    all_ones: Constant<Bits<N>>,
 }
 
-impl Logic for WideCounter {
+impl<const N: usize> Default for WideCounter<N> {
+    fn default() -> Self {
+        Self {
+            clock: Signal::default(),
+            zero: Signal::default(),
+            count: Signal::default(),
+            low: Signal::default(),
+            high: Signal::default(),
+            low_word: DFF::default(),
+            high_word: DFF::default(),
+            carries: DFF::default(),
+            one: Signal::default(),
+            all_ones: Constant::new(Bits::<N>::mask()),
+        }
+    }
+}
+
+impl<const N: usize> Logic for WideCounter<N> {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, low_word, high_word, carries);
         self.one.next = 1.into();
-        self.all_ones.next = 0xffff_ffffu64.into();
         self.low.next = self.low_word.q.val();
         self.high.next = self.high_word.q.val();
         self.carries.d.next = self.count.val() & (self.low_word.q.val() == self.all_ones.val());

@@ -20,7 +20,7 @@ mod write_request;
 pub use cavity::Cavity;
 pub use commit::{Commit, CommitState};
 pub use context::{Context, Phase};
-pub use counters::Counters;
+pub use counters::{Counters, WideCounter};
 pub use issue::Issue;
 pub use release::Release;
 pub use root_bundle::RootBundle;

@@ -12,11 +12,12 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
         ring: MAX_RING,
         ..TINY
     };
+    // `context` and `release` alone are words of SystemVerilog.
     vec![
         block(Commit::default(), "commit"),
         block(Solo::default(), "solo"),
         block(SoloWrites::default(), "solo_writes"),
-        block(Context::default(), "context"),
+        block(Context::default(), "insertion_context"),
         block(Counters::default(), "counters"),
         block(WideCounter::<4>::default(), "wide_counter_4"),
         block(Release::new(TINY), "release_6"),
