@@ -4,7 +4,10 @@
 //! follows from the inputs of that cycle and the edges before it.
 
 use std::collections::VecDeque;
+use std::fmt::Debug;
 
+use incircle_hdl::engine::{Bundle, Entry, Token, Turned, Verdict, Write};
+use incircle_hdl::leaf::Unpacked;
 use incircle_testbench::blocks;
 use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
@@ -14,12 +17,12 @@ const SETTLING_PASSES: usize = 100;
 
 /// A port value as a number.
 pub trait PortValue {
-    fn from_number(number: u64) -> Self;
+    fn from_number(number: u128) -> Self;
     fn to_number(self) -> u128;
 }
 
 impl PortValue for bool {
-    fn from_number(number: u64) -> Self {
+    fn from_number(number: u128) -> Self {
         number != 0
     }
     fn to_number(self) -> u128 {
@@ -28,17 +31,38 @@ impl PortValue for bool {
 }
 
 impl<const N: usize> PortValue for Bits<N> {
-    fn from_number(number: u64) -> Self {
-        Bits::from(number)
+    fn from_number(number: u128) -> Self {
+        let low = Bits::from(number as u64);
+        if N > 64 {
+            let high: Bits<N> = Bits::from((number >> 64) as u64);
+            low | high << 64
+        } else {
+            low
+        }
     }
     fn to_number(self) -> u128 {
         self.to_u128()
     }
 }
 
+/// Structures travel packed, the first field in the lowest bits.
+macro_rules! packed_values {
+    ($($structure:ty),*) => {$(
+        impl PortValue for $structure {
+            fn from_number(number: u128) -> Self {
+                Self::unpacked(Bits::<{ <$structure as Synth>::BITS }>::from_number(number))
+            }
+            fn to_number(self) -> u128 {
+                Bits::<{ <$structure as Synth>::BITS }>::from(self).to_u128()
+            }
+        }
+    )*};
+}
+packed_values!(Token, Bundle, Turned, Verdict, Entry, Write);
+
 /// A block whose ports are reached by name.
 pub trait NamedPorts: Block {
-    fn set(&mut self, port: &str, number: u64);
+    fn set(&mut self, port: &str, number: impl Into<u128>);
     fn get(&self, port: &str) -> u128;
     fn set_clock(&mut self, high: bool);
 }
@@ -47,8 +71,9 @@ pub trait NamedPorts: Block {
 macro_rules! named_ports {
     ([$($generics:tt)*] $block:ty, [$($input:ident),*], [$($output:ident),*] $(, $clock:ident)?) => {
         impl<$($generics)*> $crate::cosimulation::NamedPorts for $block {
-            fn set(&mut self, port: &str, number: u64) {
+            fn set(&mut self, port: &str, number: impl Into<u128>) {
                 use $crate::cosimulation::PortValue;
+                let number = number.into();
                 match port {
                     $(stringify!($input) => self.$input.next = PortValue::from_number(number),)*
                     _ => panic!("no input {port}"),
@@ -79,37 +104,41 @@ pub struct Cosimulation<'a, U> {
     pub name: &'a str,
     pub rust: U,
     pub inputs: &'a [&'a str],
+    /// `name`, or `name[low+:width]` for some bits of an output whose others are open.
     pub outputs: &'a [&'a str],
 }
 
 impl<U: NamedPorts> Cosimulation<'_, U> {
     /// Runs all three over `stimuli` (a value per input, for each cycle) and compares every output that `reference` fixes.
     /// `reference` is told the inputs of each cycle in order and answers with the outputs of that cycle.
-    pub fn run(
+    pub fn run<V: Copy + Into<u128> + Debug>(
         mut self,
-        stimuli: impl IntoIterator<Item = Vec<u64>>,
-        mut reference: impl FnMut(&[u64]) -> Vec<Expected>,
+        stimuli: impl IntoIterator<Item = Vec<V>>,
+        mut reference: impl FnMut(&[V]) -> Vec<Expected>,
     ) {
         self.rust.connect_all();
         // Random registers show where an output depends on what nobody wrote.
         let mut model = blocks::randomized(self.name, 1);
         let find = |port: &&str| model.port(port).unwrap_or_else(|error| panic!("{error}"));
         let inputs: Vec<PortId> = self.inputs.iter().map(find).collect();
-        let outputs: Vec<PortId> = self.outputs.iter().map(find).collect();
+        let parts: Vec<_> = self.outputs.iter().map(|output| part(output)).collect();
+        let outputs: Vec<PortId> = parts.iter().map(|(port, ..)| find(port)).collect();
         let is_clocked = model.port("clock").is_ok();
         for (cycle, values) in stimuli.into_iter().enumerate() {
+            assert_eq!(values.len(), inputs.len(), "a value for each input");
             for ((name, port), value) in self.inputs.iter().zip(&inputs).zip(&values) {
                 self.rust.set(name, *value);
-                model.set(*port, *value);
+                set_number(&mut model, *port, (*value).into());
             }
             self.rust.set_clock(false);
             self.settle();
             model.eval();
-            for ((name, port), expected) in
-                self.outputs.iter().zip(&outputs).zip(reference(&values))
-            {
+            let expected = reference(&values);
+            assert_eq!(expected.len(), outputs.len(), "a value for each output");
+            for (((name, low, mask), port), expected) in parts.iter().zip(&outputs).zip(expected) {
                 if let Some(expected) = expected {
                     let seen = (self.rust.get(name), number(&model, *port));
+                    let seen = (seen.0 >> low & mask, seen.1 >> low & mask);
                     assert_eq!(
                         seen,
                         (expected, expected),
@@ -135,6 +164,27 @@ impl<U: NamedPorts> Cosimulation<'_, U> {
     }
 }
 
+/// The port of `name` or `name[low+:width]`, the lowest bit, and a mask.
+fn part(output: &str) -> (&str, u32, u128) {
+    let Some((name, range)) = output
+        .strip_suffix(']')
+        .and_then(|part| part.split_once('['))
+    else {
+        return (output, 0, u128::MAX);
+    };
+    let (low, width) = range.split_once("+:").expect("a range as [low+:width]");
+    let number = |digits: &str| digits.parse::<u32>().expect("a number");
+    (name, number(low), (1 << number(width)) - 1)
+}
+
+/// Drives an input of the model of any width.
+fn set_number(model: &mut Model, port: PortId, number: u128) {
+    let words: Vec<u32> = (0..port.width().div_ceil(32))
+        .map(|word| (number >> (32 * word)) as u32)
+        .collect();
+    model.set_wide(port, &words);
+}
+
 /// An output of the model as a number.
 fn number(model: &Model, port: PortId) -> u128 {
     let mut words = vec![0; port.width().div_ceil(32) as usize];
@@ -146,8 +196,10 @@ fn number(model: &Model, port: PortId) -> u128 {
 }
 
 /// Values that come out a number of clocks after they went in.
+#[allow(dead_code, reason = "blocks without a pipeline need none")]
 pub struct Delay<T>(VecDeque<Option<T>>);
 
+#[allow(dead_code, reason = "blocks without a pipeline need none")]
 impl<T> Delay<T> {
     pub fn new(edges: usize) -> Self {
         Self((0..edges).map(|_| None).collect())

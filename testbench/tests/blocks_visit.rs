@@ -1,0 +1,290 @@
+//! The parts of a visit: queue, reader and verdict agree in Rust, in Verilog and in plain arithmetic, clock by clock.
+
+mod cosimulation;
+mod structures;
+mod visit_model;
+
+use std::cell::RefCell;
+use std::collections::VecDeque;
+
+use cosimulation::{named_ports, Cosimulation, Expected, Numbers};
+use incircle_hdl::engine::{Issue, VerdictLogic, VisitReader};
+use structures::{pack, random, unpack, BUNDLE, TOKEN};
+use visit_model::{incircle, orientation, Point, Record};
+
+named_ports!([] Issue, [reset, push, bundle, read, read_id], [token_valid, token, read_valid], clock);
+named_ports!([] VisitReader,
+    [infinite, token, v0, v1, v2, n0, n1, n2, was_set, position0, position1, position2],
+    [turned, token_at_record, r0, r1, r2], clock);
+named_ports!([] VerdictLogic,
+    [turned, e0_negative, e1_negative, e2_negative, e0_zero, e1_zero, e2_zero, e1_below_e0, e2_below_e0, e2_below_e1,
+     incircle_positive, incircle_zero, p_before_r0, p_before_r1, p_before_r2, p_equals_r0, p_equals_r1, p_equals_r2,
+     r0_before_r1, r0_before_r2], [verdict]);
+
+const CYCLES: usize = 6_000;
+const INFINITE: u64 = 0x7fff;
+
+/// Visits waiting, each with a mark on the last of its bundle, and the issue register.
+#[derive(Default)]
+struct Queue {
+    waiting: VecDeque<(u128, bool)>,
+    issued: Expected,
+    read_id: Option<u64>,
+    fullest: usize,
+}
+
+impl Queue {
+    fn bundles(&self) -> usize {
+        self.waiting.iter().filter(|(_, is_last)| *is_last).count()
+    }
+
+    fn push(&mut self, bundle: u128) {
+        let [is_pair, rotates, locks, x, after, f_entry, f, u, x2, after2, u2] =
+            unpack(BUNDLE, bundle);
+        let first = pack(TOKEN, [rotates, locks, x, after, f_entry, f, u]);
+        self.waiting.push_back((first, is_pair == 0));
+        if is_pair == 1 {
+            let second = pack(TOKEN, [rotates, locks, x2, after2, f_entry, f, u2]);
+            self.waiting.push_back((second, true));
+        }
+        self.fullest = self.fullest.max(self.bundles());
+    }
+}
+
+#[test]
+fn issue_makes_one_visit_a_clock_in_order() {
+    const PLACES: usize = 8;
+    let queue = RefCell::new((Queue::default(), Numbers::new(31)));
+    let stimuli = (0..CYCLES).map(|cycle| {
+        let (queue, numbers) = &mut *queue.borrow_mut();
+        // In turn: floods, drops, droughts.
+        let rate = [1, 2, 9, 40][cycle / 64 % 4];
+        let has_place = queue.bundles() < PLACES;
+        let push = has_place && numbers.once_in(rate);
+        let read = queue.waiting.is_empty() && !push && numbers.bits(1) == 1;
+        vec![
+            u128::from(cycle == 0 || numbers.once_in(50)),
+            push.into(),
+            pack(BUNDLE, random(BUNDLE, numbers)),
+            read.into(),
+            numbers.bits(15).into(),
+        ]
+    });
+    let mut is_known = false;
+    Cosimulation {
+        name: "issue_3",
+        rust: Issue::new(3),
+        inputs: &["reset", "push", "bundle", "read", "read_id"],
+        outputs: &["token_valid", "token", "read_valid", "token[35+:15]"],
+    }
+    .run(stimuli, |values| {
+        let queue = &mut queue.borrow_mut().0;
+        let token_valid = Some(queue.issued.is_some().into());
+        let read_valid = Some(queue.read_id.is_some().into());
+        let read_id = queue.read_id.map(u128::from);
+        let outputs = vec![token_valid, queue.issued, read_valid, read_id];
+        if values[1] == 1 {
+            queue.push(values[2]);
+        }
+        queue.issued = queue.waiting.pop_front().map(|(token, _)| token);
+        queue.read_id = (values[3] == 1).then_some(values[4] as u64);
+        if values[0] == 1 {
+            let fullest = queue.fullest;
+            *queue = Queue {
+                fullest,
+                ..Queue::default()
+            };
+        }
+        let shown = if is_known { outputs } else { vec![None; 4] };
+        is_known |= values[0] == 1;
+        shown
+    });
+    assert_eq!(
+        queue.into_inner().0.fullest,
+        PLACES,
+        "the test fills every place"
+    );
+}
+
+/// A record with three links that differ, and the infinite vertex on one corner or none.
+fn record(numbers: &mut Numbers) -> Record {
+    let mut v = [(); 3].map(|()| numbers.bits(15) % INFINITE);
+    let place = numbers.bits(3) as usize;
+    if place < 3 {
+        v[place] = INFINITE;
+    }
+    let n0 = numbers.bits(15);
+    Record {
+        v,
+        n: [n0, n0 ^ (1 + numbers.bits(3)), n0 ^ (9 + numbers.bits(2))],
+    }
+}
+
+#[test]
+fn visit_reader_turns_record_and_corners() {
+    let mut numbers = Numbers::new(33);
+    let mut records: Vec<Record> = (0..CYCLES).map(|_| record(&mut numbers)).collect();
+    records.push(Record::default());
+    records.push(Record::default());
+    let stimuli: Vec<Vec<u128>> = (0..CYCLES)
+        .map(|cycle| {
+            // The visit's record is there two clocks later; it came through one of its links, or through none.
+            let mut token = random(TOKEN, &mut numbers);
+            let link = numbers.bits(2) as usize;
+            if link < 3 {
+                token[5] = records[cycle + 2].n[link];
+            }
+            let Record { v, n } = records[cycle];
+            let columns = [v, n].concat();
+            let mut values = vec![INFINITE.into(), pack(TOKEN, token)];
+            values.extend(columns.into_iter().map(u128::from));
+            values.push(numbers.bits(1).into());
+            values.extend([(); 3].map(|()| u128::from(numbers.bits(32))));
+            values
+        })
+        .collect();
+    let mut past: Vec<Vec<u128>> = vec![];
+    let mut turns = [0; 3];
+    Cosimulation {
+        name: "visit_reader",
+        rust: VisitReader::default(),
+        inputs: &[
+            "infinite",
+            "token",
+            "v0",
+            "v1",
+            "v2",
+            "n0",
+            "n1",
+            "n2",
+            "was_set",
+            "position0",
+            "position1",
+            "position2",
+        ],
+        outputs: &["token_at_record", "turned", "r0", "r1", "r2"],
+    }
+    .run(stimuli, |values| {
+        past.push(values.to_vec());
+        let ago = |clocks: usize| past.len().checked_sub(1 + clocks).map(|at| &past[at]);
+        // The record that stood on the columns that long ago, and the slot that its visit puts first.
+        let visit = |clocks: usize| {
+            let (columns, token) = (ago(clocks)?, unpack(TOKEN, ago(clocks + 2)?[1]));
+            let column = |port: usize| columns[port] as u64;
+            let record = Record {
+                v: [2, 3, 4].map(column),
+                n: [5, 6, 7].map(column),
+            };
+            Some((
+                record,
+                record.slot(token[0] == 1, token[5]),
+                columns[8] == 1,
+            ))
+        };
+        let turned = visit(2).map(|(record, slot, was_set)| {
+            turns[slot] += 1;
+            record.turned(slot).pack_turned(slot, was_set, INFINITE)
+        });
+        let corners = visit(3).and_then(|(_, slot, _)| {
+            let mut corners = [9, 10, 11].map(|port| ago(1).map(|then| then[port]));
+            corners.rotate_left(slot);
+            Some(corners)
+        });
+        let corners = corners.unwrap_or([None; 3]);
+        [&[ago(2).map(|then| then[1]), turned][..], &corners].concat()
+    });
+    assert!(turns.iter().all(|turn| *turn > CYCLES / 10), "{turns:?}");
+}
+
+/// Four points: few places, so that lines, circles and equal points are common; or the whole range.
+fn points(numbers: &mut Numbers) -> [Point; 4] {
+    let bits = [1, 2, 2, 3, 4, 16][(numbers.next() % 6) as usize];
+    let shift = if bits < 16 {
+        [0, 12][numbers.bits(1) as usize]
+    } else {
+        0
+    };
+    let mut coordinate = || (numbers.bits(bits) << shift) as i64;
+    [(); 4].map(|()| (coordinate(), coordinate()))
+}
+
+#[test]
+fn verdict_logic_agrees_with_the_geometry() {
+    let mut numbers = Numbers::new(34);
+    let mut cases = vec![];
+    let stimuli: Vec<Vec<u128>> = (0..4 * CYCLES)
+        .map(|_| {
+            let [r0, r1, r2, p] = points(&mut numbers);
+            let r = [r0, r1, r2];
+            let record = record(&mut numbers);
+            cases.push((record, r, p));
+            let e = [0, 1, 2].map(|k| orientation(r[(k + 1) % 3], r[(k + 2) % 3], p));
+            let inside = incircle(r, p);
+            let flags = [
+                e[0] < 0,
+                e[1] < 0,
+                e[2] < 0,
+                e[0] == 0,
+                e[1] == 0,
+                e[2] == 0,
+                e[1] < e[0],
+                e[2] < e[0],
+                e[2] < e[1],
+                inside > 0,
+                inside == 0,
+                p < r0,
+                p < r1,
+                p < r2,
+                p == r0,
+                p == r1,
+                p == r2,
+                r0 < r1,
+                r0 < r2,
+            ];
+            let turned = record.pack_turned(0, false, INFINITE);
+            [&[turned][..], &flags.map(u128::from)].concat()
+        })
+        .collect();
+    let mut cases = cases.into_iter();
+    let mut seen = [0; 4];
+    Cosimulation {
+        name: "verdict_logic",
+        rust: VerdictLogic::default(),
+        inputs: &[
+            "turned",
+            "e0_negative",
+            "e1_negative",
+            "e2_negative",
+            "e0_zero",
+            "e1_zero",
+            "e2_zero",
+            "e1_below_e0",
+            "e2_below_e0",
+            "e2_below_e1",
+            "incircle_positive",
+            "incircle_zero",
+            "p_before_r0",
+            "p_before_r1",
+            "p_before_r2",
+            "p_equals_r0",
+            "p_equals_r1",
+            "p_equals_r2",
+            "r0_before_r1",
+            "r0_before_r2",
+        ],
+        outputs: &["verdict"],
+    }
+    .run(stimuli, |_| {
+        let (record, r, p) = cases.next().expect("a case for each stimulus");
+        let verdict = record.verdict(r, p, INFINITE);
+        seen[0] += usize::from(verdict & 1 == 1);
+        seen[1] += usize::from(verdict >> 1 & 1 == 1);
+        seen[2] += usize::from(incircle(r, p) == 0 && !r.contains(&p));
+        seen[3] += usize::from(record.v.contains(&INFINITE));
+        vec![Some(verdict)]
+    });
+    assert!(
+        seen.iter().all(|count| *count > CYCLES / 10),
+        "conflicts, located, cocircular, ghosts: {seen:?}"
+    );
+}

@@ -1,0 +1,48 @@
+//! The structures that travel between blocks, as numbers: said here a second time, so that a field that moves is noticed.
+#![allow(dead_code, reason = "each test uses the structures of its blocks")]
+
+/// Widths of the fields, the lowest first.
+pub type Layout<const N: usize> = [u32; N];
+
+/// rotates, locks, x, after, `f_entry`, f, u.
+pub const TOKEN: Layout<7> = [1, 1, 6, 6, 6, 15, 15];
+/// `is_pair`, rotates, locks, x, after, `f_entry`, f, u, and x, after, u of the second visit.
+pub const BUNDLE: Layout<11> = [1, 1, 1, 6, 6, 6, 15, 15, 6, 6, 15];
+/// v0, v1, v2, n0, n1, n2, slot, `was_set`, and which vertex is infinite.
+pub const TURNED: Layout<11> = [15, 15, 15, 15, 15, 15, 2, 1, 1, 1, 1];
+/// conflict, located, `falls_onto_corner`, `is_left`, `is_straight`, `walk_next`.
+pub const VERDICT: Layout<6> = [1, 1, 1, 1, 1, 15];
+/// a, u, slot, f, after.
+pub const ENTRY: Layout<5> = [15, 15, 2, 15, 6];
+/// valid, id, vertices, link0, link1, link2, v0, v1, v2, n0, n1, n2.
+pub const WRITE: Layout<12> = [1, 15, 1, 1, 1, 1, 15, 15, 15, 15, 15, 15];
+
+/// The fields side by side, the first in the lowest bits.
+pub fn pack<const N: usize>(layout: Layout<N>, fields: [u64; N]) -> u128 {
+    let mut packed = 0;
+    let mut offset = 0;
+    for (width, field) in layout.into_iter().zip(fields) {
+        assert!(field >> width == 0, "{field} has more than {width} bits");
+        packed |= u128::from(field) << offset;
+        offset += width;
+    }
+    packed
+}
+
+/// The fields of a packed structure.
+pub fn unpack<const N: usize>(layout: Layout<N>, packed: u128) -> [u64; N] {
+    let mut offset = 0;
+    layout.map(|width| {
+        let field = (packed >> offset) as u64 & ((1 << width) - 1);
+        offset += width;
+        field
+    })
+}
+
+/// Fields of random bits.
+pub fn random<const N: usize>(
+    layout: Layout<N>,
+    numbers: &mut crate::cosimulation::Numbers,
+) -> [u64; N] {
+    layout.map(|width| numbers.bits(width))
+}
