@@ -94,144 +94,42 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     wire  responder$is_idle;
     wire  responder$ends;
     wire  responder$is_taken;
-    reg  insertion$clock;
-    reg  insertion$reset;
-    reg  [14:0] insertion$infinite;
-    reg  insertion$clears;
-    reg  insertion$point_valid;
-    reg  [14:0] insertion$point_id;
-    reg  [31:0] insertion$point;
-    wire  insertion$takes_point;
-    reg  insertion$done;
-    reg  [49:0] insertion$token;
-    reg  [95:0] insertion$turned;
-    reg  [19:0] insertion$verdict;
-    reg  insertion$split;
-    reg  [77:0] insertion$split_bundle;
-    reg  insertion$overflows;
-    reg  insertion$nothing_is_out;
-    reg  insertion$commit_ends;
-    reg  insertion$takes_fresh;
-    reg  insertion$solo_push;
-    reg  [77:0] insertion$solo_bundle;
-    reg  insertion$solo_ends;
-    reg  insertion$locks_are_held;
-    wire  insertion$is_idle;
-    wire  insertion$is_root;
-    wire  insertion$is_cavity;
-    wire  insertion$is_drain;
-    wire  insertion$is_commit;
-    wire  insertion$is_solo;
-    wire  [1:0] insertion$root_visits;
-    wire  [14:0] insertion$p;
-    wire  [31:0] insertion$position;
-    wire  [14:0] insertion$root_id;
-    wire  [95:0] insertion$root;
-    wire  [14:0] insertion$records;
-    wire  insertion$seeded;
-    wire  insertion$collinear;
-    wire  insertion$seeds;
-    wire  insertion$drained;
-    wire  insertion$walk_visit;
-    wire  insertion$duplicate;
-    wire  insertion$push;
-    wire  [77:0] insertion$bundle;
-    wire  [109:0] insertion$write;
-    reg  pipeline$clock;
-    reg  pipeline$reset;
-    reg  [14:0] pipeline$infinite;
-    reg  pipeline$push;
-    reg  [77:0] pipeline$bundle;
-    reg  [31:0] pipeline$p;
-    wire  pipeline$done;
-    wire  [49:0] pipeline$token;
-    wire  [95:0] pipeline$turned;
-    wire  [19:0] pipeline$verdict;
-    reg  pipeline$read;
-    reg  [14:0] pipeline$read_id;
-    wire  pipeline$read_done;
-    wire  [14:0] pipeline$v0;
-    wire  [14:0] pipeline$v1;
-    wire  [14:0] pipeline$v2;
-    wire  [14:0] pipeline$n0;
-    wire  [14:0] pipeline$n1;
-    wire  [14:0] pipeline$n2;
-    wire  pipeline$was_set;
-    reg  [109:0] pipeline$write;
-    reg  [14:0] pipeline$vertex_id;
-    reg  [31:0] pipeline$vertex_position;
-    reg  pipeline$vertex_enable;
-    reg  [14:0] pipeline$clear_id;
-    reg  pipeline$clear_enable;
-    reg  cavity$clock;
-    reg  cavity$reset;
-    reg  [6:0] cavity$ring;
-    reg  cavity$is_root;
-    reg  cavity$is_cavity;
-    reg  cavity$is_drain;
-    reg  [1:0] cavity$root_visits;
-    reg  cavity$done;
-    reg  [49:0] cavity$token;
-    reg  [95:0] cavity$turned;
-    reg  [19:0] cavity$verdict;
-    wire  cavity$split;
-    wire  [77:0] cavity$split_bundle;
-    wire  cavity$overflows;
-    wire  cavity$nothing_is_out;
-    wire  [6:0] cavity$count;
-    wire  [6:0] cavity$inner_count;
-    reg  [5:0] cavity$entry_pointer;
-    wire  [52:0] cavity$entry;
-    reg  [5:0] cavity$inner_pointer;
-    wire  [14:0] cavity$inner_id;
-    reg  commit$clock;
-    reg  commit$reset;
-    reg  commit$starts;
-    reg  [14:0] commit$p;
-    reg  [14:0] commit$records;
-    reg  [6:0] commit$inner_count;
-    wire  [5:0] commit$entry_pointer;
-    reg  [52:0] commit$entry;
-    wire  [5:0] commit$inner_pointer;
-    reg  [14:0] commit$inner_id;
-    wire  commit$takes_fresh;
-    wire  commit$ends;
-    wire  [109:0] commit$write;
-    reg  solo$clock;
-    reg  solo$reset;
-    reg  solo$starts;
-    reg  [14:0] solo$p;
-    reg  [14:0] solo$records;
-    reg  [14:0] solo$root_id;
-    reg  [95:0] solo$root;
-    reg  solo$done;
-    reg  [49:0] solo$token;
-    reg  [95:0] solo$turned;
-    reg  [19:0] solo$verdict;
-    wire  solo$push;
-    wire  [77:0] solo$bundle;
-    wire  [109:0] solo$write;
-    wire  solo$tests;
-    wire  solo$flips;
-    wire  solo$ends;
-    reg  lock_release$clock;
-    reg  lock_release$reset;
-    reg  [14:0] lock_release$last_id;
-    reg  lock_release$takes_locks;
-    reg  lock_release$done;
-    reg  [49:0] lock_release$token;
-    reg  [95:0] lock_release$turned;
-    reg  lock_release$starts;
-    wire  lock_release$is_busy;
-    wire  lock_release$sweeps;
-    wire  [14:0] lock_release$clear_id;
-    wire  lock_release$clear_enable;
-    reg  write_port$clock;
-    reg  write_port$reset;
-    reg  [109:0] write_port$commit;
-    reg  [109:0] write_port$solo;
-    reg  [109:0] write_port$seed;
-    wire  [109:0] write_port$write;
+    reg  engine$clock;
+    reg  engine$reset;
+    reg  [14:0] engine$infinite;
+    reg  [6:0] engine$ring;
+    reg  [14:0] engine$last_id;
+    reg  engine$clears;
+    reg  engine$point_valid;
+    reg  [14:0] engine$point_id;
+    reg  [31:0] engine$point;
+    reg  engine$vertex_enable;
+    reg  engine$read;
+    reg  [14:0] engine$read_id;
+    wire  engine$takes_point;
+    wire  engine$seeded;
+    wire  engine$collinear;
+    wire  [14:0] engine$records;
+    wire  engine$is_quiet;
+    wire  engine$sweeps;
+    wire  engine$read_done;
+    wire  [14:0] engine$v0;
+    wire  [14:0] engine$v1;
+    wire  [14:0] engine$v2;
+    wire  [14:0] engine$n0;
+    wire  [14:0] engine$n1;
+    wire  [14:0] engine$n2;
+    wire  engine$was_set;
+    wire  [109:0] engine$write;
+    wire  engine$seeds;
+    wire  engine$commit_ends;
+    wire  engine$solo_ends;
+    wire  engine$duplicate;
+    wire  engine$walk_visit;
+    wire  engine$test;
+    wire  engine$drained;
+    wire  engine$flip;
+    wire  [6:0] engine$cavity_triangles;
     reg  counters$clock;
     reg  counters$reset;
     reg  counters$clears;
@@ -252,11 +150,6 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     wire  [31:0] counters$value;
     wire  [31:0] counters$insertions;
     wire  [31:0] counters$duplicates;
-    
-    // Local signals
-    reg  is_quiet;
-    reg  [6:0] cavity_triangles;
-    reg  [6:0] two;
     
     // Sub module instances
     incircle_core_logic$command_port command_port(
@@ -335,157 +228,43 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .ends(responder$ends),
         .is_taken(responder$is_taken)
     );
-    incircle_core_logic$insertion insertion(
-        .clock(insertion$clock),
-        .reset(insertion$reset),
-        .infinite(insertion$infinite),
-        .clears(insertion$clears),
-        .point_valid(insertion$point_valid),
-        .point_id(insertion$point_id),
-        .point(insertion$point),
-        .takes_point(insertion$takes_point),
-        .done(insertion$done),
-        .token(insertion$token),
-        .turned(insertion$turned),
-        .verdict(insertion$verdict),
-        .split(insertion$split),
-        .split_bundle(insertion$split_bundle),
-        .overflows(insertion$overflows),
-        .nothing_is_out(insertion$nothing_is_out),
-        .commit_ends(insertion$commit_ends),
-        .takes_fresh(insertion$takes_fresh),
-        .solo_push(insertion$solo_push),
-        .solo_bundle(insertion$solo_bundle),
-        .solo_ends(insertion$solo_ends),
-        .locks_are_held(insertion$locks_are_held),
-        .is_idle(insertion$is_idle),
-        .is_root(insertion$is_root),
-        .is_cavity(insertion$is_cavity),
-        .is_drain(insertion$is_drain),
-        .is_commit(insertion$is_commit),
-        .is_solo(insertion$is_solo),
-        .root_visits(insertion$root_visits),
-        .p(insertion$p),
-        .position(insertion$position),
-        .root_id(insertion$root_id),
-        .root(insertion$root),
-        .records(insertion$records),
-        .seeded(insertion$seeded),
-        .collinear(insertion$collinear),
-        .seeds(insertion$seeds),
-        .drained(insertion$drained),
-        .walk_visit(insertion$walk_visit),
-        .duplicate(insertion$duplicate),
-        .push(insertion$push),
-        .bundle(insertion$bundle),
-        .write(insertion$write)
-    );
-    incircle_core_logic$pipeline pipeline(
-        .clock(pipeline$clock),
-        .reset(pipeline$reset),
-        .infinite(pipeline$infinite),
-        .push(pipeline$push),
-        .bundle(pipeline$bundle),
-        .p(pipeline$p),
-        .done(pipeline$done),
-        .token(pipeline$token),
-        .turned(pipeline$turned),
-        .verdict(pipeline$verdict),
-        .read(pipeline$read),
-        .read_id(pipeline$read_id),
-        .read_done(pipeline$read_done),
-        .v0(pipeline$v0),
-        .v1(pipeline$v1),
-        .v2(pipeline$v2),
-        .n0(pipeline$n0),
-        .n1(pipeline$n1),
-        .n2(pipeline$n2),
-        .was_set(pipeline$was_set),
-        .write(pipeline$write),
-        .vertex_id(pipeline$vertex_id),
-        .vertex_position(pipeline$vertex_position),
-        .vertex_enable(pipeline$vertex_enable),
-        .clear_id(pipeline$clear_id),
-        .clear_enable(pipeline$clear_enable)
-    );
-    incircle_core_logic$cavity cavity(
-        .clock(cavity$clock),
-        .reset(cavity$reset),
-        .ring(cavity$ring),
-        .is_root(cavity$is_root),
-        .is_cavity(cavity$is_cavity),
-        .is_drain(cavity$is_drain),
-        .root_visits(cavity$root_visits),
-        .done(cavity$done),
-        .token(cavity$token),
-        .turned(cavity$turned),
-        .verdict(cavity$verdict),
-        .split(cavity$split),
-        .split_bundle(cavity$split_bundle),
-        .overflows(cavity$overflows),
-        .nothing_is_out(cavity$nothing_is_out),
-        .count(cavity$count),
-        .inner_count(cavity$inner_count),
-        .entry_pointer(cavity$entry_pointer),
-        .entry(cavity$entry),
-        .inner_pointer(cavity$inner_pointer),
-        .inner_id(cavity$inner_id)
-    );
-    incircle_core_logic$commit commit(
-        .clock(commit$clock),
-        .reset(commit$reset),
-        .starts(commit$starts),
-        .p(commit$p),
-        .records(commit$records),
-        .inner_count(commit$inner_count),
-        .entry_pointer(commit$entry_pointer),
-        .entry(commit$entry),
-        .inner_pointer(commit$inner_pointer),
-        .inner_id(commit$inner_id),
-        .takes_fresh(commit$takes_fresh),
-        .ends(commit$ends),
-        .write(commit$write)
-    );
-    incircle_core_logic$solo solo(
-        .clock(solo$clock),
-        .reset(solo$reset),
-        .starts(solo$starts),
-        .p(solo$p),
-        .records(solo$records),
-        .root_id(solo$root_id),
-        .root(solo$root),
-        .done(solo$done),
-        .token(solo$token),
-        .turned(solo$turned),
-        .verdict(solo$verdict),
-        .push(solo$push),
-        .bundle(solo$bundle),
-        .write(solo$write),
-        .tests(solo$tests),
-        .flips(solo$flips),
-        .ends(solo$ends)
-    );
-    incircle_core_logic$lock_release lock_release(
-        .clock(lock_release$clock),
-        .reset(lock_release$reset),
-        .last_id(lock_release$last_id),
-        .takes_locks(lock_release$takes_locks),
-        .done(lock_release$done),
-        .token(lock_release$token),
-        .turned(lock_release$turned),
-        .starts(lock_release$starts),
-        .is_busy(lock_release$is_busy),
-        .sweeps(lock_release$sweeps),
-        .clear_id(lock_release$clear_id),
-        .clear_enable(lock_release$clear_enable)
-    );
-    incircle_core_logic$write_port write_port(
-        .clock(write_port$clock),
-        .reset(write_port$reset),
-        .commit(write_port$commit),
-        .solo(write_port$solo),
-        .seed(write_port$seed),
-        .write(write_port$write)
+    incircle_core_logic$engine engine(
+        .clock(engine$clock),
+        .reset(engine$reset),
+        .infinite(engine$infinite),
+        .ring(engine$ring),
+        .last_id(engine$last_id),
+        .clears(engine$clears),
+        .point_valid(engine$point_valid),
+        .point_id(engine$point_id),
+        .point(engine$point),
+        .vertex_enable(engine$vertex_enable),
+        .read(engine$read),
+        .read_id(engine$read_id),
+        .takes_point(engine$takes_point),
+        .seeded(engine$seeded),
+        .collinear(engine$collinear),
+        .records(engine$records),
+        .is_quiet(engine$is_quiet),
+        .sweeps(engine$sweeps),
+        .read_done(engine$read_done),
+        .v0(engine$v0),
+        .v1(engine$v1),
+        .v2(engine$v2),
+        .n0(engine$n0),
+        .n1(engine$n1),
+        .n2(engine$n2),
+        .was_set(engine$was_set),
+        .write(engine$write),
+        .seeds(engine$seeds),
+        .commit_ends(engine$commit_ends),
+        .solo_ends(engine$solo_ends),
+        .duplicate(engine$duplicate),
+        .walk_visit(engine$walk_visit),
+        .test(engine$test),
+        .drained(engine$drained),
+        .flip(engine$flip),
+        .cavity_triangles(engine$cavity_triangles)
     );
     incircle_core_logic$counters counters(
         .clock(counters$clock),
@@ -514,35 +293,21 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     always @(*) begin
         command_port$clock = clock;
         responder$clock = clock;
-        insertion$clock = clock;
-        pipeline$clock = clock;
-        cavity$clock = clock;
-        commit$clock = clock;
-        solo$clock = clock;
-        lock_release$clock = clock;
-        write_port$clock = clock;
+        engine$clock = clock;
         counters$clock = clock;
-        two = 32'h2;
         command_port$reset = reset;
         responder$reset = reset;
-        insertion$reset = reset;
-        pipeline$reset = reset;
-        cavity$reset = reset;
-        commit$reset = reset;
-        solo$reset = reset;
-        lock_release$reset = reset;
-        write_port$reset = reset;
+        engine$reset = reset;
         counters$reset = reset;
         command_port$capacity = capacity;
         command_port$command_valid = command_valid;
         command_port$command_data = command_data;
         command_ready = command_port$command_ready;
-        command_port$sweeps = lock_release$sweeps;
-        command_port$seeded = insertion$seeded;
-        command_port$collinear = insertion$collinear;
-        is_quiet = insertion$is_idle & (~command_port$point_valid) & (~lock_release$is_busy);
-        command_port$is_quiet = is_quiet;
-        command_port$takes_point = insertion$takes_point;
+        command_port$sweeps = engine$sweeps;
+        command_port$seeded = engine$seeded;
+        command_port$collinear = engine$collinear;
+        command_port$is_quiet = engine$is_quiet;
+        command_port$takes_point = engine$takes_point;
         command_port$responder_is_idle = responder$is_idle;
         command_port$answer_ends = responder$ends;
         command_port$answer_is_taken = responder$is_taken;
@@ -551,12 +316,12 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         answer_words$count = command_port$count;
         answer_words$capacity = capacity;
         answer_words$ring = ring;
-        answer_words$collinear = insertion$collinear;
+        answer_words$collinear = engine$collinear;
         answer_words$arrived = command_port$arrived;
         answer_words$refused = command_port$refused;
         answer_words$insertions = counters$insertions;
         answer_words$duplicates = counters$duplicates;
-        answer_words$records = insertion$records;
+        answer_words$records = engine$records;
         answer_words$index = responder$index;
         answer_words$counter = counters$value;
         responder$answers = command_port$answers;
@@ -565,98 +330,41 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         responder$length = answer_words$length;
         responder$word = answer_words$word;
         responder$is_read = answer_words$is_read;
-        responder$read_done = pipeline$read_done;
-        responder$v0 = pipeline$v0;
-        responder$v1 = pipeline$v1;
-        responder$v2 = pipeline$v2;
-        responder$n0 = pipeline$n0;
-        responder$n1 = pipeline$n1;
-        responder$n2 = pipeline$n2;
-        responder$was_set = pipeline$was_set;
+        responder$read_done = engine$read_done;
+        responder$v0 = engine$v0;
+        responder$v1 = engine$v1;
+        responder$v2 = engine$v2;
+        responder$n0 = engine$n0;
+        responder$n1 = engine$n1;
+        responder$n2 = engine$n2;
+        responder$was_set = engine$was_set;
         responder$response_ready = response_ready;
         response_valid = responder$response_valid;
         response_data = responder$response_data;
-        pipeline$infinite = infinite;
-        pipeline$push = insertion$push;
-        pipeline$bundle = insertion$bundle;
-        pipeline$p = insertion$position;
-        pipeline$read = responder$read;
-        pipeline$read_id = responder$read_id;
-        pipeline$write = write_port$write;
-        pipeline$vertex_id = command_port$point_id;
-        pipeline$vertex_position = command_port$point;
-        pipeline$vertex_enable = command_port$vertex_enable;
-        pipeline$clear_id = lock_release$clear_id;
-        pipeline$clear_enable = lock_release$clear_enable;
-        insertion$infinite = infinite;
-        insertion$clears = command_port$clears;
-        insertion$point_valid = command_port$point_valid;
-        insertion$point_id = command_port$point_id;
-        insertion$point = command_port$point;
-        insertion$done = pipeline$done;
-        insertion$token = pipeline$token;
-        insertion$turned = pipeline$turned;
-        insertion$verdict = pipeline$verdict;
-        insertion$split = cavity$split;
-        insertion$split_bundle = cavity$split_bundle;
-        insertion$overflows = cavity$overflows;
-        insertion$nothing_is_out = cavity$nothing_is_out;
-        insertion$commit_ends = commit$ends;
-        insertion$takes_fresh = commit$takes_fresh;
-        insertion$solo_push = solo$push;
-        insertion$solo_bundle = solo$bundle;
-        insertion$solo_ends = solo$ends;
-        insertion$locks_are_held = lock_release$is_busy;
-        cavity$ring = ring;
-        cavity$is_root = insertion$is_root;
-        cavity$is_cavity = insertion$is_cavity;
-        cavity$is_drain = insertion$is_drain;
-        cavity$root_visits = insertion$root_visits;
-        cavity$done = pipeline$done;
-        cavity$token = pipeline$token;
-        cavity$turned = pipeline$turned;
-        cavity$verdict = pipeline$verdict;
-        cavity$entry_pointer = commit$entry_pointer;
-        cavity$inner_pointer = commit$inner_pointer;
-        commit$starts = insertion$is_commit;
-        commit$p = insertion$p;
-        commit$records = insertion$records;
-        commit$inner_count = cavity$inner_count;
-        commit$entry = cavity$entry;
-        commit$inner_id = cavity$inner_id;
-        solo$starts = insertion$is_solo & (~lock_release$is_busy);
-        solo$p = insertion$p;
-        solo$records = insertion$records;
-        solo$root_id = insertion$root_id;
-        solo$root = insertion$root;
-        solo$done = pipeline$done;
-        solo$token = pipeline$token;
-        solo$turned = pipeline$turned;
-        solo$verdict = pipeline$verdict;
-        lock_release$last_id = last_id;
-        lock_release$takes_locks = insertion$is_cavity | insertion$is_drain;
-        lock_release$done = pipeline$done;
-        lock_release$token = pipeline$token;
-        lock_release$turned = pipeline$turned;
-        lock_release$starts = commit$ends | insertion$drained;
-        write_port$commit = commit$write;
-        write_port$solo = solo$write;
-        write_port$seed = insertion$write;
-        write = write_port$write;
-        cavity_triangles = cavity$count - two;
+        engine$infinite = infinite;
+        engine$ring = ring;
+        engine$last_id = last_id;
+        engine$clears = command_port$clears;
+        engine$point_valid = command_port$point_valid;
+        engine$point_id = command_port$point_id;
+        engine$point = command_port$point;
+        engine$vertex_enable = command_port$vertex_enable;
+        engine$read = responder$read;
+        engine$read_id = responder$read_id;
+        write = engine$write;
         counters$clears = command_port$clears;
         counters$inserting = command_port$inserting;
-        counters$waiting = command_port$inserting & command_port$awaits_point & is_quiet;
+        counters$waiting = command_port$inserting & command_port$awaits_point & engine$is_quiet;
         counters$reading = command_port$reading;
-        counters$seeds = insertion$seeds;
-        counters$commit_ends = commit$ends;
-        counters$solo_ends = solo$ends;
-        counters$duplicate = insertion$duplicate;
-        counters$walk_visit = insertion$walk_visit;
-        counters$test = solo$tests | (pipeline$done & pipeline$token[(64'h0)+:(1)] & pipeline$token[(64'h1)+:(1)]);
-        counters$drained = insertion$drained;
-        counters$flip = solo$flips;
-        counters$cavity_triangles = cavity_triangles;
+        counters$seeds = engine$seeds;
+        counters$commit_ends = engine$commit_ends;
+        counters$solo_ends = engine$solo_ends;
+        counters$duplicate = engine$duplicate;
+        counters$walk_visit = engine$walk_visit;
+        counters$test = engine$test;
+        counters$drained = engine$drained;
+        counters$flip = engine$flip;
+        counters$cavity_triangles = engine$cavity_triangles;
         counters$refused = command_port$refused;
         counters$select = responder$index;
     end
@@ -802,344 +510,6 @@ module incircle_core_logic$answer_words(opcode,first,count,capacity,ring,colline
 endmodule // incircle_core_logic$answer_words
 
 
-module incircle_core_logic$cavity(clock,reset,ring,is_root,is_cavity,is_drain,root_visits,done,token,turned,verdict,split,split_bundle,overflows,nothing_is_out,count,inner_count,entry_pointer,entry,inner_pointer,inner_id);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  reset;
-    input wire  [6:0] ring;
-    input wire  is_root;
-    input wire  is_cavity;
-    input wire  is_drain;
-    input wire  [1:0] root_visits;
-    input wire  done;
-    input wire  [49:0] token;
-    input wire  [95:0] turned;
-    input wire  [19:0] verdict;
-    output reg  split;
-    output reg  [77:0] split_bundle;
-    output reg  overflows;
-    output reg  nothing_is_out;
-    output reg  [6:0] count;
-    output reg  [6:0] inner_count;
-    input wire  [5:0] entry_pointer;
-    output reg  [52:0] entry;
-    input wire  [5:0] inner_pointer;
-    output reg  [14:0] inner_id;
-    
-    // Stub signals
-    reg  list$clock;
-    reg  [5:0] list$write_address;
-    reg  [52:0] list$write_data;
-    reg  list$write_enable;
-    reg  [5:0] list$read_address;
-    wire  [52:0] list$read_data;
-    reg  [52:0] listed$bits;
-    wire  [52:0] listed$value;
-    reg  inner$clock;
-    reg  [5:0] inner$write_address;
-    reg  [14:0] inner$write_data;
-    reg  inner$write_enable;
-    reg  [5:0] inner$read_address;
-    wire  [14:0] inner$read_data;
-    reg  [6:0] entries$d;
-    wire  [6:0] entries$q;
-    reg  entries$clock;
-    reg  [6:0] inners$d;
-    wire  [6:0] inners$q;
-    reg  inners$clock;
-    reg  [6:0] outstanding$d;
-    wire  [6:0] outstanding$q;
-    reg  outstanding$clock;
-    reg  [63:0] half_open$d;
-    wire  [63:0] half_open$q;
-    reg  half_open$clock;
-    
-    // Local signals
-    reg  [52:0] new_entry;
-    reg  [52:0] new_entry_bits;
-    reg  is_test;
-    reg  is_conflict;
-    reg  is_full;
-    reg  splits;
-    reg  edge_was_passed;
-    reg  root_keeps_an_edge;
-    reg  passes_last_edge;
-    reg  [5:0] y;
-    reg  [5:0] f_entry;
-    reg  [6:0] pushed;
-    reg  [6:0] raised;
-    reg  [6:0] one;
-    reg  [6:0] zero;
-    reg  [5:0] root_entry;
-    
-    // Sub module instances
-    incircle_core_logic$cavity$list list(
-        .clock(list$clock),
-        .write_address(list$write_address),
-        .write_data(list$write_data),
-        .write_enable(list$write_enable),
-        .read_address(list$read_address),
-        .read_data(list$read_data)
-    );
-    incircle_core_logic$cavity$listed listed(
-        .bits(listed$bits),
-        .value(listed$value)
-    );
-    incircle_core_logic$cavity$inner inner(
-        .clock(inner$clock),
-        .write_address(inner$write_address),
-        .write_data(inner$write_data),
-        .write_enable(inner$write_enable),
-        .read_address(inner$read_address),
-        .read_data(inner$read_data)
-    );
-    incircle_core_logic$cavity$entries entries(
-        .d(entries$d),
-        .q(entries$q),
-        .clock(entries$clock)
-    );
-    incircle_core_logic$cavity$inners inners(
-        .d(inners$d),
-        .q(inners$q),
-        .clock(inners$clock)
-    );
-    incircle_core_logic$cavity$outstanding outstanding(
-        .d(outstanding$d),
-        .q(outstanding$q),
-        .clock(outstanding$clock)
-    );
-    incircle_core_logic$cavity$half_open half_open(
-        .d(half_open$d),
-        .q(half_open$q),
-        .clock(half_open$clock)
-    );
-    
-    // Update code
-    always @(*) begin
-        entries$clock = clock;
-        inners$clock = clock;
-        outstanding$clock = clock;
-        half_open$clock = clock;
-        entries$d = entries$q;
-        inners$d = inners$q;
-        outstanding$d = outstanding$q;
-        half_open$d = half_open$q;
-        list$clock = clock;
-        inner$clock = clock;
-        one = 32'h1;
-        zero = 32'h0;
-        root_entry = 32'h0;
-        is_test = done & token[(64'h0)+:(1)] & is_cavity;
-        is_conflict = is_test & verdict[(64'h0)+:(1)];
-        is_full = entries$q == ring;
-        splits = is_conflict & (~is_full);
-        split = splits;
-        overflows = is_conflict & is_full;
-        y = entries$q[(32'h0)+:(6)];
-        split_bundle[(64'h0)+:(1)] = 1'b1;
-        split_bundle[(64'h1)+:(1)] = 1'b1;
-        split_bundle[(64'h2)+:(1)] = 1'b1;
-        split_bundle[(64'h3)+:(6)] = token[(64'h2)+:(6)];
-        split_bundle[(64'h9)+:(6)] = y;
-        split_bundle[(64'hf)+:(6)] = y;
-        split_bundle[(64'h15)+:(15)] = token[(64'h23)+:(15)];
-        split_bundle[(64'h24)+:(15)] = turned[(64'h3c)+:(15)];
-        split_bundle[(64'h33)+:(6)] = y;
-        split_bundle[(64'h39)+:(6)] = token[(64'h8)+:(6)];
-        split_bundle[(64'h3f)+:(15)] = turned[(64'h4b)+:(15)];
-        new_entry[(64'h0)+:(15)] = turned[(64'h1e)+:(15)];
-        new_entry[(64'hf)+:(15)] = token[(64'h23)+:(15)];
-        new_entry[(64'h1e)+:(2)] = turned[(64'h5a)+:(2)];
-        new_entry[(64'h20)+:(15)] = token[(64'h14)+:(15)];
-        new_entry[(64'h2f)+:(6)] = token[(64'h8)+:(6)];
-        new_entry_bits = new_entry;
-        list$write_address = token[(64'h2)+:(6)];
-        list$write_data = new_entry_bits;
-        list$write_enable = is_test & (~verdict[(64'h0)+:(1)]);
-        list$read_address = entry_pointer;
-        listed$bits = list$read_data;
-        entry = listed$value;
-        f_entry = token[(64'he)+:(6)];
-        edge_was_passed = half_open$q[f_entry];
-        root_keeps_an_edge = (f_entry == root_entry) & (~half_open$q[32'h1]);
-        passes_last_edge = edge_was_passed & (~root_keeps_an_edge);
-        inner$write_address = inners$q[(32'h0)+:(6)];
-        inner$write_data = token[(64'h14)+:(15)];
-        inner$write_enable = splits & passes_last_edge;
-        inner$read_address = inner_pointer;
-        inner_id = inner$read_data;
-        if (splits) begin
-            entries$d = entries$q + one;
-            half_open$d = (half_open$q & ~(1 << (f_entry)) | ((1'b1) << (f_entry)));
-            if (edge_was_passed & root_keeps_an_edge) begin
-                half_open$d = (half_open$q & ~(1 << (32'h1)) | ((1'b1) << (32'h1)));
-            end
-            if (passes_last_edge) begin
-                inners$d = inners$q + one;
-            end
-        end
-        count = entries$q;
-        inner_count = inners$q;
-        pushed = 32'h0;
-        if (splits) begin
-            pushed = 32'h2;
-        end
-        if (is_root) begin
-            pushed = ((root_visits) & 7'h7f);
-        end
-        raised = outstanding$q + pushed;
-        outstanding$d = raised;
-        if (done & (is_cavity | is_drain)) begin
-            outstanding$d = raised - one;
-        end
-        nothing_is_out = outstanding$q == zero;
-        if (is_root) begin
-            entries$d = 32'h3;
-            inners$d = 32'h0;
-            half_open$d = 32'h0;
-        end
-        if (reset) begin
-            outstanding$d = 32'h0;
-        end
-    end
-    
-endmodule // incircle_core_logic$cavity
-
-
-module incircle_core_logic$cavity$entries(d,q,clock);
-    
-    // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$cavity$entries
-
-
-module incircle_core_logic$cavity$half_open(d,q,clock);
-    
-    // Module arguments
-    input wire  [63:0] d;
-    output reg  [63:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 64'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$cavity$half_open
-
-
-module incircle_core_logic$cavity$inner(clock,write_address,write_data,write_enable,read_address,read_data);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  [5:0] write_address;
-    input wire  [14:0] write_data;
-    input wire  write_enable;
-    input wire  [5:0] read_address;
-    output reg  [14:0] read_data;
-    
-    // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[5:5]};
-    wire unused_read_address = &{1'b0, read_address[5:5]};
-    (* ram_style = "distributed" *)
-    reg [14:0] memory [0:31];
-    wire [14:0] word = memory[read_address[4:0]];
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[4:0]] <= write_data;
-    end
-    always @(*) read_data = word;
-endmodule // incircle_core_logic$cavity$inner
-
-
-module incircle_core_logic$cavity$inners(d,q,clock);
-    
-    // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$cavity$inners
-
-
-module incircle_core_logic$cavity$list(clock,write_address,write_data,write_enable,read_address,read_data);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  [5:0] write_address;
-    input wire  [52:0] write_data;
-    input wire  write_enable;
-    input wire  [5:0] read_address;
-    output reg  [52:0] read_data;
-    
-    // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[5:5]};
-    wire unused_read_address = &{1'b0, read_address[5:5]};
-    (* ram_style = "distributed" *)
-    reg [52:0] memory [0:31];
-    wire [52:0] word = memory[read_address[4:0]];
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[4:0]] <= write_data;
-    end
-    always @(*) read_data = word;
-endmodule // incircle_core_logic$cavity$list
-
-
-module incircle_core_logic$cavity$listed(bits,value);
-    
-    // Module arguments
-    input wire  [52:0] bits;
-    output reg  [52:0] value;
-    
-    // Update code (custom)
-    always @(*) value = bits;
-endmodule // incircle_core_logic$cavity$listed
-
-
-module incircle_core_logic$cavity$outstanding(d,q,clock);
-    
-    // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$cavity$outstanding
-
-
 module incircle_core_logic$command_port(clock,reset,capacity,command_valid,command_ready,command_data,sweeps,seeded,collinear,is_quiet,takes_point,point_valid,point_id,point,vertex_enable,clears,answers,opcode,first,count,arrived,refused,responder_is_idle,answer_ends,answer_is_taken,inserting,reading,awaits_point);
     
     // Module arguments
@@ -1193,24 +563,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,command_valid,comma
     reg  [31:0] left$d;
     wire  [31:0] left$q;
     reg  left$clock;
-    reg  [14:0] arrivals$d;
-    wire  [14:0] arrivals$q;
-    reg  arrivals$clock;
-    reg  [31:0] refusals$d;
-    wire  [31:0] refusals$q;
-    reg  refusals$clock;
-    reg  waits$d;
-    wire  waits$q;
-    reg  waits$clock;
-    reg  [14:0] waiting_id$d;
-    wire  [14:0] waiting_id$q;
-    reg  waiting_id$clock;
-    reg  [31:0] waiting_point$d;
-    wire  [31:0] waiting_point$q;
-    reg  waiting_point$clock;
-    reg  is_new$d;
-    wire  is_new$q;
-    reg  is_new$clock;
     reg  clearing$d;
     wire  clearing$q;
     reg  clearing$clock;
@@ -1220,13 +572,35 @@ module incircle_core_logic$command_port(clock,reset,capacity,command_valid,comma
     reg  is_reading$d;
     wire  is_reading$q;
     reg  is_reading$clock;
+    reg  slot$clock;
+    reg  slot$reset;
+    reg  slot$clears;
+    reg  [14:0] slot$capacity;
+    reg  slot$collinear;
+    reg  slot$accepts;
+    reg  [31:0] slot$word;
+    reg  slot$takes;
+    wire  slot$valid;
+    wire  [14:0] slot$id;
+    wire  [31:0] slot$point;
+    wire  slot$is_new;
+    wire  [14:0] slot$arrived;
+    wire  [31:0] slot$refused;
+    reg  gate$is_command;
+    reg  gate$is_argument;
+    reg  gate$is_points;
+    reg  gate$sweeps;
+    reg  gate$none_is_left;
+    reg  gate$point_waits;
+    reg  [14:0] gate$arrived;
+    reg  gate$seeded;
+    reg  gate$collinear;
+    wire  gate$ready;
+    wire  gate$awaits_point;
     
     // Local signals
-    reg  is_ready;
     reg  accepts;
     reg  is_last;
-    reg  start_is_open;
-    reg  stores;
     reg  [7:0] code;
     reg  is_insert;
     reg  [7:0] read_code;
@@ -1234,8 +608,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,command_valid,comma
     reg  [7:0] clear_code;
     reg  [31:0] none_left;
     reg  [31:0] one;
-    reg  [14:0] one_arrival;
-    reg  [14:0] three_arrivals;
     
     // Sub module instances
     incircle_core_logic$command_port$state state(
@@ -1258,36 +630,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,command_valid,comma
         .q(left$q),
         .clock(left$clock)
     );
-    incircle_core_logic$command_port$arrivals arrivals(
-        .d(arrivals$d),
-        .q(arrivals$q),
-        .clock(arrivals$clock)
-    );
-    incircle_core_logic$command_port$refusals refusals(
-        .d(refusals$d),
-        .q(refusals$q),
-        .clock(refusals$clock)
-    );
-    incircle_core_logic$command_port$waits waits(
-        .d(waits$d),
-        .q(waits$q),
-        .clock(waits$clock)
-    );
-    incircle_core_logic$command_port$waiting_id waiting_id(
-        .d(waiting_id$d),
-        .q(waiting_id$q),
-        .clock(waiting_id$clock)
-    );
-    incircle_core_logic$command_port$waiting_point waiting_point(
-        .d(waiting_point$d),
-        .q(waiting_point$q),
-        .clock(waiting_point$clock)
-    );
-    incircle_core_logic$command_port$is_new is_new(
-        .d(is_new$d),
-        .q(is_new$q),
-        .clock(is_new$clock)
-    );
     incircle_core_logic$command_port$clearing clearing(
         .d(clearing$d),
         .q(clearing$q),
@@ -1303,6 +645,35 @@ module incircle_core_logic$command_port(clock,reset,capacity,command_valid,comma
         .q(is_reading$q),
         .clock(is_reading$clock)
     );
+    incircle_core_logic$command_port$slot slot(
+        .clock(slot$clock),
+        .reset(slot$reset),
+        .clears(slot$clears),
+        .capacity(slot$capacity),
+        .collinear(slot$collinear),
+        .accepts(slot$accepts),
+        .word(slot$word),
+        .takes(slot$takes),
+        .valid(slot$valid),
+        .id(slot$id),
+        .point(slot$point),
+        .is_new(slot$is_new),
+        .arrived(slot$arrived),
+        .refused(slot$refused)
+    );
+    incircle_core_logic$command_port$gate gate(
+        .is_command(gate$is_command),
+        .is_argument(gate$is_argument),
+        .is_points(gate$is_points),
+        .sweeps(gate$sweeps),
+        .none_is_left(gate$none_is_left),
+        .point_waits(gate$point_waits),
+        .arrived(gate$arrived),
+        .seeded(gate$seeded),
+        .collinear(gate$collinear),
+        .ready(gate$ready),
+        .awaits_point(gate$awaits_point)
+    );
     
     // Update code
     always @(*) begin
@@ -1310,71 +681,58 @@ module incircle_core_logic$command_port(clock,reset,capacity,command_valid,comma
         command$clock = clock;
         first_word$clock = clock;
         left$clock = clock;
-        arrivals$clock = clock;
-        refusals$clock = clock;
-        waits$clock = clock;
-        waiting_id$clock = clock;
+        clearing$clock = clock;
+        is_inserting$clock = clock;
+        is_reading$clock = clock;
         state$d = state$q;
         command$d = command$q;
         first_word$d = first_word$q;
         left$d = left$q;
-        arrivals$d = arrivals$q;
-        refusals$d = refusals$q;
-        waits$d = waits$q;
-        waiting_id$d = waiting_id$q;
-        waiting_point$clock = clock;
-        is_new$clock = clock;
-        clearing$clock = clock;
-        is_inserting$clock = clock;
-        is_reading$clock = clock;
-        waiting_point$d = waiting_point$q;
-        is_new$d = is_new$q;
         clearing$d = clearing$q;
         is_inserting$d = is_inserting$q;
         is_reading$d = is_reading$q;
+        slot$clock = clock;
         clear_code = 32'h2;
         insert_code = 32'h3;
         read_code = 32'h4;
         none_left = 32'h0;
         one = 32'h1;
-        one_arrival = 32'h1;
-        three_arrivals = 32'h3;
-        point_valid = waits$q;
-        point_id = waiting_id$q;
-        point = waiting_point$q;
-        vertex_enable = is_new$q;
+        point_valid = slot$valid;
+        point_id = slot$id;
+        point = slot$point;
+        vertex_enable = slot$is_new;
         clears = clearing$q;
         answers = state$q == CommandState$Answer;
         opcode = command$q;
         first = first_word$q;
         count = left$q;
-        arrived = arrivals$q;
-        refused = refusals$q;
+        arrived = slot$arrived;
+        refused = slot$refused;
         inserting = is_inserting$q;
         reading = is_reading$q;
         is_last = left$q == none_left;
-        start_is_open = (arrivals$q == three_arrivals) & (~seeded) & (~collinear);
-        is_ready = 1'b0;
-        if (state$q == CommandState$Command) begin
-            is_ready = ~sweeps;
-        end
-        if ((state$q == CommandState$First) | (state$q == CommandState$Count)) begin
-            is_ready = 1'b1;
-        end
-        if (state$q == CommandState$Points) begin
-            is_ready = (~is_last) & (~waits$q) & (~start_is_open);
-        end
-        awaits_point = (state$q == CommandState$Points) & (~is_last);
-        command_ready = is_ready;
-        accepts = command_valid & is_ready;
-        stores = (~collinear) & (arrivals$q != capacity);
+        gate$is_command = state$q == CommandState$Command;
+        gate$is_argument = (state$q == CommandState$First) | (state$q == CommandState$Count);
+        gate$is_points = state$q == CommandState$Points;
+        gate$sweeps = sweeps;
+        gate$none_is_left = is_last;
+        gate$point_waits = slot$valid;
+        gate$arrived = slot$arrived;
+        gate$seeded = seeded;
+        gate$collinear = collinear;
+        awaits_point = gate$awaits_point;
+        command_ready = gate$ready;
+        accepts = command_valid & gate$ready;
+        slot$reset = reset;
+        slot$clears = clearing$q;
+        slot$capacity = capacity;
+        slot$collinear = collinear;
+        slot$accepts = accepts & (state$q == CommandState$Points);
+        slot$word = command_data;
+        slot$takes = takes_point;
         code = command_data[(32'h18)+:(8)];
         is_insert = command$q == insert_code;
         clearing$d = 1'b0;
-        is_new$d = 1'b0;
-        if (takes_point) begin
-            waits$d = 1'b0;
-        end
         if ((state$q != CommandState$Answer) & responder_is_idle & answer_is_taken) begin
             is_reading$d = 1'b0;
         end
@@ -1421,16 +779,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,command_valid,comma
                     if (accepts) begin
                         left$d = left$q - one;
                         is_inserting$d = 1'b1;
-                        if (stores) begin
-                            waits$d = 1'b1;
-                            is_new$d = 1'b1;
-                            waiting_id$d = arrivals$q;
-                            waiting_point$d = command_data;
-                            arrivals$d = arrivals$q + one_arrival;
-                        end
-                        else begin
-                            refusals$d = refusals$q + one;
-                        end
                     end
                 end
             CommandState$Settle:
@@ -1451,14 +799,8 @@ module incircle_core_logic$command_port(clock,reset,capacity,command_valid,comma
                     state$d = CommandState$Command;
                 end
         endcase
-        if (clearing$q | reset) begin
-            arrivals$d = 32'h0;
-            refusals$d = 32'h0;
-        end
         if (reset) begin
             state$d = CommandState$Command;
-            waits$d = 1'b0;
-            is_new$d = 1'b0;
             clearing$d = 1'b0;
             is_inserting$d = 1'b0;
             is_reading$d = 1'b0;
@@ -1466,25 +808,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,command_valid,comma
     end
     
 endmodule // incircle_core_logic$command_port
-
-
-module incircle_core_logic$command_port$arrivals(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$arrivals
 
 
 module incircle_core_logic$command_port$clearing(d,q,clock);
@@ -1544,6 +867,42 @@ module incircle_core_logic$command_port$first_word(d,q,clock);
 endmodule // incircle_core_logic$command_port$first_word
 
 
+module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,point_waits,arrived,seeded,collinear,ready,awaits_point);
+    
+    // Module arguments
+    input wire  is_command;
+    input wire  is_argument;
+    input wire  is_points;
+    input wire  sweeps;
+    input wire  none_is_left;
+    input wire  point_waits;
+    input wire  [14:0] arrived;
+    input wire  seeded;
+    input wire  collinear;
+    output reg  ready;
+    output reg  awaits_point;
+    
+    // Local signals
+    reg  start_is_open;
+    reg  [14:0] three;
+    
+    // Update code
+    always @(*) begin
+        three = 32'h3;
+        start_is_open = (arrived == three) & (~seeded) & (~collinear);
+        awaits_point = is_points & (~none_is_left);
+        ready = is_argument;
+        if (is_command) begin
+            ready = ~sweeps;
+        end
+        if (is_points) begin
+            ready = (~none_is_left) & (~point_waits) & (~start_is_open);
+        end
+    end
+    
+endmodule // incircle_core_logic$command_port$gate
+
+
 module incircle_core_logic$command_port$is_inserting(d,q,clock);
     
     // Module arguments
@@ -1561,25 +920,6 @@ module incircle_core_logic$command_port$is_inserting(d,q,clock);
     end
           
 endmodule // incircle_core_logic$command_port$is_inserting
-
-
-module incircle_core_logic$command_port$is_new(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$is_new
 
 
 module incircle_core_logic$command_port$is_reading(d,q,clock);
@@ -1620,7 +960,173 @@ module incircle_core_logic$command_port$left(d,q,clock);
 endmodule // incircle_core_logic$command_port$left
 
 
-module incircle_core_logic$command_port$refusals(d,q,clock);
+module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,collinear,accepts,word,takes,valid,id,point,is_new,arrived,refused);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  clears;
+    input wire  [14:0] capacity;
+    input wire  collinear;
+    input wire  accepts;
+    input wire  [31:0] word;
+    input wire  takes;
+    output reg  valid;
+    output reg  [14:0] id;
+    output reg  [31:0] point;
+    output reg  is_new;
+    output reg  [14:0] arrived;
+    output reg  [31:0] refused;
+    
+    // Stub signals
+    reg  waits$d;
+    wire  waits$q;
+    reg  waits$clock;
+    reg  [14:0] waiting_id$d;
+    wire  [14:0] waiting_id$q;
+    reg  waiting_id$clock;
+    reg  [31:0] waiting_point$d;
+    wire  [31:0] waiting_point$q;
+    reg  waiting_point$clock;
+    reg  came$d;
+    wire  came$q;
+    reg  came$clock;
+    reg  [14:0] arrivals$d;
+    wire  [14:0] arrivals$q;
+    reg  arrivals$clock;
+    reg  [31:0] refusals$d;
+    wire  [31:0] refusals$q;
+    reg  refusals$clock;
+    
+    // Local signals
+    reg  stores;
+    reg  refuses;
+    reg  has_room;
+    reg  [14:0] one_arrival;
+    reg  [31:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$command_port$slot$waits waits(
+        .d(waits$d),
+        .q(waits$q),
+        .clock(waits$clock)
+    );
+    incircle_core_logic$command_port$slot$waiting_id waiting_id(
+        .d(waiting_id$d),
+        .q(waiting_id$q),
+        .clock(waiting_id$clock)
+    );
+    incircle_core_logic$command_port$slot$waiting_point waiting_point(
+        .d(waiting_point$d),
+        .q(waiting_point$q),
+        .clock(waiting_point$clock)
+    );
+    incircle_core_logic$command_port$slot$came came(
+        .d(came$d),
+        .q(came$q),
+        .clock(came$clock)
+    );
+    incircle_core_logic$command_port$slot$arrivals arrivals(
+        .d(arrivals$d),
+        .q(arrivals$q),
+        .clock(arrivals$clock)
+    );
+    incircle_core_logic$command_port$slot$refusals refusals(
+        .d(refusals$d),
+        .q(refusals$q),
+        .clock(refusals$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        waits$clock = clock;
+        waiting_id$clock = clock;
+        waiting_point$clock = clock;
+        came$clock = clock;
+        arrivals$clock = clock;
+        refusals$clock = clock;
+        waits$d = waits$q;
+        waiting_id$d = waiting_id$q;
+        waiting_point$d = waiting_point$q;
+        came$d = came$q;
+        arrivals$d = arrivals$q;
+        refusals$d = refusals$q;
+        one_arrival = 32'h1;
+        one = 32'h1;
+        valid = waits$q;
+        id = waiting_id$q;
+        point = waiting_point$q;
+        is_new = came$q;
+        arrived = arrivals$q;
+        refused = refusals$q;
+        has_room = (~collinear) & (arrivals$q != capacity);
+        stores = accepts & has_room;
+        refuses = accepts & (~has_room);
+        came$d = stores;
+        if (takes) begin
+            waits$d = 1'b0;
+        end
+        if (stores) begin
+            waits$d = 1'b1;
+            waiting_id$d = arrivals$q;
+            waiting_point$d = word;
+            arrivals$d = arrivals$q + one_arrival;
+        end
+        if (refuses) begin
+            refusals$d = refusals$q + one;
+        end
+        if (clears | reset) begin
+            arrivals$d = 32'h0;
+            refusals$d = 32'h0;
+        end
+        if (reset) begin
+            waits$d = 1'b0;
+            came$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$command_port$slot
+
+
+module incircle_core_logic$command_port$slot$arrivals(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$slot$arrivals
+
+
+module incircle_core_logic$command_port$slot$came(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$slot$came
+
+
+module incircle_core_logic$command_port$slot$refusals(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -1636,7 +1142,64 @@ module incircle_core_logic$command_port$refusals(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$command_port$refusals
+endmodule // incircle_core_logic$command_port$slot$refusals
+
+
+module incircle_core_logic$command_port$slot$waiting_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$slot$waiting_id
+
+
+module incircle_core_logic$command_port$slot$waiting_point(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$slot$waiting_point
+
+
+module incircle_core_logic$command_port$slot$waits(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$slot$waits
 
 
 module incircle_core_logic$command_port$state(d,q,clock);
@@ -1664,814 +1227,6 @@ module incircle_core_logic$command_port$state(d,q,clock);
     end
           
 endmodule // incircle_core_logic$command_port$state
-
-
-module incircle_core_logic$command_port$waiting_id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$waiting_id
-
-
-module incircle_core_logic$command_port$waiting_point(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$waiting_point
-
-
-module incircle_core_logic$command_port$waits(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$waits
-
-
-module incircle_core_logic$commit(clock,reset,starts,p,records,inner_count,entry_pointer,entry,inner_pointer,inner_id,takes_fresh,ends,write);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  reset;
-    input wire  starts;
-    input wire  [14:0] p;
-    input wire  [14:0] records;
-    input wire  [6:0] inner_count;
-    output reg  [5:0] entry_pointer;
-    input wire  [52:0] entry;
-    output reg  [5:0] inner_pointer;
-    input wire  [14:0] inner_id;
-    output reg  takes_fresh;
-    output reg  ends;
-    output reg  [109:0] write;
-    
-    // Enums
-    localparam CommitState$Idle = 0;
-    localparam CommitState$Load = 1;
-    localparam CommitState$Record = 2;
-    localparam CommitState$Link = 3;
-    localparam CommitState$Close = 4;
-    
-    // Stub signals
-    reg  [2:0] state$d;
-    wire  [2:0] state$q;
-    reg  state$clock;
-    reg  [5:0] pointer$d;
-    wire  [5:0] pointer$q;
-    reg  pointer$clock;
-    reg  [52:0] first$d;
-    wire  [52:0] first$q;
-    reg  first$clock;
-    reg  [52:0] current$d;
-    wire  [52:0] current$q;
-    reg  current$clock;
-    reg  [14:0] current_id$d;
-    wire  [14:0] current_id$q;
-    reg  current_id$clock;
-    reg  [52:0] ahead$d;
-    wire  [52:0] ahead$q;
-    reg  ahead$clock;
-    reg  ahead_is_first$d;
-    wire  ahead_is_first$q;
-    reg  ahead_is_first$clock;
-    reg  opens$d;
-    wire  opens$q;
-    reg  opens$clock;
-    reg  [14:0] before_id$d;
-    wire  [14:0] before_id$q;
-    reg  before_id$clock;
-    reg  [14:0] second_a$d;
-    wire  [14:0] second_a$q;
-    reg  second_a$clock;
-    reg  [14:0] second_id$d;
-    wire  [14:0] second_id$q;
-    reg  second_id$clock;
-    reg  [6:0] inner_index$d;
-    wire  [6:0] inner_index$q;
-    reg  inner_index$clock;
-    reg  closes$d;
-    wire  closes$q;
-    reg  closes$clock;
-    reg  [14:0] link_u$d;
-    wire  [14:0] link_u$q;
-    reg  link_u$clock;
-    reg  [1:0] link_slot$d;
-    wire  [1:0] link_slot$q;
-    reg  link_slot$clock;
-    reg  [14:0] link_id$d;
-    wire  [14:0] link_id$q;
-    reg  link_id$clock;
-    reg  [109:0] request$d;
-    wire  [109:0] request$q;
-    reg  request$clock;
-    reg  [14:0] record$id;
-    reg  [14:0] record$v0;
-    reg  [14:0] record$v1;
-    reg  [14:0] record$v2;
-    reg  [14:0] record$n0;
-    reg  [14:0] record$n1;
-    reg  [14:0] record$n2;
-    wire  [109:0] record$write;
-    reg  [14:0] link$id;
-    reg  [1:0] link$slot;
-    reg  [14:0] link$value;
-    wire  [109:0] link$write;
-    
-    // Local signals
-    reg  shares;
-    reg  inner_is_used_up;
-    reg  [14:0] ahead_id;
-    reg  needs_link;
-    reg  pointer_is_first;
-    reg  [5:0] first_pointer;
-    reg  [6:0] one;
-    
-    // Sub module instances
-    incircle_core_logic$commit$state state(
-        .d(state$d),
-        .q(state$q),
-        .clock(state$clock)
-    );
-    incircle_core_logic$commit$pointer pointer(
-        .d(pointer$d),
-        .q(pointer$q),
-        .clock(pointer$clock)
-    );
-    incircle_core_logic$commit$first first(
-        .d(first$d),
-        .q(first$q),
-        .clock(first$clock)
-    );
-    incircle_core_logic$commit$current current(
-        .d(current$d),
-        .q(current$q),
-        .clock(current$clock)
-    );
-    incircle_core_logic$commit$current_id current_id(
-        .d(current_id$d),
-        .q(current_id$q),
-        .clock(current_id$clock)
-    );
-    incircle_core_logic$commit$ahead ahead(
-        .d(ahead$d),
-        .q(ahead$q),
-        .clock(ahead$clock)
-    );
-    incircle_core_logic$commit$ahead_is_first ahead_is_first(
-        .d(ahead_is_first$d),
-        .q(ahead_is_first$q),
-        .clock(ahead_is_first$clock)
-    );
-    incircle_core_logic$commit$opens opens(
-        .d(opens$d),
-        .q(opens$q),
-        .clock(opens$clock)
-    );
-    incircle_core_logic$commit$before_id before_id(
-        .d(before_id$d),
-        .q(before_id$q),
-        .clock(before_id$clock)
-    );
-    incircle_core_logic$commit$second_a second_a(
-        .d(second_a$d),
-        .q(second_a$q),
-        .clock(second_a$clock)
-    );
-    incircle_core_logic$commit$second_id second_id(
-        .d(second_id$d),
-        .q(second_id$q),
-        .clock(second_id$clock)
-    );
-    incircle_core_logic$commit$inner_index inner_index(
-        .d(inner_index$d),
-        .q(inner_index$q),
-        .clock(inner_index$clock)
-    );
-    incircle_core_logic$commit$closes closes(
-        .d(closes$d),
-        .q(closes$q),
-        .clock(closes$clock)
-    );
-    incircle_core_logic$commit$link_u link_u(
-        .d(link_u$d),
-        .q(link_u$q),
-        .clock(link_u$clock)
-    );
-    incircle_core_logic$commit$link_slot link_slot(
-        .d(link_slot$d),
-        .q(link_slot$q),
-        .clock(link_slot$clock)
-    );
-    incircle_core_logic$commit$link_id link_id(
-        .d(link_id$d),
-        .q(link_id$q),
-        .clock(link_id$clock)
-    );
-    incircle_core_logic$commit$request request(
-        .d(request$d),
-        .q(request$q),
-        .clock(request$clock)
-    );
-    incircle_core_logic$commit$record record(
-        .id(record$id),
-        .v0(record$v0),
-        .v1(record$v1),
-        .v2(record$v2),
-        .n0(record$n0),
-        .n1(record$n1),
-        .n2(record$n2),
-        .write(record$write)
-    );
-    incircle_core_logic$commit$link link(
-        .id(link$id),
-        .slot(link$slot),
-        .value(link$value),
-        .write(link$write)
-    );
-    
-    // Update code
-    always @(*) begin
-        state$clock = clock;
-        pointer$clock = clock;
-        first$clock = clock;
-        current$clock = clock;
-        current_id$clock = clock;
-        ahead$clock = clock;
-        ahead_is_first$clock = clock;
-        opens$clock = clock;
-        state$d = state$q;
-        pointer$d = pointer$q;
-        first$d = first$q;
-        current$d = current$q;
-        current_id$d = current_id$q;
-        ahead$d = ahead$q;
-        ahead_is_first$d = ahead_is_first$q;
-        opens$d = opens$q;
-        before_id$clock = clock;
-        second_a$clock = clock;
-        second_id$clock = clock;
-        inner_index$clock = clock;
-        closes$clock = clock;
-        link_u$clock = clock;
-        link_slot$clock = clock;
-        link_id$clock = clock;
-        request$clock = clock;
-        before_id$d = before_id$q;
-        second_a$d = second_a$q;
-        second_id$d = second_id$q;
-        inner_index$d = inner_index$q;
-        closes$d = closes$q;
-        link_u$d = link_u$q;
-        link_slot$d = link_slot$q;
-        link_id$d = link_id$q;
-        request$d = request$q;
-        first_pointer = 32'h0;
-        one = 32'h1;
-        entry_pointer = pointer$q;
-        pointer_is_first = pointer$q == first_pointer;
-        inner_pointer = inner_index$q[(32'h0)+:(6)];
-        write = request$q;
-        shares = (~ahead_is_first$q) & ((ahead$q[(64'h20)+:(15)] == current$q[(64'h20)+:(15)]) | (ahead$q[(64'h20)+:(15)] == first$q[(64'h20)+:(15)]));
-        inner_is_used_up = inner_index$q == inner_count;
-        takes_fresh = (state$q == CommitState$Record) & shares & inner_is_used_up;
-        ahead_id = ahead$q[(64'h20)+:(15)];
-        if (ahead_is_first$q) begin
-            ahead_id = first$q[(64'h20)+:(15)];
-        end
-        if (shares) begin
-            ahead_id = inner_id;
-            if (inner_is_used_up) begin
-                ahead_id = records;
-            end
-        end
-        needs_link = (~opens$q) & (current_id$q != current$q[(64'h20)+:(15)]);
-        ends = state$q == CommitState$Close;
-        record$id = current_id$q;
-        record$v0 = p;
-        record$v1 = current$q[(64'h0)+:(15)];
-        record$v2 = ahead$q[(64'h0)+:(15)];
-        record$n0 = current$q[(64'hf)+:(15)];
-        record$n1 = ahead_id;
-        record$n2 = before_id$q;
-        if (state$q == CommitState$Close) begin
-            record$v2 = second_a$q;
-            record$n1 = second_id$q;
-        end
-        link$id = link_u$q;
-        link$slot = link_slot$q;
-        link$value = link_id$q;
-        request$d[(64'h0)+:(1)] = 1'b0;
-        case (state$q)
-            CommitState$Idle:
-                begin
-                    if (starts) begin
-                        ahead$d = entry;
-                        pointer$d = entry[(64'h2f)+:(6)];
-                        inner_index$d = 32'h0;
-                        state$d = CommitState$Load;
-                    end
-                end
-            CommitState$Load:
-                begin
-                    first$d = ahead$q;
-                    current$d = ahead$q;
-                    current_id$d = ahead$q[(64'h20)+:(15)];
-                    opens$d = 1'b1;
-                    ahead$d = entry;
-                    ahead_is_first$d = pointer_is_first;
-                    pointer$d = entry[(64'h2f)+:(6)];
-                    state$d = CommitState$Record;
-                end
-            CommitState$Record:
-                begin
-                    if (shares & (~inner_is_used_up)) begin
-                        inner_index$d = inner_index$q + one;
-                    end
-                    if (opens$q) begin
-                        second_a$d = ahead$q[(64'h0)+:(15)];
-                        second_id$d = ahead_id;
-                    end
-                    else begin
-                        request$d = record$write;
-                        link_u$d = current$q[(64'hf)+:(15)];
-                        link_slot$d = current$q[(64'h1e)+:(2)];
-                        link_id$d = current_id$q;
-                    end
-                    opens$d = 1'b0;
-                    closes$d = ahead_is_first$q;
-                    before_id$d = current_id$q;
-                    current$d = ahead$q;
-                    current_id$d = ahead_id;
-                    ahead$d = entry;
-                    ahead_is_first$d = pointer_is_first;
-                    pointer$d = entry[(64'h2f)+:(6)];
-                    if (needs_link) begin
-                        state$d = CommitState$Link;
-                    end
-                    else begin
-                        if (ahead_is_first$q) begin
-                            state$d = CommitState$Close;
-                        end
-                    end
-                end
-            CommitState$Link:
-                begin
-                    request$d = link$write;
-                    state$d = CommitState$Record;
-                    if (closes$q) begin
-                        state$d = CommitState$Close;
-                    end
-                end
-            CommitState$Close:
-                begin
-                    request$d = record$write;
-                    pointer$d = 32'h0;
-                    state$d = CommitState$Idle;
-                end
-            default:
-                begin
-                    state$d = CommitState$Idle;
-                end
-        endcase
-        if (reset) begin
-            state$d = CommitState$Idle;
-            pointer$d = 32'h0;
-            request$d[(64'h0)+:(1)] = 1'b0;
-        end
-    end
-    
-endmodule // incircle_core_logic$commit
-
-
-module incircle_core_logic$commit$ahead(d,q,clock);
-    
-    // Module arguments
-    input wire  [52:0] d;
-    output reg  [52:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 53'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$ahead
-
-
-module incircle_core_logic$commit$ahead_is_first(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$ahead_is_first
-
-
-module incircle_core_logic$commit$before_id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$before_id
-
-
-module incircle_core_logic$commit$closes(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$closes
-
-
-module incircle_core_logic$commit$current(d,q,clock);
-    
-    // Module arguments
-    input wire  [52:0] d;
-    output reg  [52:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 53'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$current
-
-
-module incircle_core_logic$commit$current_id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$current_id
-
-
-module incircle_core_logic$commit$first(d,q,clock);
-    
-    // Module arguments
-    input wire  [52:0] d;
-    output reg  [52:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 53'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$first
-
-
-module incircle_core_logic$commit$inner_index(d,q,clock);
-    
-    // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$inner_index
-
-
-module incircle_core_logic$commit$link(id,slot,value,write);
-    
-    // Module arguments
-    input wire  [14:0] id;
-    input wire  [1:0] slot;
-    input wire  [14:0] value;
-    output reg  [109:0] write;
-    
-    // Local signals
-    reg  [1:0] slot0;
-    reg  [1:0] slot1;
-    reg  [1:0] slot2;
-    
-    // Update code
-    always @(*) begin
-        slot0 = 32'h0;
-        slot1 = 32'h1;
-        slot2 = 32'h2;
-        write[(64'h0)+:(1)] = 1'b1;
-        write[(64'h1)+:(15)] = id;
-        write[(64'h10)+:(1)] = 1'b0;
-        write[(64'h11)+:(1)] = slot == slot0;
-        write[(64'h12)+:(1)] = slot == slot1;
-        write[(64'h13)+:(1)] = slot == slot2;
-        write[(64'h14)+:(15)] = 32'h0;
-        write[(64'h23)+:(15)] = 32'h0;
-        write[(64'h32)+:(15)] = 32'h0;
-        write[(64'h41)+:(15)] = value;
-        write[(64'h50)+:(15)] = value;
-        write[(64'h5f)+:(15)] = value;
-    end
-    
-endmodule // incircle_core_logic$commit$link
-
-
-module incircle_core_logic$commit$link_id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$link_id
-
-
-module incircle_core_logic$commit$link_slot(d,q,clock);
-    
-    // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 2'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$link_slot
-
-
-module incircle_core_logic$commit$link_u(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$link_u
-
-
-module incircle_core_logic$commit$opens(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$opens
-
-
-module incircle_core_logic$commit$pointer(d,q,clock);
-    
-    // Module arguments
-    input wire  [5:0] d;
-    output reg  [5:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 6'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$pointer
-
-
-module incircle_core_logic$commit$record(id,v0,v1,v2,n0,n1,n2,write);
-    
-    // Module arguments
-    input wire  [14:0] id;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
-    input wire  [14:0] n0;
-    input wire  [14:0] n1;
-    input wire  [14:0] n2;
-    output reg  [109:0] write;
-    
-    // Update code
-    always @(*) begin
-        write[(64'h0)+:(1)] = 1'b1;
-        write[(64'h1)+:(15)] = id;
-        write[(64'h10)+:(1)] = 1'b1;
-        write[(64'h11)+:(1)] = 1'b1;
-        write[(64'h12)+:(1)] = 1'b1;
-        write[(64'h13)+:(1)] = 1'b1;
-        write[(64'h14)+:(15)] = v0;
-        write[(64'h23)+:(15)] = v1;
-        write[(64'h32)+:(15)] = v2;
-        write[(64'h41)+:(15)] = n0;
-        write[(64'h50)+:(15)] = n1;
-        write[(64'h5f)+:(15)] = n2;
-    end
-    
-endmodule // incircle_core_logic$commit$record
-
-
-module incircle_core_logic$commit$request(d,q,clock);
-    
-    // Module arguments
-    input wire  [109:0] d;
-    output reg  [109:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 110'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$request
-
-
-module incircle_core_logic$commit$second_a(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$second_a
-
-
-module incircle_core_logic$commit$second_id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$second_id
-
-
-module incircle_core_logic$commit$state(d,q,clock);
-    
-    // Module arguments
-    input wire  [2:0] d;
-    output reg  [2:0] q;
-    input wire  clock;
-    
-    // Enums
-    localparam CommitState$Idle = 0;
-    localparam CommitState$Load = 1;
-    localparam CommitState$Record = 2;
-    localparam CommitState$Link = 3;
-    localparam CommitState$Close = 4;
-    
-    // Update code (custom)
-    initial begin
-       q = 64'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$commit$state
 
 
 module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading,seeds,commit_ends,solo_ends,duplicate,walk_visit,test,drained,flip,cavity_triangles,refused,select,value,insertions,duplicates);
@@ -3242,7 +1997,1593 @@ module incircle_core_logic$counters$walk_visits(d,q,clock);
 endmodule // incircle_core_logic$counters$walk_visits
 
 
-module incircle_core_logic$insertion(clock,reset,infinite,clears,point_valid,point_id,point,takes_point,done,token,turned,verdict,split,split_bundle,overflows,nothing_is_out,commit_ends,takes_fresh,solo_push,solo_bundle,solo_ends,locks_are_held,is_idle,is_root,is_cavity,is_drain,is_commit,is_solo,root_visits,p,position,root_id,root,records,seeded,collinear,seeds,drained,walk_visit,duplicate,push,bundle,write);
+module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,clears,point_valid,point_id,point,vertex_enable,read,read_id,takes_point,seeded,collinear,records,is_quiet,sweeps,read_done,v0,v1,v2,n0,n1,n2,was_set,write,seeds,commit_ends,solo_ends,duplicate,walk_visit,test,drained,flip,cavity_triangles);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  [14:0] infinite;
+    input wire  [6:0] ring;
+    input wire  [14:0] last_id;
+    input wire  clears;
+    input wire  point_valid;
+    input wire  [14:0] point_id;
+    input wire  [31:0] point;
+    input wire  vertex_enable;
+    input wire  read;
+    input wire  [14:0] read_id;
+    output reg  takes_point;
+    output reg  seeded;
+    output reg  collinear;
+    output reg  [14:0] records;
+    output reg  is_quiet;
+    output reg  sweeps;
+    output reg  read_done;
+    output reg  [14:0] v0;
+    output reg  [14:0] v1;
+    output reg  [14:0] v2;
+    output reg  [14:0] n0;
+    output reg  [14:0] n1;
+    output reg  [14:0] n2;
+    output reg  was_set;
+    output reg  [109:0] write;
+    output reg  seeds;
+    output reg  commit_ends;
+    output reg  solo_ends;
+    output reg  duplicate;
+    output reg  walk_visit;
+    output reg  test;
+    output reg  drained;
+    output reg  flip;
+    output reg  [6:0] cavity_triangles;
+    
+    // Stub signals
+    reg  insertion$clock;
+    reg  insertion$reset;
+    reg  [14:0] insertion$infinite;
+    reg  insertion$clears;
+    reg  insertion$point_valid;
+    reg  [14:0] insertion$point_id;
+    reg  [31:0] insertion$point;
+    wire  insertion$takes_point;
+    reg  insertion$done;
+    reg  [49:0] insertion$token;
+    reg  [95:0] insertion$turned;
+    reg  [19:0] insertion$verdict;
+    reg  insertion$split;
+    reg  [77:0] insertion$split_bundle;
+    reg  insertion$overflows;
+    reg  insertion$nothing_is_out;
+    reg  insertion$commit_ends;
+    reg  insertion$takes_fresh;
+    reg  insertion$solo_push;
+    reg  [77:0] insertion$solo_bundle;
+    reg  insertion$solo_ends;
+    reg  insertion$locks_are_held;
+    wire  insertion$is_idle;
+    wire  insertion$is_root;
+    wire  insertion$is_cavity;
+    wire  insertion$is_drain;
+    wire  insertion$is_commit;
+    wire  insertion$is_solo;
+    wire  [1:0] insertion$root_visits;
+    wire  [14:0] insertion$p;
+    wire  [31:0] insertion$position;
+    wire  [14:0] insertion$root_id;
+    wire  [95:0] insertion$root;
+    wire  [14:0] insertion$records;
+    wire  insertion$seeded;
+    wire  insertion$collinear;
+    wire  insertion$seeds;
+    wire  insertion$drained;
+    wire  insertion$walk_visit;
+    wire  insertion$duplicate;
+    wire  insertion$push;
+    wire  [77:0] insertion$bundle;
+    wire  [109:0] insertion$write;
+    reg  pipeline$clock;
+    reg  pipeline$reset;
+    reg  [14:0] pipeline$infinite;
+    reg  pipeline$push;
+    reg  [77:0] pipeline$bundle;
+    reg  [31:0] pipeline$p;
+    wire  pipeline$done;
+    wire  [49:0] pipeline$token;
+    wire  [95:0] pipeline$turned;
+    wire  [19:0] pipeline$verdict;
+    reg  pipeline$read;
+    reg  [14:0] pipeline$read_id;
+    wire  pipeline$read_done;
+    wire  [14:0] pipeline$v0;
+    wire  [14:0] pipeline$v1;
+    wire  [14:0] pipeline$v2;
+    wire  [14:0] pipeline$n0;
+    wire  [14:0] pipeline$n1;
+    wire  [14:0] pipeline$n2;
+    wire  pipeline$was_set;
+    reg  [109:0] pipeline$write;
+    reg  [14:0] pipeline$vertex_id;
+    reg  [31:0] pipeline$vertex_position;
+    reg  pipeline$vertex_enable;
+    reg  [14:0] pipeline$clear_id;
+    reg  pipeline$clear_enable;
+    reg  cavity$clock;
+    reg  cavity$reset;
+    reg  [6:0] cavity$ring;
+    reg  cavity$is_root;
+    reg  cavity$is_cavity;
+    reg  cavity$is_drain;
+    reg  [1:0] cavity$root_visits;
+    reg  cavity$done;
+    reg  [49:0] cavity$token;
+    reg  [95:0] cavity$turned;
+    reg  [19:0] cavity$verdict;
+    wire  cavity$split;
+    wire  [77:0] cavity$split_bundle;
+    wire  cavity$overflows;
+    wire  cavity$nothing_is_out;
+    wire  [6:0] cavity$count;
+    wire  [6:0] cavity$inner_count;
+    reg  [5:0] cavity$entry_pointer;
+    wire  [52:0] cavity$entry;
+    reg  [5:0] cavity$inner_pointer;
+    wire  [14:0] cavity$inner_id;
+    reg  commit$clock;
+    reg  commit$reset;
+    reg  commit$starts;
+    reg  [14:0] commit$p;
+    reg  [14:0] commit$records;
+    reg  [6:0] commit$inner_count;
+    wire  [5:0] commit$entry_pointer;
+    reg  [52:0] commit$entry;
+    wire  [5:0] commit$inner_pointer;
+    reg  [14:0] commit$inner_id;
+    wire  commit$takes_fresh;
+    wire  commit$ends;
+    wire  [109:0] commit$write;
+    reg  solo$clock;
+    reg  solo$reset;
+    reg  solo$starts;
+    reg  [14:0] solo$p;
+    reg  [14:0] solo$records;
+    reg  [14:0] solo$root_id;
+    reg  [95:0] solo$root;
+    reg  solo$done;
+    reg  [49:0] solo$token;
+    reg  [95:0] solo$turned;
+    reg  [19:0] solo$verdict;
+    wire  solo$push;
+    wire  [77:0] solo$bundle;
+    wire  [109:0] solo$write;
+    wire  solo$tests;
+    wire  solo$flips;
+    wire  solo$ends;
+    reg  lock_release$clock;
+    reg  lock_release$reset;
+    reg  [14:0] lock_release$last_id;
+    reg  lock_release$takes_locks;
+    reg  lock_release$done;
+    reg  [49:0] lock_release$token;
+    reg  [95:0] lock_release$turned;
+    reg  lock_release$starts;
+    wire  lock_release$is_busy;
+    wire  lock_release$sweeps;
+    wire  [14:0] lock_release$clear_id;
+    wire  lock_release$clear_enable;
+    reg  write_port$clock;
+    reg  write_port$reset;
+    reg  [109:0] write_port$commit;
+    reg  [109:0] write_port$solo;
+    reg  [109:0] write_port$seed;
+    wire  [109:0] write_port$write;
+    
+    // Local signals
+    reg  [6:0] two;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertion insertion(
+        .clock(insertion$clock),
+        .reset(insertion$reset),
+        .infinite(insertion$infinite),
+        .clears(insertion$clears),
+        .point_valid(insertion$point_valid),
+        .point_id(insertion$point_id),
+        .point(insertion$point),
+        .takes_point(insertion$takes_point),
+        .done(insertion$done),
+        .token(insertion$token),
+        .turned(insertion$turned),
+        .verdict(insertion$verdict),
+        .split(insertion$split),
+        .split_bundle(insertion$split_bundle),
+        .overflows(insertion$overflows),
+        .nothing_is_out(insertion$nothing_is_out),
+        .commit_ends(insertion$commit_ends),
+        .takes_fresh(insertion$takes_fresh),
+        .solo_push(insertion$solo_push),
+        .solo_bundle(insertion$solo_bundle),
+        .solo_ends(insertion$solo_ends),
+        .locks_are_held(insertion$locks_are_held),
+        .is_idle(insertion$is_idle),
+        .is_root(insertion$is_root),
+        .is_cavity(insertion$is_cavity),
+        .is_drain(insertion$is_drain),
+        .is_commit(insertion$is_commit),
+        .is_solo(insertion$is_solo),
+        .root_visits(insertion$root_visits),
+        .p(insertion$p),
+        .position(insertion$position),
+        .root_id(insertion$root_id),
+        .root(insertion$root),
+        .records(insertion$records),
+        .seeded(insertion$seeded),
+        .collinear(insertion$collinear),
+        .seeds(insertion$seeds),
+        .drained(insertion$drained),
+        .walk_visit(insertion$walk_visit),
+        .duplicate(insertion$duplicate),
+        .push(insertion$push),
+        .bundle(insertion$bundle),
+        .write(insertion$write)
+    );
+    incircle_core_logic$engine$pipeline pipeline(
+        .clock(pipeline$clock),
+        .reset(pipeline$reset),
+        .infinite(pipeline$infinite),
+        .push(pipeline$push),
+        .bundle(pipeline$bundle),
+        .p(pipeline$p),
+        .done(pipeline$done),
+        .token(pipeline$token),
+        .turned(pipeline$turned),
+        .verdict(pipeline$verdict),
+        .read(pipeline$read),
+        .read_id(pipeline$read_id),
+        .read_done(pipeline$read_done),
+        .v0(pipeline$v0),
+        .v1(pipeline$v1),
+        .v2(pipeline$v2),
+        .n0(pipeline$n0),
+        .n1(pipeline$n1),
+        .n2(pipeline$n2),
+        .was_set(pipeline$was_set),
+        .write(pipeline$write),
+        .vertex_id(pipeline$vertex_id),
+        .vertex_position(pipeline$vertex_position),
+        .vertex_enable(pipeline$vertex_enable),
+        .clear_id(pipeline$clear_id),
+        .clear_enable(pipeline$clear_enable)
+    );
+    incircle_core_logic$engine$cavity cavity(
+        .clock(cavity$clock),
+        .reset(cavity$reset),
+        .ring(cavity$ring),
+        .is_root(cavity$is_root),
+        .is_cavity(cavity$is_cavity),
+        .is_drain(cavity$is_drain),
+        .root_visits(cavity$root_visits),
+        .done(cavity$done),
+        .token(cavity$token),
+        .turned(cavity$turned),
+        .verdict(cavity$verdict),
+        .split(cavity$split),
+        .split_bundle(cavity$split_bundle),
+        .overflows(cavity$overflows),
+        .nothing_is_out(cavity$nothing_is_out),
+        .count(cavity$count),
+        .inner_count(cavity$inner_count),
+        .entry_pointer(cavity$entry_pointer),
+        .entry(cavity$entry),
+        .inner_pointer(cavity$inner_pointer),
+        .inner_id(cavity$inner_id)
+    );
+    incircle_core_logic$engine$commit commit(
+        .clock(commit$clock),
+        .reset(commit$reset),
+        .starts(commit$starts),
+        .p(commit$p),
+        .records(commit$records),
+        .inner_count(commit$inner_count),
+        .entry_pointer(commit$entry_pointer),
+        .entry(commit$entry),
+        .inner_pointer(commit$inner_pointer),
+        .inner_id(commit$inner_id),
+        .takes_fresh(commit$takes_fresh),
+        .ends(commit$ends),
+        .write(commit$write)
+    );
+    incircle_core_logic$engine$solo solo(
+        .clock(solo$clock),
+        .reset(solo$reset),
+        .starts(solo$starts),
+        .p(solo$p),
+        .records(solo$records),
+        .root_id(solo$root_id),
+        .root(solo$root),
+        .done(solo$done),
+        .token(solo$token),
+        .turned(solo$turned),
+        .verdict(solo$verdict),
+        .push(solo$push),
+        .bundle(solo$bundle),
+        .write(solo$write),
+        .tests(solo$tests),
+        .flips(solo$flips),
+        .ends(solo$ends)
+    );
+    incircle_core_logic$engine$lock_release lock_release(
+        .clock(lock_release$clock),
+        .reset(lock_release$reset),
+        .last_id(lock_release$last_id),
+        .takes_locks(lock_release$takes_locks),
+        .done(lock_release$done),
+        .token(lock_release$token),
+        .turned(lock_release$turned),
+        .starts(lock_release$starts),
+        .is_busy(lock_release$is_busy),
+        .sweeps(lock_release$sweeps),
+        .clear_id(lock_release$clear_id),
+        .clear_enable(lock_release$clear_enable)
+    );
+    incircle_core_logic$engine$write_port write_port(
+        .clock(write_port$clock),
+        .reset(write_port$reset),
+        .commit(write_port$commit),
+        .solo(write_port$solo),
+        .seed(write_port$seed),
+        .write(write_port$write)
+    );
+    
+    // Update code
+    always @(*) begin
+        insertion$clock = clock;
+        pipeline$clock = clock;
+        cavity$clock = clock;
+        commit$clock = clock;
+        solo$clock = clock;
+        lock_release$clock = clock;
+        write_port$clock = clock;
+        two = 32'h2;
+        insertion$reset = reset;
+        pipeline$reset = reset;
+        cavity$reset = reset;
+        commit$reset = reset;
+        solo$reset = reset;
+        lock_release$reset = reset;
+        write_port$reset = reset;
+        takes_point = insertion$takes_point;
+        seeded = insertion$seeded;
+        collinear = insertion$collinear;
+        records = insertion$records;
+        is_quiet = insertion$is_idle & (~point_valid) & (~lock_release$is_busy);
+        sweeps = lock_release$sweeps;
+        read_done = pipeline$read_done;
+        v0 = pipeline$v0;
+        v1 = pipeline$v1;
+        v2 = pipeline$v2;
+        n0 = pipeline$n0;
+        n1 = pipeline$n1;
+        n2 = pipeline$n2;
+        was_set = pipeline$was_set;
+        write = write_port$write;
+        seeds = insertion$seeds;
+        commit_ends = commit$ends;
+        solo_ends = solo$ends;
+        duplicate = insertion$duplicate;
+        walk_visit = insertion$walk_visit;
+        test = solo$tests | (pipeline$done & pipeline$token[(64'h0)+:(1)] & pipeline$token[(64'h1)+:(1)]);
+        drained = insertion$drained;
+        flip = solo$flips;
+        cavity_triangles = cavity$count - two;
+        pipeline$infinite = infinite;
+        pipeline$push = insertion$push;
+        pipeline$bundle = insertion$bundle;
+        pipeline$p = insertion$position;
+        pipeline$read = read;
+        pipeline$read_id = read_id;
+        pipeline$write = write_port$write;
+        pipeline$vertex_id = point_id;
+        pipeline$vertex_position = point;
+        pipeline$vertex_enable = vertex_enable;
+        pipeline$clear_id = lock_release$clear_id;
+        pipeline$clear_enable = lock_release$clear_enable;
+        insertion$infinite = infinite;
+        insertion$clears = clears;
+        insertion$point_valid = point_valid;
+        insertion$point_id = point_id;
+        insertion$point = point;
+        insertion$done = pipeline$done;
+        insertion$token = pipeline$token;
+        insertion$turned = pipeline$turned;
+        insertion$verdict = pipeline$verdict;
+        insertion$split = cavity$split;
+        insertion$split_bundle = cavity$split_bundle;
+        insertion$overflows = cavity$overflows;
+        insertion$nothing_is_out = cavity$nothing_is_out;
+        insertion$commit_ends = commit$ends;
+        insertion$takes_fresh = commit$takes_fresh;
+        insertion$solo_push = solo$push;
+        insertion$solo_bundle = solo$bundle;
+        insertion$solo_ends = solo$ends;
+        insertion$locks_are_held = lock_release$is_busy;
+        cavity$ring = ring;
+        cavity$is_root = insertion$is_root;
+        cavity$is_cavity = insertion$is_cavity;
+        cavity$is_drain = insertion$is_drain;
+        cavity$root_visits = insertion$root_visits;
+        cavity$done = pipeline$done;
+        cavity$token = pipeline$token;
+        cavity$turned = pipeline$turned;
+        cavity$verdict = pipeline$verdict;
+        cavity$entry_pointer = commit$entry_pointer;
+        cavity$inner_pointer = commit$inner_pointer;
+        commit$starts = insertion$is_commit;
+        commit$p = insertion$p;
+        commit$records = insertion$records;
+        commit$inner_count = cavity$inner_count;
+        commit$entry = cavity$entry;
+        commit$inner_id = cavity$inner_id;
+        solo$starts = insertion$is_solo & (~lock_release$is_busy);
+        solo$p = insertion$p;
+        solo$records = insertion$records;
+        solo$root_id = insertion$root_id;
+        solo$root = insertion$root;
+        solo$done = pipeline$done;
+        solo$token = pipeline$token;
+        solo$turned = pipeline$turned;
+        solo$verdict = pipeline$verdict;
+        lock_release$last_id = last_id;
+        lock_release$takes_locks = insertion$is_cavity | insertion$is_drain;
+        lock_release$done = pipeline$done;
+        lock_release$token = pipeline$token;
+        lock_release$turned = pipeline$turned;
+        lock_release$starts = commit$ends | insertion$drained;
+        write_port$commit = commit$write;
+        write_port$solo = solo$write;
+        write_port$seed = insertion$write;
+    end
+    
+endmodule // incircle_core_logic$engine
+
+
+module incircle_core_logic$engine$cavity(clock,reset,ring,is_root,is_cavity,is_drain,root_visits,done,token,turned,verdict,split,split_bundle,overflows,nothing_is_out,count,inner_count,entry_pointer,entry,inner_pointer,inner_id);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  [6:0] ring;
+    input wire  is_root;
+    input wire  is_cavity;
+    input wire  is_drain;
+    input wire  [1:0] root_visits;
+    input wire  done;
+    input wire  [49:0] token;
+    input wire  [95:0] turned;
+    input wire  [19:0] verdict;
+    output reg  split;
+    output reg  [77:0] split_bundle;
+    output reg  overflows;
+    output reg  nothing_is_out;
+    output reg  [6:0] count;
+    output reg  [6:0] inner_count;
+    input wire  [5:0] entry_pointer;
+    output reg  [52:0] entry;
+    input wire  [5:0] inner_pointer;
+    output reg  [14:0] inner_id;
+    
+    // Stub signals
+    reg  list$clock;
+    reg  [5:0] list$write_address;
+    reg  [52:0] list$write_data;
+    reg  list$write_enable;
+    reg  [5:0] list$read_address;
+    wire  [52:0] list$read_data;
+    reg  [52:0] listed$bits;
+    wire  [52:0] listed$value;
+    reg  inner$clock;
+    reg  [5:0] inner$write_address;
+    reg  [14:0] inner$write_data;
+    reg  inner$write_enable;
+    reg  [5:0] inner$read_address;
+    wire  [14:0] inner$read_data;
+    reg  [6:0] entries$d;
+    wire  [6:0] entries$q;
+    reg  entries$clock;
+    reg  [6:0] inners$d;
+    wire  [6:0] inners$q;
+    reg  inners$clock;
+    reg  [6:0] outstanding$d;
+    wire  [6:0] outstanding$q;
+    reg  outstanding$clock;
+    reg  [63:0] half_open$d;
+    wire  [63:0] half_open$q;
+    reg  half_open$clock;
+    
+    // Local signals
+    reg  [52:0] new_entry;
+    reg  [52:0] new_entry_bits;
+    reg  is_test;
+    reg  is_conflict;
+    reg  is_full;
+    reg  splits;
+    reg  edge_was_passed;
+    reg  root_keeps_an_edge;
+    reg  passes_last_edge;
+    reg  [5:0] y;
+    reg  [5:0] f_entry;
+    reg  [6:0] pushed;
+    reg  [6:0] raised;
+    reg  [6:0] one;
+    reg  [6:0] zero;
+    reg  [5:0] root_entry;
+    
+    // Sub module instances
+    incircle_core_logic$engine$cavity$list list(
+        .clock(list$clock),
+        .write_address(list$write_address),
+        .write_data(list$write_data),
+        .write_enable(list$write_enable),
+        .read_address(list$read_address),
+        .read_data(list$read_data)
+    );
+    incircle_core_logic$engine$cavity$listed listed(
+        .bits(listed$bits),
+        .value(listed$value)
+    );
+    incircle_core_logic$engine$cavity$inner inner(
+        .clock(inner$clock),
+        .write_address(inner$write_address),
+        .write_data(inner$write_data),
+        .write_enable(inner$write_enable),
+        .read_address(inner$read_address),
+        .read_data(inner$read_data)
+    );
+    incircle_core_logic$engine$cavity$entries entries(
+        .d(entries$d),
+        .q(entries$q),
+        .clock(entries$clock)
+    );
+    incircle_core_logic$engine$cavity$inners inners(
+        .d(inners$d),
+        .q(inners$q),
+        .clock(inners$clock)
+    );
+    incircle_core_logic$engine$cavity$outstanding outstanding(
+        .d(outstanding$d),
+        .q(outstanding$q),
+        .clock(outstanding$clock)
+    );
+    incircle_core_logic$engine$cavity$half_open half_open(
+        .d(half_open$d),
+        .q(half_open$q),
+        .clock(half_open$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        entries$clock = clock;
+        inners$clock = clock;
+        outstanding$clock = clock;
+        half_open$clock = clock;
+        entries$d = entries$q;
+        inners$d = inners$q;
+        outstanding$d = outstanding$q;
+        half_open$d = half_open$q;
+        list$clock = clock;
+        inner$clock = clock;
+        one = 32'h1;
+        zero = 32'h0;
+        root_entry = 32'h0;
+        is_test = done & token[(64'h0)+:(1)] & is_cavity;
+        is_conflict = is_test & verdict[(64'h0)+:(1)];
+        is_full = entries$q == ring;
+        splits = is_conflict & (~is_full);
+        split = splits;
+        overflows = is_conflict & is_full;
+        y = entries$q[(32'h0)+:(6)];
+        split_bundle[(64'h0)+:(1)] = 1'b1;
+        split_bundle[(64'h1)+:(1)] = 1'b1;
+        split_bundle[(64'h2)+:(1)] = 1'b1;
+        split_bundle[(64'h3)+:(6)] = token[(64'h2)+:(6)];
+        split_bundle[(64'h9)+:(6)] = y;
+        split_bundle[(64'hf)+:(6)] = y;
+        split_bundle[(64'h15)+:(15)] = token[(64'h23)+:(15)];
+        split_bundle[(64'h24)+:(15)] = turned[(64'h3c)+:(15)];
+        split_bundle[(64'h33)+:(6)] = y;
+        split_bundle[(64'h39)+:(6)] = token[(64'h8)+:(6)];
+        split_bundle[(64'h3f)+:(15)] = turned[(64'h4b)+:(15)];
+        new_entry[(64'h0)+:(15)] = turned[(64'h1e)+:(15)];
+        new_entry[(64'hf)+:(15)] = token[(64'h23)+:(15)];
+        new_entry[(64'h1e)+:(2)] = turned[(64'h5a)+:(2)];
+        new_entry[(64'h20)+:(15)] = token[(64'h14)+:(15)];
+        new_entry[(64'h2f)+:(6)] = token[(64'h8)+:(6)];
+        new_entry_bits = new_entry;
+        list$write_address = token[(64'h2)+:(6)];
+        list$write_data = new_entry_bits;
+        list$write_enable = is_test & (~verdict[(64'h0)+:(1)]);
+        list$read_address = entry_pointer;
+        listed$bits = list$read_data;
+        entry = listed$value;
+        f_entry = token[(64'he)+:(6)];
+        edge_was_passed = half_open$q[f_entry];
+        root_keeps_an_edge = (f_entry == root_entry) & (~half_open$q[32'h1]);
+        passes_last_edge = edge_was_passed & (~root_keeps_an_edge);
+        inner$write_address = inners$q[(32'h0)+:(6)];
+        inner$write_data = token[(64'h14)+:(15)];
+        inner$write_enable = splits & passes_last_edge;
+        inner$read_address = inner_pointer;
+        inner_id = inner$read_data;
+        if (splits) begin
+            entries$d = entries$q + one;
+            half_open$d = (half_open$q & ~(1 << (f_entry)) | ((1'b1) << (f_entry)));
+            if (edge_was_passed & root_keeps_an_edge) begin
+                half_open$d = (half_open$q & ~(1 << (32'h1)) | ((1'b1) << (32'h1)));
+            end
+            if (passes_last_edge) begin
+                inners$d = inners$q + one;
+            end
+        end
+        count = entries$q;
+        inner_count = inners$q;
+        pushed = 32'h0;
+        if (splits) begin
+            pushed = 32'h2;
+        end
+        if (is_root) begin
+            pushed = ((root_visits) & 7'h7f);
+        end
+        raised = outstanding$q + pushed;
+        outstanding$d = raised;
+        if (done & (is_cavity | is_drain)) begin
+            outstanding$d = raised - one;
+        end
+        nothing_is_out = outstanding$q == zero;
+        if (is_root) begin
+            entries$d = 32'h3;
+            inners$d = 32'h0;
+            half_open$d = 32'h0;
+        end
+        if (reset) begin
+            outstanding$d = 32'h0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$cavity
+
+
+module incircle_core_logic$engine$cavity$entries(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$cavity$entries
+
+
+module incircle_core_logic$engine$cavity$half_open(d,q,clock);
+    
+    // Module arguments
+    input wire  [63:0] d;
+    output reg  [63:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 64'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$cavity$half_open
+
+
+module incircle_core_logic$engine$cavity$inner(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [5:0] write_address;
+    input wire  [14:0] write_data;
+    input wire  write_enable;
+    input wire  [5:0] read_address;
+    output reg  [14:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[5:5]};
+    wire unused_read_address = &{1'b0, read_address[5:5]};
+    (* ram_style = "distributed" *)
+    reg [14:0] memory [0:31];
+    wire [14:0] word = memory[read_address[4:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[4:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$cavity$inner
+
+
+module incircle_core_logic$engine$cavity$inners(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$cavity$inners
+
+
+module incircle_core_logic$engine$cavity$list(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [5:0] write_address;
+    input wire  [52:0] write_data;
+    input wire  write_enable;
+    input wire  [5:0] read_address;
+    output reg  [52:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[5:5]};
+    wire unused_read_address = &{1'b0, read_address[5:5]};
+    (* ram_style = "distributed" *)
+    reg [52:0] memory [0:31];
+    wire [52:0] word = memory[read_address[4:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[4:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$cavity$list
+
+
+module incircle_core_logic$engine$cavity$listed(bits,value);
+    
+    // Module arguments
+    input wire  [52:0] bits;
+    output reg  [52:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$engine$cavity$listed
+
+
+module incircle_core_logic$engine$cavity$outstanding(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$cavity$outstanding
+
+
+module incircle_core_logic$engine$commit(clock,reset,starts,p,records,inner_count,entry_pointer,entry,inner_pointer,inner_id,takes_fresh,ends,write);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  starts;
+    input wire  [14:0] p;
+    input wire  [14:0] records;
+    input wire  [6:0] inner_count;
+    output reg  [5:0] entry_pointer;
+    input wire  [52:0] entry;
+    output reg  [5:0] inner_pointer;
+    input wire  [14:0] inner_id;
+    output reg  takes_fresh;
+    output reg  ends;
+    output reg  [109:0] write;
+    
+    // Enums
+    localparam CommitState$Idle = 0;
+    localparam CommitState$Load = 1;
+    localparam CommitState$Record = 2;
+    localparam CommitState$Link = 3;
+    localparam CommitState$Close = 4;
+    
+    // Stub signals
+    reg  [2:0] state$d;
+    wire  [2:0] state$q;
+    reg  state$clock;
+    reg  [5:0] pointer$d;
+    wire  [5:0] pointer$q;
+    reg  pointer$clock;
+    reg  [52:0] first$d;
+    wire  [52:0] first$q;
+    reg  first$clock;
+    reg  [52:0] current$d;
+    wire  [52:0] current$q;
+    reg  current$clock;
+    reg  [14:0] current_id$d;
+    wire  [14:0] current_id$q;
+    reg  current_id$clock;
+    reg  [52:0] ahead$d;
+    wire  [52:0] ahead$q;
+    reg  ahead$clock;
+    reg  ahead_is_first$d;
+    wire  ahead_is_first$q;
+    reg  ahead_is_first$clock;
+    reg  opens$d;
+    wire  opens$q;
+    reg  opens$clock;
+    reg  [14:0] before_id$d;
+    wire  [14:0] before_id$q;
+    reg  before_id$clock;
+    reg  [14:0] second_a$d;
+    wire  [14:0] second_a$q;
+    reg  second_a$clock;
+    reg  [14:0] second_id$d;
+    wire  [14:0] second_id$q;
+    reg  second_id$clock;
+    reg  [6:0] inner_index$d;
+    wire  [6:0] inner_index$q;
+    reg  inner_index$clock;
+    reg  closes$d;
+    wire  closes$q;
+    reg  closes$clock;
+    reg  [14:0] link_u$d;
+    wire  [14:0] link_u$q;
+    reg  link_u$clock;
+    reg  [1:0] link_slot$d;
+    wire  [1:0] link_slot$q;
+    reg  link_slot$clock;
+    reg  [14:0] link_id$d;
+    wire  [14:0] link_id$q;
+    reg  link_id$clock;
+    reg  [109:0] request$d;
+    wire  [109:0] request$q;
+    reg  request$clock;
+    reg  [52:0] star_id$ahead;
+    reg  star_id$ahead_is_first;
+    reg  [52:0] star_id$current;
+    reg  [52:0] star_id$first;
+    reg  [14:0] star_id$inner_id;
+    reg  star_id$inner_is_used_up;
+    reg  [14:0] star_id$records;
+    wire  [14:0] star_id$id;
+    wire  star_id$shares;
+    reg  [14:0] record$id;
+    reg  [14:0] record$v0;
+    reg  [14:0] record$v1;
+    reg  [14:0] record$v2;
+    reg  [14:0] record$n0;
+    reg  [14:0] record$n1;
+    reg  [14:0] record$n2;
+    wire  [109:0] record$write;
+    reg  [14:0] link$id;
+    reg  [1:0] link$slot;
+    reg  [14:0] link$value;
+    wire  [109:0] link$write;
+    
+    // Local signals
+    reg  inner_is_used_up;
+    reg  needs_link;
+    reg  pointer_is_first;
+    reg  [5:0] first_pointer;
+    reg  [6:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$engine$commit$state state(
+        .d(state$d),
+        .q(state$q),
+        .clock(state$clock)
+    );
+    incircle_core_logic$engine$commit$pointer pointer(
+        .d(pointer$d),
+        .q(pointer$q),
+        .clock(pointer$clock)
+    );
+    incircle_core_logic$engine$commit$first first(
+        .d(first$d),
+        .q(first$q),
+        .clock(first$clock)
+    );
+    incircle_core_logic$engine$commit$current current(
+        .d(current$d),
+        .q(current$q),
+        .clock(current$clock)
+    );
+    incircle_core_logic$engine$commit$current_id current_id(
+        .d(current_id$d),
+        .q(current_id$q),
+        .clock(current_id$clock)
+    );
+    incircle_core_logic$engine$commit$ahead ahead(
+        .d(ahead$d),
+        .q(ahead$q),
+        .clock(ahead$clock)
+    );
+    incircle_core_logic$engine$commit$ahead_is_first ahead_is_first(
+        .d(ahead_is_first$d),
+        .q(ahead_is_first$q),
+        .clock(ahead_is_first$clock)
+    );
+    incircle_core_logic$engine$commit$opens opens(
+        .d(opens$d),
+        .q(opens$q),
+        .clock(opens$clock)
+    );
+    incircle_core_logic$engine$commit$before_id before_id(
+        .d(before_id$d),
+        .q(before_id$q),
+        .clock(before_id$clock)
+    );
+    incircle_core_logic$engine$commit$second_a second_a(
+        .d(second_a$d),
+        .q(second_a$q),
+        .clock(second_a$clock)
+    );
+    incircle_core_logic$engine$commit$second_id second_id(
+        .d(second_id$d),
+        .q(second_id$q),
+        .clock(second_id$clock)
+    );
+    incircle_core_logic$engine$commit$inner_index inner_index(
+        .d(inner_index$d),
+        .q(inner_index$q),
+        .clock(inner_index$clock)
+    );
+    incircle_core_logic$engine$commit$closes closes(
+        .d(closes$d),
+        .q(closes$q),
+        .clock(closes$clock)
+    );
+    incircle_core_logic$engine$commit$link_u link_u(
+        .d(link_u$d),
+        .q(link_u$q),
+        .clock(link_u$clock)
+    );
+    incircle_core_logic$engine$commit$link_slot link_slot(
+        .d(link_slot$d),
+        .q(link_slot$q),
+        .clock(link_slot$clock)
+    );
+    incircle_core_logic$engine$commit$link_id link_id(
+        .d(link_id$d),
+        .q(link_id$q),
+        .clock(link_id$clock)
+    );
+    incircle_core_logic$engine$commit$request request(
+        .d(request$d),
+        .q(request$q),
+        .clock(request$clock)
+    );
+    incircle_core_logic$engine$commit$star_id star_id(
+        .ahead(star_id$ahead),
+        .ahead_is_first(star_id$ahead_is_first),
+        .current(star_id$current),
+        .first(star_id$first),
+        .inner_id(star_id$inner_id),
+        .inner_is_used_up(star_id$inner_is_used_up),
+        .records(star_id$records),
+        .id(star_id$id),
+        .shares(star_id$shares)
+    );
+    incircle_core_logic$engine$commit$record record(
+        .id(record$id),
+        .v0(record$v0),
+        .v1(record$v1),
+        .v2(record$v2),
+        .n0(record$n0),
+        .n1(record$n1),
+        .n2(record$n2),
+        .write(record$write)
+    );
+    incircle_core_logic$engine$commit$link link(
+        .id(link$id),
+        .slot(link$slot),
+        .value(link$value),
+        .write(link$write)
+    );
+    
+    // Update code
+    always @(*) begin
+        state$clock = clock;
+        pointer$clock = clock;
+        first$clock = clock;
+        current$clock = clock;
+        current_id$clock = clock;
+        ahead$clock = clock;
+        ahead_is_first$clock = clock;
+        opens$clock = clock;
+        state$d = state$q;
+        pointer$d = pointer$q;
+        first$d = first$q;
+        current$d = current$q;
+        current_id$d = current_id$q;
+        ahead$d = ahead$q;
+        ahead_is_first$d = ahead_is_first$q;
+        opens$d = opens$q;
+        before_id$clock = clock;
+        second_a$clock = clock;
+        second_id$clock = clock;
+        inner_index$clock = clock;
+        closes$clock = clock;
+        link_u$clock = clock;
+        link_slot$clock = clock;
+        link_id$clock = clock;
+        request$clock = clock;
+        before_id$d = before_id$q;
+        second_a$d = second_a$q;
+        second_id$d = second_id$q;
+        inner_index$d = inner_index$q;
+        closes$d = closes$q;
+        link_u$d = link_u$q;
+        link_slot$d = link_slot$q;
+        link_id$d = link_id$q;
+        request$d = request$q;
+        first_pointer = 32'h0;
+        one = 32'h1;
+        entry_pointer = pointer$q;
+        pointer_is_first = pointer$q == first_pointer;
+        inner_pointer = inner_index$q[(32'h0)+:(6)];
+        write = request$q;
+        inner_is_used_up = inner_index$q == inner_count;
+        star_id$ahead = ahead$q;
+        star_id$ahead_is_first = ahead_is_first$q;
+        star_id$current = current$q;
+        star_id$first = first$q;
+        star_id$inner_id = inner_id;
+        star_id$inner_is_used_up = inner_is_used_up;
+        star_id$records = records;
+        takes_fresh = (state$q == CommitState$Record) & star_id$shares & inner_is_used_up;
+        needs_link = (~opens$q) & (current_id$q != current$q[(64'h20)+:(15)]);
+        ends = state$q == CommitState$Close;
+        record$id = current_id$q;
+        record$v0 = p;
+        record$v1 = current$q[(64'h0)+:(15)];
+        record$v2 = ahead$q[(64'h0)+:(15)];
+        record$n0 = current$q[(64'hf)+:(15)];
+        record$n1 = star_id$id;
+        record$n2 = before_id$q;
+        if (state$q == CommitState$Close) begin
+            record$v2 = second_a$q;
+            record$n1 = second_id$q;
+        end
+        link$id = link_u$q;
+        link$slot = link_slot$q;
+        link$value = link_id$q;
+        request$d[(64'h0)+:(1)] = 1'b0;
+        if ((state$q == CommitState$Load) | (state$q == CommitState$Record)) begin
+            ahead$d = entry;
+            ahead_is_first$d = pointer_is_first;
+            pointer$d = entry[(64'h2f)+:(6)];
+        end
+        case (state$q)
+            CommitState$Idle:
+                begin
+                    if (starts) begin
+                        ahead$d = entry;
+                        pointer$d = entry[(64'h2f)+:(6)];
+                        inner_index$d = 32'h0;
+                        state$d = CommitState$Load;
+                    end
+                end
+            CommitState$Load:
+                begin
+                    first$d = ahead$q;
+                    current$d = ahead$q;
+                    current_id$d = ahead$q[(64'h20)+:(15)];
+                    opens$d = 1'b1;
+                    state$d = CommitState$Record;
+                end
+            CommitState$Record:
+                begin
+                    if (star_id$shares & (~inner_is_used_up)) begin
+                        inner_index$d = inner_index$q + one;
+                    end
+                    if (opens$q) begin
+                        second_a$d = ahead$q[(64'h0)+:(15)];
+                        second_id$d = star_id$id;
+                    end
+                    else begin
+                        request$d = record$write;
+                        link_u$d = current$q[(64'hf)+:(15)];
+                        link_slot$d = current$q[(64'h1e)+:(2)];
+                        link_id$d = current_id$q;
+                    end
+                    opens$d = 1'b0;
+                    closes$d = ahead_is_first$q;
+                    before_id$d = current_id$q;
+                    current$d = ahead$q;
+                    current_id$d = star_id$id;
+                    if (needs_link) begin
+                        state$d = CommitState$Link;
+                    end
+                    else begin
+                        if (ahead_is_first$q) begin
+                            state$d = CommitState$Close;
+                        end
+                    end
+                end
+            CommitState$Link:
+                begin
+                    request$d = link$write;
+                    state$d = CommitState$Record;
+                    if (closes$q) begin
+                        state$d = CommitState$Close;
+                    end
+                end
+            CommitState$Close:
+                begin
+                    request$d = record$write;
+                    pointer$d = 32'h0;
+                    state$d = CommitState$Idle;
+                end
+            default:
+                begin
+                    state$d = CommitState$Idle;
+                end
+        endcase
+        if (reset) begin
+            state$d = CommitState$Idle;
+            pointer$d = 32'h0;
+            request$d[(64'h0)+:(1)] = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$commit
+
+
+module incircle_core_logic$engine$commit$ahead(d,q,clock);
+    
+    // Module arguments
+    input wire  [52:0] d;
+    output reg  [52:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 53'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$ahead
+
+
+module incircle_core_logic$engine$commit$ahead_is_first(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$ahead_is_first
+
+
+module incircle_core_logic$engine$commit$before_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$before_id
+
+
+module incircle_core_logic$engine$commit$closes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$closes
+
+
+module incircle_core_logic$engine$commit$current(d,q,clock);
+    
+    // Module arguments
+    input wire  [52:0] d;
+    output reg  [52:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 53'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$current
+
+
+module incircle_core_logic$engine$commit$current_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$current_id
+
+
+module incircle_core_logic$engine$commit$first(d,q,clock);
+    
+    // Module arguments
+    input wire  [52:0] d;
+    output reg  [52:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 53'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$first
+
+
+module incircle_core_logic$engine$commit$inner_index(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$inner_index
+
+
+module incircle_core_logic$engine$commit$link(id,slot,value,write);
+    
+    // Module arguments
+    input wire  [14:0] id;
+    input wire  [1:0] slot;
+    input wire  [14:0] value;
+    output reg  [109:0] write;
+    
+    // Local signals
+    reg  [1:0] slot0;
+    reg  [1:0] slot1;
+    reg  [1:0] slot2;
+    
+    // Update code
+    always @(*) begin
+        slot0 = 32'h0;
+        slot1 = 32'h1;
+        slot2 = 32'h2;
+        write[(64'h0)+:(1)] = 1'b1;
+        write[(64'h1)+:(15)] = id;
+        write[(64'h10)+:(1)] = 1'b0;
+        write[(64'h11)+:(1)] = slot == slot0;
+        write[(64'h12)+:(1)] = slot == slot1;
+        write[(64'h13)+:(1)] = slot == slot2;
+        write[(64'h14)+:(15)] = 32'h0;
+        write[(64'h23)+:(15)] = 32'h0;
+        write[(64'h32)+:(15)] = 32'h0;
+        write[(64'h41)+:(15)] = value;
+        write[(64'h50)+:(15)] = value;
+        write[(64'h5f)+:(15)] = value;
+    end
+    
+endmodule // incircle_core_logic$engine$commit$link
+
+
+module incircle_core_logic$engine$commit$link_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$link_id
+
+
+module incircle_core_logic$engine$commit$link_slot(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$link_slot
+
+
+module incircle_core_logic$engine$commit$link_u(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$link_u
+
+
+module incircle_core_logic$engine$commit$opens(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$opens
+
+
+module incircle_core_logic$engine$commit$pointer(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$pointer
+
+
+module incircle_core_logic$engine$commit$record(id,v0,v1,v2,n0,n1,n2,write);
+    
+    // Module arguments
+    input wire  [14:0] id;
+    input wire  [14:0] v0;
+    input wire  [14:0] v1;
+    input wire  [14:0] v2;
+    input wire  [14:0] n0;
+    input wire  [14:0] n1;
+    input wire  [14:0] n2;
+    output reg  [109:0] write;
+    
+    // Update code
+    always @(*) begin
+        write[(64'h0)+:(1)] = 1'b1;
+        write[(64'h1)+:(15)] = id;
+        write[(64'h10)+:(1)] = 1'b1;
+        write[(64'h11)+:(1)] = 1'b1;
+        write[(64'h12)+:(1)] = 1'b1;
+        write[(64'h13)+:(1)] = 1'b1;
+        write[(64'h14)+:(15)] = v0;
+        write[(64'h23)+:(15)] = v1;
+        write[(64'h32)+:(15)] = v2;
+        write[(64'h41)+:(15)] = n0;
+        write[(64'h50)+:(15)] = n1;
+        write[(64'h5f)+:(15)] = n2;
+    end
+    
+endmodule // incircle_core_logic$engine$commit$record
+
+
+module incircle_core_logic$engine$commit$request(d,q,clock);
+    
+    // Module arguments
+    input wire  [109:0] d;
+    output reg  [109:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 110'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$request
+
+
+module incircle_core_logic$engine$commit$second_a(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$second_a
+
+
+module incircle_core_logic$engine$commit$second_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$second_id
+
+
+module incircle_core_logic$engine$commit$star_id(ahead,ahead_is_first,current,first,inner_id,inner_is_used_up,records,id,shares);
+    
+    // Module arguments
+    input wire  [52:0] ahead;
+    input wire  ahead_is_first;
+    input wire  [52:0] current;
+    input wire  [52:0] first;
+    input wire  [14:0] inner_id;
+    input wire  inner_is_used_up;
+    input wire  [14:0] records;
+    output reg  [14:0] id;
+    output reg  shares;
+    
+    // Local signals
+    reg  is_taken;
+    
+    // Update code
+    always @(*) begin
+        is_taken = (~ahead_is_first) & ((ahead[(64'h20)+:(15)] == current[(64'h20)+:(15)]) | (ahead[(64'h20)+:(15)] == first[(64'h20)+:(15)]));
+        shares = is_taken;
+        id = ahead[(64'h20)+:(15)];
+        if (ahead_is_first) begin
+            id = first[(64'h20)+:(15)];
+        end
+        if (is_taken) begin
+            id = inner_id;
+            if (inner_is_used_up) begin
+                id = records;
+            end
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$commit$star_id
+
+
+module incircle_core_logic$engine$commit$state(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam CommitState$Idle = 0;
+    localparam CommitState$Load = 1;
+    localparam CommitState$Record = 2;
+    localparam CommitState$Link = 3;
+    localparam CommitState$Close = 4;
+    
+    // Update code (custom)
+    initial begin
+       q = 64'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$commit$state
+
+
+module incircle_core_logic$engine$insertion(clock,reset,infinite,clears,point_valid,point_id,point,takes_point,done,token,turned,verdict,split,split_bundle,overflows,nothing_is_out,commit_ends,takes_fresh,solo_push,solo_bundle,solo_ends,locks_are_held,is_idle,is_root,is_cavity,is_drain,is_commit,is_solo,root_visits,p,position,root_id,root,records,seeded,collinear,seeds,drained,walk_visit,duplicate,push,bundle,write);
     
     // Module arguments
     input wire  clock;
@@ -3289,20 +3630,27 @@ module incircle_core_logic$insertion(clock,reset,infinite,clears,point_valid,poi
     output reg  [77:0] bundle;
     output reg  [109:0] write;
     
-    // Enums
-    localparam Phase$Idle = 0;
-    localparam Phase$Seed = 1;
-    localparam Phase$Walk = 2;
-    localparam Phase$Root = 3;
-    localparam Phase$Cavity = 4;
-    localparam Phase$Commit = 5;
-    localparam Phase$Drain = 6;
-    localparam Phase$Solo = 7;
-    
     // Stub signals
-    reg  [2:0] phase$d;
-    wire  [2:0] phase$q;
-    reg  phase$clock;
+    reg  phases$clock;
+    reg  phases$reset;
+    reg  phases$takes_for_walk;
+    reg  phases$takes_for_seed;
+    reg  phases$seed_ends;
+    reg  phases$finds;
+    reg  phases$finds_duplicate;
+    reg  phases$opened;
+    reg  phases$nothing_is_out;
+    reg  phases$overflows;
+    reg  phases$commit_ends;
+    reg  phases$solo_ends;
+    wire  phases$is_idle;
+    wire  phases$is_seed;
+    wire  phases$is_walk;
+    wire  phases$is_root;
+    wire  phases$is_cavity;
+    wire  phases$is_commit;
+    wire  phases$is_drain;
+    wire  phases$is_solo;
     reg  [2:0] step$d;
     wire  [2:0] step$q;
     reg  step$clock;
@@ -3315,15 +3663,6 @@ module incircle_core_logic$insertion(clock,reset,infinite,clears,point_valid,poi
     reg  [14:0] start$d;
     wire  [14:0] start$q;
     reg  start$clock;
-    reg  is_seeded$d;
-    wire  is_seeded$q;
-    reg  is_seeded$clock;
-    reg  is_collinear$d;
-    wire  is_collinear$q;
-    reg  is_collinear$clock;
-    reg  turns_left$d;
-    wire  turns_left$q;
-    reg  turns_left$clock;
     reg  [14:0] record_count$d;
     wire  [14:0] record_count$q;
     reg  record_count$clock;
@@ -3339,295 +3678,450 @@ module incircle_core_logic$insertion(clock,reset,infinite,clears,point_valid,poi
     reg  [77:0] pushed$d;
     wire  [77:0] pushed$q;
     reg  pushed$clock;
-    reg  [109:0] request$d;
-    wire  [109:0] request$q;
-    reg  request$clock;
-    reg  [2:0] seed_writes$step;
-    reg  seed_writes$turns_left;
-    reg  [14:0] seed_writes$infinite;
-    wire  [109:0] seed_writes$write;
+    reg  seeder$clock;
+    reg  seeder$reset;
+    reg  seeder$clears;
+    reg  [14:0] seeder$infinite;
+    reg  seeder$prepares;
+    reg  seeder$is_seed;
+    reg  seeder$done;
+    reg  [19:0] seeder$verdict;
+    wire  seeder$seeded;
+    wire  seeder$collinear;
+    wire  seeder$seeds;
+    wire  seeder$ends;
+    wire  [109:0] seeder$write;
     reg  [2:0] root_bundle$step;
     reg  [14:0] root_bundle$root_id;
     reg  [95:0] root_bundle$root;
     wire  [77:0] root_bundle$bundle;
     wire  [1:0] root_bundle$visits;
+    reg  choice$looks;
+    reg  [14:0] choice$look_id;
+    reg  choice$opens;
+    reg  [77:0] choice$root_bundle;
+    reg  choice$split;
+    reg  [77:0] choice$split_bundle;
+    reg  choice$solo_push;
+    reg  [77:0] choice$solo_bundle;
+    wire  choice$push;
+    wire  [77:0] choice$bundle;
     
     // Local signals
-    reg  [77:0] look;
     reg  takes;
+    reg  takes_third;
+    reg  takes_for_walk;
     reg  walk_is_done;
     reg  is_found;
     reg  opens;
     reg  is_last_root_step;
-    reg  is_look_step;
-    reg  is_last_seed_step;
-    reg  is_first_vertex;
-    reg  is_third_vertex;
-    reg  [2:0] step0;
-    reg  [2:0] step2;
-    reg  [2:0] step4;
-    reg  [2:0] one_step;
     reg  [14:0] vertex0;
     reg  [14:0] vertex2;
+    reg  [2:0] last_root_step;
+    reg  [2:0] one_step;
     reg  [14:0] one;
     reg  [14:0] two;
     
     // Sub module instances
-    incircle_core_logic$insertion$phase phase(
-        .d(phase$d),
-        .q(phase$q),
-        .clock(phase$clock)
+    incircle_core_logic$engine$insertion$phases phases(
+        .clock(phases$clock),
+        .reset(phases$reset),
+        .takes_for_walk(phases$takes_for_walk),
+        .takes_for_seed(phases$takes_for_seed),
+        .seed_ends(phases$seed_ends),
+        .finds(phases$finds),
+        .finds_duplicate(phases$finds_duplicate),
+        .opened(phases$opened),
+        .nothing_is_out(phases$nothing_is_out),
+        .overflows(phases$overflows),
+        .commit_ends(phases$commit_ends),
+        .solo_ends(phases$solo_ends),
+        .is_idle(phases$is_idle),
+        .is_seed(phases$is_seed),
+        .is_walk(phases$is_walk),
+        .is_root(phases$is_root),
+        .is_cavity(phases$is_cavity),
+        .is_commit(phases$is_commit),
+        .is_drain(phases$is_drain),
+        .is_solo(phases$is_solo)
     );
-    incircle_core_logic$insertion$step step(
+    incircle_core_logic$engine$insertion$step step(
         .d(step$d),
         .q(step$q),
         .clock(step$clock)
     );
-    incircle_core_logic$insertion$vertex vertex(
+    incircle_core_logic$engine$insertion$vertex vertex(
         .d(vertex$d),
         .q(vertex$q),
         .clock(vertex$clock)
     );
-    incircle_core_logic$insertion$vertex_position vertex_position(
+    incircle_core_logic$engine$insertion$vertex_position vertex_position(
         .d(vertex_position$d),
         .q(vertex_position$q),
         .clock(vertex_position$clock)
     );
-    incircle_core_logic$insertion$start start(
+    incircle_core_logic$engine$insertion$start start(
         .d(start$d),
         .q(start$q),
         .clock(start$clock)
     );
-    incircle_core_logic$insertion$is_seeded is_seeded(
-        .d(is_seeded$d),
-        .q(is_seeded$q),
-        .clock(is_seeded$clock)
-    );
-    incircle_core_logic$insertion$is_collinear is_collinear(
-        .d(is_collinear$d),
-        .q(is_collinear$q),
-        .clock(is_collinear$clock)
-    );
-    incircle_core_logic$insertion$turns_left turns_left(
-        .d(turns_left$d),
-        .q(turns_left$q),
-        .clock(turns_left$clock)
-    );
-    incircle_core_logic$insertion$record_count record_count(
+    incircle_core_logic$engine$insertion$record_count record_count(
         .d(record_count$d),
         .q(record_count$q),
         .clock(record_count$clock)
     );
-    incircle_core_logic$insertion$located_id located_id(
+    incircle_core_logic$engine$insertion$located_id located_id(
         .d(located_id$d),
         .q(located_id$q),
         .clock(located_id$clock)
     );
-    incircle_core_logic$insertion$located located(
+    incircle_core_logic$engine$insertion$located located(
         .d(located$d),
         .q(located$q),
         .clock(located$clock)
     );
-    incircle_core_logic$insertion$pushes pushes(
+    incircle_core_logic$engine$insertion$pushes pushes(
         .d(pushes$d),
         .q(pushes$q),
         .clock(pushes$clock)
     );
-    incircle_core_logic$insertion$pushed pushed(
+    incircle_core_logic$engine$insertion$pushed pushed(
         .d(pushed$d),
         .q(pushed$q),
         .clock(pushed$clock)
     );
-    incircle_core_logic$insertion$request request(
-        .d(request$d),
-        .q(request$q),
-        .clock(request$clock)
+    incircle_core_logic$engine$insertion$seeder seeder(
+        .clock(seeder$clock),
+        .reset(seeder$reset),
+        .clears(seeder$clears),
+        .infinite(seeder$infinite),
+        .prepares(seeder$prepares),
+        .is_seed(seeder$is_seed),
+        .done(seeder$done),
+        .verdict(seeder$verdict),
+        .seeded(seeder$seeded),
+        .collinear(seeder$collinear),
+        .seeds(seeder$seeds),
+        .ends(seeder$ends),
+        .write(seeder$write)
     );
-    incircle_core_logic$insertion$seed_writes seed_writes(
-        .step(seed_writes$step),
-        .turns_left(seed_writes$turns_left),
-        .infinite(seed_writes$infinite),
-        .write(seed_writes$write)
-    );
-    incircle_core_logic$insertion$root_bundle root_bundle(
+    incircle_core_logic$engine$insertion$root_bundle root_bundle(
         .step(root_bundle$step),
         .root_id(root_bundle$root_id),
         .root(root_bundle$root),
         .bundle(root_bundle$bundle),
         .visits(root_bundle$visits)
     );
+    incircle_core_logic$engine$insertion$choice choice(
+        .looks(choice$looks),
+        .look_id(choice$look_id),
+        .opens(choice$opens),
+        .root_bundle(choice$root_bundle),
+        .split(choice$split),
+        .split_bundle(choice$split_bundle),
+        .solo_push(choice$solo_push),
+        .solo_bundle(choice$solo_bundle),
+        .push(choice$push),
+        .bundle(choice$bundle)
+    );
     
     // Update code
     always @(*) begin
-        phase$clock = clock;
         step$clock = clock;
         vertex$clock = clock;
         vertex_position$clock = clock;
         start$clock = clock;
-        is_seeded$clock = clock;
-        is_collinear$clock = clock;
-        phase$d = phase$q;
         step$d = step$q;
         vertex$d = vertex$q;
         vertex_position$d = vertex_position$q;
         start$d = start$q;
-        is_seeded$d = is_seeded$q;
-        is_collinear$d = is_collinear$q;
-        turns_left$clock = clock;
         record_count$clock = clock;
         located_id$clock = clock;
         located$clock = clock;
         pushes$clock = clock;
         pushed$clock = clock;
-        request$clock = clock;
-        turns_left$d = turns_left$q;
         record_count$d = record_count$q;
         located_id$d = located_id$q;
         located$d = located$q;
         pushes$d = pushes$q;
         pushed$d = pushed$q;
-        request$d = request$q;
-        step0 = 32'h0;
-        step2 = 32'h2;
-        step4 = 32'h4;
-        one_step = 32'h1;
+        phases$clock = clock;
+        seeder$clock = clock;
         vertex0 = 32'h0;
         vertex2 = 32'h2;
+        last_root_step = 32'h2;
+        one_step = 32'h1;
         one = 32'h1;
         two = 32'h2;
-        is_look_step = step$q == step0;
-        is_last_root_step = step$q == step2;
-        is_last_seed_step = step$q == step4;
-        is_first_vertex = point_id == vertex0;
-        is_third_vertex = point_id == vertex2;
-        is_idle = phase$q == Phase$Idle;
-        is_root = phase$q == Phase$Root;
-        is_cavity = phase$q == Phase$Cavity;
-        is_commit = phase$q == Phase$Commit;
-        is_drain = phase$q == Phase$Drain;
-        is_solo = phase$q == Phase$Solo;
+        is_idle = phases$is_idle;
+        is_root = phases$is_root;
+        is_cavity = phases$is_cavity;
+        is_commit = phases$is_commit;
+        is_drain = phases$is_drain;
+        is_solo = phases$is_solo;
         p = vertex$q;
         position = vertex_position$q;
         root_id = located_id$q;
         root = located$q;
         records = record_count$q;
-        seeded = is_seeded$q;
-        collinear = is_collinear$q;
         push = pushes$q;
         bundle = pushed$q;
-        write = request$q;
-        takes = (phase$q == Phase$Idle) & point_valid;
+        takes = phases$is_idle & point_valid;
+        takes_for_walk = takes & seeder$seeded;
+        takes_third = takes & (~seeder$seeded) & (point_id == vertex2);
         takes_point = takes;
-        walk_is_done = (phase$q == Phase$Walk) & done;
+        walk_is_done = phases$is_walk & done;
         walk_visit = walk_is_done;
         is_found = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
         duplicate = walk_is_done & is_found;
-        drained = (phase$q == Phase$Drain) & nothing_is_out;
-        seeds = (phase$q == Phase$Seed) & is_last_seed_step;
-        opens = (phase$q == Phase$Root) & (~locks_are_held);
+        drained = phases$is_drain & nothing_is_out;
+        opens = phases$is_root & (~locks_are_held);
+        is_last_root_step = step$q == last_root_step;
         root_visits = 32'h0;
         if (opens) begin
             root_visits = root_bundle$visits;
         end
-        look[(64'h0)+:(1)] = 1'b0;
-        look[(64'h1)+:(1)] = 1'b0;
-        look[(64'h2)+:(1)] = 1'b0;
-        look[(64'h3)+:(6)] = 32'h0;
-        look[(64'h9)+:(6)] = 32'h0;
-        look[(64'hf)+:(6)] = 32'h0;
-        look[(64'h15)+:(15)] = 32'h0;
-        look[(64'h24)+:(15)] = verdict[(64'h5)+:(15)];
-        look[(64'h33)+:(6)] = 32'h0;
-        look[(64'h39)+:(6)] = 32'h0;
-        look[(64'h3f)+:(15)] = 32'h0;
+        phases$reset = reset;
+        phases$takes_for_walk = takes_for_walk;
+        phases$takes_for_seed = takes_third;
+        phases$seed_ends = seeder$ends;
+        phases$finds = walk_is_done & verdict[(64'h1)+:(1)];
+        phases$finds_duplicate = walk_is_done & is_found;
+        phases$opened = opens & is_last_root_step;
+        phases$nothing_is_out = nothing_is_out;
+        phases$overflows = overflows;
+        phases$commit_ends = commit_ends;
+        phases$solo_ends = solo_ends;
+        seeder$reset = reset;
+        seeder$clears = clears;
+        seeder$infinite = infinite;
+        seeder$prepares = takes & (~seeder$seeded) & (point_id == vertex0);
+        seeder$is_seed = phases$is_seed;
+        seeder$done = done;
+        seeder$verdict = verdict;
+        seeded = seeder$seeded;
+        collinear = seeder$collinear;
+        seeds = seeder$seeds;
+        write = seeder$write;
         root_bundle$step = step$q;
         root_bundle$root_id = located_id$q;
         root_bundle$root = located$q;
-        pushes$d = split | solo_push;
-        pushed$d = split_bundle;
-        if (solo_push) begin
-            pushed$d = solo_bundle;
+        choice$looks = takes_for_walk | takes_third | (walk_is_done & (~verdict[(64'h1)+:(1)]));
+        choice$look_id = verdict[(64'h5)+:(15)];
+        if (phases$is_idle) begin
+            choice$look_id = start$q;
         end
-        seed_writes$step = step$q;
-        seed_writes$turns_left = turns_left$q;
-        seed_writes$infinite = infinite;
-        if (phase$q == Phase$Idle) begin
-            seed_writes$step = 32'h0;
-            look[(64'h24)+:(15)] = start$q;
+        choice$opens = opens;
+        choice$root_bundle = root_bundle$bundle;
+        choice$split = split;
+        choice$split_bundle = split_bundle;
+        choice$solo_push = solo_push;
+        choice$solo_bundle = solo_bundle;
+        pushes$d = choice$push;
+        pushed$d = choice$bundle;
+        if (takes) begin
+            vertex$d = point_id;
+            vertex_position$d = point;
         end
-        request$d = seed_writes$write;
-        request$d[(64'h0)+:(1)] = 1'b0;
+        if (walk_is_done) begin
+            located_id$d = token[(64'h23)+:(15)];
+            located$d = turned;
+            start$d = token[(64'h23)+:(15)];
+        end
+        if (opens) begin
+            step$d = step$q + one_step;
+        end
+        else begin
+            step$d = 32'h0;
+        end
         if (takes_fresh) begin
             record_count$d = record_count$q + one;
         end
+        if (solo_ends) begin
+            record_count$d = record_count$q + two;
+        end
+        if (seeder$seeds) begin
+            record_count$d = 32'h4;
+        end
+        if (clears | reset) begin
+            record_count$d = 32'h0;
+            start$d = 32'h0;
+        end
+        if (reset) begin
+            pushes$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertion
+
+
+module incircle_core_logic$engine$insertion$choice(looks,look_id,opens,root_bundle,split,split_bundle,solo_push,solo_bundle,push,bundle);
+    
+    // Module arguments
+    input wire  looks;
+    input wire  [14:0] look_id;
+    input wire  opens;
+    input wire  [77:0] root_bundle;
+    input wire  split;
+    input wire  [77:0] split_bundle;
+    input wire  solo_push;
+    input wire  [77:0] solo_bundle;
+    output reg  push;
+    output reg  [77:0] bundle;
+    
+    // Update code
+    always @(*) begin
+        push = looks | opens | split | solo_push;
+        bundle = split_bundle;
+        if (opens) begin
+            bundle = root_bundle;
+        end
+        if (solo_push) begin
+            bundle = solo_bundle;
+        end
+        if (looks) begin
+            bundle[(64'h0)+:(1)] = 1'b0;
+            bundle[(64'h1)+:(1)] = 1'b0;
+            bundle[(64'h2)+:(1)] = 1'b0;
+            bundle[(64'h3)+:(6)] = 32'h0;
+            bundle[(64'h9)+:(6)] = 32'h0;
+            bundle[(64'hf)+:(6)] = 32'h0;
+            bundle[(64'h15)+:(15)] = 32'h0;
+            bundle[(64'h24)+:(15)] = look_id;
+            bundle[(64'h33)+:(6)] = 32'h0;
+            bundle[(64'h39)+:(6)] = 32'h0;
+            bundle[(64'h3f)+:(15)] = 32'h0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertion$choice
+
+
+module incircle_core_logic$engine$insertion$located(d,q,clock);
+    
+    // Module arguments
+    input wire  [95:0] d;
+    output reg  [95:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 96'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertion$located
+
+
+module incircle_core_logic$engine$insertion$located_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertion$located_id
+
+
+module incircle_core_logic$engine$insertion$phases(clock,reset,takes_for_walk,takes_for_seed,seed_ends,finds,finds_duplicate,opened,nothing_is_out,overflows,commit_ends,solo_ends,is_idle,is_seed,is_walk,is_root,is_cavity,is_commit,is_drain,is_solo);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  takes_for_walk;
+    input wire  takes_for_seed;
+    input wire  seed_ends;
+    input wire  finds;
+    input wire  finds_duplicate;
+    input wire  opened;
+    input wire  nothing_is_out;
+    input wire  overflows;
+    input wire  commit_ends;
+    input wire  solo_ends;
+    output reg  is_idle;
+    output reg  is_seed;
+    output reg  is_walk;
+    output reg  is_root;
+    output reg  is_cavity;
+    output reg  is_commit;
+    output reg  is_drain;
+    output reg  is_solo;
+    
+    // Enums
+    localparam Phase$Idle = 0;
+    localparam Phase$Seed = 1;
+    localparam Phase$Walk = 2;
+    localparam Phase$Root = 3;
+    localparam Phase$Cavity = 4;
+    localparam Phase$Commit = 5;
+    localparam Phase$Drain = 6;
+    localparam Phase$Solo = 7;
+    
+    // Stub signals
+    reg  [2:0] phase$d;
+    wire  [2:0] phase$q;
+    reg  phase$clock;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertion$phases$phase phase(
+        .d(phase$d),
+        .q(phase$q),
+        .clock(phase$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        phase$clock = clock;
+        phase$d = phase$q;
+        is_idle = phase$q == Phase$Idle;
+        is_seed = phase$q == Phase$Seed;
+        is_walk = phase$q == Phase$Walk;
+        is_root = phase$q == Phase$Root;
+        is_cavity = phase$q == Phase$Cavity;
+        is_commit = phase$q == Phase$Commit;
+        is_drain = phase$q == Phase$Drain;
+        is_solo = phase$q == Phase$Solo;
         case (phase$q)
             Phase$Idle:
                 begin
-                    step$d = 32'h0;
-                    if (takes) begin
-                        vertex$d = point_id;
-                        vertex_position$d = point;
-                        pushed$d = look;
-                        if (is_seeded$q) begin
-                            pushes$d = 1'b1;
-                            phase$d = Phase$Walk;
-                        end
-                        else begin
-                            request$d[(64'h0)+:(1)] = is_first_vertex;
-                            if (is_third_vertex) begin
-                                pushes$d = 1'b1;
-                                phase$d = Phase$Seed;
-                            end
-                        end
+                    if (takes_for_walk) begin
+                        phase$d = Phase$Walk;
+                    end
+                    if (takes_for_seed) begin
+                        phase$d = Phase$Seed;
                     end
                 end
             Phase$Seed:
                 begin
-                    if (is_look_step) begin
-                        turns_left$d = verdict[(64'h3)+:(1)];
-                        if (done) begin
-                            step$d = step$q + one_step;
-                            if (verdict[(64'h4)+:(1)]) begin
-                                is_collinear$d = 1'b1;
-                                phase$d = Phase$Idle;
-                            end
-                        end
-                    end
-                    else begin
-                        request$d[(64'h0)+:(1)] = 1'b1;
-                        step$d = step$q + one_step;
-                        if (is_last_seed_step) begin
-                            is_seeded$d = 1'b1;
-                            record_count$d = 32'h4;
-                            phase$d = Phase$Idle;
-                        end
+                    if (seed_ends) begin
+                        phase$d = Phase$Idle;
                     end
                 end
             Phase$Walk:
                 begin
-                    pushed$d = look;
-                    if (done) begin
-                        pushes$d = ~verdict[(64'h1)+:(1)];
-                        located_id$d = token[(64'h23)+:(15)];
-                        located$d = turned;
-                        start$d = token[(64'h23)+:(15)];
-                        if (verdict[(64'h1)+:(1)]) begin
-                            phase$d = Phase$Root;
-                            if (verdict[(64'h2)+:(1)]) begin
-                                phase$d = Phase$Idle;
-                            end
-                        end
+                    if (finds) begin
+                        phase$d = Phase$Root;
+                    end
+                    if (finds_duplicate) begin
+                        phase$d = Phase$Idle;
                     end
                 end
             Phase$Root:
                 begin
-                    pushed$d = root_bundle$bundle;
-                    pushes$d = opens;
-                    if (opens) begin
-                        step$d = step$q + one_step;
-                        if (is_last_root_step) begin
-                            phase$d = Phase$Cavity;
-                        end
+                    if (opened) begin
+                        phase$d = Phase$Cavity;
                     end
                 end
             Phase$Cavity:
@@ -3654,7 +4148,6 @@ module incircle_core_logic$insertion(clock,reset,infinite,clears,point_valid,poi
             Phase$Solo:
                 begin
                     if (solo_ends) begin
-                        record_count$d = record_count$q + two;
                         phase$d = Phase$Idle;
                     end
                 end
@@ -3663,99 +4156,15 @@ module incircle_core_logic$insertion(clock,reset,infinite,clears,point_valid,poi
                     phase$d = Phase$Idle;
                 end
         endcase
-        if (clears | reset) begin
-            is_seeded$d = 1'b0;
-            is_collinear$d = 1'b0;
-            record_count$d = 32'h0;
-            start$d = 32'h0;
-        end
         if (reset) begin
             phase$d = Phase$Idle;
-            pushes$d = 1'b0;
-            request$d[(64'h0)+:(1)] = 1'b0;
         end
     end
     
-endmodule // incircle_core_logic$insertion
+endmodule // incircle_core_logic$engine$insertion$phases
 
 
-module incircle_core_logic$insertion$is_collinear(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$insertion$is_collinear
-
-
-module incircle_core_logic$insertion$is_seeded(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$insertion$is_seeded
-
-
-module incircle_core_logic$insertion$located(d,q,clock);
-    
-    // Module arguments
-    input wire  [95:0] d;
-    output reg  [95:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 96'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$insertion$located
-
-
-module incircle_core_logic$insertion$located_id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$insertion$located_id
-
-
-module incircle_core_logic$insertion$phase(d,q,clock);
+module incircle_core_logic$engine$insertion$phases$phase(d,q,clock);
     
     // Module arguments
     input wire  [2:0] d;
@@ -3781,10 +4190,10 @@ module incircle_core_logic$insertion$phase(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$insertion$phase
+endmodule // incircle_core_logic$engine$insertion$phases$phase
 
 
-module incircle_core_logic$insertion$pushed(d,q,clock);
+module incircle_core_logic$engine$insertion$pushed(d,q,clock);
     
     // Module arguments
     input wire  [77:0] d;
@@ -3800,10 +4209,10 @@ module incircle_core_logic$insertion$pushed(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$insertion$pushed
+endmodule // incircle_core_logic$engine$insertion$pushed
 
 
-module incircle_core_logic$insertion$pushes(d,q,clock);
+module incircle_core_logic$engine$insertion$pushes(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -3819,10 +4228,10 @@ module incircle_core_logic$insertion$pushes(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$insertion$pushes
+endmodule // incircle_core_logic$engine$insertion$pushes
 
 
-module incircle_core_logic$insertion$record_count(d,q,clock);
+module incircle_core_logic$engine$insertion$record_count(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -3838,29 +4247,10 @@ module incircle_core_logic$insertion$record_count(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$insertion$record_count
+endmodule // incircle_core_logic$engine$insertion$record_count
 
 
-module incircle_core_logic$insertion$request(d,q,clock);
-    
-    // Module arguments
-    input wire  [109:0] d;
-    output reg  [109:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 110'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$insertion$request
-
-
-module incircle_core_logic$insertion$root_bundle(step,root_id,root,bundle,visits);
+module incircle_core_logic$engine$insertion$root_bundle(step,root_id,root,bundle,visits);
     
     // Module arguments
     input wire  [2:0] step;
@@ -3908,10 +4298,239 @@ module incircle_core_logic$insertion$root_bundle(step,root_id,root,bundle,visits
         end
     end
     
-endmodule // incircle_core_logic$insertion$root_bundle
+endmodule // incircle_core_logic$engine$insertion$root_bundle
 
 
-module incircle_core_logic$insertion$seed_writes(step,turns_left,infinite,write);
+module incircle_core_logic$engine$insertion$seeder(clock,reset,clears,infinite,prepares,is_seed,done,verdict,seeded,collinear,seeds,ends,write);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  clears;
+    input wire  [14:0] infinite;
+    input wire  prepares;
+    input wire  is_seed;
+    input wire  done;
+    input wire  [19:0] verdict;
+    output reg  seeded;
+    output reg  collinear;
+    output reg  seeds;
+    output reg  ends;
+    output reg  [109:0] write;
+    
+    // Stub signals
+    reg  [2:0] step$d;
+    wire  [2:0] step$q;
+    reg  step$clock;
+    reg  is_seeded$d;
+    wire  is_seeded$q;
+    reg  is_seeded$clock;
+    reg  is_collinear$d;
+    wire  is_collinear$q;
+    reg  is_collinear$clock;
+    reg  turns_left$d;
+    wire  turns_left$q;
+    reg  turns_left$clock;
+    reg  [109:0] request$d;
+    wire  [109:0] request$q;
+    reg  request$clock;
+    reg  [2:0] writes$step;
+    reg  writes$turns_left;
+    reg  [14:0] writes$infinite;
+    wire  [109:0] writes$write;
+    
+    // Local signals
+    reg  looks;
+    reg  is_straight;
+    reg  is_last;
+    reg  [2:0] look_step;
+    reg  [2:0] last_step;
+    reg  [2:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertion$seeder$step step(
+        .d(step$d),
+        .q(step$q),
+        .clock(step$clock)
+    );
+    incircle_core_logic$engine$insertion$seeder$is_seeded is_seeded(
+        .d(is_seeded$d),
+        .q(is_seeded$q),
+        .clock(is_seeded$clock)
+    );
+    incircle_core_logic$engine$insertion$seeder$is_collinear is_collinear(
+        .d(is_collinear$d),
+        .q(is_collinear$q),
+        .clock(is_collinear$clock)
+    );
+    incircle_core_logic$engine$insertion$seeder$turns_left turns_left(
+        .d(turns_left$d),
+        .q(turns_left$q),
+        .clock(turns_left$clock)
+    );
+    incircle_core_logic$engine$insertion$seeder$request request(
+        .d(request$d),
+        .q(request$q),
+        .clock(request$clock)
+    );
+    incircle_core_logic$engine$insertion$seeder$writes writes(
+        .step(writes$step),
+        .turns_left(writes$turns_left),
+        .infinite(writes$infinite),
+        .write(writes$write)
+    );
+    
+    // Update code
+    always @(*) begin
+        step$clock = clock;
+        is_seeded$clock = clock;
+        is_collinear$clock = clock;
+        turns_left$clock = clock;
+        request$clock = clock;
+        step$d = step$q;
+        is_seeded$d = is_seeded$q;
+        is_collinear$d = is_collinear$q;
+        turns_left$d = turns_left$q;
+        request$d = request$q;
+        look_step = 32'h0;
+        last_step = 32'h4;
+        one = 32'h1;
+        looks = is_seed & (step$q == look_step);
+        is_straight = looks & done & verdict[(64'h4)+:(1)];
+        is_last = is_seed & (step$q == last_step);
+        seeded = is_seeded$q;
+        collinear = is_collinear$q;
+        seeds = is_last;
+        ends = is_straight | is_last;
+        writes$step = step$q;
+        writes$turns_left = turns_left$q;
+        writes$infinite = infinite;
+        request$d = writes$write;
+        request$d[(64'h0)+:(1)] = prepares | (is_seed & (~looks));
+        write = request$q;
+        if (looks) begin
+            turns_left$d = verdict[(64'h3)+:(1)];
+        end
+        if (is_seed & (done | (~looks))) begin
+            step$d = step$q + one;
+        end
+        if (is_straight) begin
+            is_collinear$d = 1'b1;
+            step$d = 32'h0;
+        end
+        if (is_last) begin
+            is_seeded$d = 1'b1;
+            step$d = 32'h0;
+        end
+        if (clears | reset) begin
+            is_seeded$d = 1'b0;
+            is_collinear$d = 1'b0;
+        end
+        if (reset) begin
+            step$d = 32'h0;
+            request$d[(64'h0)+:(1)] = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertion$seeder
+
+
+module incircle_core_logic$engine$insertion$seeder$is_collinear(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertion$seeder$is_collinear
+
+
+module incircle_core_logic$engine$insertion$seeder$is_seeded(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertion$seeder$is_seeded
+
+
+module incircle_core_logic$engine$insertion$seeder$request(d,q,clock);
+    
+    // Module arguments
+    input wire  [109:0] d;
+    output reg  [109:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 110'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertion$seeder$request
+
+
+module incircle_core_logic$engine$insertion$seeder$step(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 3'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertion$seeder$step
+
+
+module incircle_core_logic$engine$insertion$seeder$turns_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertion$seeder$turns_left
+
+
+module incircle_core_logic$engine$insertion$seeder$writes(step,turns_left,infinite,write);
     
     // Module arguments
     input wire  [2:0] step;
@@ -3942,7 +4561,7 @@ module incircle_core_logic$insertion$seed_writes(step,turns_left,infinite,write)
     reg  [2:0] ghost2_step;
     
     // Sub module instances
-    incircle_core_logic$insertion$seed_writes$record record(
+    incircle_core_logic$engine$insertion$seeder$writes$record record(
         .id(record$id),
         .v0(record$v0),
         .v1(record$v1),
@@ -4007,10 +4626,10 @@ module incircle_core_logic$insertion$seed_writes(step,turns_left,infinite,write)
         write = record$write;
     end
     
-endmodule // incircle_core_logic$insertion$seed_writes
+endmodule // incircle_core_logic$engine$insertion$seeder$writes
 
 
-module incircle_core_logic$insertion$seed_writes$record(id,v0,v1,v2,n0,n1,n2,write);
+module incircle_core_logic$engine$insertion$seeder$writes$record(id,v0,v1,v2,n0,n1,n2,write);
     
     // Module arguments
     input wire  [14:0] id;
@@ -4038,10 +4657,10 @@ module incircle_core_logic$insertion$seed_writes$record(id,v0,v1,v2,n0,n1,n2,wri
         write[(64'h5f)+:(15)] = n2;
     end
     
-endmodule // incircle_core_logic$insertion$seed_writes$record
+endmodule // incircle_core_logic$engine$insertion$seeder$writes$record
 
 
-module incircle_core_logic$insertion$start(d,q,clock);
+module incircle_core_logic$engine$insertion$start(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -4057,10 +4676,10 @@ module incircle_core_logic$insertion$start(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$insertion$start
+endmodule // incircle_core_logic$engine$insertion$start
 
 
-module incircle_core_logic$insertion$step(d,q,clock);
+module incircle_core_logic$engine$insertion$step(d,q,clock);
     
     // Module arguments
     input wire  [2:0] d;
@@ -4076,29 +4695,10 @@ module incircle_core_logic$insertion$step(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$insertion$step
+endmodule // incircle_core_logic$engine$insertion$step
 
 
-module incircle_core_logic$insertion$turns_left(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$insertion$turns_left
-
-
-module incircle_core_logic$insertion$vertex(d,q,clock);
+module incircle_core_logic$engine$insertion$vertex(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -4114,10 +4714,10 @@ module incircle_core_logic$insertion$vertex(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$insertion$vertex
+endmodule // incircle_core_logic$engine$insertion$vertex
 
 
-module incircle_core_logic$insertion$vertex_position(d,q,clock);
+module incircle_core_logic$engine$insertion$vertex_position(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -4133,10 +4733,10 @@ module incircle_core_logic$insertion$vertex_position(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$insertion$vertex_position
+endmodule // incircle_core_logic$engine$insertion$vertex_position
 
 
-module incircle_core_logic$lock_release(clock,reset,last_id,takes_locks,done,token,turned,starts,is_busy,sweeps,clear_id,clear_enable);
+module incircle_core_logic$engine$lock_release(clock,reset,last_id,takes_locks,done,token,turned,starts,is_busy,sweeps,clear_id,clear_enable);
     
     // Module arguments
     input wire  clock;
@@ -4186,7 +4786,7 @@ module incircle_core_logic$lock_release(clock,reset,last_id,takes_locks,done,tok
     reg  [6:0] one_lock;
     
     // Sub module instances
-    incircle_core_logic$lock_release$log log(
+    incircle_core_logic$engine$lock_release$log log(
         .clock(log$clock),
         .write_address(log$write_address),
         .write_data(log$write_data),
@@ -4194,32 +4794,32 @@ module incircle_core_logic$lock_release(clock,reset,last_id,takes_locks,done,tok
         .read_address(log$read_address),
         .read_data(log$read_data)
     );
-    incircle_core_logic$lock_release$logged logged(
+    incircle_core_logic$engine$lock_release$logged logged(
         .d(logged$d),
         .q(logged$q),
         .clock(logged$clock)
     );
-    incircle_core_logic$lock_release$index index(
+    incircle_core_logic$engine$lock_release$index index(
         .d(index$d),
         .q(index$q),
         .clock(index$clock)
     );
-    incircle_core_logic$lock_release$busy busy(
+    incircle_core_logic$engine$lock_release$busy busy(
         .d(busy$d),
         .q(busy$q),
         .clock(busy$clock)
     );
-    incircle_core_logic$lock_release$sweeping sweeping(
+    incircle_core_logic$engine$lock_release$sweeping sweeping(
         .d(sweeping$d),
         .q(sweeping$q),
         .clock(sweeping$clock)
     );
-    incircle_core_logic$lock_release$cleared cleared(
+    incircle_core_logic$engine$lock_release$cleared cleared(
         .d(cleared$d),
         .q(cleared$q),
         .clock(cleared$clock)
     );
-    incircle_core_logic$lock_release$clears clears(
+    incircle_core_logic$engine$lock_release$clears clears(
         .d(clears$d),
         .q(clears$q),
         .clock(clears$clock)
@@ -4286,10 +4886,10 @@ module incircle_core_logic$lock_release(clock,reset,last_id,takes_locks,done,tok
         end
     end
     
-endmodule // incircle_core_logic$lock_release
+endmodule // incircle_core_logic$engine$lock_release
 
 
-module incircle_core_logic$lock_release$busy(d,q,clock);
+module incircle_core_logic$engine$lock_release$busy(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -4305,10 +4905,10 @@ module incircle_core_logic$lock_release$busy(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$lock_release$busy
+endmodule // incircle_core_logic$engine$lock_release$busy
 
 
-module incircle_core_logic$lock_release$cleared(d,q,clock);
+module incircle_core_logic$engine$lock_release$cleared(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -4324,10 +4924,10 @@ module incircle_core_logic$lock_release$cleared(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$lock_release$cleared
+endmodule // incircle_core_logic$engine$lock_release$cleared
 
 
-module incircle_core_logic$lock_release$clears(d,q,clock);
+module incircle_core_logic$engine$lock_release$clears(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -4343,10 +4943,10 @@ module incircle_core_logic$lock_release$clears(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$lock_release$clears
+endmodule // incircle_core_logic$engine$lock_release$clears
 
 
-module incircle_core_logic$lock_release$index(d,q,clock);
+module incircle_core_logic$engine$lock_release$index(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -4362,10 +4962,10 @@ module incircle_core_logic$lock_release$index(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$lock_release$index
+endmodule // incircle_core_logic$engine$lock_release$index
 
 
-module incircle_core_logic$lock_release$log(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$lock_release$log(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -4385,10 +4985,10 @@ module incircle_core_logic$lock_release$log(clock,write_address,write_data,write
         if (write_enable) memory[write_address[5:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$lock_release$log
+endmodule // incircle_core_logic$engine$lock_release$log
 
 
-module incircle_core_logic$lock_release$logged(d,q,clock);
+module incircle_core_logic$engine$lock_release$logged(d,q,clock);
     
     // Module arguments
     input wire  [6:0] d;
@@ -4404,10 +5004,10 @@ module incircle_core_logic$lock_release$logged(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$lock_release$logged
+endmodule // incircle_core_logic$engine$lock_release$logged
 
 
-module incircle_core_logic$lock_release$sweeping(d,q,clock);
+module incircle_core_logic$engine$lock_release$sweeping(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -4423,10 +5023,10 @@ module incircle_core_logic$lock_release$sweeping(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$lock_release$sweeping
+endmodule // incircle_core_logic$engine$lock_release$sweeping
 
 
-module incircle_core_logic$pipeline(clock,reset,infinite,push,bundle,p,done,token,turned,verdict,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,write,vertex_id,vertex_position,vertex_enable,clear_id,clear_enable);
+module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,p,done,token,turned,verdict,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,write,vertex_id,vertex_position,vertex_enable,clear_id,clear_enable);
     
     // Module arguments
     input wire  clock;
@@ -4591,7 +5191,7 @@ module incircle_core_logic$pipeline(clock,reset,infinite,push,bundle,p,done,toke
     reg  [14:0] one;
     
     // Sub module instances
-    incircle_core_logic$pipeline$issue issue(
+    incircle_core_logic$engine$pipeline$issue issue(
         .clock(issue$clock),
         .reset(issue$reset),
         .push(issue$push),
@@ -4602,7 +5202,7 @@ module incircle_core_logic$pipeline(clock,reset,infinite,push,bundle,p,done,toke
         .token(issue$token),
         .read_valid(issue$read_valid)
     );
-    incircle_core_logic$pipeline$triangles triangles(
+    incircle_core_logic$engine$pipeline$triangles triangles(
         .clock(triangles$clock),
         .write(triangles$write),
         .read_id(triangles$read_id),
@@ -4617,7 +5217,7 @@ module incircle_core_logic$pipeline(clock,reset,infinite,push,bundle,p,done,toke
         .clear_id(triangles$clear_id),
         .clear_enable(triangles$clear_enable)
     );
-    incircle_core_logic$pipeline$vertices vertices(
+    incircle_core_logic$engine$pipeline$vertices vertices(
         .clock(vertices$clock),
         .write_id(vertices$write_id),
         .write_position(vertices$write_position),
@@ -4629,7 +5229,7 @@ module incircle_core_logic$pipeline(clock,reset,infinite,push,bundle,p,done,toke
         .position1(vertices$position1),
         .position2(vertices$position2)
     );
-    incircle_core_logic$pipeline$reader reader(
+    incircle_core_logic$engine$pipeline$reader reader(
         .clock(reader$clock),
         .infinite(reader$infinite),
         .token(reader$token),
@@ -4649,7 +5249,7 @@ module incircle_core_logic$pipeline(clock,reset,infinite,push,bundle,p,done,toke
         .r1(reader$r1),
         .r2(reader$r2)
     );
-    incircle_core_logic$pipeline$predicates predicates(
+    incircle_core_logic$engine$pipeline$predicates predicates(
         .clock(predicates$clock),
         .r0(predicates$r0),
         .r1(predicates$r1),
@@ -4675,7 +5275,7 @@ module incircle_core_logic$pipeline(clock,reset,infinite,push,bundle,p,done,toke
         .r0_before_r1(predicates$r0_before_r1),
         .r0_before_r2(predicates$r0_before_r2)
     );
-    incircle_core_logic$pipeline$verdict_logic verdict_logic(
+    incircle_core_logic$engine$pipeline$verdict_logic verdict_logic(
         .turned(verdict_logic$turned),
         .e0_negative(verdict_logic$e0_negative),
         .e1_negative(verdict_logic$e1_negative),
@@ -4698,55 +5298,55 @@ module incircle_core_logic$pipeline(clock,reset,infinite,push,bundle,p,done,toke
         .r0_before_r2(verdict_logic$r0_before_r2),
         .verdict(verdict_logic$verdict)
     );
-    incircle_core_logic$pipeline$token_delay token_delay(
+    incircle_core_logic$engine$pipeline$token_delay token_delay(
         .clock(token_delay$clock),
         .data_in(token_delay$data_in),
         .data_out(token_delay$data_out)
     );
-    incircle_core_logic$pipeline$turned_delay turned_delay(
+    incircle_core_logic$engine$pipeline$turned_delay turned_delay(
         .clock(turned_delay$clock),
         .data_in(turned_delay$data_in),
         .data_out(turned_delay$data_out)
     );
-    incircle_core_logic$pipeline$delayed_token delayed_token(
+    incircle_core_logic$engine$pipeline$delayed_token delayed_token(
         .bits(delayed_token$bits),
         .value(delayed_token$value)
     );
-    incircle_core_logic$pipeline$delayed_turned delayed_turned(
+    incircle_core_logic$engine$pipeline$delayed_turned delayed_turned(
         .bits(delayed_turned$bits),
         .value(delayed_turned$value)
     );
-    incircle_core_logic$pipeline$point point(
+    incircle_core_logic$engine$pipeline$point point(
         .d(point$d),
         .q(point$q),
         .clock(point$clock)
     );
-    incircle_core_logic$pipeline$valid valid(
+    incircle_core_logic$engine$pipeline$valid valid(
         .d(valid$d),
         .q(valid$q),
         .clock(valid$clock)
     );
-    incircle_core_logic$pipeline$read_valid1 read_valid1(
+    incircle_core_logic$engine$pipeline$read_valid1 read_valid1(
         .d(read_valid1$d),
         .q(read_valid1$q),
         .clock(read_valid1$clock)
     );
-    incircle_core_logic$pipeline$read_valid2 read_valid2(
+    incircle_core_logic$engine$pipeline$read_valid2 read_valid2(
         .d(read_valid2$d),
         .q(read_valid2$q),
         .clock(read_valid2$clock)
     );
-    incircle_core_logic$pipeline$token_register token_register(
+    incircle_core_logic$engine$pipeline$token_register token_register(
         .d(token_register$d),
         .q(token_register$q),
         .clock(token_register$clock)
     );
-    incircle_core_logic$pipeline$turned_register turned_register(
+    incircle_core_logic$engine$pipeline$turned_register turned_register(
         .d(turned_register$d),
         .q(turned_register$q),
         .clock(turned_register$clock)
     );
-    incircle_core_logic$pipeline$verdict_register verdict_register(
+    incircle_core_logic$engine$pipeline$verdict_register verdict_register(
         .d(verdict_register$d),
         .q(verdict_register$q),
         .clock(verdict_register$clock)
@@ -4864,10 +5464,10 @@ module incircle_core_logic$pipeline(clock,reset,infinite,push,bundle,p,done,toke
         end
     end
     
-endmodule // incircle_core_logic$pipeline
+endmodule // incircle_core_logic$engine$pipeline
 
 
-module incircle_core_logic$pipeline$delayed_token(bits,value);
+module incircle_core_logic$engine$pipeline$delayed_token(bits,value);
     
     // Module arguments
     input wire  [49:0] bits;
@@ -4875,10 +5475,10 @@ module incircle_core_logic$pipeline$delayed_token(bits,value);
     
     // Update code (custom)
     always @(*) value = bits;
-endmodule // incircle_core_logic$pipeline$delayed_token
+endmodule // incircle_core_logic$engine$pipeline$delayed_token
 
 
-module incircle_core_logic$pipeline$delayed_turned(bits,value);
+module incircle_core_logic$engine$pipeline$delayed_turned(bits,value);
     
     // Module arguments
     input wire  [95:0] bits;
@@ -4886,10 +5486,10 @@ module incircle_core_logic$pipeline$delayed_turned(bits,value);
     
     // Update code (custom)
     always @(*) value = bits;
-endmodule // incircle_core_logic$pipeline$delayed_turned
+endmodule // incircle_core_logic$engine$pipeline$delayed_turned
 
 
-module incircle_core_logic$pipeline$issue(clock,reset,push,bundle,read,read_id,token_valid,token,read_valid);
+module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,read_id,token_valid,token,read_valid);
     
     // Module arguments
     input wire  clock;
@@ -4930,7 +5530,7 @@ module incircle_core_logic$pipeline$issue(clock,reset,push,bundle,read,read_id,t
     reg  waits_for_second;
     
     // Sub module instances
-    incircle_core_logic$pipeline$issue$queue queue(
+    incircle_core_logic$engine$pipeline$issue$queue queue(
         .clock(queue$clock),
         .reset(queue$reset),
         .push(queue$push),
@@ -4939,26 +5539,26 @@ module incircle_core_logic$pipeline$issue(clock,reset,push,bundle,read,read_id,t
         .valid(queue$valid),
         .data(queue$data)
     );
-    incircle_core_logic$pipeline$issue$head head(
+    incircle_core_logic$engine$pipeline$issue$head head(
         .bits(head$bits),
         .value(head$value)
     );
-    incircle_core_logic$pipeline$issue$issued issued(
+    incircle_core_logic$engine$pipeline$issue$issued issued(
         .d(issued$d),
         .q(issued$q),
         .clock(issued$clock)
     );
-    incircle_core_logic$pipeline$issue$issued_valid issued_valid(
+    incircle_core_logic$engine$pipeline$issue$issued_valid issued_valid(
         .d(issued_valid$d),
         .q(issued_valid$q),
         .clock(issued_valid$clock)
     );
-    incircle_core_logic$pipeline$issue$issued_read issued_read(
+    incircle_core_logic$engine$pipeline$issue$issued_read issued_read(
         .d(issued_read$d),
         .q(issued_read$q),
         .clock(issued_read$clock)
     );
-    incircle_core_logic$pipeline$issue$second_is_due second_is_due(
+    incircle_core_logic$engine$pipeline$issue$second_is_due second_is_due(
         .d(second_is_due$d),
         .q(second_is_due$q),
         .clock(second_is_due$clock)
@@ -5010,10 +5610,10 @@ module incircle_core_logic$pipeline$issue(clock,reset,push,bundle,read,read_id,t
         end
     end
     
-endmodule // incircle_core_logic$pipeline$issue
+endmodule // incircle_core_logic$engine$pipeline$issue
 
 
-module incircle_core_logic$pipeline$issue$head(bits,value);
+module incircle_core_logic$engine$pipeline$issue$head(bits,value);
     
     // Module arguments
     input wire  [77:0] bits;
@@ -5021,10 +5621,10 @@ module incircle_core_logic$pipeline$issue$head(bits,value);
     
     // Update code (custom)
     always @(*) value = bits;
-endmodule // incircle_core_logic$pipeline$issue$head
+endmodule // incircle_core_logic$engine$pipeline$issue$head
 
 
-module incircle_core_logic$pipeline$issue$issued(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$issued(d,q,clock);
     
     // Module arguments
     input wire  [49:0] d;
@@ -5040,10 +5640,10 @@ module incircle_core_logic$pipeline$issue$issued(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$issue$issued
+endmodule // incircle_core_logic$engine$pipeline$issue$issued
 
 
-module incircle_core_logic$pipeline$issue$issued_read(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$issued_read(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -5059,10 +5659,10 @@ module incircle_core_logic$pipeline$issue$issued_read(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$issue$issued_read
+endmodule // incircle_core_logic$engine$pipeline$issue$issued_read
 
 
-module incircle_core_logic$pipeline$issue$issued_valid(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$issued_valid(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -5078,10 +5678,10 @@ module incircle_core_logic$pipeline$issue$issued_valid(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$issue$issued_valid
+endmodule // incircle_core_logic$engine$pipeline$issue$issued_valid
 
 
-module incircle_core_logic$pipeline$issue$queue(clock,reset,push,push_data,pop,valid,data);
+module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_data,pop,valid,data);
     
     // Module arguments
     input wire  clock;
@@ -5121,7 +5721,7 @@ module incircle_core_logic$pipeline$issue$queue(clock,reset,push,push_data,pop,v
     reg  [5:0] after_oldest;
     
     // Sub module instances
-    incircle_core_logic$pipeline$issue$queue$entries entries(
+    incircle_core_logic$engine$pipeline$issue$queue$entries entries(
         .clock(entries$clock),
         .write_address(entries$write_address),
         .write_data(entries$write_data),
@@ -5129,17 +5729,17 @@ module incircle_core_logic$pipeline$issue$queue(clock,reset,push,push_data,pop,v
         .read_address(entries$read_address),
         .read_data(entries$read_data)
     );
-    incircle_core_logic$pipeline$issue$queue$holds_entries holds_entries(
+    incircle_core_logic$engine$pipeline$issue$queue$holds_entries holds_entries(
         .d(holds_entries$d),
         .q(holds_entries$q),
         .clock(holds_entries$clock)
     );
-    incircle_core_logic$pipeline$issue$queue$newest newest(
+    incircle_core_logic$engine$pipeline$issue$queue$newest newest(
         .d(newest$d),
         .q(newest$q),
         .clock(newest$clock)
     );
-    incircle_core_logic$pipeline$issue$queue$oldest oldest(
+    incircle_core_logic$engine$pipeline$issue$queue$oldest oldest(
         .d(oldest$d),
         .q(oldest$q),
         .clock(oldest$clock)
@@ -5186,10 +5786,10 @@ module incircle_core_logic$pipeline$issue$queue(clock,reset,push,push_data,pop,v
         end
     end
     
-endmodule // incircle_core_logic$pipeline$issue$queue
+endmodule // incircle_core_logic$engine$pipeline$issue$queue
 
 
-module incircle_core_logic$pipeline$issue$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$issue$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -5209,10 +5809,10 @@ module incircle_core_logic$pipeline$issue$queue$entries(clock,write_address,writ
         if (write_enable) memory[write_address[4:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$pipeline$issue$queue$entries
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$entries
 
 
-module incircle_core_logic$pipeline$issue$queue$holds_entries(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$queue$holds_entries(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -5228,10 +5828,10 @@ module incircle_core_logic$pipeline$issue$queue$holds_entries(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$issue$queue$holds_entries
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$holds_entries
 
 
-module incircle_core_logic$pipeline$issue$queue$newest(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$queue$newest(d,q,clock);
     
     // Module arguments
     input wire  [5:0] d;
@@ -5247,10 +5847,10 @@ module incircle_core_logic$pipeline$issue$queue$newest(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$issue$queue$newest
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$newest
 
 
-module incircle_core_logic$pipeline$issue$queue$oldest(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$queue$oldest(d,q,clock);
     
     // Module arguments
     input wire  [5:0] d;
@@ -5266,10 +5866,10 @@ module incircle_core_logic$pipeline$issue$queue$oldest(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$issue$queue$oldest
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$oldest
 
 
-module incircle_core_logic$pipeline$issue$second_is_due(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$second_is_due(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -5285,10 +5885,10 @@ module incircle_core_logic$pipeline$issue$second_is_due(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$issue$second_is_due
+endmodule // incircle_core_logic$engine$pipeline$issue$second_is_due
 
 
-module incircle_core_logic$pipeline$point(d,q,clock);
+module incircle_core_logic$engine$pipeline$point(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -5304,10 +5904,10 @@ module incircle_core_logic$pipeline$point(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$point
+endmodule // incircle_core_logic$engine$pipeline$point
 
 
-module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1,incircle_positive,incircle_zero,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2);
+module incircle_core_logic$engine$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1,incircle_positive,incircle_zero,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2);
     
     // Module arguments
     input wire  clock;
@@ -5441,37 +6041,37 @@ module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_n
     reg  [67:0] biased_second;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$p_to_r0 p_to_r0(
+    incircle_core_logic$engine$pipeline$predicates$p_to_r0 p_to_r0(
         .from(p_to_r0$from),
         .to(p_to_r0$to),
         .x(p_to_r0$x),
         .y(p_to_r0$y)
     );
-    incircle_core_logic$pipeline$predicates$p_to_r1 p_to_r1(
+    incircle_core_logic$engine$pipeline$predicates$p_to_r1 p_to_r1(
         .from(p_to_r1$from),
         .to(p_to_r1$to),
         .x(p_to_r1$x),
         .y(p_to_r1$y)
     );
-    incircle_core_logic$pipeline$predicates$p_to_r2 p_to_r2(
+    incircle_core_logic$engine$pipeline$predicates$p_to_r2 p_to_r2(
         .from(p_to_r2$from),
         .to(p_to_r2$to),
         .x(p_to_r2$x),
         .y(p_to_r2$y)
     );
-    incircle_core_logic$pipeline$predicates$r0_to_r1 r0_to_r1(
+    incircle_core_logic$engine$pipeline$predicates$r0_to_r1 r0_to_r1(
         .from(r0_to_r1$from),
         .to(r0_to_r1$to),
         .x(r0_to_r1$x),
         .y(r0_to_r1$y)
     );
-    incircle_core_logic$pipeline$predicates$r0_to_r2 r0_to_r2(
+    incircle_core_logic$engine$pipeline$predicates$r0_to_r2 r0_to_r2(
         .from(r0_to_r2$from),
         .to(r0_to_r2$to),
         .x(r0_to_r2$x),
         .y(r0_to_r2$y)
     );
-    incircle_core_logic$pipeline$predicates$cross_0 cross_0(
+    incircle_core_logic$engine$pipeline$predicates$cross_0 cross_0(
         .clock(cross_0$clock),
         .a_x(cross_0$a_x),
         .a_y(cross_0$a_y),
@@ -5479,7 +6079,7 @@ module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_n
         .b_y(cross_0$b_y),
         .product(cross_0$product)
     );
-    incircle_core_logic$pipeline$predicates$cross_1 cross_1(
+    incircle_core_logic$engine$pipeline$predicates$cross_1 cross_1(
         .clock(cross_1$clock),
         .a_x(cross_1$a_x),
         .a_y(cross_1$a_y),
@@ -5487,7 +6087,7 @@ module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_n
         .b_y(cross_1$b_y),
         .product(cross_1$product)
     );
-    incircle_core_logic$pipeline$predicates$cross_2 cross_2(
+    incircle_core_logic$engine$pipeline$predicates$cross_2 cross_2(
         .clock(cross_2$clock),
         .a_x(cross_2$a_x),
         .a_y(cross_2$a_y),
@@ -5495,7 +6095,7 @@ module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_n
         .b_y(cross_2$b_y),
         .product(cross_2$product)
     );
-    incircle_core_logic$pipeline$predicates$cross_apex cross_apex(
+    incircle_core_logic$engine$pipeline$predicates$cross_apex cross_apex(
         .clock(cross_apex$clock),
         .a_x(cross_apex$a_x),
         .a_y(cross_apex$a_y),
@@ -5503,7 +6103,7 @@ module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_n
         .b_y(cross_apex$b_y),
         .product(cross_apex$product)
     );
-    incircle_core_logic$pipeline$predicates$dot_apex dot_apex(
+    incircle_core_logic$engine$pipeline$predicates$dot_apex dot_apex(
         .clock(dot_apex$clock),
         .a_x(dot_apex$a_x),
         .a_y(dot_apex$a_y),
@@ -5511,7 +6111,7 @@ module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_n
         .b_y(dot_apex$b_y),
         .product(dot_apex$product)
     );
-    incircle_core_logic$pipeline$predicates$dot_point dot_point(
+    incircle_core_logic$engine$pipeline$predicates$dot_point dot_point(
         .clock(dot_point$clock),
         .a_x(dot_point$a_x),
         .a_y(dot_point$a_y),
@@ -5519,7 +6119,7 @@ module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_n
         .b_y(dot_point$b_y),
         .product(dot_point$product)
     );
-    incircle_core_logic$pipeline$predicates$edges edges(
+    incircle_core_logic$engine$pipeline$predicates$edges edges(
         .clock(edges$clock),
         .e0(edges$e0),
         .e1(edges$e1),
@@ -5534,7 +6134,7 @@ module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_n
         .e2_below_e0(edges$e2_below_e0),
         .e2_below_e1(edges$e2_below_e1)
     );
-    incircle_core_logic$pipeline$predicates$order order(
+    incircle_core_logic$engine$pipeline$predicates$order order(
         .clock(order$clock),
         .r0(order$r0),
         .r1(order$r1),
@@ -5549,24 +6149,24 @@ module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_n
         .r0_before_r1(order$r0_before_r1),
         .r0_before_r2(order$r0_before_r2)
     );
-    incircle_core_logic$pipeline$predicates$point_by_apex point_by_apex(
+    incircle_core_logic$engine$pipeline$predicates$point_by_apex point_by_apex(
         .clock(point_by_apex$clock),
         .a(point_by_apex$a),
         .b(point_by_apex$b),
         .product(point_by_apex$product)
     );
-    incircle_core_logic$pipeline$predicates$apex_by_point apex_by_point(
+    incircle_core_logic$engine$pipeline$predicates$apex_by_point apex_by_point(
         .clock(apex_by_point$clock),
         .a(apex_by_point$a),
         .b(apex_by_point$b),
         .product(apex_by_point$product)
     );
-    incircle_core_logic$pipeline$predicates$positive positive(
+    incircle_core_logic$engine$pipeline$predicates$positive positive(
         .d(positive$d),
         .q(positive$q),
         .clock(positive$clock)
     );
-    incircle_core_logic$pipeline$predicates$zero zero(
+    incircle_core_logic$engine$pipeline$predicates$zero zero(
         .d(zero$d),
         .q(zero$q),
         .clock(zero$clock)
@@ -5656,10 +6256,10 @@ module incircle_core_logic$pipeline$predicates(clock,r0,r1,r2,p,e0_negative,e1_n
         r0_before_r2 = order$r0_before_r2;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates
+endmodule // incircle_core_logic$engine$pipeline$predicates
 
 
-module incircle_core_logic$pipeline$predicates$apex_by_point(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$apex_by_point(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -5723,51 +6323,51 @@ module incircle_core_logic$pipeline$predicates$apex_by_point(clock,a,b,product);
     reg  [67:0] product_low_wide;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$apex_by_point$high_by_high high_by_high(
+    incircle_core_logic$engine$pipeline$predicates$apex_by_point$high_by_high high_by_high(
         .clock(high_by_high$clock),
         .a(high_by_high$a),
         .b(high_by_high$b),
         .product(high_by_high$product)
     );
-    incircle_core_logic$pipeline$predicates$apex_by_point$high_by_low high_by_low(
+    incircle_core_logic$engine$pipeline$predicates$apex_by_point$high_by_low high_by_low(
         .clock(high_by_low$clock),
         .a(high_by_low$a),
         .b(high_by_low$b),
         .product(high_by_low$product)
     );
-    incircle_core_logic$pipeline$predicates$apex_by_point$low_by_high low_by_high(
+    incircle_core_logic$engine$pipeline$predicates$apex_by_point$low_by_high low_by_high(
         .clock(low_by_high$clock),
         .a(low_by_high$a),
         .b(low_by_high$b),
         .product(low_by_high$product)
     );
-    incircle_core_logic$pipeline$predicates$apex_by_point$low_by_low low_by_low(
+    incircle_core_logic$engine$pipeline$predicates$apex_by_point$low_by_low low_by_low(
         .clock(low_by_low$clock),
         .a(low_by_low$a),
         .b(low_by_low$b),
         .product(low_by_low$product)
     );
-    incircle_core_logic$pipeline$predicates$apex_by_point$upper upper(
+    incircle_core_logic$engine$pipeline$predicates$apex_by_point$upper upper(
         .d(upper$d),
         .q(upper$q),
         .clock(upper$clock)
     );
-    incircle_core_logic$pipeline$predicates$apex_by_point$middle middle(
+    incircle_core_logic$engine$pipeline$predicates$apex_by_point$middle middle(
         .d(middle$d),
         .q(middle$q),
         .clock(middle$clock)
     );
-    incircle_core_logic$pipeline$predicates$apex_by_point$lower lower(
+    incircle_core_logic$engine$pipeline$predicates$apex_by_point$lower lower(
         .d(lower$d),
         .q(lower$q),
         .clock(lower$clock)
     );
-    incircle_core_logic$pipeline$predicates$apex_by_point$product_high product_high(
+    incircle_core_logic$engine$pipeline$predicates$apex_by_point$product_high product_high(
         .d(product_high$d),
         .q(product_high$q),
         .clock(product_high$clock)
     );
-    incircle_core_logic$pipeline$predicates$apex_by_point$product_low product_low(
+    incircle_core_logic$engine$pipeline$predicates$apex_by_point$product_low product_low(
         .d(product_low$d),
         .q(product_low$q),
         .clock(product_low$clock)
@@ -5820,10 +6420,10 @@ module incircle_core_logic$pipeline$predicates$apex_by_point(clock,a,b,product);
         product = product_high_shifted | product_low_wide;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$apex_by_point
+endmodule // incircle_core_logic$engine$pipeline$predicates$apex_by_point
 
 
-module incircle_core_logic$pipeline$predicates$apex_by_point$high_by_high(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$apex_by_point$high_by_high(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -5870,10 +6470,10 @@ module incircle_core_logic$pipeline$predicates$apex_by_point$high_by_high(clock,
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$apex_by_point$high_by_high
+endmodule // incircle_core_logic$engine$pipeline$predicates$apex_by_point$high_by_high
 
 
-module incircle_core_logic$pipeline$predicates$apex_by_point$high_by_low(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$apex_by_point$high_by_low(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -5920,10 +6520,10 @@ module incircle_core_logic$pipeline$predicates$apex_by_point$high_by_low(clock,a
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$apex_by_point$high_by_low
+endmodule // incircle_core_logic$engine$pipeline$predicates$apex_by_point$high_by_low
 
 
-module incircle_core_logic$pipeline$predicates$apex_by_point$low_by_high(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$apex_by_point$low_by_high(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -5970,10 +6570,10 @@ module incircle_core_logic$pipeline$predicates$apex_by_point$low_by_high(clock,a
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$apex_by_point$low_by_high
+endmodule // incircle_core_logic$engine$pipeline$predicates$apex_by_point$low_by_high
 
 
-module incircle_core_logic$pipeline$predicates$apex_by_point$low_by_low(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$apex_by_point$low_by_low(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6020,10 +6620,10 @@ module incircle_core_logic$pipeline$predicates$apex_by_point$low_by_low(clock,a,
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$apex_by_point$low_by_low
+endmodule // incircle_core_logic$engine$pipeline$predicates$apex_by_point$low_by_low
 
 
-module incircle_core_logic$pipeline$predicates$apex_by_point$lower(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$apex_by_point$lower(d,q,clock);
     
     // Module arguments
     input wire  [33:0] d;
@@ -6039,10 +6639,10 @@ module incircle_core_logic$pipeline$predicates$apex_by_point$lower(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$apex_by_point$lower
+endmodule // incircle_core_logic$engine$pipeline$predicates$apex_by_point$lower
 
 
-module incircle_core_logic$pipeline$predicates$apex_by_point$middle(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$apex_by_point$middle(d,q,clock);
     
     // Module arguments
     input wire  [35:0] d;
@@ -6058,10 +6658,10 @@ module incircle_core_logic$pipeline$predicates$apex_by_point$middle(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$apex_by_point$middle
+endmodule // incircle_core_logic$engine$pipeline$predicates$apex_by_point$middle
 
 
-module incircle_core_logic$pipeline$predicates$apex_by_point$product_high(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$apex_by_point$product_high(d,q,clock);
     
     // Module arguments
     input wire  [50:0] d;
@@ -6077,10 +6677,10 @@ module incircle_core_logic$pipeline$predicates$apex_by_point$product_high(d,q,cl
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$apex_by_point$product_high
+endmodule // incircle_core_logic$engine$pipeline$predicates$apex_by_point$product_high
 
 
-module incircle_core_logic$pipeline$predicates$apex_by_point$product_low(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$apex_by_point$product_low(d,q,clock);
     
     // Module arguments
     input wire  [16:0] d;
@@ -6096,10 +6696,10 @@ module incircle_core_logic$pipeline$predicates$apex_by_point$product_low(d,q,clo
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$apex_by_point$product_low
+endmodule // incircle_core_logic$engine$pipeline$predicates$apex_by_point$product_low
 
 
-module incircle_core_logic$pipeline$predicates$apex_by_point$upper(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$apex_by_point$upper(d,q,clock);
     
     // Module arguments
     input wire  [33:0] d;
@@ -6115,10 +6715,10 @@ module incircle_core_logic$pipeline$predicates$apex_by_point$upper(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$apex_by_point$upper
+endmodule // incircle_core_logic$engine$pipeline$predicates$apex_by_point$upper
 
 
-module incircle_core_logic$pipeline$predicates$cross_0(clock,a_x,a_y,b_x,b_y,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_0(clock,a_x,a_y,b_x,b_y,product);
     
     // Module arguments
     input wire  clock;
@@ -6139,13 +6739,13 @@ module incircle_core_logic$pipeline$predicates$cross_0(clock,a_x,a_y,b_x,b_y,pro
     wire  [35:0] y_by_x$product;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$cross_0$x_by_y x_by_y(
+    incircle_core_logic$engine$pipeline$predicates$cross_0$x_by_y x_by_y(
         .clock(x_by_y$clock),
         .a(x_by_y$a),
         .b(x_by_y$b),
         .product(x_by_y$product)
     );
-    incircle_core_logic$pipeline$predicates$cross_0$y_by_x y_by_x(
+    incircle_core_logic$engine$pipeline$predicates$cross_0$y_by_x y_by_x(
         .clock(y_by_x$clock),
         .a(y_by_x$a),
         .b(y_by_x$b),
@@ -6163,10 +6763,10 @@ module incircle_core_logic$pipeline$predicates$cross_0(clock,a_x,a_y,b_x,b_y,pro
         product = x_by_y$product - y_by_x$product;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$cross_0
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_0
 
 
-module incircle_core_logic$pipeline$predicates$cross_0$x_by_y(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_0$x_by_y(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6213,10 +6813,10 @@ module incircle_core_logic$pipeline$predicates$cross_0$x_by_y(clock,a,b,product)
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$cross_0$x_by_y
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_0$x_by_y
 
 
-module incircle_core_logic$pipeline$predicates$cross_0$y_by_x(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_0$y_by_x(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6263,10 +6863,10 @@ module incircle_core_logic$pipeline$predicates$cross_0$y_by_x(clock,a,b,product)
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$cross_0$y_by_x
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_0$y_by_x
 
 
-module incircle_core_logic$pipeline$predicates$cross_1(clock,a_x,a_y,b_x,b_y,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_1(clock,a_x,a_y,b_x,b_y,product);
     
     // Module arguments
     input wire  clock;
@@ -6287,13 +6887,13 @@ module incircle_core_logic$pipeline$predicates$cross_1(clock,a_x,a_y,b_x,b_y,pro
     wire  [35:0] y_by_x$product;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$cross_1$x_by_y x_by_y(
+    incircle_core_logic$engine$pipeline$predicates$cross_1$x_by_y x_by_y(
         .clock(x_by_y$clock),
         .a(x_by_y$a),
         .b(x_by_y$b),
         .product(x_by_y$product)
     );
-    incircle_core_logic$pipeline$predicates$cross_1$y_by_x y_by_x(
+    incircle_core_logic$engine$pipeline$predicates$cross_1$y_by_x y_by_x(
         .clock(y_by_x$clock),
         .a(y_by_x$a),
         .b(y_by_x$b),
@@ -6311,10 +6911,10 @@ module incircle_core_logic$pipeline$predicates$cross_1(clock,a_x,a_y,b_x,b_y,pro
         product = x_by_y$product - y_by_x$product;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$cross_1
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_1
 
 
-module incircle_core_logic$pipeline$predicates$cross_1$x_by_y(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_1$x_by_y(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6361,10 +6961,10 @@ module incircle_core_logic$pipeline$predicates$cross_1$x_by_y(clock,a,b,product)
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$cross_1$x_by_y
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_1$x_by_y
 
 
-module incircle_core_logic$pipeline$predicates$cross_1$y_by_x(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_1$y_by_x(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6411,10 +7011,10 @@ module incircle_core_logic$pipeline$predicates$cross_1$y_by_x(clock,a,b,product)
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$cross_1$y_by_x
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_1$y_by_x
 
 
-module incircle_core_logic$pipeline$predicates$cross_2(clock,a_x,a_y,b_x,b_y,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_2(clock,a_x,a_y,b_x,b_y,product);
     
     // Module arguments
     input wire  clock;
@@ -6435,13 +7035,13 @@ module incircle_core_logic$pipeline$predicates$cross_2(clock,a_x,a_y,b_x,b_y,pro
     wire  [35:0] y_by_x$product;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$cross_2$x_by_y x_by_y(
+    incircle_core_logic$engine$pipeline$predicates$cross_2$x_by_y x_by_y(
         .clock(x_by_y$clock),
         .a(x_by_y$a),
         .b(x_by_y$b),
         .product(x_by_y$product)
     );
-    incircle_core_logic$pipeline$predicates$cross_2$y_by_x y_by_x(
+    incircle_core_logic$engine$pipeline$predicates$cross_2$y_by_x y_by_x(
         .clock(y_by_x$clock),
         .a(y_by_x$a),
         .b(y_by_x$b),
@@ -6459,10 +7059,10 @@ module incircle_core_logic$pipeline$predicates$cross_2(clock,a_x,a_y,b_x,b_y,pro
         product = x_by_y$product - y_by_x$product;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$cross_2
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_2
 
 
-module incircle_core_logic$pipeline$predicates$cross_2$x_by_y(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_2$x_by_y(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6509,10 +7109,10 @@ module incircle_core_logic$pipeline$predicates$cross_2$x_by_y(clock,a,b,product)
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$cross_2$x_by_y
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_2$x_by_y
 
 
-module incircle_core_logic$pipeline$predicates$cross_2$y_by_x(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_2$y_by_x(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6559,10 +7159,10 @@ module incircle_core_logic$pipeline$predicates$cross_2$y_by_x(clock,a,b,product)
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$cross_2$y_by_x
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_2$y_by_x
 
 
-module incircle_core_logic$pipeline$predicates$cross_apex(clock,a_x,a_y,b_x,b_y,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_apex(clock,a_x,a_y,b_x,b_y,product);
     
     // Module arguments
     input wire  clock;
@@ -6583,13 +7183,13 @@ module incircle_core_logic$pipeline$predicates$cross_apex(clock,a_x,a_y,b_x,b_y,
     wire  [35:0] y_by_x$product;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$cross_apex$x_by_y x_by_y(
+    incircle_core_logic$engine$pipeline$predicates$cross_apex$x_by_y x_by_y(
         .clock(x_by_y$clock),
         .a(x_by_y$a),
         .b(x_by_y$b),
         .product(x_by_y$product)
     );
-    incircle_core_logic$pipeline$predicates$cross_apex$y_by_x y_by_x(
+    incircle_core_logic$engine$pipeline$predicates$cross_apex$y_by_x y_by_x(
         .clock(y_by_x$clock),
         .a(y_by_x$a),
         .b(y_by_x$b),
@@ -6607,10 +7207,10 @@ module incircle_core_logic$pipeline$predicates$cross_apex(clock,a_x,a_y,b_x,b_y,
         product = x_by_y$product - y_by_x$product;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$cross_apex
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_apex
 
 
-module incircle_core_logic$pipeline$predicates$cross_apex$x_by_y(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_apex$x_by_y(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6657,10 +7257,10 @@ module incircle_core_logic$pipeline$predicates$cross_apex$x_by_y(clock,a,b,produ
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$cross_apex$x_by_y
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_apex$x_by_y
 
 
-module incircle_core_logic$pipeline$predicates$cross_apex$y_by_x(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$cross_apex$y_by_x(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6707,10 +7307,10 @@ module incircle_core_logic$pipeline$predicates$cross_apex$y_by_x(clock,a,b,produ
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$cross_apex$y_by_x
+endmodule // incircle_core_logic$engine$pipeline$predicates$cross_apex$y_by_x
 
 
-module incircle_core_logic$pipeline$predicates$dot_apex(clock,a_x,a_y,b_x,b_y,product);
+module incircle_core_logic$engine$pipeline$predicates$dot_apex(clock,a_x,a_y,b_x,b_y,product);
     
     // Module arguments
     input wire  clock;
@@ -6731,13 +7331,13 @@ module incircle_core_logic$pipeline$predicates$dot_apex(clock,a_x,a_y,b_x,b_y,pr
     wire  [35:0] y_by_y$product;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$dot_apex$x_by_x x_by_x(
+    incircle_core_logic$engine$pipeline$predicates$dot_apex$x_by_x x_by_x(
         .clock(x_by_x$clock),
         .a(x_by_x$a),
         .b(x_by_x$b),
         .product(x_by_x$product)
     );
-    incircle_core_logic$pipeline$predicates$dot_apex$y_by_y y_by_y(
+    incircle_core_logic$engine$pipeline$predicates$dot_apex$y_by_y y_by_y(
         .clock(y_by_y$clock),
         .a(y_by_y$a),
         .b(y_by_y$b),
@@ -6755,10 +7355,10 @@ module incircle_core_logic$pipeline$predicates$dot_apex(clock,a_x,a_y,b_x,b_y,pr
         product = x_by_x$product + y_by_y$product;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$dot_apex
+endmodule // incircle_core_logic$engine$pipeline$predicates$dot_apex
 
 
-module incircle_core_logic$pipeline$predicates$dot_apex$x_by_x(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$dot_apex$x_by_x(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6805,10 +7405,10 @@ module incircle_core_logic$pipeline$predicates$dot_apex$x_by_x(clock,a,b,product
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$dot_apex$x_by_x
+endmodule // incircle_core_logic$engine$pipeline$predicates$dot_apex$x_by_x
 
 
-module incircle_core_logic$pipeline$predicates$dot_apex$y_by_y(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$dot_apex$y_by_y(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6855,10 +7455,10 @@ module incircle_core_logic$pipeline$predicates$dot_apex$y_by_y(clock,a,b,product
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$dot_apex$y_by_y
+endmodule // incircle_core_logic$engine$pipeline$predicates$dot_apex$y_by_y
 
 
-module incircle_core_logic$pipeline$predicates$dot_point(clock,a_x,a_y,b_x,b_y,product);
+module incircle_core_logic$engine$pipeline$predicates$dot_point(clock,a_x,a_y,b_x,b_y,product);
     
     // Module arguments
     input wire  clock;
@@ -6879,13 +7479,13 @@ module incircle_core_logic$pipeline$predicates$dot_point(clock,a_x,a_y,b_x,b_y,p
     wire  [35:0] y_by_y$product;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$dot_point$x_by_x x_by_x(
+    incircle_core_logic$engine$pipeline$predicates$dot_point$x_by_x x_by_x(
         .clock(x_by_x$clock),
         .a(x_by_x$a),
         .b(x_by_x$b),
         .product(x_by_x$product)
     );
-    incircle_core_logic$pipeline$predicates$dot_point$y_by_y y_by_y(
+    incircle_core_logic$engine$pipeline$predicates$dot_point$y_by_y y_by_y(
         .clock(y_by_y$clock),
         .a(y_by_y$a),
         .b(y_by_y$b),
@@ -6903,10 +7503,10 @@ module incircle_core_logic$pipeline$predicates$dot_point(clock,a_x,a_y,b_x,b_y,p
         product = x_by_x$product + y_by_y$product;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$dot_point
+endmodule // incircle_core_logic$engine$pipeline$predicates$dot_point
 
 
-module incircle_core_logic$pipeline$predicates$dot_point$x_by_x(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$dot_point$x_by_x(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -6953,10 +7553,10 @@ module incircle_core_logic$pipeline$predicates$dot_point$x_by_x(clock,a,b,produc
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$dot_point$x_by_x
+endmodule // incircle_core_logic$engine$pipeline$predicates$dot_point$x_by_x
 
 
-module incircle_core_logic$pipeline$predicates$dot_point$y_by_y(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$dot_point$y_by_y(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -7003,10 +7603,10 @@ module incircle_core_logic$pipeline$predicates$dot_point$y_by_y(clock,a,b,produc
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$dot_point$y_by_y
+endmodule // incircle_core_logic$engine$pipeline$predicates$dot_point$y_by_y
 
 
-module incircle_core_logic$pipeline$predicates$edges(clock,e0,e1,e2,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1);
+module incircle_core_logic$engine$pipeline$predicates$edges(clock,e0,e1,e2,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1);
     
     // Module arguments
     input wire  clock;
@@ -7097,107 +7697,107 @@ module incircle_core_logic$pipeline$predicates$edges(clock,e0,e1,e2,e0_negative,
     reg  [31:0] low_2;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$edges$value_0 value_0(
+    incircle_core_logic$engine$pipeline$predicates$edges$value_0 value_0(
         .d(value_0$d),
         .q(value_0$q),
         .clock(value_0$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$value_1 value_1(
+    incircle_core_logic$engine$pipeline$predicates$edges$value_1 value_1(
         .d(value_1$d),
         .q(value_1$q),
         .clock(value_1$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$value_2 value_2(
+    incircle_core_logic$engine$pipeline$predicates$edges$value_2 value_2(
         .d(value_2$d),
         .q(value_2$q),
         .clock(value_2$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$negative_0 negative_0(
+    incircle_core_logic$engine$pipeline$predicates$edges$negative_0 negative_0(
         .d(negative_0$d),
         .q(negative_0$q),
         .clock(negative_0$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$negative_1 negative_1(
+    incircle_core_logic$engine$pipeline$predicates$edges$negative_1 negative_1(
         .d(negative_1$d),
         .q(negative_1$q),
         .clock(negative_1$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$negative_2 negative_2(
+    incircle_core_logic$engine$pipeline$predicates$edges$negative_2 negative_2(
         .d(negative_2$d),
         .q(negative_2$q),
         .clock(negative_2$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$zero_0 zero_0(
+    incircle_core_logic$engine$pipeline$predicates$edges$zero_0 zero_0(
         .d(zero_0$d),
         .q(zero_0$q),
         .clock(zero_0$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$zero_1 zero_1(
+    incircle_core_logic$engine$pipeline$predicates$edges$zero_1 zero_1(
         .d(zero_1$d),
         .q(zero_1$q),
         .clock(zero_1$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$zero_2 zero_2(
+    incircle_core_logic$engine$pipeline$predicates$edges$zero_2 zero_2(
         .d(zero_2$d),
         .q(zero_2$q),
         .clock(zero_2$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$low_1_below_0 low_1_below_0(
+    incircle_core_logic$engine$pipeline$predicates$edges$low_1_below_0 low_1_below_0(
         .d(low_1_below_0$d),
         .q(low_1_below_0$q),
         .clock(low_1_below_0$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$low_2_below_0 low_2_below_0(
+    incircle_core_logic$engine$pipeline$predicates$edges$low_2_below_0 low_2_below_0(
         .d(low_2_below_0$d),
         .q(low_2_below_0$q),
         .clock(low_2_below_0$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$low_2_below_1 low_2_below_1(
+    incircle_core_logic$engine$pipeline$predicates$edges$low_2_below_1 low_2_below_1(
         .d(low_2_below_1$d),
         .q(low_2_below_1$q),
         .clock(low_2_below_1$clock)
     );
-    incircle_core_logic$pipeline$predicates$edges$delay_negative_0 delay_negative_0(
+    incircle_core_logic$engine$pipeline$predicates$edges$delay_negative_0 delay_negative_0(
         .clock(delay_negative_0$clock),
         .flag_in(delay_negative_0$flag_in),
         .flag_out(delay_negative_0$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$edges$delay_negative_1 delay_negative_1(
+    incircle_core_logic$engine$pipeline$predicates$edges$delay_negative_1 delay_negative_1(
         .clock(delay_negative_1$clock),
         .flag_in(delay_negative_1$flag_in),
         .flag_out(delay_negative_1$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$edges$delay_negative_2 delay_negative_2(
+    incircle_core_logic$engine$pipeline$predicates$edges$delay_negative_2 delay_negative_2(
         .clock(delay_negative_2$clock),
         .flag_in(delay_negative_2$flag_in),
         .flag_out(delay_negative_2$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$edges$delay_zero_0 delay_zero_0(
+    incircle_core_logic$engine$pipeline$predicates$edges$delay_zero_0 delay_zero_0(
         .clock(delay_zero_0$clock),
         .flag_in(delay_zero_0$flag_in),
         .flag_out(delay_zero_0$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$edges$delay_zero_1 delay_zero_1(
+    incircle_core_logic$engine$pipeline$predicates$edges$delay_zero_1 delay_zero_1(
         .clock(delay_zero_1$clock),
         .flag_in(delay_zero_1$flag_in),
         .flag_out(delay_zero_1$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$edges$delay_zero_2 delay_zero_2(
+    incircle_core_logic$engine$pipeline$predicates$edges$delay_zero_2 delay_zero_2(
         .clock(delay_zero_2$clock),
         .flag_in(delay_zero_2$flag_in),
         .flag_out(delay_zero_2$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$edges$delay_1_below_0 delay_1_below_0(
+    incircle_core_logic$engine$pipeline$predicates$edges$delay_1_below_0 delay_1_below_0(
         .clock(delay_1_below_0$clock),
         .flag_in(delay_1_below_0$flag_in),
         .flag_out(delay_1_below_0$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$edges$delay_2_below_0 delay_2_below_0(
+    incircle_core_logic$engine$pipeline$predicates$edges$delay_2_below_0 delay_2_below_0(
         .clock(delay_2_below_0$clock),
         .flag_in(delay_2_below_0$flag_in),
         .flag_out(delay_2_below_0$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$edges$delay_2_below_1 delay_2_below_1(
+    incircle_core_logic$engine$pipeline$predicates$edges$delay_2_below_1 delay_2_below_1(
         .clock(delay_2_below_1$clock),
         .flag_in(delay_2_below_1$flag_in),
         .flag_out(delay_2_below_1$flag_out)
@@ -7276,10 +7876,10 @@ module incircle_core_logic$pipeline$predicates$edges(clock,e0,e1,e2,e0_negative,
         e2_below_e1 = delay_2_below_1$flag_out;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$edges
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges
 
 
-module incircle_core_logic$pipeline$predicates$edges$delay_1_below_0(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$edges$delay_1_below_0(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7289,10 +7889,10 @@ module incircle_core_logic$pipeline$predicates$edges$delay_1_below_0(clock,flag_
     // Update code (custom)
     reg [2:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$edges$delay_1_below_0
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$delay_1_below_0
 
 
-module incircle_core_logic$pipeline$predicates$edges$delay_2_below_0(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$edges$delay_2_below_0(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7302,10 +7902,10 @@ module incircle_core_logic$pipeline$predicates$edges$delay_2_below_0(clock,flag_
     // Update code (custom)
     reg [2:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$edges$delay_2_below_0
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$delay_2_below_0
 
 
-module incircle_core_logic$pipeline$predicates$edges$delay_2_below_1(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$edges$delay_2_below_1(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7315,10 +7915,10 @@ module incircle_core_logic$pipeline$predicates$edges$delay_2_below_1(clock,flag_
     // Update code (custom)
     reg [2:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$edges$delay_2_below_1
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$delay_2_below_1
 
 
-module incircle_core_logic$pipeline$predicates$edges$delay_negative_0(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$edges$delay_negative_0(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7328,10 +7928,10 @@ module incircle_core_logic$pipeline$predicates$edges$delay_negative_0(clock,flag
     // Update code (custom)
     reg [2:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$edges$delay_negative_0
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$delay_negative_0
 
 
-module incircle_core_logic$pipeline$predicates$edges$delay_negative_1(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$edges$delay_negative_1(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7341,10 +7941,10 @@ module incircle_core_logic$pipeline$predicates$edges$delay_negative_1(clock,flag
     // Update code (custom)
     reg [2:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$edges$delay_negative_1
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$delay_negative_1
 
 
-module incircle_core_logic$pipeline$predicates$edges$delay_negative_2(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$edges$delay_negative_2(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7354,10 +7954,10 @@ module incircle_core_logic$pipeline$predicates$edges$delay_negative_2(clock,flag
     // Update code (custom)
     reg [2:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$edges$delay_negative_2
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$delay_negative_2
 
 
-module incircle_core_logic$pipeline$predicates$edges$delay_zero_0(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$edges$delay_zero_0(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7367,10 +7967,10 @@ module incircle_core_logic$pipeline$predicates$edges$delay_zero_0(clock,flag_in,
     // Update code (custom)
     reg [2:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$edges$delay_zero_0
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$delay_zero_0
 
 
-module incircle_core_logic$pipeline$predicates$edges$delay_zero_1(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$edges$delay_zero_1(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7380,10 +7980,10 @@ module incircle_core_logic$pipeline$predicates$edges$delay_zero_1(clock,flag_in,
     // Update code (custom)
     reg [2:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$edges$delay_zero_1
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$delay_zero_1
 
 
-module incircle_core_logic$pipeline$predicates$edges$delay_zero_2(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$edges$delay_zero_2(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7393,10 +7993,10 @@ module incircle_core_logic$pipeline$predicates$edges$delay_zero_2(clock,flag_in,
     // Update code (custom)
     reg [2:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$edges$delay_zero_2
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$delay_zero_2
 
 
-module incircle_core_logic$pipeline$predicates$edges$low_1_below_0(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$low_1_below_0(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -7412,10 +8012,10 @@ module incircle_core_logic$pipeline$predicates$edges$low_1_below_0(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$low_1_below_0
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$low_1_below_0
 
 
-module incircle_core_logic$pipeline$predicates$edges$low_2_below_0(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$low_2_below_0(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -7431,10 +8031,10 @@ module incircle_core_logic$pipeline$predicates$edges$low_2_below_0(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$low_2_below_0
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$low_2_below_0
 
 
-module incircle_core_logic$pipeline$predicates$edges$low_2_below_1(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$low_2_below_1(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -7450,10 +8050,10 @@ module incircle_core_logic$pipeline$predicates$edges$low_2_below_1(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$low_2_below_1
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$low_2_below_1
 
 
-module incircle_core_logic$pipeline$predicates$edges$negative_0(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$negative_0(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -7469,10 +8069,10 @@ module incircle_core_logic$pipeline$predicates$edges$negative_0(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$negative_0
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$negative_0
 
 
-module incircle_core_logic$pipeline$predicates$edges$negative_1(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$negative_1(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -7488,10 +8088,10 @@ module incircle_core_logic$pipeline$predicates$edges$negative_1(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$negative_1
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$negative_1
 
 
-module incircle_core_logic$pipeline$predicates$edges$negative_2(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$negative_2(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -7507,10 +8107,10 @@ module incircle_core_logic$pipeline$predicates$edges$negative_2(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$negative_2
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$negative_2
 
 
-module incircle_core_logic$pipeline$predicates$edges$value_0(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$value_0(d,q,clock);
     
     // Module arguments
     input wire  [32:0] d;
@@ -7526,10 +8126,10 @@ module incircle_core_logic$pipeline$predicates$edges$value_0(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$value_0
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$value_0
 
 
-module incircle_core_logic$pipeline$predicates$edges$value_1(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$value_1(d,q,clock);
     
     // Module arguments
     input wire  [32:0] d;
@@ -7545,10 +8145,10 @@ module incircle_core_logic$pipeline$predicates$edges$value_1(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$value_1
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$value_1
 
 
-module incircle_core_logic$pipeline$predicates$edges$value_2(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$value_2(d,q,clock);
     
     // Module arguments
     input wire  [32:0] d;
@@ -7564,10 +8164,10 @@ module incircle_core_logic$pipeline$predicates$edges$value_2(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$value_2
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$value_2
 
 
-module incircle_core_logic$pipeline$predicates$edges$zero_0(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$zero_0(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -7583,10 +8183,10 @@ module incircle_core_logic$pipeline$predicates$edges$zero_0(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$zero_0
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$zero_0
 
 
-module incircle_core_logic$pipeline$predicates$edges$zero_1(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$zero_1(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -7602,10 +8202,10 @@ module incircle_core_logic$pipeline$predicates$edges$zero_1(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$zero_1
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$zero_1
 
 
-module incircle_core_logic$pipeline$predicates$edges$zero_2(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$edges$zero_2(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -7621,10 +8221,10 @@ module incircle_core_logic$pipeline$predicates$edges$zero_2(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$edges$zero_2
+endmodule // incircle_core_logic$engine$pipeline$predicates$edges$zero_2
 
 
-module incircle_core_logic$pipeline$predicates$order(clock,r0,r1,r2,p,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2);
+module incircle_core_logic$engine$pipeline$predicates$order(clock,r0,r1,r2,p,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2);
     
     // Module arguments
     input wire  clock;
@@ -7676,58 +8276,58 @@ module incircle_core_logic$pipeline$predicates$order(clock,r0,r1,r2,p,p_before_r
     wire  delay_r0_before_r2$flag_out;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$order$key_r0 key_r0(
+    incircle_core_logic$engine$pipeline$predicates$order$key_r0 key_r0(
         .point(key_r0$point),
         .key(key_r0$key)
     );
-    incircle_core_logic$pipeline$predicates$order$key_r1 key_r1(
+    incircle_core_logic$engine$pipeline$predicates$order$key_r1 key_r1(
         .point(key_r1$point),
         .key(key_r1$key)
     );
-    incircle_core_logic$pipeline$predicates$order$key_r2 key_r2(
+    incircle_core_logic$engine$pipeline$predicates$order$key_r2 key_r2(
         .point(key_r2$point),
         .key(key_r2$key)
     );
-    incircle_core_logic$pipeline$predicates$order$key_p key_p(
+    incircle_core_logic$engine$pipeline$predicates$order$key_p key_p(
         .point(key_p$point),
         .key(key_p$key)
     );
-    incircle_core_logic$pipeline$predicates$order$delay_before_r0 delay_before_r0(
+    incircle_core_logic$engine$pipeline$predicates$order$delay_before_r0 delay_before_r0(
         .clock(delay_before_r0$clock),
         .flag_in(delay_before_r0$flag_in),
         .flag_out(delay_before_r0$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$order$delay_before_r1 delay_before_r1(
+    incircle_core_logic$engine$pipeline$predicates$order$delay_before_r1 delay_before_r1(
         .clock(delay_before_r1$clock),
         .flag_in(delay_before_r1$flag_in),
         .flag_out(delay_before_r1$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$order$delay_before_r2 delay_before_r2(
+    incircle_core_logic$engine$pipeline$predicates$order$delay_before_r2 delay_before_r2(
         .clock(delay_before_r2$clock),
         .flag_in(delay_before_r2$flag_in),
         .flag_out(delay_before_r2$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$order$delay_equals_r0 delay_equals_r0(
+    incircle_core_logic$engine$pipeline$predicates$order$delay_equals_r0 delay_equals_r0(
         .clock(delay_equals_r0$clock),
         .flag_in(delay_equals_r0$flag_in),
         .flag_out(delay_equals_r0$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$order$delay_equals_r1 delay_equals_r1(
+    incircle_core_logic$engine$pipeline$predicates$order$delay_equals_r1 delay_equals_r1(
         .clock(delay_equals_r1$clock),
         .flag_in(delay_equals_r1$flag_in),
         .flag_out(delay_equals_r1$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$order$delay_equals_r2 delay_equals_r2(
+    incircle_core_logic$engine$pipeline$predicates$order$delay_equals_r2 delay_equals_r2(
         .clock(delay_equals_r2$clock),
         .flag_in(delay_equals_r2$flag_in),
         .flag_out(delay_equals_r2$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$order$delay_r0_before_r1 delay_r0_before_r1(
+    incircle_core_logic$engine$pipeline$predicates$order$delay_r0_before_r1 delay_r0_before_r1(
         .clock(delay_r0_before_r1$clock),
         .flag_in(delay_r0_before_r1$flag_in),
         .flag_out(delay_r0_before_r1$flag_out)
     );
-    incircle_core_logic$pipeline$predicates$order$delay_r0_before_r2 delay_r0_before_r2(
+    incircle_core_logic$engine$pipeline$predicates$order$delay_r0_before_r2 delay_r0_before_r2(
         .clock(delay_r0_before_r2$clock),
         .flag_in(delay_r0_before_r2$flag_in),
         .flag_out(delay_r0_before_r2$flag_out)
@@ -7765,10 +8365,10 @@ module incircle_core_logic$pipeline$predicates$order(clock,r0,r1,r2,p,p_before_r
         r0_before_r2 = delay_r0_before_r2$flag_out;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$order
+endmodule // incircle_core_logic$engine$pipeline$predicates$order
 
 
-module incircle_core_logic$pipeline$predicates$order$delay_before_r0(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$order$delay_before_r0(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7778,10 +8378,10 @@ module incircle_core_logic$pipeline$predicates$order$delay_before_r0(clock,flag_
     // Update code (custom)
     reg [7:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$order$delay_before_r0
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$delay_before_r0
 
 
-module incircle_core_logic$pipeline$predicates$order$delay_before_r1(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$order$delay_before_r1(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7791,10 +8391,10 @@ module incircle_core_logic$pipeline$predicates$order$delay_before_r1(clock,flag_
     // Update code (custom)
     reg [7:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$order$delay_before_r1
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$delay_before_r1
 
 
-module incircle_core_logic$pipeline$predicates$order$delay_before_r2(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$order$delay_before_r2(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7804,10 +8404,10 @@ module incircle_core_logic$pipeline$predicates$order$delay_before_r2(clock,flag_
     // Update code (custom)
     reg [7:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$order$delay_before_r2
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$delay_before_r2
 
 
-module incircle_core_logic$pipeline$predicates$order$delay_equals_r0(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$order$delay_equals_r0(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7817,10 +8417,10 @@ module incircle_core_logic$pipeline$predicates$order$delay_equals_r0(clock,flag_
     // Update code (custom)
     reg [7:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$order$delay_equals_r0
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$delay_equals_r0
 
 
-module incircle_core_logic$pipeline$predicates$order$delay_equals_r1(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$order$delay_equals_r1(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7830,10 +8430,10 @@ module incircle_core_logic$pipeline$predicates$order$delay_equals_r1(clock,flag_
     // Update code (custom)
     reg [7:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$order$delay_equals_r1
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$delay_equals_r1
 
 
-module incircle_core_logic$pipeline$predicates$order$delay_equals_r2(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$order$delay_equals_r2(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7843,10 +8443,10 @@ module incircle_core_logic$pipeline$predicates$order$delay_equals_r2(clock,flag_
     // Update code (custom)
     reg [7:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$order$delay_equals_r2
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$delay_equals_r2
 
 
-module incircle_core_logic$pipeline$predicates$order$delay_r0_before_r1(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$order$delay_r0_before_r1(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7856,10 +8456,10 @@ module incircle_core_logic$pipeline$predicates$order$delay_r0_before_r1(clock,fl
     // Update code (custom)
     reg [7:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$order$delay_r0_before_r1
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$delay_r0_before_r1
 
 
-module incircle_core_logic$pipeline$predicates$order$delay_r0_before_r2(clock,flag_in,flag_out);
+module incircle_core_logic$engine$pipeline$predicates$order$delay_r0_before_r2(clock,flag_in,flag_out);
     
     // Module arguments
     input wire  clock;
@@ -7869,10 +8469,10 @@ module incircle_core_logic$pipeline$predicates$order$delay_r0_before_r2(clock,fl
     // Update code (custom)
     reg [7:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
-endmodule // incircle_core_logic$pipeline$predicates$order$delay_r0_before_r2
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$delay_r0_before_r2
 
 
-module incircle_core_logic$pipeline$predicates$order$key_p(point,key);
+module incircle_core_logic$engine$pipeline$predicates$order$key_p(point,key);
     
     // Module arguments
     input wire  [31:0] point;
@@ -7895,10 +8495,10 @@ module incircle_core_logic$pipeline$predicates$order$key_p(point,key);
         key = x_shifted | y_wide;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$order$key_p
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$key_p
 
 
-module incircle_core_logic$pipeline$predicates$order$key_r0(point,key);
+module incircle_core_logic$engine$pipeline$predicates$order$key_r0(point,key);
     
     // Module arguments
     input wire  [31:0] point;
@@ -7921,10 +8521,10 @@ module incircle_core_logic$pipeline$predicates$order$key_r0(point,key);
         key = x_shifted | y_wide;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$order$key_r0
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$key_r0
 
 
-module incircle_core_logic$pipeline$predicates$order$key_r1(point,key);
+module incircle_core_logic$engine$pipeline$predicates$order$key_r1(point,key);
     
     // Module arguments
     input wire  [31:0] point;
@@ -7947,10 +8547,10 @@ module incircle_core_logic$pipeline$predicates$order$key_r1(point,key);
         key = x_shifted | y_wide;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$order$key_r1
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$key_r1
 
 
-module incircle_core_logic$pipeline$predicates$order$key_r2(point,key);
+module incircle_core_logic$engine$pipeline$predicates$order$key_r2(point,key);
     
     // Module arguments
     input wire  [31:0] point;
@@ -7973,10 +8573,10 @@ module incircle_core_logic$pipeline$predicates$order$key_r2(point,key);
         key = x_shifted | y_wide;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$order$key_r2
+endmodule // incircle_core_logic$engine$pipeline$predicates$order$key_r2
 
 
-module incircle_core_logic$pipeline$predicates$p_to_r0(from,to,x,y);
+module incircle_core_logic$engine$pipeline$predicates$p_to_r0(from,to,x,y);
     
     // Module arguments
     input wire  [31:0] from;
@@ -8008,10 +8608,10 @@ module incircle_core_logic$pipeline$predicates$p_to_r0(from,to,x,y);
         y = wide_to_y - wide_from_y;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$p_to_r0
+endmodule // incircle_core_logic$engine$pipeline$predicates$p_to_r0
 
 
-module incircle_core_logic$pipeline$predicates$p_to_r1(from,to,x,y);
+module incircle_core_logic$engine$pipeline$predicates$p_to_r1(from,to,x,y);
     
     // Module arguments
     input wire  [31:0] from;
@@ -8043,10 +8643,10 @@ module incircle_core_logic$pipeline$predicates$p_to_r1(from,to,x,y);
         y = wide_to_y - wide_from_y;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$p_to_r1
+endmodule // incircle_core_logic$engine$pipeline$predicates$p_to_r1
 
 
-module incircle_core_logic$pipeline$predicates$p_to_r2(from,to,x,y);
+module incircle_core_logic$engine$pipeline$predicates$p_to_r2(from,to,x,y);
     
     // Module arguments
     input wire  [31:0] from;
@@ -8078,10 +8678,10 @@ module incircle_core_logic$pipeline$predicates$p_to_r2(from,to,x,y);
         y = wide_to_y - wide_from_y;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$p_to_r2
+endmodule // incircle_core_logic$engine$pipeline$predicates$p_to_r2
 
 
-module incircle_core_logic$pipeline$predicates$point_by_apex(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$point_by_apex(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -8145,51 +8745,51 @@ module incircle_core_logic$pipeline$predicates$point_by_apex(clock,a,b,product);
     reg  [67:0] product_low_wide;
     
     // Sub module instances
-    incircle_core_logic$pipeline$predicates$point_by_apex$high_by_high high_by_high(
+    incircle_core_logic$engine$pipeline$predicates$point_by_apex$high_by_high high_by_high(
         .clock(high_by_high$clock),
         .a(high_by_high$a),
         .b(high_by_high$b),
         .product(high_by_high$product)
     );
-    incircle_core_logic$pipeline$predicates$point_by_apex$high_by_low high_by_low(
+    incircle_core_logic$engine$pipeline$predicates$point_by_apex$high_by_low high_by_low(
         .clock(high_by_low$clock),
         .a(high_by_low$a),
         .b(high_by_low$b),
         .product(high_by_low$product)
     );
-    incircle_core_logic$pipeline$predicates$point_by_apex$low_by_high low_by_high(
+    incircle_core_logic$engine$pipeline$predicates$point_by_apex$low_by_high low_by_high(
         .clock(low_by_high$clock),
         .a(low_by_high$a),
         .b(low_by_high$b),
         .product(low_by_high$product)
     );
-    incircle_core_logic$pipeline$predicates$point_by_apex$low_by_low low_by_low(
+    incircle_core_logic$engine$pipeline$predicates$point_by_apex$low_by_low low_by_low(
         .clock(low_by_low$clock),
         .a(low_by_low$a),
         .b(low_by_low$b),
         .product(low_by_low$product)
     );
-    incircle_core_logic$pipeline$predicates$point_by_apex$upper upper(
+    incircle_core_logic$engine$pipeline$predicates$point_by_apex$upper upper(
         .d(upper$d),
         .q(upper$q),
         .clock(upper$clock)
     );
-    incircle_core_logic$pipeline$predicates$point_by_apex$middle middle(
+    incircle_core_logic$engine$pipeline$predicates$point_by_apex$middle middle(
         .d(middle$d),
         .q(middle$q),
         .clock(middle$clock)
     );
-    incircle_core_logic$pipeline$predicates$point_by_apex$lower lower(
+    incircle_core_logic$engine$pipeline$predicates$point_by_apex$lower lower(
         .d(lower$d),
         .q(lower$q),
         .clock(lower$clock)
     );
-    incircle_core_logic$pipeline$predicates$point_by_apex$product_high product_high(
+    incircle_core_logic$engine$pipeline$predicates$point_by_apex$product_high product_high(
         .d(product_high$d),
         .q(product_high$q),
         .clock(product_high$clock)
     );
-    incircle_core_logic$pipeline$predicates$point_by_apex$product_low product_low(
+    incircle_core_logic$engine$pipeline$predicates$point_by_apex$product_low product_low(
         .d(product_low$d),
         .q(product_low$q),
         .clock(product_low$clock)
@@ -8242,10 +8842,10 @@ module incircle_core_logic$pipeline$predicates$point_by_apex(clock,a,b,product);
         product = product_high_shifted | product_low_wide;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$point_by_apex
+endmodule // incircle_core_logic$engine$pipeline$predicates$point_by_apex
 
 
-module incircle_core_logic$pipeline$predicates$point_by_apex$high_by_high(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$point_by_apex$high_by_high(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -8292,10 +8892,10 @@ module incircle_core_logic$pipeline$predicates$point_by_apex$high_by_high(clock,
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$point_by_apex$high_by_high
+endmodule // incircle_core_logic$engine$pipeline$predicates$point_by_apex$high_by_high
 
 
-module incircle_core_logic$pipeline$predicates$point_by_apex$high_by_low(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$point_by_apex$high_by_low(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -8342,10 +8942,10 @@ module incircle_core_logic$pipeline$predicates$point_by_apex$high_by_low(clock,a
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$point_by_apex$high_by_low
+endmodule // incircle_core_logic$engine$pipeline$predicates$point_by_apex$high_by_low
 
 
-module incircle_core_logic$pipeline$predicates$point_by_apex$low_by_high(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$point_by_apex$low_by_high(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -8392,10 +8992,10 @@ module incircle_core_logic$pipeline$predicates$point_by_apex$low_by_high(clock,a
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$point_by_apex$low_by_high
+endmodule // incircle_core_logic$engine$pipeline$predicates$point_by_apex$low_by_high
 
 
-module incircle_core_logic$pipeline$predicates$point_by_apex$low_by_low(clock,a,b,product);
+module incircle_core_logic$engine$pipeline$predicates$point_by_apex$low_by_low(clock,a,b,product);
     
     // Module arguments
     input wire  clock;
@@ -8442,10 +9042,10 @@ module incircle_core_logic$pipeline$predicates$point_by_apex$low_by_low(clock,a,
         product <= pipeline;
     end
     `endif
-endmodule // incircle_core_logic$pipeline$predicates$point_by_apex$low_by_low
+endmodule // incircle_core_logic$engine$pipeline$predicates$point_by_apex$low_by_low
 
 
-module incircle_core_logic$pipeline$predicates$point_by_apex$lower(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$point_by_apex$lower(d,q,clock);
     
     // Module arguments
     input wire  [33:0] d;
@@ -8461,10 +9061,10 @@ module incircle_core_logic$pipeline$predicates$point_by_apex$lower(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$point_by_apex$lower
+endmodule // incircle_core_logic$engine$pipeline$predicates$point_by_apex$lower
 
 
-module incircle_core_logic$pipeline$predicates$point_by_apex$middle(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$point_by_apex$middle(d,q,clock);
     
     // Module arguments
     input wire  [35:0] d;
@@ -8480,10 +9080,10 @@ module incircle_core_logic$pipeline$predicates$point_by_apex$middle(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$point_by_apex$middle
+endmodule // incircle_core_logic$engine$pipeline$predicates$point_by_apex$middle
 
 
-module incircle_core_logic$pipeline$predicates$point_by_apex$product_high(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$point_by_apex$product_high(d,q,clock);
     
     // Module arguments
     input wire  [50:0] d;
@@ -8499,10 +9099,10 @@ module incircle_core_logic$pipeline$predicates$point_by_apex$product_high(d,q,cl
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$point_by_apex$product_high
+endmodule // incircle_core_logic$engine$pipeline$predicates$point_by_apex$product_high
 
 
-module incircle_core_logic$pipeline$predicates$point_by_apex$product_low(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$point_by_apex$product_low(d,q,clock);
     
     // Module arguments
     input wire  [16:0] d;
@@ -8518,10 +9118,10 @@ module incircle_core_logic$pipeline$predicates$point_by_apex$product_low(d,q,clo
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$point_by_apex$product_low
+endmodule // incircle_core_logic$engine$pipeline$predicates$point_by_apex$product_low
 
 
-module incircle_core_logic$pipeline$predicates$point_by_apex$upper(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$point_by_apex$upper(d,q,clock);
     
     // Module arguments
     input wire  [33:0] d;
@@ -8537,10 +9137,10 @@ module incircle_core_logic$pipeline$predicates$point_by_apex$upper(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$point_by_apex$upper
+endmodule // incircle_core_logic$engine$pipeline$predicates$point_by_apex$upper
 
 
-module incircle_core_logic$pipeline$predicates$positive(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$positive(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -8556,10 +9156,10 @@ module incircle_core_logic$pipeline$predicates$positive(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$positive
+endmodule // incircle_core_logic$engine$pipeline$predicates$positive
 
 
-module incircle_core_logic$pipeline$predicates$r0_to_r1(from,to,x,y);
+module incircle_core_logic$engine$pipeline$predicates$r0_to_r1(from,to,x,y);
     
     // Module arguments
     input wire  [31:0] from;
@@ -8591,10 +9191,10 @@ module incircle_core_logic$pipeline$predicates$r0_to_r1(from,to,x,y);
         y = wide_to_y - wide_from_y;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$r0_to_r1
+endmodule // incircle_core_logic$engine$pipeline$predicates$r0_to_r1
 
 
-module incircle_core_logic$pipeline$predicates$r0_to_r2(from,to,x,y);
+module incircle_core_logic$engine$pipeline$predicates$r0_to_r2(from,to,x,y);
     
     // Module arguments
     input wire  [31:0] from;
@@ -8626,10 +9226,10 @@ module incircle_core_logic$pipeline$predicates$r0_to_r2(from,to,x,y);
         y = wide_to_y - wide_from_y;
     end
     
-endmodule // incircle_core_logic$pipeline$predicates$r0_to_r2
+endmodule // incircle_core_logic$engine$pipeline$predicates$r0_to_r2
 
 
-module incircle_core_logic$pipeline$predicates$zero(d,q,clock);
+module incircle_core_logic$engine$pipeline$predicates$zero(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -8645,10 +9245,10 @@ module incircle_core_logic$pipeline$predicates$zero(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$predicates$zero
+endmodule // incircle_core_logic$engine$pipeline$predicates$zero
 
 
-module incircle_core_logic$pipeline$read_valid1(d,q,clock);
+module incircle_core_logic$engine$pipeline$read_valid1(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -8664,10 +9264,10 @@ module incircle_core_logic$pipeline$read_valid1(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$read_valid1
+endmodule // incircle_core_logic$engine$pipeline$read_valid1
 
 
-module incircle_core_logic$pipeline$read_valid2(d,q,clock);
+module incircle_core_logic$engine$pipeline$read_valid2(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -8683,10 +9283,10 @@ module incircle_core_logic$pipeline$read_valid2(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$read_valid2
+endmodule // incircle_core_logic$engine$pipeline$read_valid2
 
 
-module incircle_core_logic$pipeline$reader(clock,infinite,token,v0,v1,v2,n0,n1,n2,was_set,position0,position1,position2,turned,token_at_record,r0,r1,r2);
+module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,n0,n1,n2,was_set,position0,position1,position2,turned,token_at_record,r0,r1,r2);
     
     // Module arguments
     input wire  clock;
@@ -8737,37 +9337,37 @@ module incircle_core_logic$pipeline$reader(clock,infinite,token,v0,v1,v2,n0,n1,n
     reg  [1:0] third_slot;
     
     // Sub module instances
-    incircle_core_logic$pipeline$reader$token1 token1(
+    incircle_core_logic$engine$pipeline$reader$token1 token1(
         .d(token1$d),
         .q(token1$q),
         .clock(token1$clock)
     );
-    incircle_core_logic$pipeline$reader$token2 token2(
+    incircle_core_logic$engine$pipeline$reader$token2 token2(
         .d(token2$d),
         .q(token2$q),
         .clock(token2$clock)
     );
-    incircle_core_logic$pipeline$reader$found found(
+    incircle_core_logic$engine$pipeline$reader$found found(
         .d(found$d),
         .q(found$q),
         .clock(found$clock)
     );
-    incircle_core_logic$pipeline$reader$rotated rotated(
+    incircle_core_logic$engine$pipeline$reader$rotated rotated(
         .d(rotated$d),
         .q(rotated$q),
         .clock(rotated$clock)
     );
-    incircle_core_logic$pipeline$reader$corner0 corner0(
+    incircle_core_logic$engine$pipeline$reader$corner0 corner0(
         .d(corner0$d),
         .q(corner0$q),
         .clock(corner0$clock)
     );
-    incircle_core_logic$pipeline$reader$corner1 corner1(
+    incircle_core_logic$engine$pipeline$reader$corner1 corner1(
         .d(corner1$d),
         .q(corner1$q),
         .clock(corner1$clock)
     );
-    incircle_core_logic$pipeline$reader$corner2 corner2(
+    incircle_core_logic$engine$pipeline$reader$corner2 corner2(
         .d(corner2$d),
         .q(corner2$q),
         .clock(corner2$clock)
@@ -8854,10 +9454,10 @@ module incircle_core_logic$pipeline$reader(clock,infinite,token,v0,v1,v2,n0,n1,n
         r2 = corner2$q;
     end
     
-endmodule // incircle_core_logic$pipeline$reader
+endmodule // incircle_core_logic$engine$pipeline$reader
 
 
-module incircle_core_logic$pipeline$reader$corner0(d,q,clock);
+module incircle_core_logic$engine$pipeline$reader$corner0(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -8873,10 +9473,10 @@ module incircle_core_logic$pipeline$reader$corner0(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$reader$corner0
+endmodule // incircle_core_logic$engine$pipeline$reader$corner0
 
 
-module incircle_core_logic$pipeline$reader$corner1(d,q,clock);
+module incircle_core_logic$engine$pipeline$reader$corner1(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -8892,10 +9492,10 @@ module incircle_core_logic$pipeline$reader$corner1(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$reader$corner1
+endmodule // incircle_core_logic$engine$pipeline$reader$corner1
 
 
-module incircle_core_logic$pipeline$reader$corner2(d,q,clock);
+module incircle_core_logic$engine$pipeline$reader$corner2(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -8911,10 +9511,10 @@ module incircle_core_logic$pipeline$reader$corner2(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$reader$corner2
+endmodule // incircle_core_logic$engine$pipeline$reader$corner2
 
 
-module incircle_core_logic$pipeline$reader$found(d,q,clock);
+module incircle_core_logic$engine$pipeline$reader$found(d,q,clock);
     
     // Module arguments
     input wire  [95:0] d;
@@ -8930,10 +9530,10 @@ module incircle_core_logic$pipeline$reader$found(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$reader$found
+endmodule // incircle_core_logic$engine$pipeline$reader$found
 
 
-module incircle_core_logic$pipeline$reader$rotated(d,q,clock);
+module incircle_core_logic$engine$pipeline$reader$rotated(d,q,clock);
     
     // Module arguments
     input wire  [95:0] d;
@@ -8949,10 +9549,10 @@ module incircle_core_logic$pipeline$reader$rotated(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$reader$rotated
+endmodule // incircle_core_logic$engine$pipeline$reader$rotated
 
 
-module incircle_core_logic$pipeline$reader$token1(d,q,clock);
+module incircle_core_logic$engine$pipeline$reader$token1(d,q,clock);
     
     // Module arguments
     input wire  [49:0] d;
@@ -8968,10 +9568,10 @@ module incircle_core_logic$pipeline$reader$token1(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$reader$token1
+endmodule // incircle_core_logic$engine$pipeline$reader$token1
 
 
-module incircle_core_logic$pipeline$reader$token2(d,q,clock);
+module incircle_core_logic$engine$pipeline$reader$token2(d,q,clock);
     
     // Module arguments
     input wire  [49:0] d;
@@ -8987,10 +9587,10 @@ module incircle_core_logic$pipeline$reader$token2(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$reader$token2
+endmodule // incircle_core_logic$engine$pipeline$reader$token2
 
 
-module incircle_core_logic$pipeline$token_delay(clock,data_in,data_out);
+module incircle_core_logic$engine$pipeline$token_delay(clock,data_in,data_out);
     
     // Module arguments
     input wire  clock;
@@ -9013,7 +9613,7 @@ module incircle_core_logic$pipeline$token_delay(clock,data_in,data_out);
     reg  position$clock;
     
     // Sub module instances
-    incircle_core_logic$pipeline$token_delay$ring ring(
+    incircle_core_logic$engine$pipeline$token_delay$ring ring(
         .clock(ring$clock),
         .write_address(ring$write_address),
         .write_data(ring$write_data),
@@ -9021,7 +9621,7 @@ module incircle_core_logic$pipeline$token_delay(clock,data_in,data_out);
         .read_address(ring$read_address),
         .read_data(ring$read_data)
     );
-    incircle_core_logic$pipeline$token_delay$position position(
+    incircle_core_logic$engine$pipeline$token_delay$position position(
         .d(position$d),
         .q(position$q),
         .clock(position$clock)
@@ -9039,10 +9639,10 @@ module incircle_core_logic$pipeline$token_delay(clock,data_in,data_out);
         data_out = ring$read_data;
     end
     
-endmodule // incircle_core_logic$pipeline$token_delay
+endmodule // incircle_core_logic$engine$pipeline$token_delay
 
 
-module incircle_core_logic$pipeline$token_delay$position(d,q,clock);
+module incircle_core_logic$engine$pipeline$token_delay$position(d,q,clock);
     
     // Module arguments
     input wire  [9:0] d;
@@ -9058,10 +9658,10 @@ module incircle_core_logic$pipeline$token_delay$position(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$token_delay$position
+endmodule // incircle_core_logic$engine$pipeline$token_delay$position
 
 
-module incircle_core_logic$pipeline$token_delay$ring(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$token_delay$ring(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9082,10 +9682,10 @@ module incircle_core_logic$pipeline$token_delay$ring(clock,write_address,write_d
         array_read <= memory[read_address[3:0]];
         read_data <= array_read;
     end
-endmodule // incircle_core_logic$pipeline$token_delay$ring
+endmodule // incircle_core_logic$engine$pipeline$token_delay$ring
 
 
-module incircle_core_logic$pipeline$token_register(d,q,clock);
+module incircle_core_logic$engine$pipeline$token_register(d,q,clock);
     
     // Module arguments
     input wire  [49:0] d;
@@ -9101,10 +9701,10 @@ module incircle_core_logic$pipeline$token_register(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$token_register
+endmodule // incircle_core_logic$engine$pipeline$token_register
 
 
-module incircle_core_logic$pipeline$triangles(clock,write,read_id,read_locks,v0,v1,v2,n0,n1,n2,was_set,clear_id,clear_enable);
+module incircle_core_logic$engine$pipeline$triangles(clock,write,read_id,read_locks,v0,v1,v2,n0,n1,n2,was_set,clear_id,clear_enable);
     
     // Module arguments
     input wire  clock;
@@ -9166,7 +9766,7 @@ module incircle_core_logic$pipeline$triangles(clock,write,read_id,read_locks,v0,
     reg  locks$clear_enable;
     
     // Sub module instances
-    incircle_core_logic$pipeline$triangles$vertices$0 vertices$0(
+    incircle_core_logic$engine$pipeline$triangles$vertices$0 vertices$0(
         .clock(vertices$0$clock),
         .write_address(vertices$0$write_address),
         .write_data(vertices$0$write_data),
@@ -9174,7 +9774,7 @@ module incircle_core_logic$pipeline$triangles(clock,write,read_id,read_locks,v0,
         .read_address(vertices$0$read_address),
         .read_data(vertices$0$read_data)
     );
-    incircle_core_logic$pipeline$triangles$vertices$1 vertices$1(
+    incircle_core_logic$engine$pipeline$triangles$vertices$1 vertices$1(
         .clock(vertices$1$clock),
         .write_address(vertices$1$write_address),
         .write_data(vertices$1$write_data),
@@ -9182,7 +9782,7 @@ module incircle_core_logic$pipeline$triangles(clock,write,read_id,read_locks,v0,
         .read_address(vertices$1$read_address),
         .read_data(vertices$1$read_data)
     );
-    incircle_core_logic$pipeline$triangles$vertices$2 vertices$2(
+    incircle_core_logic$engine$pipeline$triangles$vertices$2 vertices$2(
         .clock(vertices$2$clock),
         .write_address(vertices$2$write_address),
         .write_data(vertices$2$write_data),
@@ -9190,7 +9790,7 @@ module incircle_core_logic$pipeline$triangles(clock,write,read_id,read_locks,v0,
         .read_address(vertices$2$read_address),
         .read_data(vertices$2$read_data)
     );
-    incircle_core_logic$pipeline$triangles$links$0 links$0(
+    incircle_core_logic$engine$pipeline$triangles$links$0 links$0(
         .clock(links$0$clock),
         .write_address(links$0$write_address),
         .write_data(links$0$write_data),
@@ -9198,7 +9798,7 @@ module incircle_core_logic$pipeline$triangles(clock,write,read_id,read_locks,v0,
         .read_address(links$0$read_address),
         .read_data(links$0$read_data)
     );
-    incircle_core_logic$pipeline$triangles$links$1 links$1(
+    incircle_core_logic$engine$pipeline$triangles$links$1 links$1(
         .clock(links$1$clock),
         .write_address(links$1$write_address),
         .write_data(links$1$write_data),
@@ -9206,7 +9806,7 @@ module incircle_core_logic$pipeline$triangles(clock,write,read_id,read_locks,v0,
         .read_address(links$1$read_address),
         .read_data(links$1$read_data)
     );
-    incircle_core_logic$pipeline$triangles$links$2 links$2(
+    incircle_core_logic$engine$pipeline$triangles$links$2 links$2(
         .clock(links$2$clock),
         .write_address(links$2$write_address),
         .write_data(links$2$write_data),
@@ -9214,7 +9814,7 @@ module incircle_core_logic$pipeline$triangles(clock,write,read_id,read_locks,v0,
         .read_address(links$2$read_address),
         .read_data(links$2$read_data)
     );
-    incircle_core_logic$pipeline$triangles$locks locks(
+    incircle_core_logic$engine$pipeline$triangles$locks locks(
         .clock(locks$clock),
         .test_address(locks$test_address),
         .test_set(locks$test_set),
@@ -9269,10 +9869,10 @@ module incircle_core_logic$pipeline$triangles(clock,write,read_id,read_locks,v0,
         was_set = locks$was_set;
     end
     
-endmodule // incircle_core_logic$pipeline$triangles
+endmodule // incircle_core_logic$engine$pipeline$triangles
 
 
-module incircle_core_logic$pipeline$triangles$links$0(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$triangles$links$0(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9294,10 +9894,10 @@ module incircle_core_logic$pipeline$triangles$links$0(clock,write_address,write_
         array_read <= memory[read_address[13:0]];
         read_data <= {{1{1'b0}}, array_read};
     end
-endmodule // incircle_core_logic$pipeline$triangles$links$0
+endmodule // incircle_core_logic$engine$pipeline$triangles$links$0
 
 
-module incircle_core_logic$pipeline$triangles$links$1(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$triangles$links$1(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9319,10 +9919,10 @@ module incircle_core_logic$pipeline$triangles$links$1(clock,write_address,write_
         array_read <= memory[read_address[13:0]];
         read_data <= {{1{1'b0}}, array_read};
     end
-endmodule // incircle_core_logic$pipeline$triangles$links$1
+endmodule // incircle_core_logic$engine$pipeline$triangles$links$1
 
 
-module incircle_core_logic$pipeline$triangles$links$2(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$triangles$links$2(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9344,10 +9944,10 @@ module incircle_core_logic$pipeline$triangles$links$2(clock,write_address,write_
         array_read <= memory[read_address[13:0]];
         read_data <= {{1{1'b0}}, array_read};
     end
-endmodule // incircle_core_logic$pipeline$triangles$links$2
+endmodule // incircle_core_logic$engine$pipeline$triangles$links$2
 
 
-module incircle_core_logic$pipeline$triangles$locks(clock,test_address,test_set,was_set,clear_address,clear_enable);
+module incircle_core_logic$engine$pipeline$triangles$locks(clock,test_address,test_set,was_set,clear_address,clear_enable);
     
     // Module arguments
     input wire  clock;
@@ -9375,10 +9975,10 @@ module incircle_core_logic$pipeline$triangles$locks(clock,test_address,test_set,
     always @(posedge clock) begin
         if (clear_enable) memory[clear_address[13:0]] <= 1'b0;
     end
-endmodule // incircle_core_logic$pipeline$triangles$locks
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks
 
 
-module incircle_core_logic$pipeline$triangles$vertices$0(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$triangles$vertices$0(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9400,10 +10000,10 @@ module incircle_core_logic$pipeline$triangles$vertices$0(clock,write_address,wri
         array_read <= memory[read_address[13:0]];
         read_data <= {{1{1'b0}}, array_read};
     end
-endmodule // incircle_core_logic$pipeline$triangles$vertices$0
+endmodule // incircle_core_logic$engine$pipeline$triangles$vertices$0
 
 
-module incircle_core_logic$pipeline$triangles$vertices$1(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$triangles$vertices$1(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9425,10 +10025,10 @@ module incircle_core_logic$pipeline$triangles$vertices$1(clock,write_address,wri
         array_read <= memory[read_address[13:0]];
         read_data <= {{1{1'b0}}, array_read};
     end
-endmodule // incircle_core_logic$pipeline$triangles$vertices$1
+endmodule // incircle_core_logic$engine$pipeline$triangles$vertices$1
 
 
-module incircle_core_logic$pipeline$triangles$vertices$2(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$triangles$vertices$2(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9450,10 +10050,10 @@ module incircle_core_logic$pipeline$triangles$vertices$2(clock,write_address,wri
         array_read <= memory[read_address[13:0]];
         read_data <= {{1{1'b0}}, array_read};
     end
-endmodule // incircle_core_logic$pipeline$triangles$vertices$2
+endmodule // incircle_core_logic$engine$pipeline$triangles$vertices$2
 
 
-module incircle_core_logic$pipeline$turned_delay(clock,data_in,data_out);
+module incircle_core_logic$engine$pipeline$turned_delay(clock,data_in,data_out);
     
     // Module arguments
     input wire  clock;
@@ -9476,7 +10076,7 @@ module incircle_core_logic$pipeline$turned_delay(clock,data_in,data_out);
     reg  position$clock;
     
     // Sub module instances
-    incircle_core_logic$pipeline$turned_delay$ring ring(
+    incircle_core_logic$engine$pipeline$turned_delay$ring ring(
         .clock(ring$clock),
         .write_address(ring$write_address),
         .write_data(ring$write_data),
@@ -9484,7 +10084,7 @@ module incircle_core_logic$pipeline$turned_delay(clock,data_in,data_out);
         .read_address(ring$read_address),
         .read_data(ring$read_data)
     );
-    incircle_core_logic$pipeline$turned_delay$position position(
+    incircle_core_logic$engine$pipeline$turned_delay$position position(
         .d(position$d),
         .q(position$q),
         .clock(position$clock)
@@ -9502,10 +10102,10 @@ module incircle_core_logic$pipeline$turned_delay(clock,data_in,data_out);
         data_out = ring$read_data;
     end
     
-endmodule // incircle_core_logic$pipeline$turned_delay
+endmodule // incircle_core_logic$engine$pipeline$turned_delay
 
 
-module incircle_core_logic$pipeline$turned_delay$position(d,q,clock);
+module incircle_core_logic$engine$pipeline$turned_delay$position(d,q,clock);
     
     // Module arguments
     input wire  [9:0] d;
@@ -9521,10 +10121,10 @@ module incircle_core_logic$pipeline$turned_delay$position(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$turned_delay$position
+endmodule // incircle_core_logic$engine$pipeline$turned_delay$position
 
 
-module incircle_core_logic$pipeline$turned_delay$ring(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$turned_delay$ring(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9545,10 +10145,10 @@ module incircle_core_logic$pipeline$turned_delay$ring(clock,write_address,write_
         array_read <= memory[read_address[3:0]];
         read_data <= array_read;
     end
-endmodule // incircle_core_logic$pipeline$turned_delay$ring
+endmodule // incircle_core_logic$engine$pipeline$turned_delay$ring
 
 
-module incircle_core_logic$pipeline$turned_register(d,q,clock);
+module incircle_core_logic$engine$pipeline$turned_register(d,q,clock);
     
     // Module arguments
     input wire  [95:0] d;
@@ -9564,10 +10164,10 @@ module incircle_core_logic$pipeline$turned_register(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$turned_register
+endmodule // incircle_core_logic$engine$pipeline$turned_register
 
 
-module incircle_core_logic$pipeline$valid(d,q,clock);
+module incircle_core_logic$engine$pipeline$valid(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -9583,10 +10183,10 @@ module incircle_core_logic$pipeline$valid(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$valid
+endmodule // incircle_core_logic$engine$pipeline$valid
 
 
-module incircle_core_logic$pipeline$verdict_logic(turned,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1,incircle_positive,incircle_zero,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2,verdict);
+module incircle_core_logic$engine$pipeline$verdict_logic(turned,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1,incircle_positive,incircle_zero,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2,verdict);
     
     // Module arguments
     input wire  [95:0] turned;
@@ -9672,10 +10272,10 @@ module incircle_core_logic$pipeline$verdict_logic(turned,e0_negative,e1_negative
         verdict[(64'h3)+:(1)] = (~e2_negative) & (~e2_zero);
     end
     
-endmodule // incircle_core_logic$pipeline$verdict_logic
+endmodule // incircle_core_logic$engine$pipeline$verdict_logic
 
 
-module incircle_core_logic$pipeline$verdict_register(d,q,clock);
+module incircle_core_logic$engine$pipeline$verdict_register(d,q,clock);
     
     // Module arguments
     input wire  [19:0] d;
@@ -9691,10 +10291,10 @@ module incircle_core_logic$pipeline$verdict_register(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$pipeline$verdict_register
+endmodule // incircle_core_logic$engine$pipeline$verdict_register
 
 
-module incircle_core_logic$pipeline$vertices(clock,write_id,write_position,write_enable,id0,id1,id2,position0,position1,position2);
+module incircle_core_logic$engine$pipeline$vertices(clock,write_id,write_position,write_enable,id0,id1,id2,position0,position1,position2);
     
     // Module arguments
     input wire  clock;
@@ -9729,7 +10329,7 @@ module incircle_core_logic$pipeline$vertices(clock,write_id,write_position,write
     wire  [31:0] copies$2$read_data;
     
     // Sub module instances
-    incircle_core_logic$pipeline$vertices$copies$0 copies$0(
+    incircle_core_logic$engine$pipeline$vertices$copies$0 copies$0(
         .clock(copies$0$clock),
         .write_address(copies$0$write_address),
         .write_data(copies$0$write_data),
@@ -9737,7 +10337,7 @@ module incircle_core_logic$pipeline$vertices(clock,write_id,write_position,write
         .read_address(copies$0$read_address),
         .read_data(copies$0$read_data)
     );
-    incircle_core_logic$pipeline$vertices$copies$1 copies$1(
+    incircle_core_logic$engine$pipeline$vertices$copies$1 copies$1(
         .clock(copies$1$clock),
         .write_address(copies$1$write_address),
         .write_data(copies$1$write_data),
@@ -9745,7 +10345,7 @@ module incircle_core_logic$pipeline$vertices(clock,write_id,write_position,write
         .read_address(copies$1$read_address),
         .read_data(copies$1$read_data)
     );
-    incircle_core_logic$pipeline$vertices$copies$2 copies$2(
+    incircle_core_logic$engine$pipeline$vertices$copies$2 copies$2(
         .clock(copies$2$clock),
         .write_address(copies$2$write_address),
         .write_data(copies$2$write_data),
@@ -9776,10 +10376,10 @@ module incircle_core_logic$pipeline$vertices(clock,write_id,write_position,write
         position2 = copies$2$read_data;
     end
     
-endmodule // incircle_core_logic$pipeline$vertices
+endmodule // incircle_core_logic$engine$pipeline$vertices
 
 
-module incircle_core_logic$pipeline$vertices$copies$0(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$vertices$copies$0(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9800,10 +10400,10 @@ module incircle_core_logic$pipeline$vertices$copies$0(clock,write_address,write_
         array_read <= memory[read_address[12:0]];
         read_data <= array_read;
     end
-endmodule // incircle_core_logic$pipeline$vertices$copies$0
+endmodule // incircle_core_logic$engine$pipeline$vertices$copies$0
 
 
-module incircle_core_logic$pipeline$vertices$copies$1(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$vertices$copies$1(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9824,10 +10424,10 @@ module incircle_core_logic$pipeline$vertices$copies$1(clock,write_address,write_
         array_read <= memory[read_address[12:0]];
         read_data <= array_read;
     end
-endmodule // incircle_core_logic$pipeline$vertices$copies$1
+endmodule // incircle_core_logic$engine$pipeline$vertices$copies$1
 
 
-module incircle_core_logic$pipeline$vertices$copies$2(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$vertices$copies$2(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -9848,7 +10448,982 @@ module incircle_core_logic$pipeline$vertices$copies$2(clock,write_address,write_
         array_read <= memory[read_address[12:0]];
         read_data <= array_read;
     end
-endmodule // incircle_core_logic$pipeline$vertices$copies$2
+endmodule // incircle_core_logic$engine$pipeline$vertices$copies$2
+
+
+module incircle_core_logic$engine$solo(clock,reset,starts,p,records,root_id,root,done,token,turned,verdict,push,bundle,write,tests,flips,ends);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  starts;
+    input wire  [14:0] p;
+    input wire  [14:0] records;
+    input wire  [14:0] root_id;
+    input wire  [95:0] root;
+    input wire  done;
+    input wire  [49:0] token;
+    input wire  [95:0] turned;
+    input wire  [19:0] verdict;
+    output reg  push;
+    output reg  [77:0] bundle;
+    output reg  [109:0] write;
+    output reg  tests;
+    output reg  flips;
+    output reg  ends;
+    
+    // Enums
+    localparam SoloState$Idle = 0;
+    localparam SoloState$Split = 1;
+    localparam SoloState$Mend = 2;
+    localparam SoloState$Fetch = 3;
+    localparam SoloState$Test = 4;
+    localparam SoloState$Flip = 5;
+    
+    // Stub signals
+    reg  [2:0] state$d;
+    wire  [2:0] state$q;
+    reg  state$clock;
+    reg  [1:0] step$d;
+    wire  [1:0] step$q;
+    reg  step$clock;
+    reg  awaits$d;
+    wire  awaits$q;
+    reg  awaits$clock;
+    reg  [14:0] id$d;
+    wire  [14:0] id$q;
+    reg  id$clock;
+    reg  [14:0] a$d;
+    wire  [14:0] a$q;
+    reg  a$clock;
+    reg  [14:0] b$d;
+    wire  [14:0] b$q;
+    reg  b$clock;
+    reg  [14:0] outer$d;
+    wire  [14:0] outer$q;
+    reg  outer$clock;
+    reg  [14:0] after$d;
+    wire  [14:0] after$q;
+    reg  after$clock;
+    reg  [14:0] preceding$d;
+    wire  [14:0] preceding$q;
+    reg  preceding$clock;
+    reg  [14:0] back$d;
+    wire  [14:0] back$q;
+    reg  back$clock;
+    reg  [14:0] apex$d;
+    wire  [14:0] apex$q;
+    reg  apex$clock;
+    reg  [14:0] apex_after_a$d;
+    wire  [14:0] apex_after_a$q;
+    reg  apex_after_a$clock;
+    reg  [14:0] apex_before_b$d;
+    wire  [14:0] apex_before_b$q;
+    reg  apex_before_b$clock;
+    reg  [109:0] request$d;
+    wire  [109:0] request$q;
+    reg  request$clock;
+    reg  visit$is_mend;
+    reg  visit$is_second;
+    reg  visit$is_fetch;
+    reg  [14:0] visit$root_id;
+    reg  [95:0] visit$root;
+    reg  [14:0] visit$id;
+    reg  [14:0] visit$outer;
+    reg  [14:0] visit$back;
+    wire  [77:0] visit$bundle;
+    reg  writes$is_split;
+    reg  writes$is_mend;
+    reg  writes$is_test;
+    reg  [1:0] writes$step;
+    reg  [14:0] writes$p;
+    reg  [14:0] writes$records;
+    reg  [14:0] writes$root_id;
+    reg  [95:0] writes$root;
+    reg  [14:0] writes$id;
+    reg  [14:0] writes$a;
+    reg  [14:0] writes$b;
+    reg  [14:0] writes$outer;
+    reg  [14:0] writes$after;
+    reg  [14:0] writes$preceding;
+    reg  [14:0] writes$apex;
+    reg  [14:0] writes$apex_after_a;
+    reg  [14:0] writes$apex_before_b;
+    reg  [14:0] writes$visited;
+    reg  [1:0] writes$slot;
+    wire  [109:0] writes$write;
+    
+    // Local signals
+    reg  is_visiting;
+    reg  is_split;
+    reg  is_flip;
+    reg  is_last_step;
+    reg  is_second_mend;
+    reg  rests;
+    reg  [1:0] third_step;
+    reg  [1:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$engine$solo$state state(
+        .d(state$d),
+        .q(state$q),
+        .clock(state$clock)
+    );
+    incircle_core_logic$engine$solo$step step(
+        .d(step$d),
+        .q(step$q),
+        .clock(step$clock)
+    );
+    incircle_core_logic$engine$solo$awaits awaits(
+        .d(awaits$d),
+        .q(awaits$q),
+        .clock(awaits$clock)
+    );
+    incircle_core_logic$engine$solo$id id(
+        .d(id$d),
+        .q(id$q),
+        .clock(id$clock)
+    );
+    incircle_core_logic$engine$solo$a a(
+        .d(a$d),
+        .q(a$q),
+        .clock(a$clock)
+    );
+    incircle_core_logic$engine$solo$b b(
+        .d(b$d),
+        .q(b$q),
+        .clock(b$clock)
+    );
+    incircle_core_logic$engine$solo$outer outer(
+        .d(outer$d),
+        .q(outer$q),
+        .clock(outer$clock)
+    );
+    incircle_core_logic$engine$solo$after after(
+        .d(after$d),
+        .q(after$q),
+        .clock(after$clock)
+    );
+    incircle_core_logic$engine$solo$preceding preceding(
+        .d(preceding$d),
+        .q(preceding$q),
+        .clock(preceding$clock)
+    );
+    incircle_core_logic$engine$solo$back back(
+        .d(back$d),
+        .q(back$q),
+        .clock(back$clock)
+    );
+    incircle_core_logic$engine$solo$apex apex(
+        .d(apex$d),
+        .q(apex$q),
+        .clock(apex$clock)
+    );
+    incircle_core_logic$engine$solo$apex_after_a apex_after_a(
+        .d(apex_after_a$d),
+        .q(apex_after_a$q),
+        .clock(apex_after_a$clock)
+    );
+    incircle_core_logic$engine$solo$apex_before_b apex_before_b(
+        .d(apex_before_b$d),
+        .q(apex_before_b$q),
+        .clock(apex_before_b$clock)
+    );
+    incircle_core_logic$engine$solo$request request(
+        .d(request$d),
+        .q(request$q),
+        .clock(request$clock)
+    );
+    incircle_core_logic$engine$solo$visit visit(
+        .is_mend(visit$is_mend),
+        .is_second(visit$is_second),
+        .is_fetch(visit$is_fetch),
+        .root_id(visit$root_id),
+        .root(visit$root),
+        .id(visit$id),
+        .outer(visit$outer),
+        .back(visit$back),
+        .bundle(visit$bundle)
+    );
+    incircle_core_logic$engine$solo$writes writes(
+        .is_split(writes$is_split),
+        .is_mend(writes$is_mend),
+        .is_test(writes$is_test),
+        .step(writes$step),
+        .p(writes$p),
+        .records(writes$records),
+        .root_id(writes$root_id),
+        .root(writes$root),
+        .id(writes$id),
+        .a(writes$a),
+        .b(writes$b),
+        .outer(writes$outer),
+        .after(writes$after),
+        .preceding(writes$preceding),
+        .apex(writes$apex),
+        .apex_after_a(writes$apex_after_a),
+        .apex_before_b(writes$apex_before_b),
+        .visited(writes$visited),
+        .slot(writes$slot),
+        .write(writes$write)
+    );
+    
+    // Update code
+    always @(*) begin
+        state$clock = clock;
+        step$clock = clock;
+        awaits$clock = clock;
+        id$clock = clock;
+        a$clock = clock;
+        b$clock = clock;
+        outer$clock = clock;
+        after$clock = clock;
+        preceding$clock = clock;
+        back$clock = clock;
+        state$d = state$q;
+        step$d = step$q;
+        awaits$d = awaits$q;
+        id$d = id$q;
+        a$d = a$q;
+        b$d = b$q;
+        outer$d = outer$q;
+        after$d = after$q;
+        preceding$d = preceding$q;
+        back$d = back$q;
+        apex$clock = clock;
+        apex_after_a$clock = clock;
+        apex_before_b$clock = clock;
+        request$clock = clock;
+        apex$d = apex$q;
+        apex_after_a$d = apex_after_a$q;
+        apex_before_b$d = apex_before_b$q;
+        request$d = request$q;
+        one = 32'h1;
+        third_step = 32'h2;
+        is_second_mend = step$q == one;
+        is_last_step = step$q == third_step;
+        visit$is_mend = state$q == SoloState$Mend;
+        visit$is_second = is_second_mend;
+        visit$is_fetch = state$q == SoloState$Fetch;
+        visit$root_id = root_id;
+        visit$root = root;
+        visit$id = id$q;
+        visit$outer = outer$q;
+        visit$back = back$q;
+        bundle = visit$bundle;
+        is_visiting = (state$q == SoloState$Mend) | (state$q == SoloState$Fetch) | (state$q == SoloState$Test);
+        push = is_visiting & (~awaits$q);
+        awaits$d = is_visiting & (~done);
+        writes$step = step$q;
+        is_split = state$q == SoloState$Split;
+        writes$is_split = is_split;
+        writes$p = p;
+        writes$records = records;
+        writes$root_id = root_id;
+        writes$root = root;
+        writes$id = id$q;
+        writes$a = a$q;
+        writes$b = b$q;
+        writes$outer = outer$q;
+        writes$after = after$q;
+        writes$preceding = preceding$q;
+        writes$apex = apex$q;
+        writes$apex_after_a = apex_after_a$q;
+        writes$apex_before_b = apex_before_b$q;
+        writes$is_mend = state$q == SoloState$Mend;
+        writes$is_test = state$q == SoloState$Test;
+        writes$visited = token[(64'h23)+:(15)];
+        writes$slot = turned[(64'h5a)+:(2)];
+        write = request$q;
+        request$d[(64'h0)+:(1)] = 1'b0;
+        rests = (state$q == SoloState$Test) & done & (~verdict[(64'h0)+:(1)]);
+        tests = (state$q == SoloState$Test) & done;
+        is_flip = state$q == SoloState$Flip;
+        flips = is_flip & is_last_step;
+        ends = rests & (b$q == root[(64'hf)+:(15)]);
+        if (is_split | is_flip) begin
+            request$d = writes$write;
+            step$d = step$q + one;
+        end
+        case (state$q)
+            SoloState$Idle:
+                begin
+                    step$d = 32'h0;
+                    if (starts) begin
+                        state$d = SoloState$Split;
+                    end
+                end
+            SoloState$Split:
+                begin
+                    if (is_last_step) begin
+                        step$d = 32'h0;
+                        state$d = SoloState$Mend;
+                    end
+                end
+            SoloState$Mend:
+                begin
+                    if (done) begin
+                        request$d = writes$write;
+                        step$d = 32'h1;
+                        if (is_second_mend) begin
+                            id$d = root_id;
+                            state$d = SoloState$Fetch;
+                        end
+                    end
+                end
+            SoloState$Fetch:
+                begin
+                    back$d = id$q;
+                    if (done) begin
+                        a$d = turned[(64'hf)+:(15)];
+                        b$d = turned[(64'h1e)+:(15)];
+                        outer$d = turned[(64'h2d)+:(15)];
+                        after$d = turned[(64'h3c)+:(15)];
+                        preceding$d = turned[(64'h4b)+:(15)];
+                        state$d = SoloState$Test;
+                    end
+                end
+            SoloState$Test:
+                begin
+                    step$d = 32'h0;
+                    apex$d = turned[(64'h0)+:(15)];
+                    apex_after_a$d = turned[(64'h3c)+:(15)];
+                    apex_before_b$d = turned[(64'h4b)+:(15)];
+                    if (done & verdict[(64'h0)+:(1)]) begin
+                        state$d = SoloState$Flip;
+                    end
+                    if (rests) begin
+                        if (back$q != id$q) begin
+                            request$d = writes$write;
+                        end
+                        id$d = after$q;
+                        state$d = SoloState$Fetch;
+                        if (b$q == root[(64'hf)+:(15)]) begin
+                            state$d = SoloState$Idle;
+                        end
+                    end
+                end
+            SoloState$Flip:
+                begin
+                    if (is_last_step) begin
+                        b$d = apex$q;
+                        after$d = outer$q;
+                        back$d = outer$q;
+                        outer$d = apex_after_a$q;
+                        state$d = SoloState$Test;
+                    end
+                end
+            default:
+                begin
+                    state$d = SoloState$Idle;
+                end
+        endcase
+        if (reset) begin
+            state$d = SoloState$Idle;
+            awaits$d = 1'b0;
+            request$d[(64'h0)+:(1)] = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$solo
+
+
+module incircle_core_logic$engine$solo$a(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$a
+
+
+module incircle_core_logic$engine$solo$after(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$after
+
+
+module incircle_core_logic$engine$solo$apex(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$apex
+
+
+module incircle_core_logic$engine$solo$apex_after_a(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$apex_after_a
+
+
+module incircle_core_logic$engine$solo$apex_before_b(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$apex_before_b
+
+
+module incircle_core_logic$engine$solo$awaits(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$awaits
+
+
+module incircle_core_logic$engine$solo$b(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$b
+
+
+module incircle_core_logic$engine$solo$back(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$back
+
+
+module incircle_core_logic$engine$solo$id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$id
+
+
+module incircle_core_logic$engine$solo$outer(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$outer
+
+
+module incircle_core_logic$engine$solo$preceding(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$preceding
+
+
+module incircle_core_logic$engine$solo$request(d,q,clock);
+    
+    // Module arguments
+    input wire  [109:0] d;
+    output reg  [109:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 110'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$request
+
+
+module incircle_core_logic$engine$solo$state(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam SoloState$Idle = 0;
+    localparam SoloState$Split = 1;
+    localparam SoloState$Mend = 2;
+    localparam SoloState$Fetch = 3;
+    localparam SoloState$Test = 4;
+    localparam SoloState$Flip = 5;
+    
+    // Update code (custom)
+    initial begin
+       q = 64'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$state
+
+
+module incircle_core_logic$engine$solo$step(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$step
+
+
+module incircle_core_logic$engine$solo$visit(is_mend,is_second,is_fetch,root_id,root,id,outer,back,bundle);
+    
+    // Module arguments
+    input wire  is_mend;
+    input wire  is_second;
+    input wire  is_fetch;
+    input wire  [14:0] root_id;
+    input wire  [95:0] root;
+    input wire  [14:0] id;
+    input wire  [14:0] outer;
+    input wire  [14:0] back;
+    output reg  [77:0] bundle;
+    
+    // Update code
+    always @(*) begin
+        bundle[(64'h0)+:(1)] = 1'b0;
+        bundle[(64'h1)+:(1)] = ~is_fetch;
+        bundle[(64'h2)+:(1)] = 1'b0;
+        bundle[(64'h3)+:(6)] = 32'h0;
+        bundle[(64'h9)+:(6)] = 32'h0;
+        bundle[(64'hf)+:(6)] = 32'h0;
+        bundle[(64'h15)+:(15)] = back;
+        bundle[(64'h24)+:(15)] = outer;
+        bundle[(64'h33)+:(6)] = 32'h0;
+        bundle[(64'h39)+:(6)] = 32'h0;
+        bundle[(64'h3f)+:(15)] = 32'h0;
+        if (is_fetch) begin
+            bundle[(64'h15)+:(15)] = 32'h0;
+            bundle[(64'h24)+:(15)] = id;
+        end
+        if (is_mend) begin
+            bundle[(64'h15)+:(15)] = root_id;
+            bundle[(64'h24)+:(15)] = root[(64'h3c)+:(15)];
+            if (is_second) begin
+                bundle[(64'h24)+:(15)] = root[(64'h4b)+:(15)];
+            end
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$solo$visit
+
+
+module incircle_core_logic$engine$solo$writes(is_split,is_mend,is_test,step,p,records,root_id,root,id,a,b,outer,after,preceding,apex,apex_after_a,apex_before_b,visited,slot,write);
+    
+    // Module arguments
+    input wire  is_split;
+    input wire  is_mend;
+    input wire  is_test;
+    input wire  [1:0] step;
+    input wire  [14:0] p;
+    input wire  [14:0] records;
+    input wire  [14:0] root_id;
+    input wire  [95:0] root;
+    input wire  [14:0] id;
+    input wire  [14:0] a;
+    input wire  [14:0] b;
+    input wire  [14:0] outer;
+    input wire  [14:0] after;
+    input wire  [14:0] preceding;
+    input wire  [14:0] apex;
+    input wire  [14:0] apex_after_a;
+    input wire  [14:0] apex_before_b;
+    input wire  [14:0] visited;
+    input wire  [1:0] slot;
+    output reg  [109:0] write;
+    
+    // Stub signals
+    reg  [14:0] record$id;
+    reg  [14:0] record$v0;
+    reg  [14:0] record$v1;
+    reg  [14:0] record$v2;
+    reg  [14:0] record$n0;
+    reg  [14:0] record$n1;
+    reg  [14:0] record$n2;
+    wire  [109:0] record$write;
+    reg  [14:0] link$id;
+    reg  [1:0] link$slot;
+    reg  [14:0] link$value;
+    wire  [109:0] link$write;
+    
+    // Local signals
+    reg  [14:0] second;
+    reg  [14:0] third;
+    reg  [14:0] one;
+    reg  is_step0;
+    reg  is_step1;
+    reg  [1:0] step0;
+    reg  [1:0] step1;
+    
+    // Sub module instances
+    incircle_core_logic$engine$solo$writes$record record(
+        .id(record$id),
+        .v0(record$v0),
+        .v1(record$v1),
+        .v2(record$v2),
+        .n0(record$n0),
+        .n1(record$n1),
+        .n2(record$n2),
+        .write(record$write)
+    );
+    incircle_core_logic$engine$solo$writes$link link(
+        .id(link$id),
+        .slot(link$slot),
+        .value(link$value),
+        .write(link$write)
+    );
+    
+    // Update code
+    always @(*) begin
+        one = 32'h1;
+        step0 = 32'h0;
+        step1 = 32'h1;
+        is_step0 = step == step0;
+        is_step1 = step == step1;
+        second = records;
+        third = records + one;
+        record$id = third;
+        record$v0 = p;
+        record$v1 = root[(64'h0)+:(15)];
+        record$v2 = root[(64'hf)+:(15)];
+        record$n0 = root[(64'h4b)+:(15)];
+        record$n1 = root_id;
+        record$n2 = second;
+        if (is_split & is_step0) begin
+            record$id = root_id;
+            record$v1 = root[(64'hf)+:(15)];
+            record$v2 = root[(64'h1e)+:(15)];
+            record$n0 = root[(64'h2d)+:(15)];
+            record$n1 = second;
+            record$n2 = third;
+        end
+        if (is_split & is_step1) begin
+            record$id = second;
+            record$v1 = root[(64'h1e)+:(15)];
+            record$v2 = root[(64'h0)+:(15)];
+            record$n0 = root[(64'h3c)+:(15)];
+            record$n1 = third;
+            record$n2 = root_id;
+        end
+        if ((~is_split) & is_step0) begin
+            record$id = id;
+            record$v1 = a;
+            record$v2 = apex;
+            record$n0 = apex_after_a;
+            record$n1 = outer;
+            record$n2 = preceding;
+        end
+        if ((~is_split) & is_step1) begin
+            record$id = outer;
+            record$v1 = apex;
+            record$v2 = b;
+            record$n0 = apex_before_b;
+            record$n1 = after;
+            record$n2 = id;
+        end
+        link$id = after;
+        link$slot = 32'h2;
+        link$value = outer;
+        if (is_test) begin
+            link$id = visited;
+            link$slot = slot;
+            link$value = id;
+        end
+        if (is_mend) begin
+            link$id = visited;
+            link$slot = slot;
+            link$value = second;
+            if (is_step1) begin
+                link$value = third;
+            end
+        end
+        write = link$write;
+        if (is_split) begin
+            write = record$write;
+        end
+        if ((~is_mend) & (~is_test) & (is_step0 | is_step1)) begin
+            write = record$write;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$solo$writes
+
+
+module incircle_core_logic$engine$solo$writes$link(id,slot,value,write);
+    
+    // Module arguments
+    input wire  [14:0] id;
+    input wire  [1:0] slot;
+    input wire  [14:0] value;
+    output reg  [109:0] write;
+    
+    // Local signals
+    reg  [1:0] slot0;
+    reg  [1:0] slot1;
+    reg  [1:0] slot2;
+    
+    // Update code
+    always @(*) begin
+        slot0 = 32'h0;
+        slot1 = 32'h1;
+        slot2 = 32'h2;
+        write[(64'h0)+:(1)] = 1'b1;
+        write[(64'h1)+:(15)] = id;
+        write[(64'h10)+:(1)] = 1'b0;
+        write[(64'h11)+:(1)] = slot == slot0;
+        write[(64'h12)+:(1)] = slot == slot1;
+        write[(64'h13)+:(1)] = slot == slot2;
+        write[(64'h14)+:(15)] = 32'h0;
+        write[(64'h23)+:(15)] = 32'h0;
+        write[(64'h32)+:(15)] = 32'h0;
+        write[(64'h41)+:(15)] = value;
+        write[(64'h50)+:(15)] = value;
+        write[(64'h5f)+:(15)] = value;
+    end
+    
+endmodule // incircle_core_logic$engine$solo$writes$link
+
+
+module incircle_core_logic$engine$solo$writes$record(id,v0,v1,v2,n0,n1,n2,write);
+    
+    // Module arguments
+    input wire  [14:0] id;
+    input wire  [14:0] v0;
+    input wire  [14:0] v1;
+    input wire  [14:0] v2;
+    input wire  [14:0] n0;
+    input wire  [14:0] n1;
+    input wire  [14:0] n2;
+    output reg  [109:0] write;
+    
+    // Update code
+    always @(*) begin
+        write[(64'h0)+:(1)] = 1'b1;
+        write[(64'h1)+:(15)] = id;
+        write[(64'h10)+:(1)] = 1'b1;
+        write[(64'h11)+:(1)] = 1'b1;
+        write[(64'h12)+:(1)] = 1'b1;
+        write[(64'h13)+:(1)] = 1'b1;
+        write[(64'h14)+:(15)] = v0;
+        write[(64'h23)+:(15)] = v1;
+        write[(64'h32)+:(15)] = v2;
+        write[(64'h41)+:(15)] = n0;
+        write[(64'h50)+:(15)] = n1;
+        write[(64'h5f)+:(15)] = n2;
+    end
+    
+endmodule // incircle_core_logic$engine$solo$writes$record
+
+
+module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  [109:0] commit;
+    input wire  [109:0] solo;
+    input wire  [109:0] seed;
+    output reg  [109:0] write;
+    
+    // Stub signals
+    reg  [109:0] port$d;
+    wire  [109:0] port$q;
+    reg  port$clock;
+    
+    // Sub module instances
+    incircle_core_logic$engine$write_port$port port(
+        .d(port$d),
+        .q(port$q),
+        .clock(port$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        port$clock = clock;
+        port$d = port$q;
+        write = port$q;
+        port$d[(64'h0)+:(1)] = 1'b0;
+        if (seed[(64'h0)+:(1)]) begin
+            port$d = seed;
+        end
+        if (solo[(64'h0)+:(1)]) begin
+            port$d = solo;
+        end
+        if (commit[(64'h0)+:(1)]) begin
+            port$d = commit;
+        end
+        if (reset) begin
+            port$d[(64'h0)+:(1)] = 1'b0;
+            port$d[(64'h1)+:(15)] = 32'h0;
+            port$d[(64'h10)+:(1)] = 1'b0;
+            port$d[(64'h11)+:(1)] = 1'b0;
+            port$d[(64'h12)+:(1)] = 1'b0;
+            port$d[(64'h13)+:(1)] = 1'b0;
+            port$d[(64'h14)+:(15)] = 32'h0;
+            port$d[(64'h23)+:(15)] = 32'h0;
+            port$d[(64'h32)+:(15)] = 32'h0;
+            port$d[(64'h41)+:(15)] = 32'h0;
+            port$d[(64'h50)+:(15)] = 32'h0;
+            port$d[(64'h5f)+:(15)] = 32'h0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$write_port
+
+
+module incircle_core_logic$engine$write_port$port(d,q,clock);
+    
+    // Module arguments
+    input wire  [109:0] d;
+    output reg  [109:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 110'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$write_port$port
 
 
 module incircle_core_logic$responder(clock,reset,answers,first,header,length,word,is_read,index,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,response_valid,response_ready,response_data,is_idle,ends,is_taken);
@@ -9924,6 +11499,16 @@ module incircle_core_logic$responder(clock,reset,answers,first,header,length,wor
     reg  [1:0] column$d;
     wire  [1:0] column$q;
     reg  column$clock;
+    reg  [14:0] words$v0;
+    reg  [14:0] words$v1;
+    reg  [14:0] words$v2;
+    reg  [14:0] words$n0;
+    reg  [14:0] words$n1;
+    reg  [14:0] words$n2;
+    reg  words$was_set;
+    wire  [31:0] words$word0;
+    wire  [31:0] words$word1;
+    wire  [31:0] words$word2;
     
     // Local signals
     reg  loads;
@@ -9932,17 +11517,6 @@ module incircle_core_logic$responder(clock,reset,answers,first,header,length,wor
     reg  is_empty;
     reg  is_last_column;
     reg  ends_now;
-    reg  [31:0] lock;
-    reg  [31:0] vertex0;
-    reg  [31:0] vertex1;
-    reg  [31:0] vertex2;
-    reg  [31:0] link0;
-    reg  [31:0] link1;
-    reg  [31:0] link2;
-    reg  [31:0] high0;
-    reg  [31:0] high1;
-    reg  [31:0] high2;
-    reg  [31:0] link_shift;
     reg  [31:0] one;
     reg  [31:0] zero;
     reg  [3:0] one_word;
@@ -10011,6 +11585,18 @@ module incircle_core_logic$responder(clock,reset,answers,first,header,length,wor
         .q(column$q),
         .clock(column$clock)
     );
+    incircle_core_logic$responder$words words(
+        .v0(words$v0),
+        .v1(words$v1),
+        .v2(words$v2),
+        .n0(words$n0),
+        .n1(words$n1),
+        .n2(words$n2),
+        .was_set(words$was_set),
+        .word0(words$word0),
+        .word1(words$word1),
+        .word2(words$word2)
+    );
     
     // Update code
     always @(*) begin
@@ -10038,7 +11624,6 @@ module incircle_core_logic$responder(clock,reset,answers,first,header,length,wor
         buffer1$d = buffer1$q;
         buffer2$d = buffer2$q;
         column$d = column$q;
-        link_shift = 32'hf;
         one = 32'h1;
         zero = 32'h0;
         one_word = 32'h1;
@@ -10057,28 +11642,22 @@ module incircle_core_logic$responder(clock,reset,answers,first,header,length,wor
         asks = (state$q == AnswerState$Records) & (~fetching$q) & (~buffered$q);
         read = asks;
         read_id = record_id$q;
-        lock = 32'h0;
-        if (was_set) begin
-            lock = 64'h80000000;
-        end
-        vertex0 = ((v0) & 32'hffffffff);
-        vertex1 = ((v1) & 32'hffffffff);
-        vertex2 = ((v2) & 32'hffffffff);
-        link0 = ((n0) & 32'hffffffff);
-        link1 = ((n1) & 32'hffffffff);
-        link2 = ((n2) & 32'hffffffff);
-        high0 = link0 << link_shift;
-        high1 = link1 << link_shift;
-        high2 = link2 << link_shift;
+        words$v0 = v0;
+        words$v1 = v1;
+        words$v2 = v2;
+        words$n0 = n0;
+        words$n1 = n1;
+        words$n2 = n2;
+        words$was_set = was_set;
         if (asks) begin
             fetching$d = 1'b1;
         end
         if (read_done) begin
             fetching$d = 1'b0;
             buffered$d = 1'b1;
-            buffer0$d = vertex0 | high0 | lock;
-            buffer1$d = vertex1 | high1;
-            buffer2$d = vertex2 | high2;
+            buffer0$d = words$word0;
+            buffer1$d = words$word1;
+            buffer2$d = words$word2;
             record_id$d = record_id$q + one_record;
         end
         ends_now = 1'b0;
@@ -10398,928 +11977,55 @@ module incircle_core_logic$responder$valid(d,q,clock);
 endmodule // incircle_core_logic$responder$valid
 
 
-module incircle_core_logic$solo(clock,reset,starts,p,records,root_id,root,done,token,turned,verdict,push,bundle,write,tests,flips,ends);
+module incircle_core_logic$responder$words(v0,v1,v2,n0,n1,n2,was_set,word0,word1,word2);
     
     // Module arguments
-    input wire  clock;
-    input wire  reset;
-    input wire  starts;
-    input wire  [14:0] p;
-    input wire  [14:0] records;
-    input wire  [14:0] root_id;
-    input wire  [95:0] root;
-    input wire  done;
-    input wire  [49:0] token;
-    input wire  [95:0] turned;
-    input wire  [19:0] verdict;
-    output reg  push;
-    output reg  [77:0] bundle;
-    output reg  [109:0] write;
-    output reg  tests;
-    output reg  flips;
-    output reg  ends;
-    
-    // Enums
-    localparam SoloState$Idle = 0;
-    localparam SoloState$Split = 1;
-    localparam SoloState$Mend = 2;
-    localparam SoloState$Fetch = 3;
-    localparam SoloState$Test = 4;
-    localparam SoloState$Flip = 5;
-    
-    // Stub signals
-    reg  [2:0] state$d;
-    wire  [2:0] state$q;
-    reg  state$clock;
-    reg  [1:0] step$d;
-    wire  [1:0] step$q;
-    reg  step$clock;
-    reg  awaits$d;
-    wire  awaits$q;
-    reg  awaits$clock;
-    reg  [14:0] id$d;
-    wire  [14:0] id$q;
-    reg  id$clock;
-    reg  [14:0] a$d;
-    wire  [14:0] a$q;
-    reg  a$clock;
-    reg  [14:0] b$d;
-    wire  [14:0] b$q;
-    reg  b$clock;
-    reg  [14:0] outer$d;
-    wire  [14:0] outer$q;
-    reg  outer$clock;
-    reg  [14:0] after$d;
-    wire  [14:0] after$q;
-    reg  after$clock;
-    reg  [14:0] preceding$d;
-    wire  [14:0] preceding$q;
-    reg  preceding$clock;
-    reg  [14:0] back$d;
-    wire  [14:0] back$q;
-    reg  back$clock;
-    reg  [14:0] apex$d;
-    wire  [14:0] apex$q;
-    reg  apex$clock;
-    reg  [14:0] apex_after_a$d;
-    wire  [14:0] apex_after_a$q;
-    reg  apex_after_a$clock;
-    reg  [14:0] apex_before_b$d;
-    wire  [14:0] apex_before_b$q;
-    reg  apex_before_b$clock;
-    reg  [109:0] request$d;
-    wire  [109:0] request$q;
-    reg  request$clock;
-    reg  writes$is_split;
-    reg  writes$is_mend;
-    reg  writes$is_test;
-    reg  [1:0] writes$step;
-    reg  [14:0] writes$p;
-    reg  [14:0] writes$records;
-    reg  [14:0] writes$root_id;
-    reg  [95:0] writes$root;
-    reg  [14:0] writes$id;
-    reg  [14:0] writes$a;
-    reg  [14:0] writes$b;
-    reg  [14:0] writes$outer;
-    reg  [14:0] writes$after;
-    reg  [14:0] writes$preceding;
-    reg  [14:0] writes$apex;
-    reg  [14:0] writes$apex_after_a;
-    reg  [14:0] writes$apex_before_b;
-    reg  [14:0] writes$visited;
-    reg  [1:0] writes$slot;
-    wire  [109:0] writes$write;
-    
-    // Local signals
-    reg  is_last_step;
-    reg  is_second_mend;
-    reg  rests;
-    reg  [1:0] third_step;
-    reg  [1:0] second_step;
-    reg  [1:0] one;
-    
-    // Sub module instances
-    incircle_core_logic$solo$state state(
-        .d(state$d),
-        .q(state$q),
-        .clock(state$clock)
-    );
-    incircle_core_logic$solo$step step(
-        .d(step$d),
-        .q(step$q),
-        .clock(step$clock)
-    );
-    incircle_core_logic$solo$awaits awaits(
-        .d(awaits$d),
-        .q(awaits$q),
-        .clock(awaits$clock)
-    );
-    incircle_core_logic$solo$id id(
-        .d(id$d),
-        .q(id$q),
-        .clock(id$clock)
-    );
-    incircle_core_logic$solo$a a(
-        .d(a$d),
-        .q(a$q),
-        .clock(a$clock)
-    );
-    incircle_core_logic$solo$b b(
-        .d(b$d),
-        .q(b$q),
-        .clock(b$clock)
-    );
-    incircle_core_logic$solo$outer outer(
-        .d(outer$d),
-        .q(outer$q),
-        .clock(outer$clock)
-    );
-    incircle_core_logic$solo$after after(
-        .d(after$d),
-        .q(after$q),
-        .clock(after$clock)
-    );
-    incircle_core_logic$solo$preceding preceding(
-        .d(preceding$d),
-        .q(preceding$q),
-        .clock(preceding$clock)
-    );
-    incircle_core_logic$solo$back back(
-        .d(back$d),
-        .q(back$q),
-        .clock(back$clock)
-    );
-    incircle_core_logic$solo$apex apex(
-        .d(apex$d),
-        .q(apex$q),
-        .clock(apex$clock)
-    );
-    incircle_core_logic$solo$apex_after_a apex_after_a(
-        .d(apex_after_a$d),
-        .q(apex_after_a$q),
-        .clock(apex_after_a$clock)
-    );
-    incircle_core_logic$solo$apex_before_b apex_before_b(
-        .d(apex_before_b$d),
-        .q(apex_before_b$q),
-        .clock(apex_before_b$clock)
-    );
-    incircle_core_logic$solo$request request(
-        .d(request$d),
-        .q(request$q),
-        .clock(request$clock)
-    );
-    incircle_core_logic$solo$writes writes(
-        .is_split(writes$is_split),
-        .is_mend(writes$is_mend),
-        .is_test(writes$is_test),
-        .step(writes$step),
-        .p(writes$p),
-        .records(writes$records),
-        .root_id(writes$root_id),
-        .root(writes$root),
-        .id(writes$id),
-        .a(writes$a),
-        .b(writes$b),
-        .outer(writes$outer),
-        .after(writes$after),
-        .preceding(writes$preceding),
-        .apex(writes$apex),
-        .apex_after_a(writes$apex_after_a),
-        .apex_before_b(writes$apex_before_b),
-        .visited(writes$visited),
-        .slot(writes$slot),
-        .write(writes$write)
-    );
-    
-    // Update code
-    always @(*) begin
-        state$clock = clock;
-        step$clock = clock;
-        awaits$clock = clock;
-        id$clock = clock;
-        a$clock = clock;
-        b$clock = clock;
-        outer$clock = clock;
-        after$clock = clock;
-        preceding$clock = clock;
-        back$clock = clock;
-        state$d = state$q;
-        step$d = step$q;
-        awaits$d = awaits$q;
-        id$d = id$q;
-        a$d = a$q;
-        b$d = b$q;
-        outer$d = outer$q;
-        after$d = after$q;
-        preceding$d = preceding$q;
-        back$d = back$q;
-        apex$clock = clock;
-        apex_after_a$clock = clock;
-        apex_before_b$clock = clock;
-        request$clock = clock;
-        apex$d = apex$q;
-        apex_after_a$d = apex_after_a$q;
-        apex_before_b$d = apex_before_b$q;
-        request$d = request$q;
-        one = 32'h1;
-        second_step = 32'h1;
-        third_step = 32'h2;
-        is_second_mend = step$q == second_step;
-        is_last_step = step$q == third_step;
-        push = 1'b0;
-        bundle[(64'h0)+:(1)] = 1'b0;
-        bundle[(64'h1)+:(1)] = 1'b1;
-        bundle[(64'h2)+:(1)] = 1'b0;
-        bundle[(64'h3)+:(6)] = 32'h0;
-        bundle[(64'h9)+:(6)] = 32'h0;
-        bundle[(64'hf)+:(6)] = 32'h0;
-        bundle[(64'h15)+:(15)] = back$q;
-        bundle[(64'h24)+:(15)] = outer$q;
-        bundle[(64'h33)+:(6)] = 32'h0;
-        bundle[(64'h39)+:(6)] = 32'h0;
-        bundle[(64'h3f)+:(15)] = 32'h0;
-        writes$step = step$q;
-        writes$is_split = state$q == SoloState$Split;
-        writes$p = p;
-        writes$records = records;
-        writes$root_id = root_id;
-        writes$root = root;
-        writes$id = id$q;
-        writes$a = a$q;
-        writes$b = b$q;
-        writes$outer = outer$q;
-        writes$after = after$q;
-        writes$preceding = preceding$q;
-        writes$apex = apex$q;
-        writes$apex_after_a = apex_after_a$q;
-        writes$apex_before_b = apex_before_b$q;
-        writes$is_mend = state$q == SoloState$Mend;
-        writes$is_test = state$q == SoloState$Test;
-        writes$visited = token[(64'h23)+:(15)];
-        writes$slot = turned[(64'h5a)+:(2)];
-        write = request$q;
-        request$d[(64'h0)+:(1)] = 1'b0;
-        rests = (state$q == SoloState$Test) & done & (~verdict[(64'h0)+:(1)]);
-        tests = (state$q == SoloState$Test) & done;
-        flips = (state$q == SoloState$Flip) & is_last_step;
-        ends = rests & (b$q == root[(64'hf)+:(15)]);
-        case (state$q)
-            SoloState$Idle:
-                begin
-                    step$d = 32'h0;
-                    if (starts) begin
-                        state$d = SoloState$Split;
-                    end
-                end
-            SoloState$Split:
-                begin
-                    request$d = writes$write;
-                    step$d = step$q + one;
-                    if (is_last_step) begin
-                        step$d = 32'h0;
-                        state$d = SoloState$Mend;
-                    end
-                end
-            SoloState$Mend:
-                begin
-                    push = ~awaits$q;
-                    bundle[(64'h15)+:(15)] = root_id;
-                    bundle[(64'h24)+:(15)] = root[(64'h3c)+:(15)];
-                    if (is_second_mend) begin
-                        bundle[(64'h24)+:(15)] = root[(64'h4b)+:(15)];
-                    end
-                    awaits$d = ~done;
-                    if (done) begin
-                        request$d = writes$write;
-                        step$d = 32'h1;
-                        if (is_second_mend) begin
-                            id$d = root_id;
-                            state$d = SoloState$Fetch;
-                        end
-                    end
-                end
-            SoloState$Fetch:
-                begin
-                    push = ~awaits$q;
-                    bundle[(64'h1)+:(1)] = 1'b0;
-                    bundle[(64'h15)+:(15)] = 32'h0;
-                    bundle[(64'h24)+:(15)] = id$q;
-                    awaits$d = ~done;
-                    back$d = id$q;
-                    if (done) begin
-                        a$d = turned[(64'hf)+:(15)];
-                        b$d = turned[(64'h1e)+:(15)];
-                        outer$d = turned[(64'h2d)+:(15)];
-                        after$d = turned[(64'h3c)+:(15)];
-                        preceding$d = turned[(64'h4b)+:(15)];
-                        state$d = SoloState$Test;
-                    end
-                end
-            SoloState$Test:
-                begin
-                    push = ~awaits$q;
-                    awaits$d = ~done;
-                    step$d = 32'h0;
-                    apex$d = turned[(64'h0)+:(15)];
-                    apex_after_a$d = turned[(64'h3c)+:(15)];
-                    apex_before_b$d = turned[(64'h4b)+:(15)];
-                    if (done & verdict[(64'h0)+:(1)]) begin
-                        state$d = SoloState$Flip;
-                    end
-                    if (rests) begin
-                        if (back$q != id$q) begin
-                            request$d = writes$write;
-                        end
-                        id$d = after$q;
-                        state$d = SoloState$Fetch;
-                        if (b$q == root[(64'hf)+:(15)]) begin
-                            state$d = SoloState$Idle;
-                        end
-                    end
-                end
-            SoloState$Flip:
-                begin
-                    request$d = writes$write;
-                    step$d = step$q + one;
-                    if (is_last_step) begin
-                        b$d = apex$q;
-                        after$d = outer$q;
-                        back$d = outer$q;
-                        outer$d = apex_after_a$q;
-                        state$d = SoloState$Test;
-                    end
-                end
-            default:
-                begin
-                    state$d = SoloState$Idle;
-                end
-        endcase
-        if (reset) begin
-            state$d = SoloState$Idle;
-            awaits$d = 1'b0;
-            request$d[(64'h0)+:(1)] = 1'b0;
-        end
-    end
-    
-endmodule // incircle_core_logic$solo
-
-
-module incircle_core_logic$solo$a(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$a
-
-
-module incircle_core_logic$solo$after(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$after
-
-
-module incircle_core_logic$solo$apex(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$apex
-
-
-module incircle_core_logic$solo$apex_after_a(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$apex_after_a
-
-
-module incircle_core_logic$solo$apex_before_b(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$apex_before_b
-
-
-module incircle_core_logic$solo$awaits(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$awaits
-
-
-module incircle_core_logic$solo$b(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$b
-
-
-module incircle_core_logic$solo$back(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$back
-
-
-module incircle_core_logic$solo$id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$id
-
-
-module incircle_core_logic$solo$outer(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$outer
-
-
-module incircle_core_logic$solo$preceding(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$preceding
-
-
-module incircle_core_logic$solo$request(d,q,clock);
-    
-    // Module arguments
-    input wire  [109:0] d;
-    output reg  [109:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 110'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$request
-
-
-module incircle_core_logic$solo$state(d,q,clock);
-    
-    // Module arguments
-    input wire  [2:0] d;
-    output reg  [2:0] q;
-    input wire  clock;
-    
-    // Enums
-    localparam SoloState$Idle = 0;
-    localparam SoloState$Split = 1;
-    localparam SoloState$Mend = 2;
-    localparam SoloState$Fetch = 3;
-    localparam SoloState$Test = 4;
-    localparam SoloState$Flip = 5;
-    
-    // Update code (custom)
-    initial begin
-       q = 64'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$state
-
-
-module incircle_core_logic$solo$step(d,q,clock);
-    
-    // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 2'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$solo$step
-
-
-module incircle_core_logic$solo$writes(is_split,is_mend,is_test,step,p,records,root_id,root,id,a,b,outer,after,preceding,apex,apex_after_a,apex_before_b,visited,slot,write);
-    
-    // Module arguments
-    input wire  is_split;
-    input wire  is_mend;
-    input wire  is_test;
-    input wire  [1:0] step;
-    input wire  [14:0] p;
-    input wire  [14:0] records;
-    input wire  [14:0] root_id;
-    input wire  [95:0] root;
-    input wire  [14:0] id;
-    input wire  [14:0] a;
-    input wire  [14:0] b;
-    input wire  [14:0] outer;
-    input wire  [14:0] after;
-    input wire  [14:0] preceding;
-    input wire  [14:0] apex;
-    input wire  [14:0] apex_after_a;
-    input wire  [14:0] apex_before_b;
-    input wire  [14:0] visited;
-    input wire  [1:0] slot;
-    output reg  [109:0] write;
-    
-    // Stub signals
-    reg  [14:0] record$id;
-    reg  [14:0] record$v0;
-    reg  [14:0] record$v1;
-    reg  [14:0] record$v2;
-    reg  [14:0] record$n0;
-    reg  [14:0] record$n1;
-    reg  [14:0] record$n2;
-    wire  [109:0] record$write;
-    reg  [14:0] link$id;
-    reg  [1:0] link$slot;
-    reg  [14:0] link$value;
-    wire  [109:0] link$write;
-    
-    // Local signals
-    reg  [14:0] second;
-    reg  [14:0] third;
-    reg  [14:0] one;
-    reg  is_step0;
-    reg  is_step1;
-    reg  [1:0] step0;
-    reg  [1:0] step1;
-    
-    // Sub module instances
-    incircle_core_logic$solo$writes$record record(
-        .id(record$id),
-        .v0(record$v0),
-        .v1(record$v1),
-        .v2(record$v2),
-        .n0(record$n0),
-        .n1(record$n1),
-        .n2(record$n2),
-        .write(record$write)
-    );
-    incircle_core_logic$solo$writes$link link(
-        .id(link$id),
-        .slot(link$slot),
-        .value(link$value),
-        .write(link$write)
-    );
-    
-    // Update code
-    always @(*) begin
-        one = 32'h1;
-        step0 = 32'h0;
-        step1 = 32'h1;
-        is_step0 = step == step0;
-        is_step1 = step == step1;
-        second = records;
-        third = records + one;
-        record$id = third;
-        record$v0 = p;
-        record$v1 = root[(64'h0)+:(15)];
-        record$v2 = root[(64'hf)+:(15)];
-        record$n0 = root[(64'h4b)+:(15)];
-        record$n1 = root_id;
-        record$n2 = second;
-        if (is_split & is_step0) begin
-            record$id = root_id;
-            record$v1 = root[(64'hf)+:(15)];
-            record$v2 = root[(64'h1e)+:(15)];
-            record$n0 = root[(64'h2d)+:(15)];
-            record$n1 = second;
-            record$n2 = third;
-        end
-        if (is_split & is_step1) begin
-            record$id = second;
-            record$v1 = root[(64'h1e)+:(15)];
-            record$v2 = root[(64'h0)+:(15)];
-            record$n0 = root[(64'h3c)+:(15)];
-            record$n1 = third;
-            record$n2 = root_id;
-        end
-        if ((~is_split) & is_step0) begin
-            record$id = id;
-            record$v1 = a;
-            record$v2 = apex;
-            record$n0 = apex_after_a;
-            record$n1 = outer;
-            record$n2 = preceding;
-        end
-        if ((~is_split) & is_step1) begin
-            record$id = outer;
-            record$v1 = apex;
-            record$v2 = b;
-            record$n0 = apex_before_b;
-            record$n1 = after;
-            record$n2 = id;
-        end
-        link$id = after;
-        link$slot = 32'h2;
-        link$value = outer;
-        if (is_test) begin
-            link$id = visited;
-            link$slot = slot;
-            link$value = id;
-        end
-        if (is_mend) begin
-            link$id = visited;
-            link$slot = slot;
-            link$value = second;
-            if (is_step1) begin
-                link$value = third;
-            end
-        end
-        write = link$write;
-        if (is_split) begin
-            write = record$write;
-        end
-        if ((~is_mend) & (~is_test) & (is_step0 | is_step1)) begin
-            write = record$write;
-        end
-    end
-    
-endmodule // incircle_core_logic$solo$writes
-
-
-module incircle_core_logic$solo$writes$link(id,slot,value,write);
-    
-    // Module arguments
-    input wire  [14:0] id;
-    input wire  [1:0] slot;
-    input wire  [14:0] value;
-    output reg  [109:0] write;
-    
-    // Local signals
-    reg  [1:0] slot0;
-    reg  [1:0] slot1;
-    reg  [1:0] slot2;
-    
-    // Update code
-    always @(*) begin
-        slot0 = 32'h0;
-        slot1 = 32'h1;
-        slot2 = 32'h2;
-        write[(64'h0)+:(1)] = 1'b1;
-        write[(64'h1)+:(15)] = id;
-        write[(64'h10)+:(1)] = 1'b0;
-        write[(64'h11)+:(1)] = slot == slot0;
-        write[(64'h12)+:(1)] = slot == slot1;
-        write[(64'h13)+:(1)] = slot == slot2;
-        write[(64'h14)+:(15)] = 32'h0;
-        write[(64'h23)+:(15)] = 32'h0;
-        write[(64'h32)+:(15)] = 32'h0;
-        write[(64'h41)+:(15)] = value;
-        write[(64'h50)+:(15)] = value;
-        write[(64'h5f)+:(15)] = value;
-    end
-    
-endmodule // incircle_core_logic$solo$writes$link
-
-
-module incircle_core_logic$solo$writes$record(id,v0,v1,v2,n0,n1,n2,write);
-    
-    // Module arguments
-    input wire  [14:0] id;
     input wire  [14:0] v0;
     input wire  [14:0] v1;
     input wire  [14:0] v2;
     input wire  [14:0] n0;
     input wire  [14:0] n1;
     input wire  [14:0] n2;
-    output reg  [109:0] write;
+    input wire  was_set;
+    output reg  [31:0] word0;
+    output reg  [31:0] word1;
+    output reg  [31:0] word2;
+    
+    // Local signals
+    reg  [31:0] lock;
+    reg  [31:0] vertex0;
+    reg  [31:0] vertex1;
+    reg  [31:0] vertex2;
+    reg  [31:0] link0;
+    reg  [31:0] link1;
+    reg  [31:0] link2;
+    reg  [31:0] high0;
+    reg  [31:0] high1;
+    reg  [31:0] high2;
+    reg  [31:0] link_shift;
     
     // Update code
     always @(*) begin
-        write[(64'h0)+:(1)] = 1'b1;
-        write[(64'h1)+:(15)] = id;
-        write[(64'h10)+:(1)] = 1'b1;
-        write[(64'h11)+:(1)] = 1'b1;
-        write[(64'h12)+:(1)] = 1'b1;
-        write[(64'h13)+:(1)] = 1'b1;
-        write[(64'h14)+:(15)] = v0;
-        write[(64'h23)+:(15)] = v1;
-        write[(64'h32)+:(15)] = v2;
-        write[(64'h41)+:(15)] = n0;
-        write[(64'h50)+:(15)] = n1;
-        write[(64'h5f)+:(15)] = n2;
+        link_shift = 32'hf;
+        lock = 32'h0;
+        if (was_set) begin
+            lock = 64'h80000000;
+        end
+        vertex0 = ((v0) & 32'hffffffff);
+        vertex1 = ((v1) & 32'hffffffff);
+        vertex2 = ((v2) & 32'hffffffff);
+        link0 = ((n0) & 32'hffffffff);
+        link1 = ((n1) & 32'hffffffff);
+        link2 = ((n2) & 32'hffffffff);
+        high0 = link0 << link_shift;
+        high1 = link1 << link_shift;
+        high2 = link2 << link_shift;
+        word0 = vertex0 | high0 | lock;
+        word1 = vertex1 | high1;
+        word2 = vertex2 | high2;
     end
     
-endmodule // incircle_core_logic$solo$writes$record
-
-
-module incircle_core_logic$write_port(clock,reset,commit,solo,seed,write);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  reset;
-    input wire  [109:0] commit;
-    input wire  [109:0] solo;
-    input wire  [109:0] seed;
-    output reg  [109:0] write;
-    
-    // Stub signals
-    reg  [109:0] port$d;
-    wire  [109:0] port$q;
-    reg  port$clock;
-    
-    // Sub module instances
-    incircle_core_logic$write_port$port port(
-        .d(port$d),
-        .q(port$q),
-        .clock(port$clock)
-    );
-    
-    // Update code
-    always @(*) begin
-        port$clock = clock;
-        port$d = port$q;
-        write = port$q;
-        port$d[(64'h0)+:(1)] = 1'b0;
-        if (seed[(64'h0)+:(1)]) begin
-            port$d = seed;
-        end
-        if (solo[(64'h0)+:(1)]) begin
-            port$d = solo;
-        end
-        if (commit[(64'h0)+:(1)]) begin
-            port$d = commit;
-        end
-        if (reset) begin
-            port$d[(64'h0)+:(1)] = 1'b0;
-            port$d[(64'h1)+:(15)] = 32'h0;
-            port$d[(64'h10)+:(1)] = 1'b0;
-            port$d[(64'h11)+:(1)] = 1'b0;
-            port$d[(64'h12)+:(1)] = 1'b0;
-            port$d[(64'h13)+:(1)] = 1'b0;
-            port$d[(64'h14)+:(15)] = 32'h0;
-            port$d[(64'h23)+:(15)] = 32'h0;
-            port$d[(64'h32)+:(15)] = 32'h0;
-            port$d[(64'h41)+:(15)] = 32'h0;
-            port$d[(64'h50)+:(15)] = 32'h0;
-            port$d[(64'h5f)+:(15)] = 32'h0;
-        end
-    end
-    
-endmodule // incircle_core_logic$write_port
-
-
-module incircle_core_logic$write_port$port(d,q,clock);
-    
-    // Module arguments
-    input wire  [109:0] d;
-    output reg  [109:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 110'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$write_port$port
+endmodule // incircle_core_logic$responder$words
 
 `default_nettype wire
 `default_nettype none
@@ -11333,6 +12039,7 @@ module incircle_core (
     input wire response_ready,
     output wire [31:0] response_data
 );
+    wire [109:0] unused_write;
     incircle_core_logic core (
         .clock(clock),
         .reset(reset),
@@ -11342,7 +12049,7 @@ module incircle_core (
         .response_valid(response_valid),
         .response_ready(response_ready),
         .response_data(response_data),
-        .write()
+        .write(unused_write)
     );
 endmodule
 `default_nettype wire

@@ -20,7 +20,7 @@
 //!
 //! Latency: entries + links + 3 clocks from `starts` to `ends`.
 
-use super::{Entry, LinkWrite, RecordWrite, Write};
+use super::{Entry, LinkWrite, RecordWrite, StarId, Write};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -88,11 +88,10 @@ pub struct Commit {
     link_slot: DFF<Bits<2>>,
     link_id: DFF<Bits<15>>,
     request: DFF<Write>,
+    star_id: StarId,
     record: RecordWrite,
     link: LinkWrite,
-    shares: Signal<Local, Bit>,
     inner_is_used_up: Signal<Local, Bit>,
-    ahead_id: Signal<Local, Bits<15>>,
     needs_link: Signal<Local, Bit>,
     pointer_is_first: Signal<Local, Bit>,
     first_pointer: Signal<Local, Bits<6>>,
@@ -135,23 +134,16 @@ impl Logic for Commit {
         self.write.next = self.request.q.val();
 
         // The id of the entry ahead.
-        self.shares.next = (!self.ahead_is_first.q.val())
-            & ((self.ahead.q.val().f == self.current.q.val().f)
-                | (self.ahead.q.val().f == self.first.q.val().f));
         self.inner_is_used_up.next = self.inner_index.q.val() == self.inner_count.val();
-        self.takes_fresh.next = (self.state.q.val() == CommitState::Record)
-            & self.shares.val()
-            & self.inner_is_used_up.val();
-        self.ahead_id.next = self.ahead.q.val().f;
-        if self.ahead_is_first.q.val() {
-            self.ahead_id.next = self.first.q.val().f;
-        }
-        if self.shares.val() {
-            self.ahead_id.next = self.inner_id.val();
-            if self.inner_is_used_up.val() {
-                self.ahead_id.next = self.records.val();
-            }
-        }
+        self.star_id.ahead.next = self.ahead.q.val();
+        self.star_id.ahead_is_first.next = self.ahead_is_first.q.val();
+        self.star_id.current.next = self.current.q.val();
+        self.star_id.first.next = self.first.q.val();
+        self.star_id.inner_id.next = self.inner_id.val();
+        self.star_id.inner_is_used_up.next = self.inner_is_used_up.val();
+        self.star_id.records.next = self.records.val();
+        self.takes_fresh.next =
+            (self.state.q.val() == CommitState::Record) & self.star_id.shares.val() & self.inner_is_used_up.val();
         self.needs_link.next =
             (!self.opens.q.val()) & (self.current_id.q.val() != self.current.q.val().f);
         self.ends.next = self.state.q.val() == CommitState::Close;
@@ -162,7 +154,7 @@ impl Logic for Commit {
         self.record.v1.next = self.current.q.val().a;
         self.record.v2.next = self.ahead.q.val().a;
         self.record.n0.next = self.current.q.val().u;
-        self.record.n1.next = self.ahead_id.val();
+        self.record.n1.next = self.star_id.id.val();
         self.record.n2.next = self.before_id.q.val();
         if self.state.q.val() == CommitState::Close {
             self.record.v2.next = self.second_a.q.val();
@@ -173,6 +165,11 @@ impl Logic for Commit {
         self.link.value.next = self.link_id.q.val();
         self.request.d.next.valid = false;
 
+        if (self.state.q.val() == CommitState::Load) | (self.state.q.val() == CommitState::Record) {
+            self.ahead.d.next = self.entry.val();
+            self.ahead_is_first.d.next = self.pointer_is_first.val();
+            self.pointer.d.next = self.entry.val().after;
+        }
         match self.state.q.val() {
             CommitState::Idle => {
                 if self.starts.val() {
@@ -187,18 +184,15 @@ impl Logic for Commit {
                 self.current.d.next = self.ahead.q.val();
                 self.current_id.d.next = self.ahead.q.val().f;
                 self.opens.d.next = true;
-                self.ahead.d.next = self.entry.val();
-                self.ahead_is_first.d.next = self.pointer_is_first.val();
-                self.pointer.d.next = self.entry.val().after;
                 self.state.d.next = CommitState::Record;
             }
             CommitState::Record => {
-                if self.shares.val() & (!self.inner_is_used_up.val()) {
+                if self.star_id.shares.val() & (!self.inner_is_used_up.val()) {
                     self.inner_index.d.next = self.inner_index.q.val() + self.one.val();
                 }
                 if self.opens.q.val() {
                     self.second_a.d.next = self.ahead.q.val().a;
-                    self.second_id.d.next = self.ahead_id.val();
+                    self.second_id.d.next = self.star_id.id.val();
                 } else {
                     self.request.d.next = self.record.write.val();
                     self.link_u.d.next = self.current.q.val().u;
@@ -209,10 +203,7 @@ impl Logic for Commit {
                 self.closes.d.next = self.ahead_is_first.q.val();
                 self.before_id.d.next = self.current_id.q.val();
                 self.current.d.next = self.ahead.q.val();
-                self.current_id.d.next = self.ahead_id.val();
-                self.ahead.d.next = self.entry.val();
-                self.ahead_is_first.d.next = self.pointer_is_first.val();
-                self.pointer.d.next = self.entry.val().after;
+                self.current_id.d.next = self.star_id.id.val();
                 if self.needs_link.val() {
                     self.state.d.next = CommitState::Link;
                 } else {

@@ -27,7 +27,7 @@
 //!
 //! Source: Lawson's flips, in the order of the star.
 
-use super::{Bundle, SoloWrites, Token, Turned, Verdict, Write};
+use super::{Bundle, SoloVisit, SoloWrites, Token, Turned, Verdict, Write};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -101,12 +101,15 @@ pub struct Solo {
     apex_after_a: DFF<Bits<15>>,
     apex_before_b: DFF<Bits<15>>,
     request: DFF<Write>,
+    visit: SoloVisit,
     writes: SoloWrites,
+    is_visiting: Signal<Local, Bit>,
+    is_split: Signal<Local, Bit>,
+    is_flip: Signal<Local, Bit>,
     is_last_step: Signal<Local, Bit>,
     is_second_mend: Signal<Local, Bit>,
     rests: Signal<Local, Bit>,
     third_step: Signal<Local, Bits<2>>,
-    second_step: Signal<Local, Bits<2>>,
     one: Signal<Local, Bits<2>>,
 }
 
@@ -116,27 +119,26 @@ impl Logic for Solo {
         dff_setup!(self, clock, state, step, awaits, id, a, b, outer, after, preceding, back);
         dff_setup!(self, clock, apex, apex_after_a, apex_before_b, request);
         self.one.next = 1.into();
-        self.second_step.next = 1.into();
         self.third_step.next = 2.into();
-        self.is_second_mend.next = self.step.q.val() == self.second_step.val();
+        self.is_second_mend.next = self.step.q.val() == self.one.val();
         self.is_last_step.next = self.step.q.val() == self.third_step.val();
 
-        // The visit of the state; links lead back from the triangle outside.
-        self.push.next = false;
-        self.bundle.next.is_pair = false;
-        self.bundle.next.rotates = true;
-        self.bundle.next.locks = false;
-        self.bundle.next.x = 0.into();
-        self.bundle.next.after = 0.into();
-        self.bundle.next.f_entry = 0.into();
-        self.bundle.next.f = self.back.q.val();
-        self.bundle.next.u = self.outer.q.val();
-        self.bundle.next.second_x = 0.into();
-        self.bundle.next.second_after = 0.into();
-        self.bundle.next.second_u = 0.into();
+        self.visit.is_mend.next = self.state.q.val() == SoloState::Mend;
+        self.visit.is_second.next = self.is_second_mend.val();
+        self.visit.is_fetch.next = self.state.q.val() == SoloState::Fetch;
+        self.visit.root_id.next = self.root_id.val();
+        self.visit.root.next = self.root.val();
+        self.visit.id.next = self.id.q.val();
+        self.visit.outer.next = self.outer.q.val();
+        self.visit.back.next = self.back.q.val();
+        self.bundle.next = self.visit.bundle.val();
+        self.is_visiting.next = (self.state.q.val() == SoloState::Mend) | (self.state.q.val() == SoloState::Fetch) | (self.state.q.val() == SoloState::Test);
+        self.push.next = self.is_visiting.val() & (!self.awaits.q.val());
+        self.awaits.d.next = self.is_visiting.val() & (!self.done.val());
 
         self.writes.step.next = self.step.q.val();
-        self.writes.is_split.next = self.state.q.val() == SoloState::Split;
+        self.is_split.next = self.state.q.val() == SoloState::Split;
+        self.writes.is_split.next = self.is_split.val();
         self.writes.p.next = self.p.val();
         self.writes.records.next = self.records.val();
         self.writes.root_id.next = self.root_id.val();
@@ -161,9 +163,14 @@ impl Logic for Solo {
             & self.done.val()
             & (!self.verdict.val().conflict);
         self.tests.next = (self.state.q.val() == SoloState::Test) & self.done.val();
-        self.flips.next = (self.state.q.val() == SoloState::Flip) & self.is_last_step.val();
+        self.is_flip.next = self.state.q.val() == SoloState::Flip;
+        self.flips.next = self.is_flip.val() & self.is_last_step.val();
         self.ends.next = self.rests.val() & (self.b.q.val() == self.root.val().v1);
 
+        if self.is_split.val() | self.is_flip.val() {
+            self.request.d.next = self.writes.write.val();
+            self.step.d.next = self.step.q.val() + self.one.val();
+        }
         match self.state.q.val() {
             SoloState::Idle => {
                 self.step.d.next = 0.into();
@@ -172,21 +179,12 @@ impl Logic for Solo {
                 }
             }
             SoloState::Split => {
-                self.request.d.next = self.writes.write.val();
-                self.step.d.next = self.step.q.val() + self.one.val();
                 if self.is_last_step.val() {
                     self.step.d.next = 0.into();
                     self.state.d.next = SoloState::Mend;
                 }
             }
             SoloState::Mend => {
-                self.push.next = !self.awaits.q.val();
-                self.bundle.next.f = self.root_id.val();
-                self.bundle.next.u = self.root.val().n1;
-                if self.is_second_mend.val() {
-                    self.bundle.next.u = self.root.val().n2;
-                }
-                self.awaits.d.next = !self.done.val();
                 if self.done.val() {
                     self.request.d.next = self.writes.write.val();
                     self.step.d.next = 1.into();
@@ -197,11 +195,6 @@ impl Logic for Solo {
                 }
             }
             SoloState::Fetch => {
-                self.push.next = !self.awaits.q.val();
-                self.bundle.next.rotates = false;
-                self.bundle.next.f = 0.into();
-                self.bundle.next.u = self.id.q.val();
-                self.awaits.d.next = !self.done.val();
                 self.back.d.next = self.id.q.val();
                 if self.done.val() {
                     self.a.d.next = self.turned.val().v1;
@@ -213,8 +206,6 @@ impl Logic for Solo {
                 }
             }
             SoloState::Test => {
-                self.push.next = !self.awaits.q.val();
-                self.awaits.d.next = !self.done.val();
                 self.step.d.next = 0.into();
                 self.apex.d.next = self.turned.val().v0;
                 self.apex_after_a.d.next = self.turned.val().n1;
@@ -234,8 +225,6 @@ impl Logic for Solo {
                 }
             }
             SoloState::Flip => {
-                self.request.d.next = self.writes.write.val();
-                self.step.d.next = self.step.q.val() + self.one.val();
                 if self.is_last_step.val() {
                     self.b.d.next = self.apex.q.val();
                     self.after.d.next = self.outer.q.val();

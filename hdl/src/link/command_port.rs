@@ -24,6 +24,7 @@
 //!
 //! Latency: a point accepted at an edge waits at the engine in the next clock.
 
+use super::{CommandGate, PointSlot};
 use incircle_protocol::Opcode;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -108,20 +109,13 @@ pub struct CommandPort {
     command: DFF<Bits<8>>,
     first_word: DFF<Bits<32>>,
     left: DFF<Bits<32>>,
-    arrivals: DFF<Bits<15>>,
-    refusals: DFF<Bits<32>>,
-    waits: DFF<Bit>,
-    waiting_id: DFF<Bits<15>>,
-    waiting_point: DFF<Bits<32>>,
-    is_new: DFF<Bit>,
     clearing: DFF<Bit>,
     is_inserting: DFF<Bit>,
     is_reading: DFF<Bit>,
-    is_ready: Signal<Local, Bit>,
+    slot: PointSlot,
+    gate: CommandGate,
     accepts: Signal<Local, Bit>,
     is_last: Signal<Local, Bit>,
-    start_is_open: Signal<Local, Bit>,
-    stores: Signal<Local, Bit>,
     code: Signal<Local, Bits<8>>,
     is_insert: Signal<Local, Bit>,
     read_code: Signal<Local, Bits<8>>,
@@ -129,8 +123,6 @@ pub struct CommandPort {
     clear_code: Signal<Local, Bits<8>>,
     none_left: Signal<Local, Bits<32>>,
     one: Signal<Local, Bits<32>>,
-    one_arrival: Signal<Local, Bits<15>>,
-    three_arrivals: Signal<Local, Bits<15>>,
 }
 
 // The kernel names opcodes by number, because rust-hdl takes literals only; a change in the protocol must come here.
@@ -142,70 +134,54 @@ const _: () = assert!(
 impl Logic for CommandPort {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(
-            self, clock, state, command, first_word, left, arrivals, refusals, waits, waiting_id
-        );
-        dff_setup!(
-            self,
-            clock,
-            waiting_point,
-            is_new,
-            clearing,
-            is_inserting,
-            is_reading
-        );
+        dff_setup!(self, clock, state, command, first_word, left, clearing, is_inserting, is_reading);
+        clock!(self, clock, slot);
         self.clear_code.next = 2.into();
         self.insert_code.next = 3.into();
         self.read_code.next = 4.into();
         self.none_left.next = 0.into();
         self.one.next = 1.into();
-        self.one_arrival.next = 1.into();
-        self.three_arrivals.next = 3.into();
 
-        self.point_valid.next = self.waits.q.val();
-        self.point_id.next = self.waiting_id.q.val();
-        self.point.next = self.waiting_point.q.val();
-        self.vertex_enable.next = self.is_new.q.val();
+        self.point_valid.next = self.slot.valid.val();
+        self.point_id.next = self.slot.id.val();
+        self.point.next = self.slot.point.val();
+        self.vertex_enable.next = self.slot.is_new.val();
         self.clears.next = self.clearing.q.val();
         self.answers.next = self.state.q.val() == CommandState::Answer;
         self.opcode.next = self.command.q.val();
         self.first.next = self.first_word.q.val();
         self.count.next = self.left.q.val();
-        self.arrived.next = self.arrivals.q.val();
-        self.refused.next = self.refusals.q.val();
+        self.arrived.next = self.slot.arrived.val();
+        self.refused.next = self.slot.refused.val();
         self.inserting.next = self.is_inserting.q.val();
         self.reading.next = self.is_reading.q.val();
 
         // Is a word taken?
         self.is_last.next = self.left.q.val() == self.none_left.val();
-        self.start_is_open.next = (self.arrivals.q.val() == self.three_arrivals.val())
-            & (!self.seeded.val())
-            & (!self.collinear.val());
-        self.is_ready.next = false;
-        if self.state.q.val() == CommandState::Command {
-            self.is_ready.next = !self.sweeps.val();
-        }
-        if (self.state.q.val() == CommandState::First) | (self.state.q.val() == CommandState::Count)
-        {
-            self.is_ready.next = true;
-        }
-        if self.state.q.val() == CommandState::Points {
-            self.is_ready.next =
-                (!self.is_last.val()) & (!self.waits.q.val()) & (!self.start_is_open.val());
-        }
-        self.awaits_point.next =
-            (self.state.q.val() == CommandState::Points) & (!self.is_last.val());
-        self.command_ready.next = self.is_ready.val();
-        self.accepts.next = self.command_valid.val() & self.is_ready.val();
-        self.stores.next = (!self.collinear.val()) & (self.arrivals.q.val() != self.capacity.val());
+        self.gate.is_command.next = self.state.q.val() == CommandState::Command;
+        self.gate.is_argument.next =
+            (self.state.q.val() == CommandState::First) | (self.state.q.val() == CommandState::Count);
+        self.gate.is_points.next = self.state.q.val() == CommandState::Points;
+        self.gate.sweeps.next = self.sweeps.val();
+        self.gate.none_is_left.next = self.is_last.val();
+        self.gate.point_waits.next = self.slot.valid.val();
+        self.gate.arrived.next = self.slot.arrived.val();
+        self.gate.seeded.next = self.seeded.val();
+        self.gate.collinear.next = self.collinear.val();
+        self.awaits_point.next = self.gate.awaits_point.val();
+        self.command_ready.next = self.gate.ready.val();
+        self.accepts.next = self.command_valid.val() & self.gate.ready.val();
+        self.slot.reset.next = self.reset.val();
+        self.slot.clears.next = self.clearing.q.val();
+        self.slot.capacity.next = self.capacity.val();
+        self.slot.collinear.next = self.collinear.val();
+        self.slot.accepts.next = self.accepts.val() & (self.state.q.val() == CommandState::Points);
+        self.slot.word.next = self.command_data.val();
+        self.slot.takes.next = self.takes_point.val();
         self.code.next = self.command_data.val().get_bits::<8>(24);
         self.is_insert.next = self.command.q.val() == self.insert_code.val();
 
         self.clearing.d.next = false;
-        self.is_new.d.next = false;
-        if self.takes_point.val() {
-            self.waits.d.next = false;
-        }
         if (self.state.q.val() != CommandState::Answer)
             & self.responder_is_idle.val()
             & self.answer_is_taken.val()
@@ -250,15 +226,6 @@ impl Logic for CommandPort {
                 if self.accepts.val() {
                     self.left.d.next = self.left.q.val() - self.one.val();
                     self.is_inserting.d.next = true;
-                    if self.stores.val() {
-                        self.waits.d.next = true;
-                        self.is_new.d.next = true;
-                        self.waiting_id.d.next = self.arrivals.q.val();
-                        self.waiting_point.d.next = self.command_data.val();
-                        self.arrivals.d.next = self.arrivals.q.val() + self.one_arrival.val();
-                    } else {
-                        self.refusals.d.next = self.refusals.q.val() + self.one.val();
-                    }
                 }
             }
             CommandState::Settle => {
@@ -276,15 +243,9 @@ impl Logic for CommandPort {
                 self.state.d.next = CommandState::Command;
             }
         }
-        if self.clearing.q.val() | self.reset.val() {
-            self.arrivals.d.next = 0.into();
-            self.refusals.d.next = 0.into();
-        }
         if self.reset.val() {
             self.state.d.next = CommandState::Command;
-            self.waits.d.next = false;
-            self.is_new.d.next = false;
-            self.clearing.d.next = false;
+                self.clearing.d.next = false;
             self.is_inserting.d.next = false;
             self.is_reading.d.next = false;
         }

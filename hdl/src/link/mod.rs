@@ -1,9 +1,15 @@
 //! The command and answer streams.
 
 mod answer_words;
+mod command_gate;
 mod command_port;
+mod point_slot;
+mod record_words;
 mod responder;
 
 pub use answer_words::AnswerWords;
+pub use command_gate::CommandGate;
 pub use command_port::{CommandPort, CommandState};
+pub use point_slot::PointSlot;
+pub use record_words::RecordWords;
 pub use responder::{AnswerState, Responder};

@@ -17,6 +17,7 @@
 //!
 //! Latency: 2 clocks from `answers` to the header; 8 clocks a record.
 
+use super::RecordWords;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -107,17 +108,7 @@ pub struct Responder {
     is_empty: Signal<Local, Bit>,
     is_last_column: Signal<Local, Bit>,
     ends_now: Signal<Local, Bit>,
-    lock: Signal<Local, Bits<32>>,
-    vertex0: Signal<Local, Bits<32>>,
-    vertex1: Signal<Local, Bits<32>>,
-    vertex2: Signal<Local, Bits<32>>,
-    link0: Signal<Local, Bits<32>>,
-    link1: Signal<Local, Bits<32>>,
-    link2: Signal<Local, Bits<32>>,
-    high0: Signal<Local, Bits<32>>,
-    high1: Signal<Local, Bits<32>>,
-    high2: Signal<Local, Bits<32>>,
-    link_shift: Signal<Local, Bits<32>>,
+    words: RecordWords,
     one: Signal<Local, Bits<32>>,
     zero: Signal<Local, Bits<32>>,
     one_word: Signal<Local, Bits<4>>,
@@ -131,7 +122,6 @@ impl Logic for Responder {
     fn update(&mut self) {
         dff_setup!(self, clock, state, valid, data, left, loaded, record_id, fetching, buffered);
         dff_setup!(self, clock, buffer0, buffer1, buffer2, column);
-        self.link_shift.next = 15.into();
         self.one.next = 1.into();
         self.zero.next = 0.into();
         self.one_word.next = 1.into();
@@ -155,28 +145,22 @@ impl Logic for Responder {
             & (!self.buffered.q.val());
         self.read.next = self.asks.val();
         self.read_id.next = self.record_id.q.val();
-        self.lock.next = 0.into();
-        if self.was_set.val() {
-            self.lock.next = 0x8000_0000u64.into();
-        }
-        self.vertex0.next = bit_cast::<32, 15>(self.v0.val());
-        self.vertex1.next = bit_cast::<32, 15>(self.v1.val());
-        self.vertex2.next = bit_cast::<32, 15>(self.v2.val());
-        self.link0.next = bit_cast::<32, 15>(self.n0.val());
-        self.link1.next = bit_cast::<32, 15>(self.n1.val());
-        self.link2.next = bit_cast::<32, 15>(self.n2.val());
-        self.high0.next = self.link0.val() << self.link_shift.val();
-        self.high1.next = self.link1.val() << self.link_shift.val();
-        self.high2.next = self.link2.val() << self.link_shift.val();
+        self.words.v0.next = self.v0.val();
+        self.words.v1.next = self.v1.val();
+        self.words.v2.next = self.v2.val();
+        self.words.n0.next = self.n0.val();
+        self.words.n1.next = self.n1.val();
+        self.words.n2.next = self.n2.val();
+        self.words.was_set.next = self.was_set.val();
         if self.asks.val() {
             self.fetching.d.next = true;
         }
         if self.read_done.val() {
             self.fetching.d.next = false;
             self.buffered.d.next = true;
-            self.buffer0.d.next = self.vertex0.val() | self.high0.val() | self.lock.val();
-            self.buffer1.d.next = self.vertex1.val() | self.high1.val();
-            self.buffer2.d.next = self.vertex2.val() | self.high2.val();
+            self.buffer0.d.next = self.words.word0.val();
+            self.buffer1.d.next = self.words.word1.val();
+            self.buffer2.d.next = self.words.word2.val();
             self.record_id.d.next = self.record_id.q.val() + self.one_record.val();
         }
 

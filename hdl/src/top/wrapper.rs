@@ -37,7 +37,10 @@ pub fn wrapper(core: &str, with_probe: bool) -> String {
         "input wire response_ready".into(),
         "output wire [31:0] response_data".into(),
     ];
-    let mut write = String::new();
+    // Without the probe the port ends in a wire that synthesis removes.
+    let bits: usize = PROBE.iter().map(|(_, width)| width).sum();
+    let mut declaration = format!("    wire [{}:0] unused_write;\n", bits - 1);
+    let mut write = "unused_write".to_string();
     if with_probe {
         let mut fields: Vec<&str> = Vec::new();
         for (name, width) in PROBE {
@@ -50,6 +53,7 @@ pub fn wrapper(core: &str, with_probe: bool) -> String {
             fields.insert(0, name);
         }
         write = format!("{{{}}}", fields.join(", "));
+        declaration = String::new();
     }
     let ports = ports.join(",\n    ");
     format!(
@@ -58,7 +62,7 @@ pub fn wrapper(core: &str, with_probe: bool) -> String {
 module {CORE_NAME} (
     {ports}
 );
-    {core} core (
+{declaration}    {core} core (
         .clock(clock),
         .reset(reset),
         .command_valid(command_valid),

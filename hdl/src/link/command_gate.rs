@@ -1,0 +1,64 @@
+//! When a command word is taken.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `is_command`, `is_argument`, `is_points` | in | 1 | what the next word means |
+//! | `sweeps` | in | 1 | the core is not ready for commands yet |
+//! | `none_is_left` | in | 1 | all points of the command have come |
+//! | `point_waits` | in | 1 | the point before has not gone to the engine |
+//! | `arrived`, `seeded`, `collinear` | in | 15, 1, 1 | points so far, and what became of the first three |
+//! | `ready` | out | 1 | a word is taken |
+//! | `awaits_point` | out | 1 | a point may come |
+//!
+//! 1. The fourth point waits until the first three are known to span a triangle.
+//!
+//! Latency: none (combinational).
+
+use rust_hdl_core::prelude::*;
+
+/// When a command word is taken; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct CommandGate {
+    /// The next word is a command.
+    pub is_command: Signal<In, Bit>,
+    /// It is an argument.
+    pub is_argument: Signal<In, Bit>,
+    /// It is a point.
+    pub is_points: Signal<In, Bit>,
+    /// The core is not ready yet.
+    pub sweeps: Signal<In, Bit>,
+    /// All points have come.
+    pub none_is_left: Signal<In, Bit>,
+    /// A point waits for the engine.
+    pub point_waits: Signal<In, Bit>,
+    /// Points so far.
+    pub arrived: Signal<In, Bits<15>>,
+    /// The first triangle stands.
+    pub seeded: Signal<In, Bit>,
+    /// The first three points are collinear.
+    pub collinear: Signal<In, Bit>,
+    /// A word is taken.
+    pub ready: Signal<Out, Bit>,
+    /// A point may come.
+    pub awaits_point: Signal<Out, Bit>,
+    start_is_open: Signal<Local, Bit>,
+    three: Signal<Local, Bits<15>>,
+}
+
+impl Logic for CommandGate {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.three.next = 3.into();
+        self.start_is_open.next =
+            (self.arrived.val() == self.three.val()) & (!self.seeded.val()) & (!self.collinear.val());
+        self.awaits_point.next = self.is_points.val() & (!self.none_is_left.val());
+        self.ready.next = self.is_argument.val();
+        if self.is_command.val() {
+            self.ready.next = !self.sweeps.val();
+        }
+        if self.is_points.val() {
+            self.ready.next =
+                (!self.none_is_left.val()) & (!self.point_waits.val()) & (!self.start_is_open.val());
+        }
+    }
+}
