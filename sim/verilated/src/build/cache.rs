@@ -66,31 +66,27 @@ fn compile(
     folder: &Path,
 ) -> Result<Vec<PathBuf>, BuildError> {
     let cpp = folder.join("cpp");
-    let header = cpp.join(format!("{class}.h"));
-    let header = fs::read_to_string(&header).map_err(|source| BuildError::File {
-        path: header.clone(),
-        source,
-    })?;
+    let path = cpp.join(format!("{class}.h"));
+    let header = fs::read_to_string(&path).map_err(|source| BuildError::File { path, source })?;
     let shim = shim::cpp_unit(class, &model.name, &shim::ports(&model.name, &header)?);
     write(&folder.join("shim.hpp"), shim::HEADER)?;
+    let trace = if model.trace { "1" } else { "0" };
+    let mut compiler = runtime::compiler(verilator);
+    compiler
+        .define("VM_TRACE", trace)
+        .define("VM_TRACE_VCD", trace)
+        .include(folder)
+        .include(&cpp)
+        .out_dir(folder);
     let files = cpp_files(&cpp)?;
     let unit = |name: &str, level: u32, files: &[&String], shim: &str| {
-        let includes: String = files
-            .iter()
-            .map(|file| format!("#include \"cpp/{file}\"\n"))
-            .collect();
+        let include = |file: &&String| format!("#include \"cpp/{file}\"\n");
+        let includes: String = files.iter().map(include).collect();
         let file = folder.join(format!("{class}_{name}.cpp"));
         write(&file, &(includes + shim))?;
-        let trace = if model.trace { "1" } else { "0" };
-        let mut build = runtime::compiler(verilator);
-        build
-            .opt_level(level)
-            .define("VM_TRACE", trace)
-            .define("VM_TRACE_VCD", trace)
-            .include(folder)
-            .include(&cpp)
-            .out_dir(folder);
-        Ok::<_, BuildError>(build.file(file).try_compile_intermediates()?)
+        let mut compiler = compiler.clone();
+        compiler.opt_level(level).file(file);
+        Ok::<_, BuildError>(compiler.try_compile_intermediates()?)
     };
     match model.optimisation {
         Optimisation::Quick => unit("all", 1, &files.iter().collect::<Vec<_>>(), &shim),
