@@ -19,6 +19,16 @@
 //! 3. The first entry's record is written last, because it needs the last one's id.
 //!
 //! Latency: entries + links + 3 clocks from `starts` to `ends`.
+//!
+//! Four entries behind two triangles: ids 0, 10, 1, 11, of which 10 and 11 are new; 7 and 8 are triangles outside.
+//! ```text
+//! starts          ___/^^^^^^^^^^^^^^^^^^^^^^^^^^\_____
+//! takes_fresh     ____________/^^^^^\_________________
+//! ends            ___________________________/^^\_____
+//! write.valid     _______________/^^^^^^^^^^^^^^^^^\__
+//! write.vertices  _______________/^^^^^\__/^^\__/^^\__
+//! write.id          .  .  .  .  .  1 10  7 11  8  0  .
+//! ```
 
 use super::{Entry, LinkWrite, RecordWrite, StarId, Write};
 use rust_hdl_core::prelude::*;

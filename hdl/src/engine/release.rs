@@ -13,8 +13,22 @@
 //!
 //! 1. A lock is logged by the visit that found it clear and set it; one that was set already is logged once all the same.
 //! 2. One lock is cleared per clock. The log is empty when `is_busy` falls.
+//! 3. `starts` comes with at least one lock logged, and nothing is logged while `is_busy`: an insertion locks its root, and the next
+//!    one waits.
 //!
 //! Latency: as many clocks as locks; the sweep takes one clock for each record.
+//!
+//! A sweep of four records, then the release of locks 27 and 28:
+//! ```text
+//! reset           /^^\_________________________________________
+//! sweeps          ___/^^^^^^^^^^^\_____________________________
+//! done            _____________________/^^^^^\_________________
+//! token.u           .  .  .  .  .  .  . 27 28  .  .  .  .  .  .
+//! starts          ______________________________/^^\___________
+//! is_busy         _________________________________/^^^^^\_____
+//! clear_enable    ______/^^^^^^^^^^^\_________________/^^^^^\__
+//! clear_id          .  .  0  1  2  3  .  .  .  .  .  . 27 28  .
+//! ```
 
 use super::{Token, Turned};
 use crate::leaf::LutMemory;

@@ -23,7 +23,8 @@
 //!        \  /                  \| /
 //!         p                     p
 //! ```
-//! Latency: 2 flips + 3 tests, each the visit latency, and 3 clocks a flip.
+//! Latency, with `f` flips: `3 f + 8` visits one after the other (2 mends, `f + 3` fetches, `2 f + 3` tests), each a clock more than the
+//! visit latency, and `3 f + 4` clocks.
 //!
 //! Source: Lawson's flips, in the order of the star.
 

@@ -23,6 +23,18 @@
 //!    triangle.
 //!
 //! Latency: a point accepted at an edge waits at the engine in the next clock.
+//!
+//! An insertion of two points into an empty core; the engine works a clock on each:
+//! ```text
+//! sweeps          /^^^^^\_________________________________________
+//! command_valid   /^^^^^^^^^^^^^^^^^^^^\__________________________
+//! command_ready   ______/^^^^^^^^\__/^^\_________________/^^^^^^^^
+//! point_valid     _______________/^^\__/^^\_______________________
+//! point_id          .  .  .  .  .  0  .  1  .  .  .  .  .  .  .  .
+//! takes_point     _______________/^^\__/^^\_______________________
+//! is_quiet        /^^^^^^^^^^^^^^\___________/^^^^^^^^^^^^^^^^^^^^
+//! answers         ______________________________/^^^^^^^^\________
+//! ```
 
 use super::{CommandGate, PointSlot};
 use incircle_protocol::Opcode;

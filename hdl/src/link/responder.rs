@@ -15,7 +15,18 @@
 //! 1. A word offered is held until it is taken; `response_valid` does not wait for `response_ready`.
 //! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
 //!
-//! Latency: 2 clocks from `answers` to the header; 8 clocks a record.
+//! Latency: 2 clocks from `answers` to the header; 7 clocks a record: the read's 3 and 4 more.
+//!
+//! A read of one record, whose length has to wait; `word` counts the words of the answer:
+//! ```text
+//! answers         ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\______________
+//! read            ____________/^^\________________________________
+//! response_valid  _________/^^^^^^^^^^^\_____/^^^^^^^^\___________
+//! word              .  .  .  0  1  1  1  .  .  2  3  4  .  .  .  .
+//! response_ready  /^^^^^^^^^^^\_____/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+//! ends            ______________________________/^^\______________
+//! is_idle         /^^^^^\__________________________/^^^^^^^^^^^^^^
+//! ```
 
 use super::RecordWords;
 use rust_hdl_core::prelude::*;

@@ -1,0 +1,179 @@
+//! What answers say: Rust, Verilog and the protocol as `incircle-protocol` states it agree, over random commands and counts of a mesh.
+
+mod stepper;
+
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::link::AnswerWords;
+use incircle_protocol::{
+    answer_header, Identity, InsertReport, Layout, Opcode, Status, CORE_COORD_BITS, CORE_VERSION,
+    COUNTER_WORDS, MAGIC, PROTOCOL_VERSION,
+};
+use stepper::{ports, Stepper};
+
+ports!(
+    AnswerWords,
+    [
+        opcode, first, count, capacity, ring, collinear, arrived, refused, insertions, duplicates,
+        records, index, counter
+    ],
+    [header, length, word, is_read]
+);
+
+/// True that many times in a hundred.
+fn percent(random: &mut SplitMix64, times: u64) -> bool {
+    random.below(100) < times
+}
+
+/// A word of 32 bits, from the corners as often as not.
+fn word(random: &mut SplitMix64) -> u32 {
+    [
+        0,
+        1,
+        u32::MAX,
+        1 << 31,
+        random.next_u64() as u32,
+        random.below(8) as u32,
+    ][random.below(6) as usize]
+}
+
+/// Status, payload length and payload of the answer; the payload of a read is open.
+struct Answer {
+    opcode: u8,
+    status: Status,
+    length: u32,
+    payload: Option<Vec<u32>>,
+}
+
+/// Inputs of `AnswerWords` by name.
+struct Asked {
+    opcode: u8,
+    first: u32,
+    count: u32,
+    capacity: u32,
+    ring: u32,
+    collinear: bool,
+    report: InsertReport,
+    counter: u32,
+}
+
+impl Asked {
+    fn random(random: &mut SplitMix64) -> Self {
+        let records = random.below(1 << 15) as u32;
+        let first = if percent(random, 50) {
+            word(random)
+        } else {
+            records / 2
+        };
+        let rest = records.wrapping_sub(first);
+        Self {
+            opcode: if percent(random, 80) {
+                random.below(7) as u8
+            } else {
+                word(random) as u8
+            },
+            first,
+            count: match random.below(3) {
+                0 => word(random),
+                // Just to the last record, one less, one more.
+                _ => rest.wrapping_add(random.below(3) as u32).wrapping_sub(1),
+            },
+            capacity: 1 << (2 + random.below(13)),
+            ring: 3 + random.below(62) as u32,
+            collinear: percent(random, 20),
+            report: InsertReport {
+                arrived: random.below(1 << 15) as u32,
+                inserted: word(random),
+                duplicates: word(random),
+                refused: word(random),
+                records,
+            },
+            counter: word(random),
+        }
+    }
+
+    fn answer(&self) -> Answer {
+        let end = u64::from(self.first) + u64::from(self.count);
+        let (status, length, payload) = match Opcode::from_u8(self.opcode) {
+            None => (Status::UnknownOpcode, 0, Some(vec![])),
+            Some(Opcode::Clear) => (Status::Ok, 0, Some(vec![])),
+            Some(Opcode::Read) if end > u64::from(self.report.records) => {
+                (Status::BadRange, 0, None)
+            }
+            Some(Opcode::Read) => {
+                let words = Layout::of(CORE_COORD_BITS, self.capacity).record_words as u32;
+                (Status::Ok, words * self.count, None)
+            }
+            Some(Opcode::Counters) => {
+                let words = vec![self.counter; COUNTER_WORDS];
+                (Status::Ok, COUNTER_WORDS as u32, Some(words))
+            }
+            Some(Opcode::Hello) => {
+                let identity = Identity {
+                    magic: MAGIC,
+                    protocol_version: PROTOCOL_VERSION,
+                    core_version: CORE_VERSION,
+                    coord_bits: CORE_COORD_BITS,
+                    capacity: self.capacity,
+                    contexts: 1,
+                    ring_capacity: self.ring,
+                };
+                (Status::Ok, 7, Some(identity.to_words().to_vec()))
+            }
+            Some(Opcode::Insert) => {
+                let status = if self.collinear {
+                    Status::Collinear
+                } else if self.report.refused > 0 {
+                    Status::Full
+                } else {
+                    Status::Ok
+                };
+                (status, 5, Some(self.report.to_words().to_vec()))
+            }
+        };
+        Answer {
+            opcode: self.opcode,
+            status,
+            length,
+            payload,
+        }
+    }
+}
+
+#[test]
+fn answer_words_follow_the_protocol() {
+    let mut random = SplitMix64::new(5);
+    let mut block = Stepper::new("answer_words", AnswerWords::default(), 1);
+    let mut bad_ranges = 0;
+    for _ in 0..5000 {
+        let asked = Asked::random(&mut random);
+        let answer = asked.answer();
+        bad_ranges += u32::from(answer.status == Status::BadRange);
+        let index = random.below(COUNTER_WORDS as u64) as usize;
+        let report = asked.report;
+        for (port, value) in [
+            ("opcode", u32::from(asked.opcode)),
+            ("first", asked.first),
+            ("count", asked.count),
+            ("capacity", asked.capacity),
+            ("ring", asked.ring),
+            ("collinear", asked.collinear.into()),
+            ("arrived", report.arrived),
+            ("refused", report.refused),
+            ("insertions", report.inserted),
+            ("duplicates", report.duplicates),
+            ("records", report.records),
+            ("index", index as u32),
+            ("counter", asked.counter),
+        ] {
+            block.set(port, value);
+        }
+        block.settle();
+        block.expect("header", answer_header(answer.opcode, answer.status));
+        block.expect("length", answer.length);
+        block.expect("is_read", answer.payload.is_none());
+        if let Some(word) = answer.payload.as_ref().and_then(|words| words.get(index)) {
+            block.expect("word", *word);
+        }
+    }
+    assert!(bad_ranges > 100, "{bad_ranges}");
+}

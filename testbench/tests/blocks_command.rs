@@ -1,0 +1,308 @@
+//! The command stream: Rust, Verilog and a list of what has been asked for agree clock by clock, crossed with a host that pauses,
+//! an engine and a responder that take their time, and resets.
+
+mod command_reference;
+mod stepper;
+
+use std::collections::VecDeque;
+
+use command_reference::{Meaning, Pins, Reference, Surroundings};
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::link::CommandPort;
+use incircle_protocol::{command_word, Opcode};
+use stepper::{ports, Cell, Stepper, Wave};
+
+ports!(
+    CommandPort,
+    [
+        reset,
+        capacity,
+        command_valid,
+        command_data,
+        sweeps,
+        seeded,
+        collinear,
+        is_quiet,
+        takes_point,
+        responder_is_idle,
+        answer_ends,
+        answer_is_taken
+    ],
+    [
+        command_ready,
+        point_valid,
+        point_id,
+        point,
+        vertex_enable,
+        clears,
+        answers,
+        opcode,
+        first,
+        count,
+        arrived,
+        refused,
+        inserting,
+        reading,
+        awaits_point
+    ],
+    clock
+);
+
+/// The words of a random command.
+fn command(random: &mut SplitMix64) -> Vec<u32> {
+    match random.below(12) {
+        0 => vec![command_word(Opcode::Hello)],
+        1 | 2 => vec![command_word(Opcode::Clear)],
+        3 => vec![command_word(Opcode::Counters)],
+        4 => vec![(random.below(256) as u32 | 8) << 24],
+        5 | 6 => vec![
+            command_word(Opcode::Read),
+            random.next_u64() as u32,
+            random.next_u64() as u32,
+        ],
+        _ => {
+            let points = random.below(10) as u32;
+            let mut words = vec![command_word(Opcode::Insert), points];
+            words.extend((0..points).map(|_| random.next_u64() as u32));
+            words
+        }
+    }
+}
+
+/// What the last clock showed, for a wave.
+#[derive(Clone, Copy, Debug, Default)]
+struct Shown {
+    ready: bool,
+    waiting: Option<(u32, u32)>,
+    takes_point: bool,
+    is_quiet: bool,
+    answers: bool,
+}
+
+struct Rig {
+    block: Stepper<CommandPort>,
+    random: SplitMix64,
+    reference: Reference,
+    around: Surroundings,
+    capacity: u32,
+    words: VecDeque<u32>,
+    is_offered: bool,
+    refused: u32,
+    shown: Shown,
+}
+
+impl Rig {
+    fn new(capacity: u32) -> Self {
+        let mut rig = Self {
+            block: Stepper::new("command_port", CommandPort::default(), 1),
+            random: SplitMix64::new(capacity.into()),
+            reference: Reference::new(),
+            around: Surroundings::default(),
+            capacity,
+            words: VecDeque::new(),
+            is_offered: false,
+            refused: 0,
+            shown: Shown::default(),
+        };
+        rig.block.set("capacity", capacity);
+        rig.reset();
+        rig
+    }
+
+    fn reset(&mut self) {
+        self.block.set("reset", true);
+        self.block.settle();
+        self.block.edge();
+        self.block.set("reset", false);
+        self.reference = Reference::new();
+        self.around = Surroundings {
+            sweeping: self.random.below(20),
+            ..Surroundings::default()
+        };
+        self.words.clear();
+        self.is_offered = false;
+    }
+
+    fn pins(&self) -> Pins {
+        Pins {
+            is_quiet: self.around.busy == 0 && self.reference.waiting.is_none(),
+            responder_is_idle: self.around.answering == 0,
+            answer_ends: self.around.answering == 1,
+        }
+    }
+
+    fn clock(&mut self, pace: u64) {
+        self.is_offered |= !self.words.is_empty() && self.random.below(100) < pace;
+        let pins = self.pins();
+        let can_take = self.reference.waiting.is_some() && self.around.busy == 0;
+        let takes_point = can_take && self.random.below(100) < pace.max(20);
+        self.around.answer_is_taken = self.random.below(100) < pace;
+        let data = if self.is_offered {
+            self.words[0]
+        } else {
+            self.random.next_u64() as u32
+        };
+        for (port, value) in [
+            ("sweeps", self.around.sweeping > 0),
+            ("seeded", self.around.seeded),
+            ("collinear", self.around.collinear),
+            ("is_quiet", pins.is_quiet),
+            ("takes_point", takes_point),
+            ("responder_is_idle", pins.responder_is_idle),
+            ("answer_ends", pins.answer_ends),
+            ("answer_is_taken", self.around.answer_is_taken),
+            ("command_valid", !self.is_offered),
+        ] {
+            self.block.set(port, value);
+        }
+        self.block.set("command_data", data);
+        self.block.settle();
+        let ready = self.reference.is_ready(&self.around);
+        self.block.expect("command_ready", ready);
+        self.block.set("command_valid", self.is_offered);
+        self.block.settle();
+        // It does not wait for `command_valid`.
+        self.block.expect("command_ready", ready);
+        self.expect();
+        self.shown = Shown {
+            ready,
+            waiting: self.reference.waiting,
+            takes_point,
+            is_quiet: pins.is_quiet,
+            answers: self.reference.answers,
+        };
+        self.block.edge();
+        let word = if ready && self.is_offered {
+            self.words.pop_front()
+        } else {
+            None
+        };
+        self.is_offered &= word.is_none();
+        let refused = self.reference.refused;
+        let around = self.around;
+        self.live(takes_point);
+        self.reference
+            .edge(word, takes_point, pins, &around, self.capacity);
+        self.refused += u32::from(self.reference.refused > refused);
+    }
+
+    fn expect(&self) {
+        let (block, reference) = (&self.block, &self.reference);
+        for (port, expected) in [
+            ("point_valid", reference.waiting.is_some()),
+            ("vertex_enable", reference.is_new),
+            ("clears", reference.clears),
+            ("answers", reference.answers),
+            ("inserting", reference.inserting),
+            ("reading", reference.reading),
+            (
+                "awaits_point",
+                reference.wants.front() == Some(&Meaning::Point),
+            ),
+        ] {
+            block.expect(port, expected);
+        }
+        let (id, point) = (
+            reference.waiting.map(|point| point.0),
+            reference.waiting.map(|point| point.1),
+        );
+        for (port, expected) in [
+            ("point_id", id),
+            ("point", point),
+            ("opcode", reference.opcode.map(u32::from)),
+            ("first", reference.first),
+            ("count", reference.count),
+            ("arrived", Some(reference.arrived)),
+            ("refused", Some(reference.refused)),
+        ] {
+            if let Some(expected) = expected {
+                block.expect(port, expected);
+            }
+        }
+    }
+
+    /// The engine and the responder live through a clock.
+    fn live(&mut self, takes_point: bool) {
+        let around = &mut self.around;
+        let was_busy = around.busy > 0;
+        around.sweeping = around.sweeping.saturating_sub(1);
+        around.busy = around.busy.saturating_sub(1);
+        if was_busy && around.busy == 0 && around.triple_is_in && !around.seeded {
+            around.collinear = self.random.below(4) == 0;
+            around.seeded = !around.collinear;
+        }
+        if takes_point {
+            around.busy = 1 + self.random.below(12);
+            around.triple_is_in |= self.reference.waiting.is_some_and(|(id, _)| id == 2);
+        }
+        if around.answering > 0 {
+            around.answering -= 1;
+        } else if self.reference.answers {
+            around.answering = 1 + self.random.below(12);
+        }
+        if self.reference.clears {
+            (around.seeded, around.collinear, around.triple_is_in) = (false, false, false);
+        }
+    }
+}
+
+fn run(capacity: u32, pace: u64) {
+    let mut rig = Rig::new(capacity);
+    for _ in 0..4000 {
+        if rig.random.below(500) == 0 {
+            rig.reset();
+        }
+        if rig.words.is_empty() {
+            rig.words.extend(command(&mut rig.random));
+        }
+        rig.clock(pace);
+    }
+    assert!(rig.refused > 0, "some points are refused");
+}
+
+#[test]
+fn command_port_at_full_speed() {
+    run(8, 100);
+}
+
+#[test]
+fn command_port_with_a_slow_host() {
+    run(4, 30);
+}
+
+#[test]
+fn command_port_with_a_slower_host_and_a_large_memory() {
+    run(16384, 60);
+}
+
+/// An insertion of two points into an empty core.
+#[test]
+fn command_port_shows_the_wave_of_its_header() {
+    let mut rig = Rig::new(8);
+    rig.around.sweeping = 2;
+    rig.words = [command_word(Opcode::Insert), 2, 0x70005, 0x90008].into();
+    let mut wave = Wave::default();
+    for _ in 0..16 {
+        let sweeps = rig.around.sweeping > 0;
+        let offers = !rig.words.is_empty();
+        rig.clock(100);
+        // An engine and a responder that are soon done.
+        rig.around.busy = rig.around.busy.min(1);
+        rig.around.answering = rig.around.answering.min(2);
+        let shown = rig.shown;
+        let waiting = shown
+            .waiting
+            .map_or(Cell::Open, |(id, _)| Cell::Number(id.into()));
+        wave.take(&[
+            ("sweeps", Cell::Bit(sweeps)),
+            ("command_valid", Cell::Bit(offers)),
+            ("command_ready", Cell::Bit(shown.ready)),
+            ("point_valid", Cell::Bit(shown.waiting.is_some())),
+            ("point_id", waiting),
+            ("takes_point", Cell::Bit(shown.takes_point)),
+            ("is_quiet", Cell::Bit(shown.is_quiet)),
+            ("answers", Cell::Bit(shown.answers)),
+        ]);
+    }
+    wave.assert_drawn_in(include_str!("../../hdl/src/link/command_port.rs"));
+}

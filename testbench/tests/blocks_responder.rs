@@ -1,0 +1,346 @@
+//! The answer stream: Rust, Verilog and the words that an answer has agree, crossed with idle, back-pressure and resets. What is
+//! offered and not taken must stand still, and the number of words loaded fixes the clock in which an answer ends.
+
+mod stepper;
+
+use std::collections::VecDeque;
+
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::link::Responder;
+use incircle_protocol::{Layout, CORE_COORD_BITS};
+use stepper::{ports, Cell, Stepper, Wave};
+
+ports!(
+    Responder,
+    [
+        reset,
+        answers,
+        first,
+        header,
+        length,
+        word,
+        is_read,
+        read_done,
+        v0,
+        v1,
+        v2,
+        n0,
+        n1,
+        n2,
+        was_set,
+        response_ready
+    ],
+    [
+        index,
+        read,
+        read_id,
+        response_valid,
+        response_data,
+        is_idle,
+        ends,
+        is_taken
+    ],
+    clock
+);
+
+/// True that many times in a hundred.
+fn percent(random: &mut SplitMix64, times: u64) -> bool {
+    random.below(100) < times
+}
+
+/// A word of 32 bits, from the corners as often as not.
+fn word(random: &mut SplitMix64) -> u32 {
+    [
+        0,
+        1,
+        u32::MAX,
+        1 << 31,
+        random.next_u64() as u32,
+        random.below(8) as u32,
+    ][random.below(6) as usize]
+}
+
+/// What an answer is made of, for the responder.
+struct Sent {
+    header: u32,
+    payload: Vec<u32>,
+    /// First record, for a read; the payload then holds its words.
+    first: Option<u64>,
+}
+
+impl Sent {
+    fn random(random: &mut SplitMix64) -> Self {
+        let reads = percent(random, 50);
+        let first = random.below((1 << 15) - 16);
+        let records = (first..first + random.below(8)).map(columns);
+        let payload = if reads {
+            let layout = Layout::of(CORE_COORD_BITS, 1 << 14);
+            records
+                .flat_map(|(v, n, lock)| layout.record_to_words(v, n, lock)[..3].to_vec())
+                .collect()
+        } else {
+            (0..random.below(15)).map(|_| word(random)).collect()
+        };
+        Self {
+            header: word(random),
+            payload,
+            first: reads.then_some(first),
+        }
+    }
+
+    fn words(&self) -> Vec<u32> {
+        [&[self.header, self.payload.len() as u32], &self.payload[..]].concat()
+    }
+}
+
+/// A record whose columns tell its id.
+fn columns(id: u64) -> ([u32; 3], [u32; 3], bool) {
+    let id = id as u32;
+    let column = |k: u32| (id ^ 0x1111 * k) & 0x7fff;
+    (
+        [column(1), column(2), column(3)],
+        [column(4), column(5), column(6)],
+        id % 3 == 0,
+    )
+}
+
+/// Clocks from a read to its record in the core.
+const READ_CLOCKS: usize = 3;
+
+/// The responder and what surrounds it: the answer words, the memory, the host.
+struct ResponderRig {
+    block: Stepper<Responder>,
+    random: SplitMix64,
+    /// Percent of the clocks in which the host takes a word.
+    ready: u64,
+    /// Reads under way: clocks to go, id.
+    reads: VecDeque<(usize, u64)>,
+    read_clocks: usize,
+    offered: Option<u128>,
+    taken: Vec<u32>,
+    /// Words loaded since reset, and those of the answers that have ended.
+    loaded: usize,
+    ended: usize,
+    wave: Wave,
+}
+
+/// What a clock showed.
+struct Clocked {
+    ends: bool,
+    valid: bool,
+}
+
+impl ResponderRig {
+    fn new(ready: u64, read_clocks: usize) -> Self {
+        let mut rig = Self {
+            block: Stepper::new("responder", Responder::default(), 1),
+            random: SplitMix64::new(ready),
+            ready,
+            reads: VecDeque::new(),
+            read_clocks,
+            offered: None,
+            taken: vec![],
+            loaded: 0,
+            ended: 0,
+            wave: Wave::default(),
+        };
+        rig.reset();
+        rig
+    }
+
+    fn reset(&mut self) {
+        self.block.set("reset", true);
+        self.block.settle();
+        self.block.edge();
+        self.block.set("reset", false);
+        self.reads.clear();
+        self.offered = None;
+        self.taken.clear();
+        (self.loaded, self.ended) = (0, 0);
+    }
+
+    fn set_inputs(&mut self, answers: bool, sent: &Sent) {
+        let block = &mut self.block;
+        block.set("answers", answers);
+        block.set("header", sent.header);
+        block.set("length", sent.payload.len() as u64);
+        block.set("is_read", sent.first.is_some());
+        // Bits above an id do not count.
+        block.set("first", sent.first.unwrap_or(0) | 0xabcd_0000);
+        block.settle();
+        let index =
+            block.get_masked("index", if self.loaded > self.ended { 15 } else { 0 }) as usize;
+        block.set("word", sent.payload.get(index).copied().unwrap_or(0xbad));
+        let due = self.reads.front().is_some_and(|(clocks, _)| *clocks == 0);
+        let id = if due {
+            self.reads.pop_front().map_or(0, |(_, id)| id)
+        } else {
+            self.random.below(1 << 15)
+        };
+        let (v, n, lock) = columns(id);
+        for (port, value) in ["v0", "v1", "v2", "n0", "n1", "n2"]
+            .into_iter()
+            .zip([v, n].concat())
+        {
+            block.set(port, value);
+        }
+        block.set("was_set", lock);
+        block.set("read_done", due);
+    }
+
+    /// One clock; `answers` is held by the command port.
+    fn clock(&mut self, answers: bool, sent: &Sent) -> Clocked {
+        self.set_inputs(answers, sent);
+        let ready = percent(&mut self.random, self.ready);
+        self.block.set("response_ready", !ready);
+        self.block.settle();
+        let valid = self.block.is("response_valid");
+        self.block.set("response_ready", ready);
+        self.block.settle();
+        self.block.expect("response_valid", valid);
+        self.block.expect("is_taken", !valid || ready);
+        let data = valid.then(|| self.block.get("response_data"));
+        if self.offered.is_some() {
+            assert_eq!(
+                data, self.offered,
+                "a word offered stands until it is taken"
+            );
+        } else {
+            self.loaded += usize::from(valid);
+        }
+        if self.block.is("read") {
+            self.reads
+                .push_back((self.read_clocks - 1, self.block.get("read_id") as u64));
+        } else {
+            for read in &mut self.reads {
+                read.0 = read.0.saturating_sub(1);
+            }
+        }
+        self.offered = data.filter(|_| !ready);
+        if ready {
+            self.taken.extend(data.map(|data| data as u32));
+        }
+        let ends = self.block.is("ends");
+        self.wave.take(&[
+            ("answers", Cell::Bit(answers)),
+            ("read", Cell::Bit(self.block.is("read"))),
+            ("response_valid", Cell::Bit(valid)),
+            (
+                "word",
+                if valid {
+                    Cell::Number(self.loaded as u128 - 1)
+                } else {
+                    Cell::Open
+                },
+            ),
+            ("response_ready", Cell::Bit(ready)),
+            ("ends", Cell::Bit(ends)),
+            ("is_idle", Cell::Bit(self.block.is("is_idle"))),
+        ]);
+        self.block.edge();
+        Clocked { ends, valid }
+    }
+
+    /// A whole answer; returns the clocks from its first to that of `ends`, and the clock of the header.
+    fn answer(&mut self, sent: &Sent) -> (usize, usize) {
+        let mut header = None;
+        for clock in 0..10_000 {
+            let shown = self.clock(true, sent);
+            if self.loaded > self.ended {
+                header.get_or_insert(clock);
+            }
+            if shown.ends {
+                self.ended += sent.words().len();
+                assert_eq!(
+                    self.loaded,
+                    self.ended - 1,
+                    "the last word is loaded at the edge of `ends`"
+                );
+                return (clock, header.unwrap_or(clock));
+            }
+        }
+        panic!("an answer without end");
+    }
+}
+
+#[test]
+fn responder_sends_every_answer_whole_and_in_order() {
+    for (ready, read_clocks) in [(100, READ_CLOCKS), (50, 1), (10, 3), (80, 9)] {
+        let mut rig = ResponderRig::new(ready, read_clocks);
+        let mut random = SplitMix64::new(6);
+        let mut expected = vec![];
+        for _ in 0..60 {
+            let sent = Sent::random(&mut random);
+            if random.below(8) == 0 {
+                // Reset in the middle: what was under way is dropped.
+                for _ in 0..random.below(30) {
+                    if rig.clock(true, &sent).ends {
+                        break;
+                    }
+                }
+                rig.reset();
+                expected.clear();
+                continue;
+            }
+            rig.answer(&sent);
+            expected.extend(sent.words());
+            for _ in 0..random.below(4) {
+                let shown = rig.clock(false, &sent);
+                assert!(!shown.ends);
+            }
+        }
+        let nothing = Sent {
+            header: 0,
+            payload: vec![],
+            first: None,
+        };
+        while rig.clock(false, &nothing).valid {}
+        assert_eq!(rig.taken, expected);
+    }
+}
+
+#[test]
+fn responder_is_as_fast_as_it_says() {
+    let mut rig = ResponderRig::new(100, READ_CLOCKS);
+    let records = |count: u64| Sent {
+        header: 7,
+        payload: (0..count)
+            .flat_map(|id| {
+                let (v, n, lock) = columns(id);
+                Layout::of(CORE_COORD_BITS, 1 << 14).record_to_words(v, n, lock)[..3].to_vec()
+            })
+            .collect(),
+        first: Some(0),
+    };
+    let mut ends = vec![];
+    for count in [1, 2, 10] {
+        let (end, header) = rig.answer(&records(count));
+        rig.clock(false, &records(1));
+        assert_eq!(header, 2);
+        ends.push(end);
+    }
+    assert_eq!(ends[1] - ends[0], 7, "clocks a record");
+    assert_eq!(ends[2] - ends[0], 9 * 7);
+}
+
+/// A read of one record, whose length word has to wait.
+#[test]
+fn responder_shows_the_wave_of_its_header() {
+    let mut rig = ResponderRig::new(100, READ_CLOCKS);
+    let layout = Layout::of(CORE_COORD_BITS, 1 << 14);
+    let (v, n, lock) = columns(5);
+    let sent = Sent {
+        header: 7,
+        payload: layout.record_to_words(v, n, lock)[..3].to_vec(),
+        first: Some(5),
+    };
+    let mut answers = false;
+    for clock in 0..16 {
+        rig.ready = if (4..6).contains(&clock) { 0 } else { 100 };
+        answers |= clock == 1;
+        answers &= !rig.clock(answers, &sent).ends;
+    }
+    assert_eq!(rig.taken, sent.words());
+    rig.wave
+        .assert_drawn_in(include_str!("../../hdl/src/link/responder.rs"));
+}

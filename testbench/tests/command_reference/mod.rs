@@ -1,0 +1,147 @@
+//! The command port as a list of words that are still wanted.
+
+use std::collections::VecDeque;
+
+use incircle_protocol::Opcode;
+
+/// The engine and the responder as the port sees them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Surroundings {
+    pub sweeping: u64,
+    /// Clocks until the point at work is in.
+    pub busy: u64,
+    pub triple_is_in: bool,
+    pub seeded: bool,
+    pub collinear: bool,
+    /// Clocks until the answer ends.
+    pub answering: u64,
+    pub answer_is_taken: bool,
+}
+
+/// What the next command word means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    Command,
+    First,
+    Count,
+    Point,
+}
+
+/// The port as a list of words that it still wants, and what has come of them.
+#[derive(Clone, Debug, Default)]
+pub struct Reference {
+    pub wants: VecDeque<Meaning>,
+    /// Of the command at work.
+    pub opcode: Option<u8>,
+    pub first: Option<u32>,
+    pub count: Option<u32>,
+    pub arrived: u32,
+    pub refused: u32,
+    pub waiting: Option<(u32, u32)>,
+    pub is_new: bool,
+    pub clears: bool,
+    /// All words of the command have come; an insert settles first.
+    pub is_complete: bool,
+    pub settles: bool,
+    pub answers: bool,
+    pub inserting: bool,
+    pub reading: bool,
+}
+
+impl Reference {
+    pub fn new() -> Self {
+        Self {
+            wants: [Meaning::Command].into(),
+            ..Self::default()
+        }
+    }
+
+    pub fn is_ready(&self, around: &Surroundings) -> bool {
+        let start_is_open = self.arrived == 3 && !around.seeded && !around.collinear;
+        match self.wants.front() {
+            None => false,
+            Some(Meaning::Command) => around.sweeping == 0,
+            Some(Meaning::First | Meaning::Count) => true,
+            Some(Meaning::Point) => self.waiting.is_none() && !start_is_open,
+        }
+    }
+
+    fn take(&mut self, word: u32, around: &Surroundings, capacity: u32) {
+        match self.wants.pop_front().expect("a word that is wanted") {
+            Meaning::Command => {
+                let opcode = (word >> 24) as u8;
+                self.opcode = Some(opcode);
+                self.clears = opcode == Opcode::Clear as u8;
+                match Opcode::from_u8(opcode) {
+                    Some(Opcode::Insert) => self.wants.push_back(Meaning::Count),
+                    Some(Opcode::Read) => self.wants.extend([Meaning::First, Meaning::Count]),
+                    _ => self.answers = true,
+                }
+            }
+            Meaning::First => self.first = Some(word),
+            Meaning::Count => {
+                self.count = Some(word);
+                if self.opcode == Some(Opcode::Insert as u8) {
+                    self.wants = (0..word).map(|_| Meaning::Point).collect();
+                    self.is_complete = word == 0;
+                } else {
+                    self.reading = true;
+                    self.answers = true;
+                }
+            }
+            Meaning::Point => {
+                self.count = self.count.map(|count| count - 1);
+                self.is_complete = self.wants.is_empty();
+                self.inserting = true;
+                if around.collinear || self.arrived == capacity {
+                    self.refused += 1;
+                } else {
+                    self.waiting = Some((self.arrived, word));
+                    self.is_new = true;
+                    self.arrived += 1;
+                }
+            }
+        }
+    }
+
+    /// A rising edge, at which `word` is taken if there is one.
+    pub fn edge(
+        &mut self,
+        word: Option<u32>,
+        takes_point: bool,
+        pins: Pins,
+        around: &Surroundings,
+        capacity: u32,
+    ) {
+        let was = self.clone();
+        (self.is_new, self.clears, self.is_complete) = (false, false, false);
+        if takes_point {
+            self.waiting = None;
+        }
+        if !was.answers && pins.responder_is_idle && around.answer_is_taken {
+            self.reading = false;
+        }
+        if let Some(word) = word {
+            self.take(word, around, capacity);
+        }
+        self.settles |= was.is_complete;
+        if was.settles && pins.is_quiet {
+            (self.settles, self.inserting, self.answers) = (false, false, true);
+        }
+        if was.answers && pins.answer_ends {
+            self.answers = false;
+            self.wants.push_back(Meaning::Command);
+        }
+        if was.clears {
+            (self.arrived, self.refused) = (0, 0);
+        }
+    }
+}
+
+/// Inputs that follow from the surroundings.
+#[derive(Clone, Copy, Debug)]
+pub struct Pins {
+    pub is_quiet: bool,
+    pub responder_is_idle: bool,
+    pub answer_ends: bool,
+}

@@ -1,0 +1,158 @@
+//! The packed structures of the engine as numbers: what stands where, lowest field first.
+
+/// Bits of a triangle or vertex id.
+pub const ID_BITS: u32 = 15;
+
+/// Fields, each a value and its bits, from the lowest bit up.
+pub fn pack(fields: &[(u64, u32)]) -> u128 {
+    let mut place = 0;
+    fields.iter().fold(0, |number, (value, bits)| {
+        assert!(value >> bits == 0, "{value:#x} has more than {bits} bits");
+        place += bits;
+        number | u128::from(*value) << (place - bits)
+    })
+}
+
+fn ids(values: &[u64]) -> Vec<(u64, u32)> {
+    values.iter().map(|value| (*value, ID_BITS)).collect()
+}
+
+/// A `Write` of a whole record.
+pub fn record_write(id: u64, v: [u64; 3], n: [u64; 3]) -> u128 {
+    let head = [(1, 1), (id, ID_BITS), (1, 1), (1, 1), (1, 1), (1, 1)];
+    pack(&[&head[..], &ids(&v), &ids(&n)].concat())
+}
+
+/// A `Write` of one link.
+pub fn link_write(id: u64, slot: u64, value: u64) -> u128 {
+    let column = |k| (u64::from(slot == k), 1);
+    let head = [
+        (1, 1),
+        (id, ID_BITS),
+        (0, 1),
+        column(0),
+        column(1),
+        column(2),
+    ];
+    pack(&[&head[..], &ids(&[0; 3]), &ids(&[value; 3])].concat())
+}
+
+/// A visit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Visit {
+    pub rotates: bool,
+    pub locks: bool,
+    pub x: u64,
+    pub after: u64,
+    pub f_entry: u64,
+    pub f: u64,
+    pub u: u64,
+}
+
+impl Visit {
+    /// A look at a record as it is stored.
+    pub fn look(u: u64) -> Self {
+        Self {
+            u,
+            ..Self::default()
+        }
+    }
+
+    fn fields(self) -> [(u64, u32); 7] {
+        [
+            (self.rotates.into(), 1),
+            (self.locks.into(), 1),
+            (self.x, 6),
+            (self.after, 6),
+            (self.f_entry, 6),
+            (self.f, ID_BITS),
+            (self.u, ID_BITS),
+        ]
+    }
+
+    /// As a `Token`.
+    pub fn token(self) -> u128 {
+        pack(&self.fields())
+    }
+
+    /// As a `Bundle`; a second visit is `x`, `after`, `u`, and what stands there if there is none does not matter.
+    pub fn bundle(self, is_pair: bool, second: [u64; 3]) -> u128 {
+        let head = [(u64::from(is_pair), 1)];
+        let tail = [(second[0], 6), (second[1], 6), (second[2], ID_BITS)];
+        pack(&[&head[..], &self.fields(), &tail].concat())
+    }
+
+    /// The visit at the head of a `Bundle`.
+    pub fn of_bundle(bundle: u128) -> Self {
+        let field = |place: u32, bits: u32| (bundle >> place) as u64 & ((1 << bits) - 1);
+        Self {
+            rotates: field(1, 1) == 1,
+            locks: field(2, 1) == 1,
+            x: field(3, 6),
+            after: field(9, 6),
+            f_entry: field(15, 6),
+            f: field(21, ID_BITS),
+            u: field(36, ID_BITS),
+        }
+    }
+}
+
+/// A `Turned`: vertices, links, slot, lock bit, which vertices are infinite.
+pub fn turned(v: [u64; 3], n: [u64; 3], slot: u64, was_set: bool, infinite: [bool; 3]) -> u128 {
+    let tail = [
+        (slot, 2),
+        (was_set.into(), 1),
+        (infinite[0].into(), 1),
+        (infinite[1].into(), 1),
+        (infinite[2].into(), 1),
+    ];
+    pack(&[&ids(&v), &ids(&n), &tail[..]].concat())
+}
+
+/// What a visit found out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Finding {
+    pub conflict: bool,
+    pub located: bool,
+    pub falls_onto_corner: bool,
+    pub is_left: bool,
+    pub is_straight: bool,
+    pub walk_next: u64,
+}
+
+impl Finding {
+    /// As a `Verdict`.
+    pub fn verdict(self) -> u128 {
+        pack(&[
+            (self.conflict.into(), 1),
+            (self.located.into(), 1),
+            (self.falls_onto_corner.into(), 1),
+            (self.is_left.into(), 1),
+            (self.is_straight.into(), 1),
+            (self.walk_next, ID_BITS),
+        ])
+    }
+}
+
+/// A boundary edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Edge {
+    pub a: u64,
+    pub u: u64,
+    pub slot: u64,
+    pub f: u64,
+    pub after: u64,
+}
+
+impl Edge {
+    /// As an `Entry`.
+    pub fn entry(self) -> u128 {
+        pack(&[
+            (self.a, ID_BITS),
+            (self.u, ID_BITS),
+            (self.slot, 2),
+            (self.f, ID_BITS),
+            (self.after, 6),
+        ])
+    }
+}
