@@ -48,7 +48,7 @@ fn root_bundle_locks_the_root_and_tests_its_neighbours() {
     let mut numbers = Numbers::new(41);
     let stimuli: Vec<Vec<u128>> = (0..4_000)
         .map(|_| {
-            let root = pack(TURNED, random(TURNED, &mut numbers));
+            let root = pack(TURNED, random(TURNED, |bits| numbers.bits(bits)));
             vec![numbers.bits(3).into(), numbers.bits(15).into(), root]
         })
         .collect();
@@ -130,7 +130,7 @@ impl Growth {
 
     /// Inputs of the next cycle.
     fn stimulus(&mut self, first: bool, numbers: &mut Numbers) -> Vec<u128> {
-        let mut token = random(TOKEN, numbers);
+        let mut token = random(TOKEN, |bits| numbers.bits(bits));
         let mut done = numbers.bits(1);
         let mut visits: u64 = 0;
         match self.phase {
@@ -153,7 +153,7 @@ impl Growth {
                 }
             }
         }
-        let mut verdict = random(VERDICT, numbers);
+        let mut verdict = random(VERDICT, |bits| numbers.bits(bits));
         verdict[0] = u64::from(numbers.next() % 100 < self.appetite);
         let reset = first || numbers.once_in(300);
         vec![
@@ -165,7 +165,7 @@ impl Growth {
             visits.into(),
             done.into(),
             pack(TOKEN, token),
-            pack(TURNED, random(TURNED, numbers)),
+            pack(TURNED, random(TURNED, |bits| numbers.bits(bits))),
             pack(VERDICT, verdict),
             numbers.bits(6).into(),
             numbers.bits(6).into(),

@@ -37,7 +37,7 @@ fn triangle_stimuli(stored_bits: u32) -> Vec<Vec<u128>> {
     let same = |a: u64, b: u64| (a ^ b) & ((1 << stored_bits) - 1) == 0;
     (0..CYCLES)
         .map(|_| {
-            let mut write = random(WRITE, &mut numbers);
+            let mut write = random(WRITE, |bits| numbers.bits(bits));
             write[1] = id(&mut numbers, stored_bits);
             let (read, clear) = (id(&mut numbers, stored_bits), id(&mut numbers, stored_bits));
             let (locks, clears) = (numbers.bits(1), numbers.bits(1));
@@ -191,7 +191,7 @@ fn write_port_takes_the_request_there_is() {
     let mut numbers = Numbers::new(23);
     let stimuli: Vec<Vec<u128>> = (0..CYCLES)
         .map(|cycle| {
-            let mut requests = [(); 3].map(|()| random(WRITE, &mut numbers));
+            let mut requests = [(); 3].map(|()| random(WRITE, |bits| numbers.bits(bits)));
             let valid = numbers.next() % 5;
             for (writer, request) in requests.iter_mut().enumerate() {
                 request[0] = u64::from(writer as u64 == valid);

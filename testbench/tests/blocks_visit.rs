@@ -65,7 +65,7 @@ fn issue_makes_one_visit_a_clock_in_order() {
         vec![
             u128::from(cycle == 0 || numbers.once_in(50)),
             push.into(),
-            pack(BUNDLE, random(BUNDLE, numbers)),
+            pack(BUNDLE, random(BUNDLE, |bits| numbers.bits(bits))),
             read.into(),
             numbers.bits(15).into(),
         ]
@@ -129,7 +129,7 @@ fn visit_reader_turns_record_and_corners() {
     let stimuli: Vec<Vec<u128>> = (0..CYCLES)
         .map(|cycle| {
             // The visit's record is there two clocks later; it came through one of its links, or through none.
-            let mut token = random(TOKEN, &mut numbers);
+            let mut token = random(TOKEN, |bits| numbers.bits(bits));
             let link = numbers.bits(2) as usize;
             if link < 3 {
                 token[5] = records[cycle + 2].n[link];

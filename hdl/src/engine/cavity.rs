@@ -27,6 +27,20 @@
 //!           p                         p
 //! ```
 //! Latency: none from `done` to `split`; entries can be read in the next clock.
+//!
+//! A root whose first test finds a conflict; the edge across entry 0 becomes entries 0 and 3:
+//! ```text
+//! is_root         ___/^^^^^^^^\_____________________________
+//! root_visits       .  1  2  1  .  .  .  .  .  .  .  .  .  .
+//! is_cavity       ____________/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+//! done            ____________/^^^^^\__/^^^^^\__/^^^^^\_____
+//! token.rotates     .  .  .  .___/^^  ./^^^^^  ./^^^^^  .  .
+//! token.x           .  .  .  .  0  0  .  1  2  .  0  3  .  .
+//! conflict          .  .  .  .___/^^  .______  .______  .  .
+//! split           _______________/^^\_______________________
+//! count             .  .  .  .  3  3  4  4  4  4  4  4  4  4
+//! nothing_is_out  /^^^^^\_____________________________/^^^^^
+//! ```
 
 use super::visit_pipeline::ring_bits;
 use super::{Bundle, Entry, Token, Turned, Verdict, ENTRY_WORD_BITS};

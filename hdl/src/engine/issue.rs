@@ -12,11 +12,16 @@
 //! 2. The queue is as deep as the ring: there are never more visits out than entries, so it never overflows.
 //!
 //! Latency: 1 clock from `push` to `token` when the queue is empty.
+//!
+//! A bundle of two visits and one of one, then a read-out:
 //! ```text
-//! push        __/^^\_____________
-//! bundle        < A|B >
-//! token_valid _____/^^^^^^^^\____
-//! token            < A  >< B >
+//! push            ___/^^^^^\______________
+//! bundle.x          .  1  3  .  .  .  .  .
+//! token_valid     ______/^^^^^^^^\________
+//! token.x           .  .  1  2  3  .  .  .
+//! read            _______________/^^\_____
+//! read_valid      __________________/^^\__
+//! token.u           .  .  .  .  .  .  9  .
 //! ```
 
 use super::{Bundle, Token, BUNDLE_BITS};

@@ -8,7 +8,8 @@
 //!
 //! 1. A finite record is in conflict iff the point lies inside its circle, or on it and the tie rule says so: the
 //!    diagonal takes the lexicographically smallest of the four points.
-//! 2. A ghost is in conflict iff the point lies strictly beyond its hull edge, or on the line strictly between the edge's ends.
+//! 2. A ghost is in conflict iff the point lies strictly beyond its hull edge, or on the line strictly between the edge's ends. (Of
+//!    the ends themselves the lower one counts as between; a point there is a duplicate, and no cavity is dug for it.)
 //! 3. A walk ends in a finite triangle with no negative side and in a ghost strictly beyond whose edge the point lies. It leaves a
 //!    finite triangle over the most negative side (the first of equals), a ghost over its finite side.
 //!

@@ -18,6 +18,16 @@
 //!
 //! Latency: `STAGES` = 15 clocks from the issue register to `done`, 16 from `push`. The record is there after 2, the corners after
 //! 5, the signs after 14. A read-out takes 3 clocks from `read` to `read_done`.
+//!
+//! A bundle of two visits, then a read-out:
+//! ```text
+//! push            /^^\_________________________________________________________________
+//! bundle.x          1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! done            ________________________________________________/^^^^^\______________
+//! token.x           .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  2  .  .  .  .  .
+//! read            ______________________________________________________/^^\___________
+//! read_done       _______________________________________________________________/^^\__
+//! ```
 
 use super::{
     Bundle, Issue, Token, Turned, Verdict, VerdictLogic, VisitReader, Write, TOKEN_BITS,

@@ -14,6 +14,19 @@
 //! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does.
 //!
 //! Latency: see the clocks above; `LATENCY` is that of the corners.
+//!
+//! A visit that comes through link 1, so that vertex 1 comes first:
+//! ```text
+//! token.f          30  .  .  .  .  .  .
+//! n1                .  . 30  .  .  .  .
+//! v0                .  . 11  .  .  .  .
+//! v1                .  . 12  .  .  .  .
+//! turned.v0         .  .  .  . 12  .  .
+//! turned.slot       .  .  .  .  1  .  .
+//! position0         .  .  .  . 51  .  .
+//! position1         .  .  .  . 52  .  .
+//! r0                .  .  .  .  . 52  .
+//! ```
 
 use super::{Token, Turned};
 use crate::mesh::{TriangleStore, VertexStore};

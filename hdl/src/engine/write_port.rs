@@ -9,6 +9,14 @@
 //! 1. Without a request the data are held and `write.valid` is low.
 //!
 //! Latency: 1 clock; the memory shows the write from the clock after.
+//! ```text
+//! commit.valid    ___/^^^^^\___________
+//! commit.id         .  5  6  .  .  .  .
+//! solo.valid      ____________/^^\_____
+//! solo.id           .  .  .  .  7  .  .
+//! write.valid     ______/^^^^^\__/^^\__
+//! write.id          .  .  5  6  .  7  .
+//! ```
 
 use super::Write;
 use rust_hdl_core::prelude::*;

@@ -16,6 +16,18 @@
 //!
 //! Latency: 2 clocks from `read_id` to the columns and `was_set`.
 //!
+//! Record 5 and then its link 1 alone; three reads of it, the second of which sets its lock:
+//! ```text
+//! write.valid     /^^^^^\_________________
+//! write.vertices  /^^\____________________
+//! write.n1          8  9  .  .  .  .  .  .
+//! read_id           .  .  5  5  5  .  .  .
+//! read_locks      _________/^^\___________
+//! v0                .  .  .  .  7  7  7  .
+//! n1                .  .  .  .  9  9  9  .
+//! was_set           .  .  .  .______/^^  .
+//! ```
+//!
 //! Source: Cline and Renka's triangle-based structure: three vertices and three neighbours for each triangle.
 
 use crate::engine::Write;

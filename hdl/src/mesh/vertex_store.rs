@@ -10,6 +10,13 @@
 //! 1. The infinite vertex has no coordinates: reading it gives an arbitrary word that decides nothing.
 //!
 //! Latency: 2 clocks from an id to its coordinates.
+//! ```text
+//! write_enable    /^^\___________
+//! write_id          3  .  .  .  .
+//! write_position   42  .  .  .  .
+//! id0               .  3  .  .  .
+//! position0         .  .  . 42  .
+//! ```
 
 use crate::leaf::BlockMemory;
 use rust_hdl_core::prelude::*;

@@ -39,10 +39,7 @@ pub fn unpack<const N: usize>(layout: Layout<N>, packed: u128) -> [u64; N] {
     })
 }
 
-/// Fields of random bits.
-pub fn random<const N: usize>(
-    layout: Layout<N>,
-    numbers: &mut crate::cosimulation::Numbers,
-) -> [u64; N] {
-    layout.map(|width| numbers.bits(width))
+/// Fields of random bits; `bits` gives a number of that many.
+pub fn random<const N: usize>(layout: Layout<N>, bits: impl FnMut(u32) -> u64) -> [u64; N] {
+    layout.map(bits)
 }
