@@ -185,8 +185,8 @@ impl Visits {
         let visits = (20..60).contains(&clock);
         let push = visits && self.waiting.len() < 7 && self.numbers.once_in(rate);
         let read = (94..102).contains(&clock) && self.numbers.bits(1) == 1;
-        let reset =
-            cycle == 0 || (round % 4 == 1 && (20..90).contains(&clock) && self.numbers.once_in(25));
+        let reset = cycle == 0
+            || (round % 4 == 1 && (20..102).contains(&clock) && self.numbers.once_in(25));
         vec![
             reset.into(),
             self.infinite.into(),
