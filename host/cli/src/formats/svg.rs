@@ -3,7 +3,7 @@
 //! The picture fits its frame, y points up. Triangles are grouped by size into classes; each class is one path with a
 //! colour of its own, small triangles dark and large ones light, and with lines as thin as its triangles are small.
 //! Coordinates are rounded to the canvas and written relative to each triangle's first corner, which keeps files short:
-//! about 20 bytes per triangle.
+//! about 25 bytes per triangle.
 
 use std::io::{self, Write};
 
