@@ -185,10 +185,10 @@ fn visit_reader_turns_record_and_corners() {
             turns[slot] += 1;
             record.turned(slot).pack_turned(slot, was_set, INFINITE)
         });
-        let corners = visit(3).and_then(|(_, slot, _)| {
+        let corners = visit(3).map(|(_, slot, _)| {
             let mut corners = [9, 10, 11].map(|port| ago(1).map(|then| then[port]));
             corners.rotate_left(slot);
-            Some(corners)
+            corners
         });
         let corners = corners.unwrap_or([None; 3]);
         [&[ago(2).map(|then| then[1]), turned][..], &corners].concat()

@@ -11,7 +11,7 @@
 //! | `turned` | out | Turned | the record turned, in clock 4 |
 //! | `r0..r2` | out | 32 | coordinates of the turned vertices, in clock 5 |
 //!
-//! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does.
+//! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does. The links of a record differ.
 //!
 //! Latency: see the clocks above; `LATENCY` is that of the corners.
 //!
