@@ -83,7 +83,7 @@ fn star_id_takes_an_id_that_nobody_has() {
             a: id(&mut random),
             u: id(&mut random),
             slot: random.below(3),
-            f: base ^ (1 << random.below(15)) * random.below(2),
+            f: base ^ (random.below(2) << random.below(15)),
             after: random.below(64),
         });
         let (closes, used_up) = (flip(&mut random), flip(&mut random));
@@ -182,7 +182,7 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
             [(); 5].map(|()| flip(&mut random));
         let arrived = [
             3,
-            3 | 1 << random.below(15),
+            3 | (1 << random.below(15)),
             random.below(6),
             id(&mut random),
         ][random.below(4) as usize];

@@ -142,21 +142,7 @@ impl Rig {
         } else {
             self.random.next_u64() as u32
         };
-        for (port, value) in [
-            ("sweeps", self.around.sweeping > 0),
-            ("seeded", self.around.seeded),
-            ("collinear", self.around.collinear),
-            ("is_quiet", pins.is_quiet),
-            ("takes_point", takes_point),
-            ("responder_is_idle", pins.responder_is_idle),
-            ("answer_ends", pins.answer_ends),
-            ("answer_is_taken", self.around.answer_is_taken),
-            ("command_valid", !self.is_offered),
-        ] {
-            self.block.set(port, value);
-        }
-        self.block.set("command_data", data);
-        self.block.settle();
+        self.set_pins(pins, takes_point, data);
         let ready = self.reference.is_ready(&self.around);
         self.block.expect("command_ready", ready);
         self.block.set("command_valid", self.is_offered);
@@ -184,6 +170,25 @@ impl Rig {
         self.reference
             .edge(word, takes_point, pins, &around, self.capacity);
         self.refused += u32::from(self.reference.refused > refused);
+    }
+
+    fn set_pins(&mut self, pins: Pins, takes_point: bool, data: u32) {
+        for (port, value) in [
+            ("sweeps", self.around.sweeping > 0),
+            ("seeded", self.around.seeded),
+            ("collinear", self.around.collinear),
+            ("is_quiet", pins.is_quiet),
+            ("takes_point", takes_point),
+            ("responder_is_idle", pins.responder_is_idle),
+            ("answer_ends", pins.answer_ends),
+            ("answer_is_taken", self.around.answer_is_taken),
+            // The wrong way round first: nothing that is looked at then may depend on it.
+            ("command_valid", !self.is_offered),
+        ] {
+            self.block.set(port, value);
+        }
+        self.block.set("command_data", data);
+        self.block.settle();
     }
 
     fn expect(&self) {

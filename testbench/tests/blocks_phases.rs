@@ -103,161 +103,209 @@ fn phases_follow_their_table() {
     assert!(taken.iter().all(|times| *times > 20), "{taken:?}");
 }
 
-/// What the seeder does in a clock to come.
-#[derive(Clone, Copy, Debug)]
-struct Act {
-    write: u128,
-    is_last: bool,
+/// The first triangle as writes that are still to be made.
+#[derive(Default)]
+struct SeedReference {
+    looks: bool,
+    /// Writes to come.
+    due: VecDeque<u128>,
+    /// The write that the clock shows.
+    made: Option<u128>,
+    seeded: bool,
+    collinear: bool,
 }
 
-#[test]
-fn seeder_writes_the_first_triangle() {
-    let mut random = SplitMix64::new(31);
-    let mut block = Stepper::new("seeder", Seeder::default(), 1);
-    let infinite = 0x7fff;
-    let (mut acts, mut made) = (VecDeque::<Act>::new(), None);
-    let (mut seeded, mut collinear, mut looks) = (false, false, false);
-    let mut kinds = [0; 3];
-    for clock in 0..CLOCKS {
-        let reset = clock == 0 || random.below(150) == 0;
-        let is_at_rest = !looks && acts.is_empty();
-        let clears = is_at_rest && random.below(10) == 0;
-        let prepares = is_at_rest && !seeded && random.below(4) == 0;
-        let done = looks && random.below(5) == 0;
-        let is_seed = !is_at_rest;
-        let bits = random.next_u64();
-        let finding = Finding {
+/// Inputs of a clock of the seeder.
+struct SeedInputs {
+    reset: bool,
+    clears: bool,
+    prepares: bool,
+    done: bool,
+    finding: Finding,
+}
+
+const INFINITE: u64 = 0x7fff;
+
+impl SeedReference {
+    fn is_at_rest(&self) -> bool {
+        !self.looks && self.due.is_empty()
+    }
+
+    fn edge(&mut self, inputs: &SeedInputs, looks_next: bool) {
+        let starts = self.is_at_rest() && looks_next && !self.seeded && !self.collinear;
+        self.seeded |= self.due.len() == 1;
+        self.made = self.due.pop_front();
+        if inputs.prepares {
+            self.made = Some(record_write(0, [0, 1, 2], [0; 3]));
+        }
+        if inputs.done {
+            self.looks = false;
+            self.collinear = inputs.finding.is_straight;
+            if !self.collinear {
+                self.due = first_records(inputs.finding.is_left);
+            }
+        }
+        self.looks |= starts;
+        if inputs.clears {
+            (self.seeded, self.collinear) = (false, false);
+        }
+        if inputs.reset {
+            *self = Self::default();
+        }
+    }
+
+    fn expect(&self, block: &Stepper<Seeder>, inputs: &SeedInputs) {
+        let is_last = self.due.len() == 1;
+        block.expect("seeded", self.seeded);
+        block.expect("collinear", self.collinear);
+        block.expect("seeds", is_last);
+        block.expect("ends", is_last || inputs.done && inputs.finding.is_straight);
+        match self.made {
+            Some(write) => block.expect("write", write),
+            None => block.expect_masked("write", 1, 0u128),
+        }
+    }
+}
+
+/// The triangle of vertices 0, 1, 2 and its ghosts.
+fn first_records(turns_left: bool) -> VecDeque<u128> {
+    let (b, c) = if turns_left { (1, 2) } else { (2, 1) };
+    let inf = INFINITE;
+    [
+        record_write(0, [0, b, c], [1, 2, 3]),
+        record_write(1, [c, b, inf], [3, 2, 0]),
+        record_write(2, [0, c, inf], [1, 3, 0]),
+        record_write(3, [b, 0, inf], [2, 1, 0]),
+    ]
+    .into()
+}
+
+fn seed_inputs(random: &mut SplitMix64, reference: &SeedReference) -> SeedInputs {
+    let rests = reference.is_at_rest();
+    let bits = random.next_u64();
+    SeedInputs {
+        reset: random.below(150) == 0,
+        clears: rests && random.below(10) == 0,
+        prepares: rests && !reference.seeded && random.below(4) == 0,
+        done: reference.looks && random.below(5) == 0,
+        finding: Finding {
             conflict: bits & 1 == 1,
             located: bits & 2 == 2,
             falls_onto_corner: bits & 4 == 4,
             is_left: bits & 8 == 8,
             is_straight: bits & 48 == 48,
             walk_next: bits >> 49,
-        };
-        for (port, value) in [
-            ("reset", reset),
-            ("clears", clears),
-            ("prepares", prepares),
-            ("is_seed", is_seed),
-            ("done", done),
-        ] {
-            block.set(port, value);
-        }
-        block.set("infinite", infinite);
-        block.set("verdict", finding.verdict());
+        },
+    }
+}
+
+#[test]
+fn seeder_writes_the_first_triangle() {
+    let mut random = SplitMix64::new(31);
+    let mut block = Stepper::new("seeder", Seeder::default(), 1);
+    let mut reference = SeedReference::default();
+    let mut kinds = [0; 3];
+    block.set("infinite", INFINITE);
+    for clock in 0..CLOCKS {
+        let mut inputs = seed_inputs(&mut random, &reference);
+        inputs.reset |= clock == 0;
+        block.set("reset", inputs.reset);
+        block.set("clears", inputs.clears);
+        block.set("prepares", inputs.prepares);
+        block.set("is_seed", !reference.is_at_rest());
+        block.set("done", inputs.done);
+        block.set("verdict", inputs.finding.verdict());
         block.settle();
-        let act = acts.pop_front();
-        let is_last = act.is_some_and(|act| act.is_last);
         if clock > 0 {
-            block.expect("seeded", seeded);
-            block.expect("collinear", collinear);
-            block.expect("seeds", is_last);
-            block.expect("ends", is_last || done && finding.is_straight);
-            match made {
-                Some(write) => block.expect("write", write),
-                None => block.expect_masked("write", 1, 0u128),
-            }
+            reference.expect(&block, &inputs);
         }
         block.edge();
-        made = act
-            .map(|act| act.write)
-            .or(prepares.then(|| record_write(0, [0, 1, 2], [0; 3])));
-        seeded |= is_last;
-        if done {
-            looks = false;
-            kinds[if finding.is_straight {
-                0
-            } else {
-                1 + usize::from(finding.is_left)
-            }] += 1;
-            let (b, c) = if finding.is_left { (1, 2) } else { (2, 1) };
-            let records = [
-                record_write(0, [0, b, c], [1, 2, 3]),
-                record_write(1, [c, b, infinite], [3, 2, 0]),
-                record_write(2, [0, c, infinite], [1, 3, 0]),
-                record_write(3, [b, 0, infinite], [2, 1, 0]),
-            ];
-            if finding.is_straight {
-                collinear = true;
-            } else {
-                acts = records
-                    .iter()
-                    .enumerate()
-                    .map(|(id, write)| Act {
-                        write: *write,
-                        is_last: id == 3,
-                    })
-                    .collect();
-            }
-        } else if is_at_rest && !seeded && !collinear {
-            looks = random.below(6) == 0;
+        if inputs.done {
+            let finding = inputs.finding;
+            kinds[usize::from(finding.is_straight) * 2
+                + usize::from(finding.is_left && !finding.is_straight)] += 1;
         }
-        if clears || reset {
-            (seeded, collinear) = (false, false);
-        }
-        if reset {
-            acts.clear();
-            (made, looks) = (None, false);
-        }
+        reference.edge(&inputs, random.below(6) == 0);
     }
     assert!(kinds.iter().all(|times| *times > 20), "{kinds:?}");
 }
 
+/// The waiting point and the counts.
+#[derive(Default)]
+struct SlotReference {
+    waiting: Option<(u64, u64)>,
+    is_new: bool,
+    arrived: u64,
+    refused: u64,
+}
+
+impl SlotReference {
+    fn expect(&self, block: &Stepper<PointSlot>) {
+        block.expect("valid", self.waiting.is_some());
+        block.expect("is_new", self.is_new);
+        block.expect("arrived", self.arrived);
+        block.expect("refused", self.refused);
+        if let Some((id, point)) = self.waiting {
+            block.expect("id", id);
+            block.expect("point", point);
+        }
+    }
+
+    /// An edge at which `word` comes and is stored or refused.
+    fn edge(&mut self, word: Option<u64>, has_room: bool, takes: bool) {
+        if takes {
+            self.waiting = None;
+        }
+        let stored = word.filter(|_| has_room);
+        self.refused += u64::from(word.is_some() && !has_room);
+        self.is_new = stored.is_some();
+        if let Some(word) = stored {
+            self.waiting = Some((self.arrived, word));
+            self.arrived += 1;
+        }
+    }
+}
+
+fn point_slot(capacity: u64) {
+    let mut random = SplitMix64::new(32);
+    let mut block = Stepper::new("point_slot", PointSlot::default(), 1);
+    block.set("capacity", capacity);
+    let (mut reference, mut most) = (SlotReference::default(), 0);
+    for clock in 0..CLOCKS {
+        let is_free = reference.waiting.is_none();
+        let reset = clock == 0 || random.below(200) == 0;
+        let clears = is_free && random.below(60) == 0;
+        let collinear = random.below(8) == 0;
+        let accepts = is_free && !clears && random.below(2) == 0;
+        let takes = !is_free && random.below(3) == 0;
+        let word = random.below(1 << 32);
+        block.set("reset", reset);
+        block.set("clears", clears);
+        block.set("collinear", collinear);
+        block.set("accepts", accepts);
+        block.set("takes", takes);
+        block.set("word", word);
+        block.settle();
+        if clock > 0 {
+            reference.expect(&block);
+        }
+        block.edge();
+        let has_room = !collinear && reference.arrived < capacity;
+        reference.edge(accepts.then_some(word), has_room, takes);
+        most = most.max(reference.arrived);
+        if clears || reset {
+            (reference.arrived, reference.refused) = (0, 0);
+        }
+        if reset {
+            reference = SlotReference::default();
+        }
+    }
+    assert!(most >= 4, "{most}");
+}
+
 #[test]
 fn point_slot_holds_a_point_until_it_is_taken() {
-    for capacity in [4u64, 8, 16384] {
-        let mut random = SplitMix64::new(32);
-        let mut block = Stepper::new("point_slot", PointSlot::default(), 1);
-        block.set("capacity", capacity);
-        let (mut waiting, mut is_new) = (None, false);
-        let (mut arrived, mut refused, mut most) = (0, 0, 0);
-        for clock in 0..CLOCKS {
-            let reset = clock == 0 || random.below(200) == 0;
-            let clears = waiting.is_none() && random.below(60) == 0;
-            let collinear = random.below(8) == 0;
-            let accepts = waiting.is_none() && !clears && random.below(2) == 0;
-            let takes = waiting.is_some() && random.below(3) == 0;
-            let word = random.below(1 << 32);
-            for (port, value) in [
-                ("reset", reset),
-                ("clears", clears),
-                ("collinear", collinear),
-                ("accepts", accepts),
-                ("takes", takes),
-            ] {
-                block.set(port, value);
-            }
-            block.set("word", word);
-            block.settle();
-            if clock > 0 {
-                block.expect("valid", waiting.is_some());
-                block.expect("is_new", is_new);
-                block.expect("arrived", arrived);
-                block.expect("refused", refused);
-                if let Some((id, point)) = waiting {
-                    block.expect("id", id);
-                    block.expect("point", point);
-                }
-            }
-            block.edge();
-            is_new = accepts && !collinear && arrived < capacity;
-            if takes {
-                waiting = None;
-            }
-            if is_new {
-                waiting = Some((arrived, word));
-                arrived += 1;
-            } else {
-                refused += u64::from(accepts);
-            }
-            most = most.max(arrived);
-            if clears || reset {
-                (arrived, refused) = (0, 0);
-            }
-            if reset {
-                (waiting, is_new) = (None, false);
-            }
-        }
-        assert!(most >= 4, "{most}");
+    for capacity in [4, 8, 16384] {
+        point_slot(capacity);
     }
 }

@@ -96,11 +96,11 @@ impl Sent {
 /// A record whose columns tell its id.
 fn columns(id: u64) -> ([u32; 3], [u32; 3], bool) {
     let id = id as u32;
-    let column = |k: u32| (id ^ 0x1111 * k) & 0x7fff;
+    let column = |k: u32| (id ^ (0x1111 * k)) & 0x7fff;
     (
         [column(1), column(2), column(3)],
         [column(4), column(5), column(6)],
-        id % 3 == 0,
+        id.is_multiple_of(3),
     )
 }
 

@@ -321,6 +321,11 @@ impl Author {
                 .push(("root_visits", visits));
             self.push = Some(push);
         }
+        self.grow();
+    }
+
+    /// The cavity, to its end or its overflow.
+    fn grow(&mut self) {
         let overflows = self.random.below(3) == 0;
         for _ in 0..self.random.below(12) {
             self.cavity_row("is_cavity");

@@ -154,16 +154,10 @@ impl Mesh {
             let n = [old.n[k], ids[(k + 1) % 3], ids[(k + 2) % 3]];
             self.does(&mut deeds, Written::Record(ids[k], Record { v, n }));
         }
-        for k in 1..3 {
-            let slot = self.records[old.n[k] as usize].slot_to(root) as u64;
-            self.does(
-                &mut deeds,
-                Written::Link {
-                    id: old.n[k],
-                    slot,
-                    value: ids[k],
-                },
-            );
+        for (outer, value) in [(old.n[1], ids[1]), (old.n[2], ids[2])] {
+            let slot = self.records[outer as usize].slot_to(root) as u64;
+            let id = outer;
+            self.does(&mut deeds, Written::Link { id, slot, value });
         }
         for id in ids {
             // The flips of an earlier edge may have given this star triangle another neighbour, never another id.
