@@ -1,7 +1,7 @@
 //! The cores that lock-step runs.
 
 use incircle_hdl::export;
-use incircle_protocol::{Config, FULL, SMALL, TINY};
+use incircle_protocol::{Config, FULL, LARGE, SMALL, TINY};
 
 /// A core with a fault that lock-step must find: name, and a piece of the Verilog that is replaced.
 const FAULTS: [(&str, &str, &str); 3] = [
@@ -28,11 +28,16 @@ const FAULTS: [(&str, &str, &str); 3] = [
 /// Every core, with the probe.
 pub fn all() -> Vec<(&'static str, String)> {
     let ring9 = Config { ring: 9, ..SMALL };
+    let ring64 = Config { ring: 64, ..SMALL };
+    let least = Config { points: 4, ring: 3, ..SMALL };
     let mut cores = vec![
+        ("core_least", core(least)),
         ("core_tiny", core(TINY)),
         ("core_small", core(SMALL)),
         ("core_small_ring9", core(ring9)),
+        ("core_small_ring64", core(ring64)),
         ("core_full", core(FULL)),
+        ("core_large", core(LARGE)),
     ];
     for (name, sound, broken) in FAULTS {
         let verilog = core(SMALL);

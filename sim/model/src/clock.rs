@@ -18,7 +18,6 @@ mod responder;
 mod solo;
 mod wires;
 
-use crate::command::ModelError;
 use cavity::Cavity;
 use command_port::CommandPort;
 use commit::Commit;
@@ -85,12 +84,11 @@ pub struct ClockModel {
 
 impl ClockModel {
     /// The core of a configuration, as it is after a clock with reset.
-    pub fn new(config: Config) -> Result<Self, ModelError> {
-        let config = config.check().map_err(|error| match error {
-            ConfigError::Points(given) => ModelError::Capacity(given),
-            ConfigError::Ring(given) => ModelError::Ring(given),
-            ConfigError::Contexts(given) => ModelError::Contexts(given),
-        })?;
+    ///
+    /// # Errors
+    /// A parameter that no core can be built with.
+    pub fn new(config: Config) -> Result<Self, ConfigError> {
+        let config = config.check()?;
         let mut registers = Registers::default();
         registers.release.reset();
         Ok(Self {
@@ -134,6 +132,9 @@ impl ClockModel {
     }
 
     /// One rising edge.
+    ///
+    /// # Panics
+    /// If a memory is read and written in a way that is undefined in silicon, which would be a fault in the design.
     pub fn clock(&mut self, inputs: Inputs) {
         if inputs.reset {
             self.registers = Registers::default();

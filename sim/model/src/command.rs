@@ -18,12 +18,10 @@ pub const MAX_CAPACITY: u32 = 1 << 30;
 pub enum ModelError {
     /// Coordinate bits outside 1 to 31.
     CoordBits(u32),
-    /// Capacity outside 4 to 2^30 points; clock by clock, not a power of two up to 16,384.
+    /// Capacity outside 4 to 2^30 points.
     Capacity(u32),
     /// Boundary list outside 3 to 64 entries.
     Ring(u32),
-    /// Not one context.
-    Contexts(u32),
 }
 
 impl fmt::Display for ModelError {
@@ -42,7 +40,6 @@ impl fmt::Display for ModelError {
                     protocol::MIN_POINTS
                 )
             }
-            Self::Contexts(given) => write!(f, "the model has 1 context, not {given}"),
             Self::Ring(given) => write!(
                 f,
                 "a boundary list holds {} to {} edges, not {given}",

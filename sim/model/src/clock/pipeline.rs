@@ -135,6 +135,19 @@ impl Pipeline {
             }
         }
     }
+
+    /// Holds what the memories demand: in silicon a record that is written while it is read, and a lock that is set while it is
+    /// cleared, are undefined. Verilator and this model have an order for both, so they must never happen.
+    fn expect_no_collision(&self, was: &Registers) {
+        let read = self.issued.map(|token| token.u).or(self.reads[0]);
+        if let Some(id) = read.filter(|&id| was.write.valid && was.write.id == id) {
+            panic!("record {id} is read and written at one edge");
+        }
+        let locked = self.issued.filter(|token| token.locks);
+        if let Some(token) = locked.filter(|token| was.release.clear == Some(token.u)) {
+            panic!("lock {} is set and cleared at one edge", token.u);
+        }
+    }
 }
 
 /// Reads a record, sets its lock if asked to, and evaluates the predicates.

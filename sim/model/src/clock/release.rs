@@ -16,7 +16,7 @@ pub(super) struct Release {
     /// Locks in the log.
     count: u32,
     /// The lock cleared in this clock.
-    clear: Option<u32>,
+    pub clear: Option<u32>,
 }
 
 impl Release {
