@@ -29,7 +29,7 @@ pub enum Exit {
 pub struct Failure {
     /// What scripts see.
     pub exit: Exit,
-    /// What people see: one sentence, no newline. Empty: nothing is printed (a reader closed our output).
+    /// What people see: one sentence, no newline.
     pub message: String,
 }
 

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{refuse, Scratch};
+use common::{accept, refuse, Scratch};
 
 fn ply_header(format: &str, count: &str) -> String {
     format!("ply\nformat {format} 1.0\nelement vertex {count}\nproperty float x\nproperty float y\nend_header\n")
@@ -61,6 +61,35 @@ fn ply_that_is_cut_or_lies() {
     let mut binary = ply_header("binary_big_endian", "1").into_bytes();
     binary.extend([0x7f, 0xc0, 0, 0, 0, 0, 0, 0]);
     refuse("p.ply", &binary, &["vertex 1, x", "NaN"]);
+}
+
+#[test]
+fn ply_that_holds_more_than_it_promises() {
+    let ascii = |count| ply_header("ascii", count);
+    refuse(
+        "p.ply",
+        ascii("3") + "0 0\n1 0\n0 1\n5 5\n",
+        &["more than its header promises", "1 row after"],
+    );
+    refuse(
+        "p.ply",
+        ascii("2") + "0 0\n1 0 7\n",
+        &["vertex 2", "more values"],
+    );
+    accept("p.ply", ascii("3") + "0 0\n1 0\n0 1\n\n \n", 1);
+    let faces = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nelement face 1\n\
+                 property list uchar int vertex_indices\nend_header\n0 0\n1 0\n0 1\n3 0 1 2\n";
+    accept("p.ply", faces, 1);
+    refuse("p.ply", format!("{faces}3 0 1 2\n"), &["1 row after"]);
+    for format in ["binary_little_endian", "binary_big_endian"] {
+        let mut binary = ply_header(format, "1").into_bytes();
+        binary.extend([0; 24]);
+        refuse(
+            "p.ply",
+            &binary,
+            &["more than its header promises", "16 bytes"],
+        );
+    }
 }
 
 #[test]

@@ -245,6 +245,11 @@ fn svg_fits_any_extent() {
             "{points}: {svg}"
         );
     }
+    scratch.write("p.csv", "0,0\n1e-310,0\n0,1e-310\n");
+    scratch.run("triangulate p.csv -o m.svg --quantize 1").ok();
+    let svg = scratch.read("m.svg");
+    assert!(svg.contains("viewBox=\"0 0 1000 1000\""), "{svg}");
+    assert_eq!(svg.matches("M500 500h0").count(), 3, "{svg}");
 }
 
 #[test]

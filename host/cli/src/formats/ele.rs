@@ -5,23 +5,21 @@
 
 use std::io::{self, Write};
 
-use crate::failure::{quoted, Exit, Failure};
-use crate::formats::MeshView;
+use crate::failure::{Exit, Failure};
+use crate::formats::{triangle, MeshView};
 use crate::points::Place;
 use crate::text;
 
+const HEADER: triangle::Header = triangle::Header {
+    name: ".ele",
+    row: "N 3 0",
+    items: "triangles",
+    second: ("number of corners", "3"),
+};
+
 /// Reads triangles. A list that is longer or shorter than its first row promises is no right mesh, whatever it holds.
 pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
-    let bytes = text::without_mark(bytes)?;
-    let mut rows = text::rows(bytes)
-        .map(|(row, content)| (row, text::without_comment(content)))
-        .filter(|(_, content)| text::words(content).next().is_some());
-    let Some((row, header)) = rows.next() else {
-        return Err(Failure::input(
-            "the file is empty: an .ele file starts with a row 'N 3 0'",
-        ));
-    };
-    let promised = read_header(header, row)?;
+    let (promised, rows) = triangle::open(bytes, &HEADER)?;
     let mut triangles = Vec::new();
     let mut first_id = 0;
     for (row, content) in rows {
@@ -45,24 +43,6 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
             .for_each(|vertex| *vertex -= 1);
     }
     Ok(triangles)
-}
-
-fn read_header(content: &[u8], row: usize) -> Result<u32, Failure> {
-    let mut values = text::words(content);
-    let cell = |column| Place::Cell { row, column };
-    let promised = text::whole(
-        values.next().unwrap_or_default(),
-        "a number of triangles",
-        cell(1),
-    )?;
-    match values.next() {
-        None | Some(b"3") => Ok(promised),
-        Some(other) => Err(Failure::input(format!(
-            "{}: a triangle has {} corners here, not 3",
-            cell(2),
-            quoted(other)
-        ))),
-    }
 }
 
 fn read_row(content: &[u8], row: usize) -> Result<[u32; 4], Failure> {

@@ -8,6 +8,7 @@ pub mod node;
 pub mod obj;
 pub mod ply;
 pub mod svg;
+mod triangle;
 pub mod vtk;
 pub mod xyz;
 

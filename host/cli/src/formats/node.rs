@@ -7,24 +7,23 @@
 use std::io::{self, Write};
 
 use crate::failure::Failure;
+use crate::formats::triangle;
 use crate::points::{Place, PointTable};
 use crate::text;
+
+const HEADER: triangle::Header = triangle::Header {
+    name: ".node",
+    row: "N 2 attributes markers",
+    items: "points",
+    second: ("dimension", "2"),
+};
 
 /// Values of a row before its attributes: the id and two coordinates.
 const FIXED: usize = 3;
 
 /// Reads points.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
-    let bytes = text::without_mark(bytes)?;
-    let mut rows = text::rows(bytes)
-        .map(|(row, content)| (row, text::without_comment(content)))
-        .filter(|(_, content)| text::words(content).next().is_some());
-    let Some((row, header)) = rows.next() else {
-        return Err(Failure::input(
-            "the file is empty: a .node file starts with a row 'N 2 attributes markers'",
-        ));
-    };
-    let promised = read_header(header, row)?;
+    let (promised, rows) = triangle::open(bytes, &HEADER)?;
     let mut table = PointTable::of_rows([2, 3]);
     let mut base = 0;
     for (row, content) in rows {
@@ -64,24 +63,6 @@ fn check_id(id: u32, base: u32, count: usize, row: usize) -> Result<(), Failure>
     Err(Failure::input(format!(
         "row {row}, column 1: the id is {id}, not {wanted}: ids count from 0 or 1 and rise by one"
     )))
-}
-
-fn read_header(content: &[u8], row: usize) -> Result<u32, Failure> {
-    let mut values = text::words(content);
-    let cell = |column| Place::Cell { row, column };
-    let promised = text::whole(
-        values.next().unwrap_or_default(),
-        "a number of points",
-        cell(1),
-    )?;
-    match values.next() {
-        None | Some(b"2") => Ok(promised),
-        Some(other) => Err(Failure::input(format!(
-            "{}: the dimension is {}, not 2",
-            cell(2),
-            crate::failure::quoted(other)
-        ))),
-    }
 }
 
 fn read_point(content: &[u8], row: usize) -> Result<(u32, [f64; 2]), Failure> {

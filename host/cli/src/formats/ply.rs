@@ -143,9 +143,28 @@ fn read_element(
     for (name, element) in &header.elements {
         refuse_false_count(element, &header, rest)?;
         if name == wanted {
-            return read_items(element, &header, &mut rest, &mut take);
+            read_items(element, &header, &mut rest, &mut take)?;
+        } else {
+            read_items(element, &header, &mut rest, &mut |_, _| Ok(()))?;
         }
-        read_items(element, &header, &mut rest, &mut |_, _| Ok(()))?;
+    }
+    refuse_remainder(&header, rest)
+}
+
+/// Refuses what stands after the last element: a count that is too small would lose it unseen.
+fn refuse_remainder(header: &Header, rest: &[u8]) -> Result<(), Failure> {
+    let (left, unit) = match header.encoding {
+        Encoding::Ascii => {
+            let rows = text::rows(rest).filter(|(_, row)| text::words(row).next().is_some());
+            (rows.count(), "row")
+        }
+        Encoding::BinaryBigEndian | Encoding::BinaryLittleEndian => (rest.len(), "byte"),
+    };
+    if left > 0 {
+        let plural = if left == 1 { "" } else { "s" };
+        return Err(Failure::input(format!(
+            "the file holds more than its header promises: {left} {unit}{plural} after the last element"
+        )));
     }
     Ok(())
 }
@@ -252,6 +271,13 @@ fn read_row(element: &ElementDef, rest: &mut &[u8], index: usize) -> Result<Item
             values.push(number(words.next(), name)?);
         }
         item.keep(name, values);
+    }
+    if words.next().is_some() {
+        return Err(Failure::input(format!(
+            "{} {} has more values than the header promises",
+            element.name,
+            index + 1
+        )));
     }
     Ok(item)
 }

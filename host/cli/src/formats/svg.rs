@@ -76,7 +76,9 @@ impl Canvas {
         let low = [bound(0, f64::min), bound(1, f64::min)];
         let extent = [bound(0, f64::max) - low[0], bound(1, f64::max) - low[1]];
         let longer = extent[0].max(extent[1]);
-        let scale = if longer > 0.0 { CANVAS / longer } else { 0.0 };
+        // Of no extent, or of one too small for doubles: all points are drawn in the middle.
+        let scale = Some(CANVAS / longer).filter(|scale| scale.is_finite());
+        let scale = scale.unwrap_or(0.0);
         let size = extent.map(|side| (side * scale).round() + 2.0 * MARGIN);
         Self {
             low,
