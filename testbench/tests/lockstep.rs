@@ -1,16 +1,16 @@
 //! The core beside its model, every root port at every clock: random and adversarial jobs, crossed with idle and back-pressure,
-//! resets in mid-job, random initial states; and broken cores, which must be caught. More than 11 million clocks in all.
+//! resets in mid-job, random initial states; and broken cores, which must be caught. More than 14 million clocks in all.
 //!
-//! At the end of every job the host reads the whole triangle memory, lock bits included, so that is compared too, and all
-//! answers are compared with the model by commands, which knows no clock.
+//! At the end of every job the host reads the whole triangle memory, lock bits included, so that is compared too (the vertex
+//! memory shows in every decision only), and all answers are compared with the model by commands, which knows no clock.
 
 mod lockstep_rig;
 
-use incircle::Point;
-use incircle_cli::generate::{generate, Distribution, SplitMix64};
-use incircle_protocol::{command_word, Config, Counter, Opcode, COUNTER_WORDS, FULL, SMALL, TINY};
-use incircle_testbench::lockstep::{Job, Stalls};
+use incircle_cli::generate::{Distribution, SplitMix64};
+use incircle_protocol::{command_word, Config, Counter, Opcode, FULL, LARGE, SMALL, TINY};
+use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use lockstep_rig::{ordered, word, Rig};
+use std::path::PathBuf;
 
 const RING9: Config = Config { ring: 9, ..SMALL };
 
@@ -97,7 +97,12 @@ fn resets_in_mid_job() {
     let mut rig = Rig::new("core_small_ring9", RING9, 5);
     let mut random = SplitMix64::new(5);
     for k in 0..150 {
-        let points = ordered(Distribution::all()[k % 13], 60, 8, k as u64);
+        let points = ordered(
+            Distribution::all()[k % Distribution::all().len()],
+            60,
+            8,
+            k as u64,
+        );
         rig.run_and_reset(&points, random.below(9000), Stalls::ALL[k % 9]);
         if k % 10 == 0 {
             rig.run(&points, 60, Stalls::NONE);
@@ -148,41 +153,96 @@ fn commands_out_of_place() {
 }
 
 #[test]
-fn broken_cores_are_caught() {
-    for name in ["broken_comparison", "broken_link", "broken_tie"] {
-        let caught = [Distribution::Uniform, Distribution::Lattice]
-            .into_iter()
-            .find_map(|distribution| {
-                let points: Vec<u32> = ordered(distribution, 200, 6, 1);
-                let job = Job::of(&points, 200, SMALL.points, SMALL.ring);
-                let mut pair = incircle_testbench::lockstep::Lockstep::new(name, SMALL, 1);
-                let mut random = SplitMix64::new(1);
-                pair.run(&job, Stalls::NONE, &mut || random.next_u64())
-                    .err()
-            });
-        let mismatch = caught.unwrap_or_else(|| panic!("{name} passes"));
-        println!("{name}: {mismatch}\n");
+fn the_least_core_and_the_longest_list() {
+    let least = Config {
+        points: 4,
+        ring: 3,
+        ..SMALL
+    };
+    let mut rig = Rig::new("core_least", least, 7);
+    let mut random = SplitMix64::new(7);
+    for job in 0..500 {
+        let side = [3, 9, 1 << 16][job % 3];
+        let count = random.below(7);
+        let points: Vec<u32> = (0..count)
+            .map(|_| word(random.below(side), random.below(side)))
+            .collect();
+        rig.run(&points, 3, Stalls::ALL[job % 9]);
     }
+    rig.expect_clocks(100_000);
+    let ring64 = Config { ring: 64, ..SMALL };
+    let mut rig = Rig::new("core_small_ring64", ring64, 8);
+    for distribution in [
+        Distribution::Parabola,
+        Distribution::TwoChains,
+        Distribution::Lattice,
+    ] {
+        let mut points = ordered(distribution, 700, 16, 8);
+        rig.run(&points, 700, Stalls::NONE);
+        random.shuffle(&mut points);
+        rig.run(&points, 700, Stalls::ALL[4]);
+    }
+    rig.expect_clocks(500_000);
 }
 
 #[test]
-fn the_words_of_a_job_hold_what_the_documents_say() {
-    // The rig compares the answers' tail with the model by commands; this holds that the tail is where it looks.
-    let job = Job::of(
-        &[0, word(9, 0), word(0, 9), word(3, 3)],
-        4,
-        TINY.points,
-        TINY.ring,
+fn the_large_core_to_the_brim() {
+    let mut rig = Rig::new("core_large", LARGE, 9);
+    rig.run(
+        &ordered(Distribution::Uniform, 16385, 16, 9),
+        16385,
+        Stalls::NONE,
     );
-    assert_eq!(
-        job.answers,
-        2 + 7 + 2 + 2 + 5 + 2 + 3 * 6 + 2 + COUNTER_WORDS
+    rig.expect_clocks(2_000_000);
+}
+
+/// Runs some jobs that touch every rule; returns the first mismatch and leaves its waveform.
+fn first_mismatch(name: &str) -> Option<(Mismatch, PathBuf)> {
+    [Distribution::Uniform, Distribution::Lattice]
+        .into_iter()
+        .find_map(|distribution| {
+            let job = Job::of(
+                &ordered(distribution, 200, 6, 1),
+                200,
+                SMALL.points,
+                SMALL.ring,
+            );
+            let mut pair = Lockstep::new(name, SMALL, 1);
+            let mut random = SplitMix64::new(1);
+            let mismatch = pair
+                .run(&job, Stalls::NONE, &mut || random.next_u64())
+                .err()?;
+            let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.vcd"));
+            pair.leave_waveform(&path);
+            Some((mismatch, path))
+        })
+}
+
+#[test]
+fn broken_cores_are_caught_and_reported() {
+    assert!(
+        first_mismatch("core_small").is_none(),
+        "the sound core passes the same jobs"
     );
-    assert_eq!(
-        generate(Distribution::Uniform, 3, 16, 1)
-            .map(|points| points.len())
-            .ok(),
-        Some(3)
-    );
-    assert_eq!(Point::from((1, 2)), Point { x: 1, y: 2 });
+    for name in ["broken_comparison", "broken_link", "broken_tie"] {
+        let (mismatch, path) = first_mismatch(name).unwrap_or_else(|| panic!("{name} passes"));
+        let report = mismatch.to_string();
+        println!("{name}: {report}\n");
+        assert_ne!(mismatch.expected, mismatch.found);
+        for part in [
+            "clock ",
+            mismatch.port,
+            "the model says",
+            "the model is at: phase",
+            "last events:\n",
+        ] {
+            assert!(report.contains(part), "{part:?} is missing in {report}");
+        }
+        let wave = std::fs::read_to_string(&path)
+            .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        assert!(
+            wave.contains("$enddefinitions") && wave.contains("response_data"),
+            "{name}: no waveform"
+        );
+    }
 }

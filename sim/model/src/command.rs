@@ -10,15 +10,12 @@ use std::fmt;
 /// Version of the model and of the core it predicts, `major << 16 | minor << 8 | patch`.
 pub const CORE_VERSION: u32 = protocol::CORE_VERSION;
 
-/// Most points the software model holds: a record id must fit 31 bits.
-pub const MAX_CAPACITY: u32 = 1 << 30;
-
 /// A parameter the model cannot be built with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModelError {
     /// Coordinate bits outside 1 to 31.
     CoordBits(u32),
-    /// Capacity outside 4 to 2^30 points.
+    /// Capacity outside 4 to [`protocol::MAX_MODEL_POINTS`] points.
     Capacity(u32),
     /// Boundary list outside 3 to 64 entries.
     Ring(u32),
@@ -36,8 +33,9 @@ impl fmt::Display for ModelError {
             Self::Capacity(given) => {
                 write!(
                     f,
-                    "the model holds {} to {MAX_CAPACITY} points, not {given}",
-                    protocol::MIN_POINTS
+                    "the model holds {} to {} points, not {given}",
+                    protocol::MIN_POINTS,
+                    protocol::MAX_MODEL_POINTS
                 )
             }
             Self::Ring(given) => write!(
@@ -82,7 +80,7 @@ impl CommandModel {
         if !(protocol::MIN_COORD_BITS..=protocol::MAX_COORD_BITS).contains(&coord_bits) {
             return Err(ModelError::CoordBits(coord_bits));
         }
-        if !(protocol::MIN_POINTS..=MAX_CAPACITY).contains(&capacity) {
+        if !(protocol::MIN_POINTS..=protocol::MAX_MODEL_POINTS).contains(&capacity) {
             return Err(ModelError::Capacity(capacity));
         }
         if !(protocol::MIN_RING..=protocol::MAX_RING).contains(&ring_capacity) {

@@ -10,7 +10,11 @@ use crate::blocks;
 use incircle_model::{ClockModel, Inputs, Outputs, Write};
 use incircle_protocol::Config;
 use report::History;
+use std::path::Path;
 use verilated::{Model, PortId};
+
+/// Input ports of the core, in the order in which [`drive`] sets them.
+const INPUTS: [&str; 4] = ["reset", "command_valid", "command_data", "response_ready"];
 
 /// Output ports of the core with its probe, in the order in which [`words_of`] lists the model's outputs.
 const OUTPUTS: [&str; 13] = [
@@ -29,12 +33,18 @@ const OUTPUTS: [&str; 13] = [
     "write_n2",
 ];
 
+/// Clocks before a mismatch that its waveform shows.
+const TRACED: usize = 2000;
+
 /// A core and its model, always at the same clock.
 pub struct Lockstep {
+    name: String,
+    seed: u32,
     core: Model,
     model: ClockModel,
-    inputs: [PortId; 4],
+    inputs: [PortId; INPUTS.len()],
     outputs: [PortId; OUTPUTS.len()],
+    recording: Vec<Inputs>,
     history: History,
     clocks: u64,
 }
@@ -46,33 +56,41 @@ impl Lockstep {
     /// # Panics
     /// If there is no such core, or one of its ports is missing.
     pub fn new(name: &str, config: Config, seed: u32) -> Self {
-        let mut core = blocks::randomized(name, seed);
+        let core = started(name, seed);
         let port = |name: &str| core.port(name).unwrap_or_else(|error| panic!("{error}"));
-        let inputs = ["reset", "command_valid", "command_data", "response_ready"].map(port);
         let outputs = OUTPUTS.map(port);
+        let inputs = INPUTS.map(port);
         let model = ClockModel::new(config).unwrap_or_else(|error| panic!("{error}"));
-        core.set(inputs[0], 1);
-        core.clock();
-        core.set(inputs[0], 0);
-        core.eval();
+        let (name, recording) = (name.to_string(), Vec::new());
         Self {
+            name,
+            seed,
             core,
             model,
             inputs,
             outputs,
+            recording,
             history: History::default(),
             clocks: 1,
         }
     }
 
-    /// Writes a waveform from now on.
+    /// Replays everything since the start on a fresh core, and leaves the last clocks of it as a waveform.
     ///
     /// # Panics
     /// If the file cannot be made.
-    pub fn trace_to(&mut self, path: &std::path::Path) {
-        self.core
-            .trace_to(path)
-            .unwrap_or_else(|error| panic!("{error}"));
+    pub fn leave_waveform(&self, path: &Path) {
+        let mut core = started(&self.name, self.seed);
+        let shown = self.recording.len().saturating_sub(TRACED);
+        for (clock, inputs) in self.recording.iter().enumerate() {
+            if clock == shown {
+                core.trace_to(path)
+                    .unwrap_or_else(|error| panic!("{error}"));
+            }
+            drive(&mut core, &self.inputs, inputs);
+            core.clock();
+        }
+        core.trace_close();
     }
 
     /// Clocks since the start.
@@ -90,11 +108,8 @@ impl Lockstep {
     /// # Errors
     /// The first port that differs.
     pub fn clock(&mut self, inputs: Inputs) -> Result<(), Mismatch> {
-        let [reset, valid, data, ready] = self.inputs;
-        self.core.set(reset, u64::from(inputs.reset));
-        self.core.set(valid, u64::from(inputs.command_valid));
-        self.core.set(data, u64::from(inputs.command_data));
-        self.core.set(ready, u64::from(inputs.response_ready));
+        drive(&mut self.core, &self.inputs, &inputs);
+        self.recording.push(inputs);
         let expected = self.model.outputs();
         self.history.note(self.clocks, inputs, expected);
         for (port, expected) in self.outputs.into_iter().zip(words_of(&expected)) {
@@ -115,6 +130,26 @@ impl Lockstep {
         self.clocks += 1;
         Ok(())
     }
+}
+
+/// A core after one clock with reset, out of random registers and memories.
+fn started(name: &str, seed: u32) -> Model {
+    let mut core = blocks::randomized(name, seed);
+    let reset = core
+        .port(INPUTS[0])
+        .unwrap_or_else(|error| panic!("{error}"));
+    core.set(reset, 1);
+    core.clock();
+    core.set(reset, 0);
+    core.eval();
+    core
+}
+
+fn drive(core: &mut Model, ports: &[PortId; INPUTS.len()], inputs: &Inputs) {
+    core.set(ports[0], u64::from(inputs.reset));
+    core.set(ports[1], u64::from(inputs.command_valid));
+    core.set(ports[2], u64::from(inputs.command_data));
+    core.set(ports[3], u64::from(inputs.response_ready));
 }
 
 /// The model's outputs as the core's ports carry them.

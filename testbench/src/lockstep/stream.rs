@@ -33,6 +33,19 @@ impl Stalls {
         }
         all
     };
+
+    /// What the host does in a clock, by a random number: offers the next of `words` or idles, takes an answer or not.
+    pub fn inputs(self, words: &[u32], chance: u64) -> Inputs {
+        let is_idle = (chance & 0xff) < u64::from(self.idle);
+        let offered = words.first().filter(|_| !is_idle);
+        Inputs {
+            reset: false,
+            command_valid: offered.is_some(),
+            // What stands on the port of an idle clock must not matter.
+            command_data: offered.copied().unwrap_or((chance >> 32) as u32),
+            response_ready: (chance >> 8 & 0xff) >= u64::from(self.back_pressure),
+        }
+    }
 }
 
 /// One command stream with everything a job does, and the number of answer words.
@@ -98,18 +111,7 @@ impl Lockstep {
         while !rest.is_empty() || answers.len() < job.answers {
             let chance = random();
             let outputs = self.outputs();
-            let is_idle = (chance & 0xff) < u64::from(stalls.idle);
-            let inputs = Inputs {
-                reset: false,
-                command_valid: !rest.is_empty() && !is_idle,
-                // What stands on the port of an idle clock must not matter.
-                command_data: if rest.is_empty() || is_idle {
-                    (chance >> 32) as u32
-                } else {
-                    rest[0]
-                },
-                response_ready: (chance >> 8 & 0xff) >= u64::from(stalls.back_pressure),
-            };
+            let inputs = stalls.inputs(rest, chance);
             if inputs.response_ready && outputs.response_valid {
                 answers.push(outputs.response_data);
             }

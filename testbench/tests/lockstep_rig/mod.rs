@@ -4,7 +4,7 @@ use incircle::Point;
 use incircle_cli::generate::{generate, Distribution, SplitMix64};
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{Config, Counter, CORE_COORD_BITS, COUNTER_WORDS};
-use incircle_testbench::lockstep::{Job, Lockstep, Stalls};
+use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use std::path::PathBuf;
 
 /// A point as its word.
@@ -139,13 +139,7 @@ impl Rig {
         for _ in 0..clocks {
             let chance = self.random.next_u64();
             let outputs = self.pair.outputs();
-            let is_idle = (chance & 0xff) < u64::from(stalls.idle);
-            let inputs = Inputs {
-                reset: false,
-                command_valid: !rest.is_empty() && !is_idle,
-                command_data: rest.first().copied().unwrap_or(0),
-                response_ready: (chance >> 8 & 0xff) >= u64::from(stalls.back_pressure),
-            };
+            let inputs = stalls.inputs(rest, chance);
             if inputs.command_valid && outputs.command_ready {
                 rest = &rest[1..];
             }
@@ -167,37 +161,27 @@ impl Rig {
 
     fn step(&mut self, inputs: Inputs, job: &Job) {
         if let Err(mismatch) = self.pair.clock(inputs) {
-            panic!("{}: {mismatch}\njob {:x?}", self.name, job.commands);
+            self.fail(&mismatch, job);
         }
     }
 
     fn execute(&mut self, job: &Job, stalls: Stalls) -> Vec<u32> {
-        let before = self.random.clone();
         let random = &mut self.random;
         match self.pair.run(job, stalls, &mut || random.next_u64()) {
             Ok(answers) => answers,
-            Err(mismatch) => {
-                let wave = self.trace(job, stalls, before);
-                panic!(
-                    "{}: {mismatch}\nwaveform: {}\njob {:x?}",
-                    self.name, wave, job.commands
-                );
-            }
+            Err(mismatch) => self.fail(&mismatch, job),
         }
     }
 
-    /// Runs the job again from reset with a waveform; says so if the mismatch does not come again there.
-    fn trace(&self, job: &Job, stalls: Stalls, mut random: SplitMix64) -> String {
+    fn fail(&self, mismatch: &Mismatch, job: &Job) -> ! {
         let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{}.vcd", self.name));
-        let mut pair = Lockstep::new(self.name, self.config, self.seed);
-        pair.trace_to(&path);
-        let again = pair.run(job, stalls, &mut || random.next_u64()).is_err();
-        let remark = if again {
-            ""
-        } else {
-            " (it needs the jobs before to come again)"
-        };
-        format!("{}{remark}", path.display())
+        self.pair.leave_waveform(&path);
+        panic!(
+            "{}: {mismatch}\nwaveform: {}\njob {:x?}",
+            self.name,
+            path.display(),
+            job.commands
+        );
     }
 
     fn by_commands(&self, job: &Job) -> Vec<u32> {

@@ -114,6 +114,7 @@ impl Pipeline {
     }
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory) {
+        self.expect_no_collision(was);
         let visited = self
             .issued
             .map(|token| visit(token, was.context.position, memory));
