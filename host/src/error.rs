@@ -1,5 +1,6 @@
 //! Everything that can go wrong, as typed errors: one sentence each, with the numbers and what to do.
 
+use std::fmt;
 use std::time::Duration;
 
 use crate::fault::DeviceFault;
@@ -25,6 +26,28 @@ pub enum ErrorKind {
     Capacity,
     /// The progress listener ended the job.
     Cancelled,
+}
+
+/// A value as messages show it: in scientific form where plain digits would be a long row of zeros, below 1e-6 and from
+/// 1e15 on.
+///
+/// ```
+/// use incircle::Shown;
+/// assert_eq!(Shown(-0.5).to_string(), "-0.5");
+/// assert_eq!(Shown(1e300).to_string(), "1e300");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shown(pub f64);
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(value) = self;
+        if *value == 0.0 || !value.is_finite() || (1e-6..1e15).contains(&value.abs()) {
+            write!(f, "{value}")
+        } else {
+            write!(f, "{value:e}")
+        }
+    }
 }
 
 /// An error of the library.
@@ -57,7 +80,7 @@ pub enum Error {
         value: f64,
     },
     /// A value has a fraction where grid points are wanted.
-    #[error("the {axis} of point {index} is {value}, which is no integer: quantise the points")]
+    #[error("the {axis} of point {index} is {}, which is no integer: quantise the points", Shown(*value))]
     NotInteger {
         /// Input index of the point.
         index: usize,
@@ -68,8 +91,8 @@ pub enum Error {
     },
     /// A value is outside the grid.
     #[error(
-        "the {axis} of point {index} is {value}, outside the grid of {coord_bits} bits, 0 to {max}: \
-         quantise the points or use more coordinate bits", max = (1u64 << coord_bits) - 1
+        "the {axis} of point {index} is {}, outside the grid of {coord_bits} bits, 0 to {max}: \
+         quantise the points or use more coordinate bits", Shown(*value), max = (1u64 << coord_bits) - 1
     )]
     OutOfGrid {
         /// Input index of the point.
@@ -82,13 +105,13 @@ pub enum Error {
         coord_bits: u32,
     },
     /// The bounding box is too small or too large for a scale in double precision.
-    #[error("the points span {extent} units, for which no scale onto the grid exists in double precision: scale them first")]
+    #[error("the points span {} units, for which no scale onto the grid exists in double precision: scale them first", Shown(*extent))]
     Extent {
         /// The longer side of the bounding box.
         extent: f64,
     },
     /// A scale that is not a positive finite number, or an offset that is not finite.
-    #[error("the quantisation scale {scale} with offset ({}, {}) is unusable: give a positive finite scale and finite offsets", offset[0], offset[1])]
+    #[error("the quantisation scale {} with offset ({}, {}) is unusable: give a positive finite scale and finite offsets", Shown(*scale), Shown(offset[0]), Shown(offset[1]))]
     Scale {
         /// Grid units per input unit.
         scale: f64,

@@ -52,7 +52,7 @@ mod transport;
 pub mod verify;
 
 pub use device::Device;
-pub use error::{Error, ErrorKind};
+pub use error::{Error, ErrorKind, Shown};
 pub use fault::DeviceFault;
 pub use incircle_protocol::Identity;
 pub use mesh::{Duplicate, Mesh, EMPTY};

@@ -55,12 +55,6 @@ impl Counters {
             flips: narrow(Counter::Flips),
         }
     }
-
-    /// Clock cycles per insertion, waiting for points not counted; `None` where there is no clock or no insertion.
-    pub fn cycles_per_insertion(&self) -> Option<f64> {
-        let worked = self.insert_cycles.saturating_sub(self.wait_cycles);
-        (worked > 0 && self.insertions > 0).then(|| worked as f64 / f64::from(self.insertions))
-    }
 }
 
 /// What a job says about itself.
@@ -99,6 +93,14 @@ impl Report {
         found.map(|&(_, duration)| duration)
     }
 
+    /// Clock cycles per distinct point, from the first point accepted to the last lock released: waiting for points, which
+    /// [`Counters::wait_cycles`] counts, lies within, reading out lies outside. `None` where there is no clock, or where
+    /// the host answered alone.
+    pub fn cycles_per_insertion(&self) -> Option<f64> {
+        let cycles = self.counters?.insert_cycles;
+        (cycles > 0 && self.distinct > 0).then(|| cycles as f64 / self.distinct as f64)
+    }
+
     /// Time of all stages.
     pub fn total(&self) -> Duration {
         self.stages.iter().map(|&(_, duration)| duration).sum()
@@ -124,13 +126,19 @@ mod tests {
 
     #[test]
     fn cycles_per_insertion_needs_a_clock() {
-        let mut counters = Counters {
-            insertions: 4,
-            ..Counters::default()
+        let mut report = Report {
+            distinct: 4,
+            ..Report::default()
         };
-        assert_eq!(counters.cycles_per_insertion(), None);
+        assert_eq!(report.cycles_per_insertion(), None);
+        let mut counters = Counters::default();
+        report.counters = Some(counters);
+        assert_eq!(report.cycles_per_insertion(), None);
         counters.insert_cycles = 500;
         counters.wait_cycles = 100;
-        assert_eq!(counters.cycles_per_insertion(), Some(100.0));
+        counters.read_cycles = 70;
+        report.counters = Some(counters);
+        // Waiting lies within the span, reading out does not.
+        assert_eq!(report.cycles_per_insertion(), Some(125.0));
     }
 }

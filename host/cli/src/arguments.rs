@@ -124,7 +124,7 @@ pub struct GenerateArguments {
     /// The set
     #[arg(value_enum)]
     pub distribution: Distribution,
-    /// Number of points
+    /// Number of points, up to 536870911
     #[arg(short, value_name = "N")]
     pub n: u32,
     /// Bits of a coordinate

@@ -1,7 +1,7 @@
 //! From the values of a file to points of the grid.
 
 use incircle::quantize::{integers, quantize};
-use incircle::{Error, ErrorKind, Point, Quantization, Quantize};
+use incircle::{Error, ErrorKind, Point, Quantization, Quantize, Shown};
 
 use crate::arguments::GridArguments;
 use crate::failure::{Exit, Failure};
@@ -53,11 +53,7 @@ fn refuse(error: &Error, table: &PointTable, quantized: bool) -> Failure {
     };
     let place = table.place(*index, usize::from(*axis == 'y'));
     let last = (1u64 << coord_bits) - 1;
-    let shown = if value.abs() < 1e15 {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    };
+    let shown = Shown(*value);
     if quantized {
         return Failure::input(format!(
             "{place}: the value falls on {shown}, outside 0 to {last} ({coord_bits} bits): choose another scale or --quantize fit"

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use incircle::{Counters, Quantization, Report};
+use incircle::{Counters, Quantization, Report, Shown};
 use serde_json::{json, Map, Value};
 
 use crate::backend::Backend;
@@ -13,6 +13,8 @@ pub struct RunReport<'a> {
     pub job: &'a Report,
     /// Name of the back end and of its configuration.
     pub backend: (&'static str, Option<&'static str>),
+    /// Bits of a coordinate of the grid; a core may have more.
+    pub coord_bits: u32,
     /// What quantisation did.
     pub quantization: Option<&'a Quantization>,
     /// Seconds of the stages of the command, in the order in which they ran.
@@ -21,10 +23,16 @@ pub struct RunReport<'a> {
 
 impl<'a> RunReport<'a> {
     /// A report of a job on this back end, the command's own stages still empty.
-    pub fn new(job: &'a Report, backend: &Backend, quantization: Option<&'a Quantization>) -> Self {
+    pub fn new(
+        job: &'a Report,
+        backend: &Backend,
+        coord_bits: u32,
+        quantization: Option<&'a Quantization>,
+    ) -> Self {
         Self {
             job,
             backend: (backend.name, backend.config),
+            coord_bits,
             quantization,
             stages: Vec::new(),
         }
@@ -44,7 +52,7 @@ impl<'a> RunReport<'a> {
             "backend": backend,
             "config": config,
             "order": job.order,
-            "coord_bits": job.coord_bits,
+            "coord_bits": self.coord_bits,
             "capacity": job.capacity,
             "seconds": self.seconds(),
             "quantisation": self.quantization.map(quantization_json),
@@ -75,8 +83,12 @@ impl<'a> RunReport<'a> {
         if let Some(q) = self.quantization {
             let ([x, y], merged) = (q.offset, q.merged);
             lines.push(format!(
-                "quantised to {} bits: scale {}, offset ({x}, {y}), largest error {:.3e}, {merged} points fell together",
-                q.coord_bits, q.scale, q.largest_error
+                "quantised to {} bits: scale {}, offset ({}, {}), largest error {:.3e}, {merged} points fell together",
+                q.coord_bits,
+                Shown(q.scale),
+                Shown(x),
+                Shown(y),
+                q.largest_error
             ));
         }
         lines.push(self.counts_line());
@@ -125,12 +137,10 @@ impl<'a> RunReport<'a> {
 fn add_cycles(object: &mut Value, job: &Report) {
     let counters = job.counters.unwrap_or_default();
     let cycles = counters.insert_cycles;
-    let per_insertion =
-        (job.distinct > 0 && cycles > 0).then(|| cycles as f64 / job.distinct as f64);
     object["cycles"] = cycles.into();
     object["wait_cycles"] = counters.wait_cycles.into();
     object["read_cycles"] = counters.read_cycles.into();
-    object["cycles_per_insertion"] = per_insertion.into();
+    object["cycles_per_insertion"] = job.cycles_per_insertion().into();
 }
 
 /// What quantisation did, as an object.

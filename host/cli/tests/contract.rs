@@ -83,6 +83,7 @@ fn json_report_has_all_keys() {
     assert_eq!(report["order"], "brio-hilbert");
     assert_eq!(report["quantisation"], Value::Null);
     assert_eq!(report["counters"]["insertions"], 5);
+    assert_eq!(report["coord_bits"], 16);
     for stage in [
         "load", "quantise", "order", "insert", "read", "assemble", "write", "total",
     ] {
@@ -297,4 +298,17 @@ fn quiet_is_quiet_and_verbose_says_more() {
     );
     let verbose = scratch.run("triangulate p.csv -o m.ele -v").ok();
     assert!(verbose.stderr.contains("walk_visits"), "{verbose:?}");
+}
+
+#[test]
+fn extreme_values_stay_short_in_messages() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "1e300,0.5\n2e300,0\n1e300,1e300\n");
+    let run = scratch.run("triangulate p.csv -o m.ele").ok();
+    assert!(run.stderr.contains("offset (1e300, 0)"), "{run:?}");
+    assert!(run.stderr.lines().all(|line| line.len() < 200), "{run:?}");
+    scratch.write("p.csv", "0,0\n1e-310,0\n0,0.0\n");
+    scratch
+        .run("triangulate p.csv -o n.ele")
+        .fails(3, &["span 1e-310 units"]);
 }

@@ -66,3 +66,34 @@ fn no_points_are_possible() {
     assert_eq!(scratch.read("p.csv"), "");
     scratch.run("triangulate p.csv -o m.ele").ok();
 }
+
+#[test]
+fn more_points_than_a_job_may_have_are_refused() {
+    let scratch = Scratch::new();
+    for n in ["536870912", "4294967295"] {
+        scratch
+            .run(&format!("generate uniform -n {n} -o p.csv"))
+            .fails(2, &[n, "536870911"]);
+    }
+    assert!(scratch.files().is_empty());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn more_points_than_memory_end_with_seven() {
+    let scratch = Scratch::new();
+    let program = env!("CARGO_BIN_EXE_incircle");
+    for distribution in ["uniform", "clusters", "lattice"] {
+        // A quarter of a gigabyte of addresses, where four fifths of one are wanted.
+        let line = format!(
+            "ulimit -v 262144 && '{program}' generate {distribution} -n 100000000 -o p.csv"
+        );
+        let output = std::process::Command::new("sh")
+            .args(["-c", &line])
+            .current_dir(scratch.path(""))
+            .output();
+        common::Run::of(output.expect("the shell starts"))
+            .fails(7, &["no memory for 100000000 points"]);
+    }
+    assert!(scratch.files().is_empty());
+}

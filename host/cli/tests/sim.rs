@@ -37,8 +37,19 @@ fn named_sets_of_a_thousand_points() {
         let cycles = report["cycles"].as_f64().expect("cycles are counted");
         let distinct = report["distinct"].as_f64().expect("a count");
         assert_eq!(report["cycles_per_insertion"], cycles / distinct);
+        // Waiting lies within the span, and is told apart; reading out lies outside.
+        let wait = report["wait_cycles"].as_f64().expect("cycles are counted");
+        assert!(wait < cycles, "{report}");
         assert!(report["read_cycles"].as_u64() > Some(0), "{report}");
     }
+}
+
+#[test]
+fn the_report_says_the_bits_of_the_grid() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n255,0\n0,255\n");
+    let report = compare(&scratch, "--coord-bits 8");
+    assert_eq!(report["coord_bits"], 8);
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! `incircle generate`: point sets by name.
 
+use incircle::MAX_POINTS;
+
 use crate::arguments::GenerateArguments;
-use crate::failure::Failure;
+use crate::failure::{Exit, Failure};
 use crate::formats::{csv, extension, node, xyz, PointFormat};
-use crate::generate::generate;
+use crate::generate::{generate, GenerateError};
 use crate::output::Output;
 
 /// Runs the subcommand.
@@ -25,9 +27,20 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
             )));
         }
     };
-    let output = Output::prepare(path, None)?;
     let n = arguments.n as usize;
+    if n > MAX_POINTS {
+        return Err(Failure::usage(format!(
+            "-n {n} is more than the {MAX_POINTS} points that a job may have: choose fewer"
+        )));
+    }
+    let output = Output::prepare(path, None)?;
     let points = generate(arguments.distribution, n, arguments.bits, arguments.seed);
-    let points = points.map_err(|error| Failure::usage(error.to_string()))?;
+    let points = points.map_err(|error| {
+        let exit = match error {
+            GenerateError::Bits(_) => Exit::Usage,
+            GenerateError::Memory(_) => Exit::Capacity,
+        };
+        Failure::new(exit, error.to_string())
+    })?;
     output.write(|out| write_points(&points, out))?.finish()
 }

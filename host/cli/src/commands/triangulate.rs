@@ -43,7 +43,12 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     watch.since = Instant::now();
     let written = output.write(|out| write(&table, &mesh, format, out))?;
     watch.ended("write");
-    let mut report = RunReport::new(&mesh.report, &backend, quantization.as_ref());
+    let mut report = RunReport::new(
+        &mesh.report,
+        &backend,
+        arguments.grid.coord_bits,
+        quantization.as_ref(),
+    );
     report.stages = watch.stages;
     if arguments.json {
         output::print(&format!("{}\n", report.to_json()))?;

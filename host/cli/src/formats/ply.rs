@@ -6,6 +6,7 @@
 
 use std::io::{self, Write};
 
+use incircle::Shown;
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
@@ -50,7 +51,8 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
         for (vertex, corner) in triangle.iter_mut().zip(corners) {
             if !(corner >= 0.0 && corner <= f64::from(u32::MAX) && corner.fract() == 0.0) {
                 return Err(Failure::input(format!(
-                    "face {number}: {corner} is not a point index"
+                    "face {number}: {} is not a point index",
+                    Shown(corner)
                 )));
             }
             *vertex = corner as u32;

@@ -72,42 +72,62 @@ impl fmt::Display for Distribution {
 /// Coordinate bits that a grid can have.
 pub const BITS: std::ops::RangeInclusive<u32> = 1..=31;
 
-/// A grid that is no grid.
+/// Why a set cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BitsError(
-    /// The bits asked for.
-    pub u32,
-);
+pub enum GenerateError {
+    /// Coordinate bits outside [`BITS`].
+    Bits(u32),
+    /// There is no memory for so many points.
+    Memory(usize),
+}
 
-impl fmt::Display for BitsError {
+impl fmt::Display for GenerateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} coordinate bits are not possible: choose 1 to 31",
-            self.0
-        )
+        match self {
+            Self::Bits(bits) => {
+                write!(f, "{bits} coordinate bits are not possible: choose 1 to 31")
+            }
+            Self::Memory(n) => write!(
+                f,
+                "there is no memory for {n} points of {POINT_BYTES} bytes: choose fewer"
+            ),
+        }
     }
 }
 
-impl std::error::Error for BitsError {}
+impl std::error::Error for GenerateError {}
+
+/// Bytes that a point takes.
+const POINT_BYTES: usize = size_of::<[u32; 2]>();
+
+/// The points, or that there is no memory for them.
+type Points = Result<Vec<[u32; 2]>, GenerateError>;
+
+/// An empty list with room for `n` points.
+fn room(n: usize) -> Points {
+    let mut points = Vec::new();
+    match points.try_reserve_exact(n) {
+        Ok(()) => Ok(points),
+        Err(_) => Err(GenerateError::Memory(n)),
+    }
+}
 
 /// Exactly `n` points of a distribution on the grid `[0, 2^bits)` squared. O(n).
 ///
 /// # Errors
-/// `bits` outside [`BITS`].
+/// `bits` outside [`BITS`], or no memory for `n` points.
 pub fn generate(
     distribution: Distribution,
     n: usize,
     bits: u32,
     seed: u64,
-) -> Result<Vec<[u32; 2]>, BitsError> {
+) -> Result<Vec<[u32; 2]>, GenerateError> {
     if !BITS.contains(&bits) {
-        return Err(BitsError(bits));
+        return Err(GenerateError::Bits(bits));
     }
     let grid = Grid { size: 1 << bits };
-    let mut random = SplitMix64::new(seed);
-    let random = &mut random;
-    Ok(match distribution {
+    let random = &mut SplitMix64::new(seed);
+    match distribution {
         Distribution::Uniform => sampled::uniform(n, grid, random),
         Distribution::Normal => sampled::normal(n, grid, random),
         Distribution::Kuzmin => sampled::kuzmin(n, grid, random),
@@ -121,7 +141,7 @@ pub fn generate(
         Distribution::TwoChains => shaped::two_chains(n, grid, random),
         Distribution::Spiral => shaped::spiral(n, grid, random),
         Distribution::Box => shaped::filled_box(n, grid, random),
-    })
+    }
 }
 
 /// The grid that points lie on.
@@ -194,11 +214,28 @@ mod tests {
 
     #[test]
     fn impossible_bits_are_refused() {
-        assert_eq!(generate(Distribution::Uniform, 1, 0, 0), Err(BitsError(0)));
+        assert_eq!(
+            generate(Distribution::Uniform, 1, 0, 0),
+            Err(GenerateError::Bits(0))
+        );
         assert_eq!(
             generate(Distribution::Uniform, 1, 32, 0),
-            Err(BitsError(32))
+            Err(GenerateError::Bits(32))
         );
+    }
+
+    #[test]
+    fn more_points_than_memory_are_refused() {
+        for &distribution in Distribution::all() {
+            let n = usize::MAX / 16;
+            let refused = Err(GenerateError::Memory(n));
+            if distribution == Distribution::Clusters {
+                // The centres come first.
+                assert!(generate(distribution, n, 16, 1).is_err());
+            } else {
+                assert_eq!(generate(distribution, n, 16, 1), refused, "{distribution}");
+            }
+        }
     }
 
     #[test]

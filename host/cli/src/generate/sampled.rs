@@ -6,7 +6,7 @@
 //! (checkers).
 
 use super::random::SplitMix64;
-use super::Grid;
+use super::{room, Grid, Points};
 
 /// Standard deviations from the centre of the grid to its sides.
 const NORMAL_DEVIATIONS: f64 = 4.0;
@@ -22,13 +22,13 @@ const CLUSTER_POINTS: usize = 100;
 const CLUSTER_DEVIATIONS: f64 = 200.0;
 
 /// Every grid point alike.
-pub fn uniform(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
-    (0..n).map(|_| anywhere(grid, random)).collect()
+pub fn uniform(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
+    repeat(n, || Some(anywhere(grid, random)))
 }
 
 /// Independent Gaussian coordinates around the centre; the sides are four standard deviations away. Points outside
 /// are drawn anew.
-pub fn normal(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn normal(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let deviation = grid.half() / NORMAL_DEVIATIONS;
     repeat(n, || {
         let [x, y] = random.normal_pair();
@@ -38,7 +38,7 @@ pub fn normal(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
 
 /// Kuzmin's disc, a model of flat galaxies: the share of points within radius r is 1 - 1 / sqrt(1 + r²), so
 /// r = sqrt(1 / (1 - u)² - 1) for uniform u. The sides are 32 units away; the few points outside are drawn anew.
-pub fn kuzmin(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn kuzmin(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let unit = grid.half() / KUZMIN_UNITS;
     repeat(n, || {
         let outside = 1.0 - random.unit();
@@ -53,7 +53,7 @@ pub fn kuzmin(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
 
 /// The line singularity: x = b / (u - b u + b), y = v for uniform u, v and b = 0.001. Density falls with the square of
 /// the distance from the left side.
-pub fn line(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn line(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let size = grid.size as f64;
     repeat(n, || {
         let (u, v) = (random.unit(), random.unit());
@@ -65,7 +65,7 @@ pub fn line(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
 
 /// Every eighth point anywhere on the white squares of a chess board, the others on the black ones; the square at the
 /// origin is black. Boards of fewer than 8 grid points a side have fewer squares.
-pub fn checkers(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn checkers(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let squares = BOARD.min(grid.size);
     let side = grid.size / squares;
     let one = |random: &mut SplitMix64| {
@@ -78,12 +78,12 @@ pub fn checkers(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> 
         ];
         [x as u32, y as u32]
     };
-    (0..n).map(|_| one(random)).collect()
+    repeat(n, || Some(one(random)))
 }
 
 /// The grid points next to random places of the circle that touches the sides: nearly cocircular, so `incircle` is near
 /// zero everywhere.
-pub fn circle(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn circle(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let centre = grid.half() - 0.5;
     let one = |random: &mut SplitMix64| {
         let angle = std::f64::consts::TAU * random.unit();
@@ -92,14 +92,14 @@ pub fn circle(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
             centre + centre * libm::sin(angle),
         )
     };
-    (0..n).map(|_| one(random)).collect()
+    repeat(n, || Some(one(random)))
 }
 
 /// Gaussian clusters around uniform centres, a hundred points each on average; a standard deviation is 1/200 of a side.
 /// Points outside the grid are drawn anew.
-pub fn clusters(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn clusters(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let count = n.div_ceil(CLUSTER_POINTS);
-    let centres: Vec<_> = (0..count).map(|_| anywhere(grid, random)).collect();
+    let centres = repeat(count, || Some(anywhere(grid, random)))?;
     let deviation = grid.size as f64 / CLUSTER_DEVIATIONS;
     repeat(n, || {
         let [x, y] = centres[random.below(count as u64) as usize];
@@ -119,9 +119,8 @@ fn anywhere(grid: Grid, random: &mut SplitMix64) -> [u32; 2] {
 }
 
 /// Draws until `n` points lie inside. Every distribution here has at least a quarter of its mass inside, so it ends.
-fn repeat(n: usize, mut draw: impl FnMut() -> Option<[u32; 2]>) -> Vec<[u32; 2]> {
-    std::iter::from_fn(|| Some(draw()))
-        .flatten()
-        .take(n)
-        .collect()
+fn repeat(n: usize, mut draw: impl FnMut() -> Option<[u32; 2]>) -> Points {
+    let mut points = room(n)?;
+    points.extend(std::iter::from_fn(|| Some(draw())).flatten().take(n));
+    Ok(points)
 }

@@ -1,7 +1,7 @@
 //! Sets of a fixed shape, shuffled.
 
 use super::random::SplitMix64;
-use super::Grid;
+use super::{room, Grid, Points};
 
 /// Copies of each point of a box, on average.
 const BOX_COPIES: usize = 4;
@@ -9,17 +9,17 @@ const BOX_COPIES: usize = 4;
 const SPIRAL_STEP: f64 = 0.25;
 
 /// A square lattice as wide as the grid allows, filled row by row: every square of neighbours is cocircular.
-pub fn lattice(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn lattice(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let columns = side_of(n).min(grid.size);
     let step = ((grid.size - 1) / (columns - 1).max(1)).max(1);
     let place = |index: u64| [index % columns * step, index / columns % columns * step];
-    shuffled((0..n as u64).map(place), random)
+    shuffled(n, place, random)
 }
 
 /// A square lattice turned by the Gaussian integer 2 + i, times the largest step that fits: (i, j) becomes
 /// (2 i - j, i + 2 j). The turn is exact, so every square of neighbours is cocircular, but no two share a coordinate.
 /// Where the grid is too small for n points they repeat.
-pub fn rotated_lattice(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn rotated_lattice(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     // A lattice of c columns spans 3 (c - 1) steps in both directions.
     let columns = side_of(n).min((grid.size - 1) / 3 + 1);
     let last = columns - 1;
@@ -28,23 +28,23 @@ pub fn rotated_lattice(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u3
         let (i, j) = (index % columns, index / columns % columns);
         [(2 * i + last - j) * step, (i + 2 * j) * step]
     };
-    shuffled((0..n as u64).map(place), random)
+    shuffled(n, place, random)
 }
 
 /// On y = x² / (2^bits - 1), x evenly spaced: every point is on the hull (up to rounding),
 /// and triangles are long and thin.
-pub fn parabola(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn parabola(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let last = grid.size - 1;
     let place = |index: u64| {
         let x = spread(index, n as u64, last);
         [x, x * x / last]
     };
-    shuffled((0..n as u64).map(place), random)
+    shuffled(n, place, random)
 }
 
 /// Two chains of n/2 points, arcs of parabolas that bulge towards each other across the middle of the grid. Every point
 /// sees the whole other chain, so a point between them has a cavity of n triangles: the classic worst case of flips.
-pub fn two_chains(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn two_chains(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let last = grid.size - 1;
     let lower = n as u64 / 2;
     let place = |index: u64| {
@@ -58,11 +58,11 @@ pub fn two_chains(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]
         let y = last / 8 + rise as u64;
         [x, if index < lower { y } else { last - y }]
     };
-    shuffled((0..n as u64).map(place), random)
+    shuffled(n, place, random)
 }
 
 /// On an Archimedean spiral, evenly spaced along it, neighbours a quarter as far apart as the arms.
-pub fn spiral(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn spiral(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let centre = grid.half() - 0.5;
     // With arms 1 apart, r = a / TAU at angle a and the length to there is about a² / (2 TAU).
     let angle = |index: f64| libm::sqrt(2.0 * std::f64::consts::TAU * SPIRAL_STEP * index);
@@ -76,16 +76,16 @@ pub fn spiral(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
         );
         [x.into(), y.into()]
     };
-    shuffled((0..n as u64).map(place), random)
+    shuffled(n, place, random)
 }
 
 /// Every point of a square box in the middle of the grid, each about four times: all ties and many duplicates.
-pub fn filled_box(n: usize, grid: Grid, random: &mut SplitMix64) -> Vec<[u32; 2]> {
+pub fn filled_box(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let side = (n / BOX_COPIES).isqrt().max(1) as u64;
     let side = side.min(grid.size);
     let corner = (grid.size - side) / 2;
     let place = |index: u64| [corner + index % side, corner + index / side % side];
-    shuffled((0..n as u64).map(place), random)
+    shuffled(n, place, random)
 }
 
 /// Columns of the smallest square of at least `n` points, at least 1.
@@ -101,9 +101,10 @@ fn spread(index: u64, count: u64, last: u64) -> u64 {
     (u128::from(index) * u128::from(last) / intervals) as u64
 }
 
-/// The points in random order. All coordinates are below 2^31 by construction.
-fn shuffled(points: impl Iterator<Item = [u64; 2]>, random: &mut SplitMix64) -> Vec<[u32; 2]> {
-    let mut points: Vec<_> = points.map(|[x, y]| [x as u32, y as u32]).collect();
+/// The places of `0..n` in random order. All coordinates are below 2^31 by construction.
+fn shuffled(n: usize, place: impl Fn(u64) -> [u64; 2], random: &mut SplitMix64) -> Points {
+    let mut points = room(n)?;
+    points.extend((0..n as u64).map(|index| place(index).map(|value| value as u32)));
     random.shuffle(&mut points);
-    points
+    Ok(points)
 }
