@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
-use incircle_protocol::{CORE_COORD_BITS, MAX_COORD_BITS, MIN_COORD_BITS};
+use incircle_protocol::{CORE_COORD_BITS, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_COORD_BITS};
 
 use crate::error::Error;
-use crate::link::{Limit, Link, MAX_CAPACITY};
+use crate::link::{Limit, Link};
 use crate::model::ModelTransport;
 use crate::session::Session;
 use crate::transport::Transport;
@@ -40,7 +40,8 @@ impl Device {
     /// The software model for `capacity` points of `coord_bits` bits. It takes memory as points arrive.
     ///
     /// # Errors
-    /// [`Error::CoordBits`] outside 1 to 31, [`Error::Model`] for a capacity below 4 or beyond 32-bit ids.
+    /// [`Error::CoordBits`] outside 1 to 31, [`Error::Model`] for a capacity below 4 or above 2^30 - 1, the most
+    /// that record ids have room for.
     pub fn model(coord_bits: u32, capacity: u32) -> Result<Self, Error> {
         check_coord_bits(coord_bits)?;
         let transport = ModelTransport::new(coord_bits, capacity)?;
@@ -100,7 +101,7 @@ impl ModelChoice {
         }
         let mut choice = Self {
             coord_bits: CORE_COORD_BITS,
-            capacity: MAX_CAPACITY,
+            capacity: MAX_MODEL_POINTS,
         };
         for item in choices.split('&').filter(|item| !item.is_empty()) {
             let (key, value) = item.split_once('=').unwrap_or((item, ""));
@@ -133,10 +134,13 @@ mod tests {
             coord_bits,
             capacity,
         };
-        assert_eq!(ModelChoice::parse("model"), Ok(choice(16, MAX_CAPACITY)));
+        assert_eq!(
+            ModelChoice::parse("model"),
+            Ok(choice(16, MAX_MODEL_POINTS))
+        );
         assert_eq!(
             ModelChoice::parse("model?coord-bits=20"),
-            Ok(choice(20, MAX_CAPACITY))
+            Ok(choice(20, MAX_MODEL_POINTS))
         );
         let both = ModelChoice::parse("model?coord-bits=8&capacity=99");
         assert_eq!(both, Ok(choice(8, 99)));
@@ -159,6 +163,19 @@ mod tests {
         for bits in [0, 32] {
             let error = Device::model(bits, 8).err().expect("impossible bits");
             assert!(matches!(error, Error::CoordBits(given) if given == bits));
+        }
+    }
+
+    #[test]
+    fn a_model_that_is_made_also_greets() {
+        for capacity in [4, MAX_MODEL_POINTS] {
+            let mut device = Device::model(16, capacity).expect("possible");
+            assert!(device.session().is_ok(), "{capacity}");
+        }
+        for capacity in [0, 3, MAX_MODEL_POINTS + 1, u32::MAX] {
+            let error = Device::model(16, capacity).err().expect("impossible");
+            assert!(matches!(error, Error::Model(_)), "{error}");
+            assert!(error.to_string().contains(&capacity.to_string()), "{error}");
         }
     }
 }

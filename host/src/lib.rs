@@ -65,7 +65,7 @@ pub use session::{Session, MAX_POINTS};
 pub use transport::{Transport, TransportError};
 pub use verify::{verify, VerifyError, VerifySummary};
 
-use incircle_protocol::{CORE_COORD_BITS, MAX_COORD_BITS};
+use incircle_protocol::{CORE_COORD_BITS, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_POINTS};
 
 /// Triangulates on an embedded model made for the job: coordinates up to 31 bits, default [`Options`].
 ///
@@ -80,7 +80,7 @@ pub fn triangulate<P: Into<Point> + Copy>(points: &[P]) -> Result<Mesh, Error> {
         MAX_COORD_BITS
     };
     let capacity = u32::try_from(points.len()).unwrap_or(u32::MAX);
-    let mut device = Device::model(coord_bits, capacity.clamp(4, link::MAX_CAPACITY))?;
+    let mut device = Device::model(coord_bits, capacity.clamp(MIN_POINTS, MAX_MODEL_POINTS))?;
     let mut session = device.session()?;
     session.triangulate_owned(points, &Options::default())
 }

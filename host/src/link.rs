@@ -1,22 +1,18 @@
-//! Commands and their answers over a transport. Everything a device says is checked here or in [`crate::assemble`].
+//! Commands and their answers over a transport. Identity, headers and lengths are checked here, counts in [`crate::session`],
+//! records in [`crate::assemble`], which also says what is left to the validator.
 
 use std::time::{Duration, Instant};
 
 use incircle_protocol::{
     answer_opcode, answer_status, command_word, Identity, InsertReport, Opcode, Status,
-    COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, MAGIC, MAX_COORD_BITS, MIN_COORD_BITS,
-    PROTOCOL_VERSION,
+    COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, MAGIC, MAX_COORD_BITS, MAX_MODEL_POINTS,
+    MIN_COORD_BITS, MIN_POINTS, PROTOCOL_VERSION,
 };
 
 use crate::error::Error;
 use crate::fault::DeviceFault;
 use crate::report::Counters;
 use crate::transport::{Transport, TransportError};
-
-/// Most points a device can hold: twice as many triangle ids must fit a word.
-pub(crate) const MAX_CAPACITY: u32 = (1 << 30) - 1;
-/// Fewest points a device can hold.
-const MIN_CAPACITY: u32 = 4;
 
 /// Until when a job may run, and how long that was at its start.
 #[derive(Clone, Copy)]
@@ -233,7 +229,7 @@ fn check_identity(identity: &Identity) -> Result<(), DeviceFault> {
     if !(MIN_COORD_BITS..=MAX_COORD_BITS).contains(&identity.coord_bits) {
         return Err(DeviceFault::CoordBits(identity.coord_bits));
     }
-    if !(MIN_CAPACITY..=MAX_CAPACITY).contains(&identity.capacity) {
+    if !(MIN_POINTS..=MAX_MODEL_POINTS).contains(&identity.capacity) {
         return Err(DeviceFault::Capacity(identity.capacity));
     }
     Ok(())

@@ -46,6 +46,8 @@ pub const NAMED: [Config; 4] = [TINY, SMALL, FULL, LARGE];
 
 /// Most points a core can be built for: a triangle id must fit 15 bits.
 pub const MAX_POINTS: u32 = 16384;
+/// Most points any implementation may hold, the software model too: twice as many record ids fit 31 bits.
+pub const MAX_MODEL_POINTS: u32 = (1 << 30) - 1;
 /// Fewest points: two records fit a memory of one address bit, but a mesh wants three points and ids two bits.
 pub const MIN_POINTS: u32 = 4;
 /// Most boundary edges: an entry number must fit 6 bits.
