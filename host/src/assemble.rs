@@ -1,6 +1,10 @@
 //! From a device's records to the canonical mesh. Nothing a record says is used before it is checked.
+//!
+//! What is checked costs O(n): ids in range, locks and unused bits clear, triangles counter-clockwise and none twice, ghosts
+//! that close one hull, areas that sum to the hull's. Links are only checked to be in range, and not used. Not checked
+//! here: the Delaunay property and the tie rule, which [`Mesh::verify`](crate::Mesh::verify) proves.
 
-use incircle_protocol::{infinite_vertex, Layout};
+use incircle_protocol::{infinite_vertex, Layout, NARROW_ID_BITS};
 
 use crate::fault::DeviceFault;
 use crate::point::Point;
@@ -21,8 +25,8 @@ pub(crate) struct Assembly<'a> {
     area: i128,
 }
 
-/// Lock bit in the first word of a narrow record.
-const LOCK: u32 = 1 << 31;
+/// Lock bit of a narrow record, among the bits above the ids of its first word.
+const LOCK: u32 = 0b10;
 
 impl<'a> Assembly<'a> {
     /// For the mesh of the points `order` names, on a device of this layout and capacity.
@@ -53,8 +57,8 @@ impl<'a> Assembly<'a> {
     /// Takes the words of whole records, the first of which has the number `first`.
     pub(crate) fn take(&mut self, first: usize, words: &[u32]) -> Result<(), DeviceFault> {
         for (record, words) in (first..).zip(words.chunks_exact(self.layout.record_words)) {
-            if self.layout.record_words == 3 && words[0] & LOCK != 0 {
-                return Err(DeviceFault::Locked { record });
+            if self.layout.record_words == 3 {
+                check_spare_bits(record, words)?;
             }
             let ([a, b, c], [x, y, z]) = self.layout.record_from_words(words);
             let neighbor = x.max(y).max(z);
@@ -134,6 +138,24 @@ impl<'a> Assembly<'a> {
             None => Ok((triangles, hull)),
         }
     }
+}
+
+/// At rest, no narrow record is locked, and its bits above the ids are 0.
+fn check_spare_bits(record: usize, words: &[u32]) -> Result<(), DeviceFault> {
+    for (place, &word) in (0..).zip(words) {
+        match word >> (2 * NARROW_ID_BITS) {
+            0 => {}
+            LOCK if place == 0 => return Err(DeviceFault::Locked { record }),
+            _ => {
+                return Err(DeviceFault::SpareBits {
+                    record,
+                    place,
+                    word,
+                })
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The triangle with its smallest index first. Selections instead of branches: no processor predicts which one it is.

@@ -1,5 +1,7 @@
 //! What a device can say that no sound device says.
 
+use incircle_protocol::{MAX_MODEL_POINTS, MIN_POINTS};
+
 use crate::point::Point;
 
 /// A fault in the answer of a device. A hostile or broken device ends in one of these, never in a panic.
@@ -28,7 +30,7 @@ pub enum DeviceFault {
     #[error("it claims {0} coordinate bits, but 1 to 31 are possible")]
     CoordBits(u32),
     /// It claims a capacity that no device has.
-    #[error("it claims to hold {0} points, but 4 to 1073741823 are possible")]
+    #[error("it claims to hold {0} points, but {MIN_POINTS} to {MAX_MODEL_POINTS} are possible")]
     Capacity(u32),
     /// The first word of an answer is none.
     #[error(
@@ -93,6 +95,18 @@ pub enum DeviceFault {
     Locked {
         /// Number of the record.
         record: usize,
+    },
+    /// Bits of a narrow record that hold nothing are set.
+    #[error(
+        "word {place} of record {record} is {word:#010x}, but its bits above the two ids must be 0"
+    )]
+    SpareBits {
+        /// Number of the record.
+        record: usize,
+        /// Which of its words, from 0.
+        place: usize,
+        /// The word received.
+        word: u32,
     },
     /// A record has one vertex twice.
     #[error("record {record} has a vertex twice")]

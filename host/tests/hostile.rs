@@ -7,7 +7,7 @@ mod liar;
 use std::time::Duration;
 
 use common::Random;
-use incircle::{Device, DeviceFault, Error, ErrorKind, Mesh, Options, Point};
+use incircle::{Device, DeviceFault, Error, ErrorKind, Mesh, Options, Point, VerifyError};
 use incircle_protocol::{answer_header, Opcode, Status};
 use liar::Liar;
 
@@ -146,6 +146,20 @@ fn wrong_records() {
         record(0, |w| w | 1 << 31),
         DeviceFault::Locked { record: 5 }
     );
+    type Change = fn(u32) -> u32;
+    let spare: [(usize, Change); 4] = [
+        (0, |w| w | 1 << 30),
+        (0, |w| w | 3 << 30),
+        (1, |w| w | 1 << 31),
+        (2, |w| w | 1 << 30),
+    ];
+    for (place, change) in spare {
+        let found = record(place, change);
+        assert!(
+            matches!(found, DeviceFault::SpareBits { record: 5, place: p, .. } if p == place),
+            "{found}"
+        );
+    }
     let outside = record(1, |w| w & !0x7fff | 63);
     assert!(matches!(
         outside,
@@ -217,6 +231,39 @@ fn wrong_meshes() {
             .for_each(|ghost| ghost.reverse())
     });
     assert!(matches!(found, DeviceFault::Area { .. }), "{found}");
+}
+
+/// Turns the edge between the only two triangles of a mesh; links stay as they are.
+fn turn_the_inner_edge(records: &mut [[u32; 3]]) {
+    let vertices = |record: &[u32; 3]| record.map(|word| word & 0x7fff);
+    let mut triangles = records.iter_mut().filter(|record| !is_ghost(record));
+    let one = triangles.next().expect("a triangle");
+    let other = triangles.next().expect("two triangles");
+    let (mut v, w) = (vertices(one), vertices(other));
+    let apex = (0..3).find(|&k| !w.contains(&v[k])).expect("an apex");
+    v.rotate_left(apex);
+    let across = w.into_iter().find(|id| !v.contains(id)).expect("an apex");
+    let turned = [[v[0], v[1], across], [v[0], across, v[2]]];
+    for (record, turned) in [one, other].into_iter().zip(turned) {
+        for (word, vertex) in record.iter_mut().zip(turned) {
+            *word = *word & !0x7fff | vertex;
+        }
+    }
+}
+
+#[test]
+fn a_well_formed_mesh_of_another_kind_is_left_to_the_validator() {
+    let liar = Liar::new(16, |opcode, answer| {
+        if opcode == Opcode::Read {
+            turn_the_inner_edge(answer[2..].as_chunks_mut::<3>().0);
+        }
+    });
+    let mut device = Device::from_transport(Box::new(liar));
+    let mut session = device.session().expect("greeted");
+    let points = [(0, 0), (10, 1), (19, 16), (1, 9)].map(Point::from);
+    let mesh = session.triangulate(&points).expect("well formed");
+    let found = mesh.verify().expect_err("not Delaunay");
+    assert!(matches!(found, VerifyError::NotDelaunay { .. }), "{found}");
 }
 
 #[test]
