@@ -2,9 +2,6 @@
 
 use std::cmp::Ordering;
 
-use crate::edges::EdgeList;
-use crate::sort::{Entry, Wide};
-
 use super::exact::circle_side;
 use super::sites::Sites;
 use super::{VerifyError, VerifySummary};
@@ -15,31 +12,60 @@ pub(super) fn check(
     triangles: &[[u32; 3]],
     summary: &mut VerifySummary,
 ) -> Result<(), VerifyError> {
-    let edges = EdgeList::of(triangles);
+    let sides = sides(triangles);
+    let edges = || sides.chunk_by(|one, other| one.0 == other.0);
     let mut hull = HullEdges::of(&summary.hull, sites.points.len());
-    for group in edges.groups() {
+    for edge in edges() {
         summary.edges += 1;
-        match group {
-            [only] => hull.take(only.value(), edges.ends(only.value()))?,
-            _ => check_sides(&edges, group)?,
+        match *edge {
+            [(_, only)] => hull.take(only, ends(triangles, only))?,
+            _ => check_sides(triangles, edge)?,
         }
     }
     hull.check_complete(&summary.hull)?;
-    for [one, other] in edges.pairs() {
-        summary.ties += usize::from(check_inner_edge(sites, triangles, one, other)?);
+    for edge in edges() {
+        // No edge has more sides than two, and those run opposite ways: `check_sides`.
+        if let [(_, one), (_, other)] = *edge {
+            summary.ties += usize::from(check_inner_edge(sites, triangles, one, other)?);
+        }
     }
     Ok(())
 }
 
+/// One side of an edge: its two points in rising order, and the half-edge. Half-edge `3 t + k` runs from corner `k` of
+/// triangle `t` to the next.
+type Side = ([u32; 2], u32);
+
+/// All sides, those of one edge in a row. O(n log n): a plain sort, so that the validator shares none with the host.
+fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
+    // Three half-edges of each triangle fit 32 bits: `check_sizes`.
+    let halfedges = 0..3 * triangles.len() as u32;
+    let mut sides: Vec<Side> = halfedges
+        .map(|halfedge| {
+            let [from, to] = ends(triangles, halfedge);
+            ([from.min(to), from.max(to)], halfedge)
+        })
+        .collect();
+    sides.sort_unstable();
+    sides
+}
+
+/// The points of a half-edge, from and to.
+fn ends(triangles: &[[u32; 3]], halfedge: u32) -> [u32; 2] {
+    let corners = triangles[(halfedge / 3) as usize];
+    let k = (halfedge % 3) as usize;
+    [corners[k], corners[(k + 1) % 3]]
+}
+
 /// No two half-edges of one edge may run the same way. Of three or more, two do.
-fn check_sides(edges: &EdgeList<'_>, group: &[Wide]) -> Result<(), VerifyError> {
-    for (place, later) in group.iter().enumerate() {
-        let edge = edges.ends(later.value());
-        let mut earlier = group[..place].iter();
-        if let Some(twin) = earlier.find(|twin| edges.ends(twin.value()) == edge) {
+fn check_sides(triangles: &[[u32; 3]], sides: &[Side]) -> Result<(), VerifyError> {
+    for (place, &(_, later)) in sides.iter().enumerate() {
+        let edge = ends(triangles, later);
+        let mut earlier = sides[..place].iter();
+        if let Some(&(_, twin)) = earlier.find(|twin| ends(triangles, twin.1) == edge) {
             return Err(VerifyError::SameSide {
-                one: (twin.value() / 3) as usize,
-                other: (later.value() / 3) as usize,
+                one: (twin / 3) as usize,
+                other: (later / 3) as usize,
                 edge,
             });
         }

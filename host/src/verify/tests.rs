@@ -220,3 +220,19 @@ fn hull_and_duplicates_are_compared_place_by_place() {
         Err(VerifyError::Duplicates { place: 0 })
     );
 }
+
+#[test]
+fn only_types_come_from_the_rest_of_the_library() {
+    let sources = [
+        include_str!("edges.rs"),
+        include_str!("error.rs"),
+        include_str!("exact.rs"),
+        include_str!("mod.rs"),
+        include_str!("sites.rs"),
+    ];
+    for line in sources.iter().flat_map(|source| source.lines()) {
+        let is_use = line.contains("crate::") && !line.trim_start().starts_with("//");
+        let is_type = ["use crate::mesh::Duplicate;", "use crate::point::Point;"].contains(&line);
+        assert!(is_type || !is_use, "{line}");
+    }
+}
