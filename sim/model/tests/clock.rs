@@ -1,20 +1,10 @@
 //! The model clock by clock against the model by commands: same answers, same records, all locks released.
 
+mod common;
+
+use common::Random;
 use incircle_model::{ClockModel, CommandModel, Inputs};
 use incircle_protocol::{command_word, Config, Counter, Opcode, COUNTER_WORDS, SMALL, TINY};
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, bound: u32) -> u32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ z >> 31) % u64::from(bound)) as u32
-    }
-}
 
 /// Runs a command stream through the core; a side is stalled in one of `stall` clocks (0: never).
 fn run(

@@ -1,28 +1,12 @@
 //! The model against a brute-force oracle of its own: same answer in every order and with every list size.
 
+mod common;
+
+use common::Random;
 use incircle_model::predicate::Point;
 use incircle_model::{Insertion, Mesh};
 use incircle_protocol::infinite_vertex;
 use std::collections::{BTreeSet, HashMap};
-
-/// A small generator of our own, so that every run is the same (SplitMix64, Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, bound: u32) -> u32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ z >> 31) % u64::from(bound)) as u32
-    }
-
-    fn shuffle<T>(&mut self, items: &mut [T]) {
-        for end in (1..items.len()).rev() {
-            items.swap(end, self.below(end as u32 + 1) as usize);
-        }
-    }
-}
 
 /// The sign of the lifted determinant of four points, as rows of the 3x3 minor.
 fn lifted(a: Point, b: Point, c: Point, d: Point) -> i128 {
