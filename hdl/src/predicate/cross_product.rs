@@ -13,6 +13,9 @@
 //! Latency: vectors that stand before edge 1 give the result after edge 3. The subtraction is behind the last register: the user
 //! registers the result at edge 4.
 //!
+//! Apart from the wiring and the operator it is [`DotProduct`](super::DotProduct). They are two blocks, since a kernel of rust-hdl
+//! takes no operator as a parameter, and a subtract input would be a port that every user ties to a constant.
+//!
 //! Source: `orient2d(u, v, p)` is the cross product of `u - p` and `v - p`.
 
 use rust_hdl_core::prelude::*;

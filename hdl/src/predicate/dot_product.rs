@@ -1,4 +1,4 @@
-//! The dot product of two vectors: two multipliers and a addition.
+//! The dot product of two vectors: two multipliers and an addition.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
@@ -12,6 +12,8 @@
 //!
 //! Latency: vectors that stand before edge 1 give the result after edge 3. The addition is behind the last register: the user
 //! registers the result at edge 4.
+//!
+//! Apart from the wiring and the operator it is [`CrossProduct`](super::CrossProduct), whose header says why there are two.
 //!
 //! Source: the dot products of the Cline-Renka form of incircle.
 
