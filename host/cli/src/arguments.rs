@@ -63,7 +63,7 @@ pub struct BackendArguments {
 /// Arguments of `triangulate`.
 #[derive(Debug, Args)]
 pub struct TriangulateArguments {
-    /// Points: csv, xyz, node, obj, ply or geojson; '-' is CSV from standard input
+    /// Points: csv, xyz, node, obj, ply, geojson or json; '-' is CSV from standard input
     pub points: PathBuf,
     /// The mesh: ele, obj, ply, vtk, geojson, json, csv or svg; '-' is standard output
     #[arg(short, long, value_name = "MESH")]
@@ -84,6 +84,9 @@ pub struct TriangulateArguments {
     /// Seconds that the device may take
     #[arg(long, value_name = "SECONDS", value_parser = seconds_from)]
     pub timeout: Option<Duration>,
+    /// Record every signal of the simulated core, clock by clock, in this waveform file: slow and large, for small sets
+    #[arg(long, value_name = "FILE.vcd")]
+    pub trace: Option<PathBuf>,
     /// Print one JSON object about the run on standard output
     #[arg(long)]
     pub json: bool,

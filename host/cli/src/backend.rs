@@ -1,5 +1,7 @@
 //! Back ends: from names to devices.
 
+use std::path::Path;
+
 use incircle::{Device, Point, MAX_POINTS};
 
 #[cfg(feature = "sim")]
@@ -29,11 +31,13 @@ pub struct Backend {
 }
 
 /// Opens the back end for these points, or, without points, as large as it gets. A core is taken in the configuration
-/// asked for, or else in the smallest that holds the distinct points.
+/// asked for, or else in the smallest that holds the distinct points. Its waveform goes to the file `trace`; other back
+/// ends have none.
 pub fn open(
     choice: &BackendArguments,
     coord_bits: u32,
     points: Option<&[Point]>,
+    trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
     match choice.backend {
         BackendName::Model => open_model(
@@ -41,7 +45,7 @@ pub fn open(
             coord_bits,
             points.map_or(MAX_POINTS, <[Point]>::len),
         ),
-        BackendName::Sim => open_sim(choice, coord_bits, points),
+        BackendName::Sim => open_sim(choice, coord_bits, points, trace),
     }
 }
 
@@ -67,7 +71,12 @@ fn open_model(
 }
 
 #[cfg(not(feature = "sim"))]
-fn open_sim(_: &BackendArguments, _: u32, _: Option<&[Point]>) -> Result<Backend, Failure> {
+fn open_sim(
+    _: &BackendArguments,
+    _: u32,
+    _: Option<&[Point]>,
+    _: Option<&Path>,
+) -> Result<Backend, Failure> {
     Err(Failure::usage(
         "this incircle was built without the simulated core: install Verilator and build it with \
          'cargo build --release --features sim'",
@@ -79,13 +88,14 @@ fn open_sim(
     choice: &BackendArguments,
     coord_bits: u32,
     points: Option<&[Point]>,
+    trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
     let config = match points {
         Some(points) => config_for(choice, coord_bits, points)?,
         None => choice.config.unwrap_or(ConfigName::Large).config(),
     };
     Ok(Backend {
-        device: crate::sim_backend::open(config)?,
+        device: crate::sim_backend::open(config, trace)?,
         name: "sim",
         config: Some(config.name),
         insert_chunk: SIM_INSERT_CHUNK,

@@ -1,7 +1,7 @@
 //! Interrupts: a run that is stopped leaves no file and ends with exit code 130.
 //!
 //! The handler raises a flag, which jobs and outputs look at, and gives the run a moment to end by itself; then it removes
-//! the unfinished output and ends the process.
+//! the unfinished outputs and ends the process.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,8 +11,8 @@ use std::time::Duration;
 use crate::failure::{Exit, Failure};
 
 static RAISED: AtomicBool = AtomicBool::new(false);
-/// The unfinished output of the run, to be removed if it is stopped.
-static UNFINISHED: Mutex<Option<PathBuf>> = Mutex::new(None);
+/// The unfinished outputs of the run, to be removed if it is stopped.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// Time for the run to end by itself: a chunk of a simulated job takes less.
 const GRACE: Duration = Duration::from_millis(1500);
 
@@ -23,7 +23,7 @@ pub fn watch() -> Result<(), Failure> {
         std::thread::sleep(GRACE);
         // Kept locked to the end: no output can be finished any more.
         let unfinished = unfinished();
-        if let Some(path) = unfinished.as_deref() {
+        for path in unfinished.iter() {
             let _ = std::fs::remove_file(path);
         }
         std::process::exit(Exit::Interrupted as i32);
@@ -54,7 +54,7 @@ pub fn check() -> Result<(), Failure> {
     Ok(())
 }
 
-/// The unfinished output, locked: while the lock is held no interrupt ends the process.
-pub fn unfinished() -> MutexGuard<'static, Option<PathBuf>> {
+/// The unfinished outputs, locked: while the lock is held no interrupt ends the process.
+pub fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,7 +1,7 @@
 //! Output files that are either whole or not there.
 //!
 //! A file is written under another name in the same folder and renamed when all is done. What is no ordinary file (a
-//! device, a pipe) is written as it is.
+//! device, a pipe) is written as it is. A link to a file is followed; one that leads nowhere is refused.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -27,7 +27,7 @@ pub struct Output {
     name: String,
 }
 
-/// An output that is written but not yet in place. Dropped without [`Written::finish`], it is removed.
+/// An output that is written but not yet in place. Dropped without [`finish`], it is removed.
 #[must_use]
 #[derive(Debug)]
 pub struct Written {
@@ -69,6 +69,11 @@ impl Output {
             }
             Ok(_) => Target::Special(path.to_owned()),
             Err(error) if error.kind() == ErrorKind::NotFound => {
+                if fs::symlink_metadata(path).is_ok() {
+                    return Err(Failure::input(format!(
+                        "{name} cannot be written: it is a link to a file that does not exist"
+                    )));
+                }
                 fs::metadata(folder_of(path)).map_err(|error| cannot_write(&name, &error))?;
                 Target::Ordinary(path.to_owned())
             }
@@ -80,6 +85,29 @@ impl Output {
     /// Whether this is standard output.
     pub fn is_standard(&self) -> bool {
         matches!(self.target, Target::Standard)
+    }
+
+    /// Makes the file empty, for a writer that wants its name ([`Written::part`]). Only ordinary files can be made so.
+    pub fn reserve(self) -> Result<Written, Failure> {
+        match self.target {
+            Target::Ordinary(_) => self.write(|_| Ok(())),
+            Target::Standard | Target::Special(_) => Err(Failure::usage(format!(
+                "{} is no ordinary file: choose another output for this",
+                self.name
+            ))),
+        }
+    }
+
+    /// Whether this is the same ordinary file as another output, there already or not.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let place = |output: &Self| match &output.target {
+            Target::Ordinary(path) => folder_of(path)
+                .canonicalize()
+                .ok()
+                .map(|folder| folder.join(path.file_name().unwrap_or_default())),
+            Target::Standard | Target::Special(_) => None,
+        };
+        place(self).is_some_and(|path| place(other) == Some(path))
     }
 
     /// Writes everything that `content` writes. A reader that closed the pipe is no failure.
@@ -116,22 +144,23 @@ impl Output {
 }
 
 impl Written {
-    /// Puts the file in its place, unless the run was interrupted.
-    pub fn finish(mut self) -> Result<(), Failure> {
-        let mut unfinished = interrupt::unfinished();
-        let result = match &self.renaming {
-            Some((part, path)) => interrupt::check().and_then(|()| {
-                keep_permissions(part, path);
-                fs::rename(part, path).map_err(|error| cannot_write(&self.name, &error))
-            }),
-            None => Ok(()),
+    /// Where the file is until it is in place; `None` where nothing is to be moved.
+    pub fn part(&self) -> Option<&Path> {
+        self.renaming.as_ref().map(|(part, _)| part.as_path())
+    }
+
+    /// Puts the file in its place, unless the run was interrupted, and gives that place.
+    fn place(mut self) -> Result<Option<PathBuf>, Failure> {
+        let Some((part, path)) = &self.renaming else {
+            return Ok(None);
         };
-        if result.is_ok() {
-            *unfinished = None;
-            self.renaming = None;
-        }
+        let mut unfinished = interrupt::unfinished();
+        interrupt::check()?;
+        keep_permissions(part, path);
+        fs::rename(part, path).map_err(|error| cannot_write(&self.name, &error))?;
+        unfinished.retain(|kept| kept != part);
         drop(unfinished);
-        result
+        Ok(self.renaming.take().map(|(_, path)| path))
     }
 }
 
@@ -139,10 +168,31 @@ impl Drop for Written {
     fn drop(&mut self) {
         if let Some((part, _)) = self.renaming.take() {
             let mut unfinished = interrupt::unfinished();
-            let _ = fs::remove_file(part);
-            *unfinished = None;
+            let _ = fs::remove_file(&part);
+            unfinished.retain(|kept| *kept != part);
         }
     }
+}
+
+/// Puts all outputs in place and then does what is `last`. If anything fails, none of them is left.
+pub fn finish(
+    outputs: impl IntoIterator<Item = Written>,
+    last: impl FnOnce() -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut placed = Vec::new();
+    let place_all = || {
+        for written in outputs {
+            placed.extend(written.place()?);
+        }
+        last()
+    };
+    let result = place_all();
+    if result.is_err() {
+        for path in placed {
+            let _ = fs::remove_file(path);
+        }
+    }
+    result
 }
 
 /// Prints text on standard output. A reader that closed the pipe is no failure.
@@ -159,7 +209,7 @@ pub fn note(line: &str) {
 fn begin(part: &Path) -> io::Result<File> {
     let mut unfinished = interrupt::unfinished();
     let file = OpenOptions::new().write(true).create_new(true).open(part)?;
-    *unfinished = Some(part.to_owned());
+    unfinished.push(part.to_owned());
     Ok(file)
 }
 
@@ -205,25 +255,31 @@ fn keep_permissions(part: &Path, path: &Path) {
     }
 }
 
-/// Whether two paths lead to one file, by whatever links.
-fn is_same(one: &Path, other: &Path) -> bool {
-    if is_standard(one) {
-        return false;
-    }
+/// Whether input and output are one file, by whatever links.
+fn is_same(input: &Path, output: &Path) -> bool {
     #[cfg(unix)]
     {
-        use std::os::unix::fs::MetadataExt;
-        let id = |path: &Path| {
-            fs::metadata(path)
-                .ok()
-                .filter(fs::Metadata::is_file)
-                .map(|found| (found.dev(), found.ino()))
-        };
-        id(one).is_some() && id(one) == id(other)
+        let id = identity(input);
+        id.is_some() && id == identity(output)
     }
     #[cfg(not(unix))]
     {
+        let (one, other) = (input, output);
         let place = |path: &Path| path.canonicalize().ok();
         place(one).is_some() && place(one) == place(other)
     }
+}
+
+/// Device and number of an ordinary file; `-` is what standard input reads from.
+#[cfg(unix)]
+fn identity(path: &Path) -> Option<(u64, u64)> {
+    use std::os::fd::AsFd;
+    use std::os::unix::fs::MetadataExt;
+    let found = if is_standard(path) {
+        let descriptor = io::stdin().as_fd().try_clone_to_owned().ok()?;
+        File::from(descriptor).metadata().ok()?
+    } else {
+        fs::metadata(path).ok()?
+    };
+    found.is_file().then(|| (found.dev(), found.ino()))
 }

@@ -1,5 +1,6 @@
 //! The back end `sim`: the core's Verilog, run by Verilator.
 
+use std::path::Path;
 use std::time::Instant;
 
 use incircle::{Device, Transport, TransportError};
@@ -12,10 +13,16 @@ use crate::interrupt;
 /// Clocks simulated between two looks at the deadline: about a tenth of a second.
 const SLICE: u64 = 100_000;
 
-/// A freshly made core of this configuration.
-pub fn open(config: Config) -> Result<Device, Failure> {
-    let device =
+/// A freshly made core of this configuration. With `trace` a waveform of all its signals goes to that file; dropping the
+/// device completes it.
+pub fn open(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
+    let mut device =
         SimDevice::new(config).map_err(|error| Failure::new(Exit::NoDevice, error.to_string()))?;
+    if let Some(path) = trace {
+        device
+            .trace_to(path)
+            .map_err(|error| Failure::input(error.to_string()))?;
+    }
     Ok(Device::from_transport(Box::new(SimTransport {
         device,
         name: config.name,

@@ -20,7 +20,7 @@ pub fn read_points(path: &Path, from: Option<PointFormat>) -> Result<PointTable,
         None => PointFormat::of_extension(extension(path)).ok_or_else(|| {
             let name = path.display();
             Failure::usage(format!(
-                "{name}: the extension names no format of points: add --from csv, xyz, node, obj, ply or geojson"
+                "{name}: the extension names no format of points: add --from csv, xyz, node, obj, ply, geojson or json"
             ))
         })?,
     };

@@ -122,6 +122,27 @@ fn geojson_of_wrong_form() {
 }
 
 #[test]
+fn json_points_of_wrong_form() {
+    refuse(
+        "p.json",
+        r#"{"points":[[0,0],[1,2,3]]}"#,
+        &["points[1]", "'[1,2,3]'"],
+    );
+    refuse("p.json", r#"{"points":[[0,null]]}"#, &["points[0]"]);
+    refuse("p.json", r#"{"points":[[0,1e999]]}"#, &["GeoJSON"]);
+    refuse(
+        "p.json",
+        r#"{"points":[[0,0],[1,70000]]}"#,
+        &["point 2, y", "70000"],
+    );
+    // What says that it is GeoJSON is read as such.
+    let named = r#"{"type":"LineString","coordinates":[[1,2],[3,4]],"points":[[0,0]]}"#;
+    refuse("p.json", named, &["LineString"]);
+    refuse("p.json", r#"{"triangles":[]}"#, &["GeoJSON"]);
+    refuse("p.json", "[1,2]", &["GeoJSON"]);
+}
+
+#[test]
 fn meshes_that_cannot_be_read() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n4,0\n0,4\n");

@@ -221,6 +221,7 @@ fn wrong_use_ends_with_two() {
         ("triangulate p.csv -o m", "--format"),
         ("triangulate p.csv -o - --format ele --json", "--json"),
         ("triangulate p.csv -o m.ele --config tiny", "--backend sim"),
+        ("triangulate p.csv -o m.ele --trace t.vcd", "--backend sim"),
         ("generate uniform -n 5 -o x.ply", "x.ply"),
         ("verify p.csv m.svg", "m.svg"),
     ];

@@ -137,6 +137,27 @@ fn meshes_can_be_read_back() {
 }
 
 #[test]
+fn points_are_read_back_from_json() {
+    let scratch = Scratch::new();
+    for points in [
+        rows(|_, x, y| format!("{x},{y}")),
+        "0.1,1e300\n-3e299,0\n7,0\n".to_owned(),
+        String::new(),
+    ] {
+        scratch.write("p.csv", points);
+        scratch.run("triangulate p.csv -o m.json").ok();
+        scratch.run("triangulate m.json -o again.json").ok();
+        assert_eq!(scratch.read("again.json"), scratch.read("m.json"));
+        scratch.run("verify m.json m.json").ok();
+    }
+    let run = scratch.run_with_input(
+        "triangulate - --from json -o - --format csv",
+        br#"{"points":[[0,0],[1,0],[0,1]]}"#,
+    );
+    assert_eq!(run.ok().stdout, "0,1,2\n");
+}
+
+#[test]
 fn triangles_own_files_count_from_one() {
     let scratch = Scratch::new();
     scratch.write(

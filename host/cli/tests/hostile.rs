@@ -3,7 +3,7 @@
 use incircle_cli::formats::{MeshFormat, PointFormat};
 use incircle_cli::generate::SplitMix64;
 
-const POINT_FILES: [(PointFormat, &[u8]); 8] = [
+const POINT_FILES: [(PointFormat, &[u8]); 9] = [
     (PointFormat::Csv, b"x,y,\"name\"\n1,2,a\n3.5,-4e2,\"b\"\n# c\n5,6,d\n"),
     (PointFormat::Xyz, b"x y z\n1 2 3\n4\t5 6 # c\r\n7 8 9\n"),
     (PointFormat::Node, b"# a\n3 2 1 1\n1 1 2 0 0\n2 3 4 0 0\n3 5 6.5 0 0\n"),
@@ -27,6 +27,7 @@ const POINT_FILES: [(PointFormat, &[u8]); 8] = [
         PointFormat::Geojson,
         br#"{"type":"FeatureCollection","features":[{"type":"Feature","properties":null,"geometry":{"type":"GeometryCollection","geometries":[{"type":"Point","coordinates":[1,2]},{"type":"MultiPoint","coordinates":[[3,4.5],[5e3,6,7]]}]}}]}"#,
     ),
+    (PointFormat::Json, br#"{"points":[[1,2],[3.5,-4e2]],"triangles":[],"hull":[]}"#),
 ];
 
 const MESH_FILES: [(MeshFormat, &[u8]); 5] = [

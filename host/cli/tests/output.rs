@@ -34,6 +34,73 @@ fn the_input_is_never_overwritten() {
     assert_eq!(scratch.read("p.csv"), POINTS);
 }
 
+#[cfg(unix)]
+#[test]
+fn an_input_that_is_redirected_is_never_overwritten() {
+    let scratch = Scratch::new();
+    let path = scratch.write("p.csv", POINTS);
+    let from_file = |output: &str| {
+        let mut command = scratch.command(["triangulate", "-", "-q", "-o", output]);
+        let input = std::fs::File::open(&path).expect("it is there");
+        common::Run::of(command.stdin(input).output().expect("it runs"))
+    };
+    from_file("p.csv").fails(2, &["p.csv", "both the input and the output"]);
+    std::fs::hard_link(&path, scratch.path("hard.csv")).expect("a link can be made");
+    from_file("hard.csv").fails(2, &["hard.csv", "both"]);
+    assert_eq!(scratch.read("p.csv"), POINTS);
+    from_file("other.csv").ok();
+    assert_eq!(scratch.read("other.csv"), "0,1,2\n");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_that_leads_nowhere_is_no_output() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", POINTS);
+    std::os::unix::fs::symlink("gone.ele", scratch.path("link.ele")).expect("a link can be made");
+    scratch
+        .run("triangulate p.csv -o link.ele")
+        .fails(3, &["link.ele", "link to a file that does not exist"]);
+    assert_eq!(scratch.files(), ["link.ele", "p.csv"]);
+    let link = std::fs::symlink_metadata(scratch.path("link.ele")).expect("it is there");
+    assert!(link.file_type().is_symlink());
+}
+
+/// The report says that the mesh is there, so it must come after it.
+#[cfg(unix)]
+#[test]
+fn the_report_comes_when_the_file_is_in_place() {
+    use std::io::Read;
+    let scratch = Scratch::new();
+    scratch.write("p.csv", POINTS);
+    let run = scratch.command(["triangulate", "p.csv", "-o", "m.ele", "--json"]);
+    let start = |mut run: std::process::Command| {
+        let child = run.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+        child.expect("it starts")
+    };
+    let mut child = start(run);
+    let mut stdout = child.stdout.take().expect("the output is a pipe");
+    stdout.read_exact(&mut [0; 1]).expect("the report begins");
+    assert_eq!(scratch.read("m.ele"), "1 3 0\n0 0 1 2\n");
+    drop(stdout);
+    assert_eq!(child.wait().expect("it ends").code(), Some(0));
+    // A reader that has left already: quiet, and the mesh stays.
+    std::fs::remove_file(scratch.path("m.ele")).expect("it is there");
+    let mut run = scratch.command(["triangulate", "-", "-o", "m.ele", "--json"]);
+    let mut child = start({
+        run.stdin(Stdio::piped());
+        run
+    });
+    drop(child.stdout.take());
+    let mut stdin = child.stdin.take().expect("the input is a pipe");
+    std::io::Write::write_all(&mut stdin, POINTS.as_bytes()).expect("it reads");
+    drop(stdin);
+    let run = common::Run::of(child.wait_with_output().expect("it ends"));
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    assert_eq!(scratch.read("m.ele"), "1 3 0\n0 0 1 2\n");
+    assert_eq!(scratch.files(), ["m.ele", "p.csv"]);
+}
+
 #[test]
 fn a_failed_run_leaves_an_older_output_alone() {
     let scratch = Scratch::new();

@@ -120,3 +120,49 @@ fn a_job_out_of_time_ends_with_six() {
         .fails(6, &["sim:small", "0.001 s"]);
     assert_eq!(scratch.files(), ["p.csv"]);
 }
+
+#[test]
+fn a_trace_is_a_waveform_of_the_whole_job() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n9,0\n0,9\n4,3\n");
+    let run = scratch
+        .run("triangulate p.csv -o m.ele --backend sim --trace t.vcd --json")
+        .ok();
+    let report: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
+    assert_eq!(scratch.files(), ["m.ele", "p.csv", "t.vcd"]);
+    let trace = scratch.read("t.vcd");
+    for part in [
+        "$timescale",
+        "$enddefinitions",
+        "command_valid",
+        "response_data",
+    ] {
+        assert!(trace.contains(part), "{part}");
+    }
+    // Insertion and read-out are in it, clock by clock.
+    let clocks = trace.lines().filter(|line| line.starts_with('#')).count() as u64;
+    let job = report["cycles"]
+        .as_u64()
+        .zip(report["read_cycles"].as_u64());
+    let (insert, read) = job.expect("cycles are counted");
+    assert!(clocks > insert + read, "{clocks} {report}");
+}
+
+#[test]
+fn a_run_that_fails_leaves_no_trace() {
+    let scratch = Scratch::new();
+    scratch.run("generate uniform -n 1000 -o p.csv").ok();
+    scratch
+        .run("triangulate p.csv -o m.ele --backend sim --trace t.vcd --timeout 0.001")
+        .fails(6, &["sim:small"]);
+    scratch
+        .run("triangulate p.csv -o m.ele --backend sim --trace ./m.ele")
+        .fails(2, &["both the mesh and the waveform"]);
+    scratch
+        .run("triangulate p.csv -o m.ele --backend sim --trace p.csv")
+        .fails(2, &["both the input"]);
+    scratch
+        .run("triangulate p.csv -o m.ele --backend sim --trace -")
+        .fails(2, &["ordinary file"]);
+    assert_eq!(scratch.files(), ["p.csv"]);
+}

@@ -6,7 +6,7 @@ use crate::arguments::GenerateArguments;
 use crate::failure::{Exit, Failure};
 use crate::formats::{csv, extension, node, xyz, PointFormat};
 use crate::generate::{generate, GenerateError};
-use crate::output::Output;
+use crate::output::{self, Output};
 
 /// Runs the subcommand.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
@@ -42,5 +42,6 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         };
         Failure::new(exit, error.to_string())
     })?;
-    output.write(|out| write_points(&points, out))?.finish()
+    let written = output.write(|out| write_points(&points, out))?;
+    output::finish([written], || Ok(()))
 }

@@ -10,7 +10,7 @@ use crate::output;
 
 /// Runs the subcommand: opens the back end, greets it and prints its identity.
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
-    let mut backend = backend::open(&arguments.backend, CORE_COORD_BITS, None)?;
+    let mut backend = backend::open(&arguments.backend, CORE_COORD_BITS, None, None)?;
     let session = backend
         .device
         .session()

@@ -5,12 +5,12 @@ use std::time::{Duration, Instant};
 
 use incircle::{Mesh, Options};
 
-use crate::arguments::TriangulateArguments;
+use crate::arguments::{BackendName, TriangulateArguments};
 use crate::backend::{self, Backend};
 use crate::failure::Failure;
 use crate::formats::{extension, MeshFormat, MeshView};
 use crate::grid::{self, failure_of, Laid};
-use crate::output::{self, Output};
+use crate::output::{self, Output, Written};
 use crate::points::PointTable;
 use crate::progress::Meter;
 use crate::report::RunReport;
@@ -25,6 +25,7 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
             "the mesh and the report of --json cannot both go to standard output: give -o a file",
         ));
     }
+    let trace = prepare_trace(arguments, &output)?;
     let mut watch = Watch::start();
     let table = source::read_points(&arguments.points, arguments.from)?;
     watch.ended("load");
@@ -35,30 +36,62 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     } = grid::lay(&table, &arguments.grid)
         .map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
     watch.ended("quantise");
-    let mut backend = backend::open(&arguments.backend, arguments.grid.coord_bits, Some(&points))?;
+    let trace = trace.map(Output::reserve).transpose()?;
+    let mut backend = backend::open(
+        &arguments.backend,
+        arguments.grid.coord_bits,
+        Some(&points),
+        trace.as_ref().and_then(Written::part),
+    )?;
     watch.ended("open");
     let mesh = triangulate(&mut backend, &points, arguments)?;
     watch.stages.extend(&mesh.report.stages);
     drop(points);
+    let bits = arguments.grid.coord_bits;
+    let mut report = RunReport::new(&mesh.report, &backend, bits, quantization.as_ref());
+    // The simulation ends here, which completes its waveform.
+    drop(backend);
     watch.since = Instant::now();
     let written = output.write(|out| write(&table, &mesh, format, out))?;
     watch.ended("write");
-    let mut report = RunReport::new(
-        &mesh.report,
-        &backend,
-        arguments.grid.coord_bits,
-        quantization.as_ref(),
-    );
     report.stages = watch.stages;
+    output::finish(trace.into_iter().chain([written]), || {
+        tell(&report, arguments)
+    })
+}
+
+/// The waveform that is asked for, checked before the work.
+fn prepare_trace(
+    arguments: &TriangulateArguments,
+    mesh: &Output,
+) -> Result<Option<Output>, Failure> {
+    let Some(path) = &arguments.trace else {
+        return Ok(None);
+    };
+    if arguments.backend.backend != BackendName::Sim {
+        return Err(Failure::usage(
+            "--trace records the simulated core: it needs --backend sim",
+        ));
+    }
+    let trace = Output::prepare(path, Some(&arguments.points))?;
+    if trace.is_same(mesh) {
+        return Err(Failure::usage(format!(
+            "{} is both the mesh and the waveform: choose another file for one",
+            path.display()
+        )));
+    }
+    Ok(Some(trace))
+}
+
+/// Prints the report. It comes last, so whoever reads it finds the files in place.
+fn tell(report: &RunReport<'_>, arguments: &TriangulateArguments) -> Result<(), Failure> {
     if arguments.json {
         output::print(&format!("{}\n", report.to_json()))?;
     } else if !arguments.quiet {
-        report
-            .lines(arguments.verbose)
-            .iter()
-            .for_each(|line| output::note(line));
+        let lines = report.lines(arguments.verbose);
+        lines.iter().for_each(|line| output::note(line));
     }
-    written.finish()
+    Ok(())
 }
 
 fn format_of(arguments: &TriangulateArguments) -> Result<MeshFormat, Failure> {

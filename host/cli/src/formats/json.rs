@@ -7,8 +7,38 @@ use std::io::{self, Write};
 
 use serde_json::Value;
 
-use crate::failure::Failure;
-use crate::formats::MeshView;
+use crate::failure::{quoted, Failure};
+use crate::formats::{geojson, MeshView};
+use crate::points::PointTable;
+
+/// Reads the list `points`, pairs of finite numbers; all else in the object is left out. An object without it, or with the
+/// `type` that GeoJSON wants, is read as GeoJSON.
+pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
+    let object: Option<Value> = serde_json::from_slice(crate::text::without_mark(bytes)?).ok();
+    let own = object
+        .as_ref()
+        .filter(|object| object.get("type").is_none());
+    let Some(list) = own.and_then(|object| object.get("points")?.as_array()) else {
+        drop(object);
+        return geojson::read_points(bytes);
+    };
+    let mut table = PointTable::of_items("point");
+    for (index, value) in list.iter().enumerate() {
+        let point = match value.as_array().map(Vec::as_slice) {
+            Some([x, y]) => x.as_f64().zip(y.as_f64()),
+            _ => None,
+        };
+        let Some((x, y)) = point else {
+            let shown = quoted(value.to_string().as_bytes());
+            return Err(Failure::input(format!(
+                "points[{index}] is {shown}, not two numbers"
+            )));
+        };
+        // JSON has no NaN or infinity, and its parser refuses numbers too large for a double.
+        table.push([x, y], 0);
+    }
+    Ok(table)
+}
 
 /// Reads `triangles`; all else in the object is left out.
 pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
@@ -40,7 +70,7 @@ fn read_triangle(value: &Value, index: usize) -> Result<[u32; 3], Failure> {
         _ => None,
     }
     .ok_or_else(|| {
-        let shown = crate::failure::quoted(value.to_string().as_bytes());
+        let shown = quoted(value.to_string().as_bytes());
         Failure::input(format!(
             "triangles[{index}] is {shown}, not three point indices"
         ))

@@ -34,6 +34,8 @@ pub enum PointFormat {
     Ply,
     /// Points of a GeoJSON
     Geojson,
+    /// The list `points` of a JSON mesh, or a GeoJSON
+    Json,
 }
 
 impl PointFormat {
@@ -45,7 +47,8 @@ impl PointFormat {
             "node" => Self::Node,
             "obj" => Self::Obj,
             "ply" => Self::Ply,
-            "geojson" | "json" => Self::Geojson,
+            "geojson" => Self::Geojson,
+            "json" => Self::Json,
             _ => return None,
         })
     }
@@ -59,6 +62,7 @@ impl PointFormat {
             Self::Obj => obj::read_points(bytes),
             Self::Ply => ply::read_points(bytes),
             Self::Geojson => geojson::read_points(bytes),
+            Self::Json => json::read_points(bytes),
         }
     }
 }
