@@ -19,12 +19,7 @@ use crate::{interrupt, source};
 /// Runs the subcommand.
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let format = format_of(arguments)?;
-    let output = Output::prepare(&arguments.output, Some(&arguments.points))?;
-    if arguments.json && output.is_standard() {
-        return Err(Failure::usage(
-            "the mesh and the report of --json cannot both go to standard output: give -o a file",
-        ));
-    }
+    let output = prepare_mesh(arguments)?;
     let trace = prepare_trace(arguments, &output)?;
     let mut watch = Watch::start();
     let table = source::read_points(&arguments.points, arguments.from)?;
@@ -60,7 +55,18 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     })
 }
 
-/// The waveform that is asked for, checked before the work.
+/// Where the mesh goes, checked before the work.
+fn prepare_mesh(arguments: &TriangulateArguments) -> Result<Output, Failure> {
+    let output = Output::prepare(&arguments.output, Some(&arguments.points))?;
+    if arguments.json && output.is_standard() {
+        return Err(Failure::usage(
+            "the mesh and the report of --json cannot both go to standard output: give -o a file",
+        ));
+    }
+    Ok(output)
+}
+
+/// Where the waveform goes, if one is asked for; checked before the work.
 fn prepare_trace(
     arguments: &TriangulateArguments,
     mesh: &Output,
