@@ -23,7 +23,10 @@ pub struct SimDevice {
     model: Model,
     ports: Ports,
     answers: VecDeque<u32>,
-    command: Option<u32>,
+    /// The command word that the core is offered.
+    offered: Option<u32>,
+    /// The command word that the last [`SimDevice::send`] left offered. The core may have taken it since.
+    left: Option<u32>,
     clocks: u64,
 }
 
@@ -79,7 +82,8 @@ impl SimDevice {
             model,
             ports,
             answers: VecDeque::new(),
-            command: None,
+            offered: None,
+            left: None,
             clocks: u64::from(RESET_CLOCKS),
         })
     }
@@ -87,24 +91,29 @@ impl SimDevice {
     /// Hands all `words` to the core, within `max_clocks` clocks.
     ///
     /// # Errors
-    /// [`SimError::Timeout`]: the core did not take them all; the first `done` words are with it.
+    /// [`SimError::Timeout`]: the core did not take them all; the first `done` words are with it. To resume, call again with the words
+    /// from `done` on. The first of those stays offered until the core takes it, as the protocol demands, so it may be taken during
+    /// [`SimDevice::receive`]; the call that resumes knows, and sends it once. Words that start with another are sent after it.
     pub fn send(&mut self, words: &[u32], max_clocks: u64) -> Result<(), SimError> {
         let start = self.clocks;
-        for (done, &word) in words.iter().enumerate() {
-            self.offer(Some(word));
-            loop {
-                if self.clocks - start >= max_clocks {
-                    self.offer(None);
-                    return Err(self.timeout(Awaited::CommandWords, done, words.len(), start));
-                }
-                let is_taken = self.model.get(self.ports.command_ready) != 0;
-                self.clock();
-                if is_taken {
-                    break;
-                }
+        let end = start.saturating_add(max_clocks);
+        let mut done = 0;
+        if let (Some(left), Some(first)) = (self.left, words.first()) {
+            if self.offered.is_some() && !self.hand_over(left, end) {
+                return Err(self.timeout(Awaited::CommandWords, done, words.len(), start));
+            }
+            self.left = None;
+            done = usize::from(*first == left);
+        }
+        for (done, &word) in words.iter().enumerate().skip(done) {
+            if !self.hand_over(word, end) {
+                self.left = Some(word);
+                return Err(self.timeout(Awaited::CommandWords, done, words.len(), start));
             }
         }
-        self.offer(None);
+        if self.left.is_none() {
+            self.offer(None);
+        }
         Ok(())
     }
 
@@ -119,7 +128,9 @@ impl SimDevice {
                 let done = self.answers.len();
                 return Err(self.timeout(Awaited::AnswerWords, done, words.len(), start));
             }
-            self.clock();
+            if self.clock() {
+                self.offer(None);
+            }
         }
         // There are enough, so every place is filled.
         words.fill_with(|| self.answers.pop_front().unwrap_or(0));
@@ -142,10 +153,10 @@ impl SimDevice {
 
     /// Offers a word to the core, or none.
     fn offer(&mut self, command: Option<u32>) {
-        if self.command == command {
+        if self.offered == command {
             return;
         }
-        self.command = command;
+        self.offered = command;
         let data = command.unwrap_or(0);
         self.model
             .set(self.ports.command_valid, u64::from(command.is_some()));
@@ -154,8 +165,20 @@ impl SimDevice {
         self.model.eval();
     }
 
-    /// One clock; an answer that the core offers is taken.
-    fn clock(&mut self) {
+    /// Offers a word until the core takes it or the clock is `end`; true if it is taken. The word is offered afterwards as well.
+    fn hand_over(&mut self, word: u32, end: u64) -> bool {
+        self.offer(Some(word));
+        while self.clocks < end {
+            if self.clock() {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// One clock; an answer that the core offers is taken. True if the core takes the word it is offered.
+    fn clock(&mut self) -> bool {
+        let is_taken = self.offered.is_some() && self.model.get(self.ports.command_ready) != 0;
         if self.model.get(self.ports.response_valid) != 0 {
             let word = self.model.get(self.ports.response_data);
             // A port of 32 bits.
@@ -163,6 +186,7 @@ impl SimDevice {
         }
         self.model.clock();
         self.clocks += 1;
+        is_taken
     }
 
     fn timeout(&self, awaited: Awaited, done: usize, wanted: usize, start: u64) -> SimError {

@@ -68,6 +68,47 @@ fn a_deaf_device_is_a_timeout_with_its_figures() {
 }
 
 #[test]
+fn sending_in_slices_of_any_length_loses_and_doubles_nothing() {
+    let words: Vec<u32> = (0..30).map(|n| n / 3).collect();
+    let expected: Vec<u32> = words.iter().flat_map(|word| [word + 1, word + 1]).collect();
+    for slice in 1..9 {
+        for listens in [false, true] {
+            let mut device = echo();
+            let mut sent = 0;
+            for _ in 0..200 {
+                match device.send(&words[sent..], slice) {
+                    Ok(()) => sent = words.len(),
+                    Err(SimError::Timeout { done, .. }) => sent += done,
+                    Err(error) => panic!("{error}"),
+                }
+                if listens {
+                    // Far more answers than come: clocks pass, and the word offered may be taken.
+                    device.receive(&mut [0; 100], slice / 2).unwrap_err();
+                }
+            }
+            assert_eq!(sent, words.len(), "in slices of {slice}");
+            let mut answers = vec![0; expected.len()];
+            device.receive(&mut answers, 10).unwrap();
+            assert_eq!(answers, expected, "in slices of {slice}");
+            device.receive(&mut [0], 10).unwrap_err();
+        }
+    }
+}
+
+#[test]
+fn a_word_once_offered_is_sent_before_others() {
+    let mut device = echo();
+    // The device refuses a word in its first clock.
+    device.send(&[5, 6], 1).unwrap_err();
+    device.send(&[], 1).unwrap();
+    device.send(&[9], 20).unwrap();
+    let mut answers = [0; 4];
+    device.receive(&mut answers, 20).unwrap();
+    assert_eq!(answers, [6, 6, 10, 10]);
+    device.receive(&mut [0], 20).unwrap_err();
+}
+
+#[test]
 fn a_missing_answer_is_a_timeout_that_loses_nothing() {
     let mut device = echo();
     device.send(&[41], 100).unwrap();
