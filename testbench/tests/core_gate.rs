@@ -4,7 +4,18 @@ use incircle_hdl::export;
 use incircle_hdl::predicate::VisitPredicates;
 use incircle_hdl::top::CORE_NAME;
 use incircle_protocol::{Config, NAMED, SMALL};
-use incircle_testbench::gate;
+use incircle_testbench::gate::{self, Cells};
+
+/// The small core by Yosys 0.23, as the README has it. A memory in flip-flops, a lost multiplier, or logic that a constant swept away
+/// leaves the 5 % around it.
+const MEASURED: Cells = Cells {
+    lut4: 3332,
+    carry: 835,
+    distributed_ram: 88,
+    flip_flops: 4845,
+    multipliers: VisitPredicates::MULTIPLIERS as u64,
+    block_ram: 23,
+};
 
 fn core(config: Config, with_probe: bool) -> String {
     export::core(config, with_probe).unwrap()
@@ -29,10 +40,21 @@ fn every_named_core_passes_lint_and_synthesis() {
 fn memories_and_multipliers_of_the_small_core_map_to_theirs() {
     let cells = gate::cell_count(&core(SMALL, false), CORE_NAME).unwrap();
     println!("incircle_core small on ECP5: {cells:?}");
-    assert_eq!(cells.multipliers, VisitPredicates::MULTIPLIERS as u64);
-    // One column of the triangle memory in flip-flops would be 2048 words of 30 bits.
-    assert!(
-        cells.block_ram > 0 && cells.flip_flops < 10_000,
-        "{cells:?}"
-    );
+    assert_eq!(cells.multipliers, MEASURED.multipliers);
+    for (name, count, measured) in [
+        ("LUT4", cells.lut4, MEASURED.lut4),
+        ("carry cells", cells.carry, MEASURED.carry),
+        (
+            "distributed RAMs",
+            cells.distributed_ram,
+            MEASURED.distributed_ram,
+        ),
+        ("flip-flops", cells.flip_flops, MEASURED.flip_flops),
+        ("block RAMs", cells.block_ram, MEASURED.block_ram),
+    ] {
+        assert!(
+            20 * count.abs_diff(measured) <= measured,
+            "{count} {name}, but {measured} were measured: find out why, or measure again (README, Figures)"
+        );
+    }
 }

@@ -38,7 +38,6 @@ const ALLOWED: [(&str, &[&str]); 8] = [
             "incircle-model",
             "incircle-hdl",
             "verilated",
-            "incircle-sim",
             "incircle",
             "incircle-cli",
         ],
