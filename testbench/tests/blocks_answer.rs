@@ -1,5 +1,6 @@
 //! What answers say: Rust, Verilog and the protocol as `incircle-protocol` states it agree, over random commands and counts of a mesh.
 
+mod block_ports;
 mod stepper;
 
 use incircle_cli::generate::SplitMix64;
@@ -8,9 +9,9 @@ use incircle_protocol::{
     answer_header, Identity, InsertReport, Layout, Opcode, Status, CORE_COORD_BITS, CORE_VERSION,
     COUNTER_WORDS, MAGIC, PROTOCOL_VERSION,
 };
-use stepper::{ports, Stepper};
+use stepper::{named_ports, Stepper};
 
-ports!(
+named_ports!(
     AnswerWords,
     [
         opcode, first, count, capacity, ring, collinear, arrived, refused, insertions, duplicates,

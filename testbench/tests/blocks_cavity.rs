@@ -2,6 +2,7 @@
 //!
 //! The reference knows no bits of half-open triangles: it counts, for every cavity triangle, the boundary edges it still has.
 
+mod block_ports;
 mod cosimulation;
 mod structures;
 

@@ -1,5 +1,6 @@
 //! Parts of the control blocks that hold no state: Rust, Verilog and a statement of each rule agree over random inputs.
 
+mod block_ports;
 mod stepper;
 
 use incircle_cli::generate::SplitMix64;
@@ -7,9 +8,9 @@ use incircle_hdl::engine::{PushChoice, SoloVisit, StarId};
 use incircle_hdl::link::{CommandGate, RecordWords};
 use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
 use stepper::bundles::{turned, Edge, Visit};
-use stepper::{ports, Stepper};
+use stepper::{named_ports, Stepper};
 
-ports!(
+named_ports!(
     StarId,
     [
         ahead,
@@ -22,12 +23,12 @@ ports!(
     ],
     [id, shares]
 );
-ports!(
+named_ports!(
     SoloVisit,
     [is_mend, is_second, is_fetch, root_id, root, id, outer, back],
     [bundle]
 );
-ports!(
+named_ports!(
     PushChoice,
     [
         looks,
@@ -41,7 +42,7 @@ ports!(
     ],
     [push, bundle]
 );
-ports!(
+named_ports!(
     CommandGate,
     [
         is_command,
@@ -56,7 +57,7 @@ ports!(
     ],
     [ready, awaits_point]
 );
-ports!(
+named_ports!(
     RecordWords,
     [v0, v1, v2, n0, n1, n2, was_set],
     [word0, word1, word2]

@@ -1,6 +1,7 @@
 //! The command stream: Rust, Verilog and a list of what has been asked for agree clock by clock, crossed with a host that pauses,
 //! an engine and a responder that take their time, and resets.
 
+mod block_ports;
 mod command_reference;
 mod stepper;
 
@@ -10,9 +11,9 @@ use command_reference::{Meaning, Pins, Reference, Surroundings};
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::CommandPort;
 use incircle_protocol::{command_word, Opcode};
-use stepper::{ports, Cell, Stepper, Wave};
+use stepper::{named_ports, Cell, Stepper, Wave};
 
-ports!(
+named_ports!(
     CommandPort,
     [
         reset,

@@ -1,14 +1,15 @@
 //! The commit: Rust, Verilog and a list of all it must do agree clock by clock. The list is written down beforehand, from the whole
 //! ring; the block sees one entry at a time.
 
+mod block_ports;
 mod stepper;
 
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Commit;
 use stepper::bundles::{link_write, record_write, Edge};
-use stepper::{ports, Cell, Stepper, Wave};
+use stepper::{named_ports, Cell, Stepper, Wave};
 
-ports!(
+named_ports!(
     Commit,
     [reset, starts, p, records, inner_count, entry, inner_id],
     [entry_pointer, inner_pointer, takes_fresh, ends, write],

@@ -1,15 +1,16 @@
 //! The context: Rust, Verilog and stories of points agree clock by clock. A story is written as a whole before it is played: what
 //! the surroundings do in each clock, and what the context must show.
 
+mod block_ports;
 mod context_stories;
 mod stepper;
 
 use context_stories::{Author, Row, EVENTS, INFINITE, PHASES, QUIET};
 use incircle_hdl::engine::Context;
 use stepper::bundles::turned;
-use stepper::{ports, Stepper};
+use stepper::{named_ports, Stepper};
 
-ports!(
+named_ports!(
     Context,
     [
         reset,

@@ -1,13 +1,14 @@
 //! The event counters: Rust, Verilog and a table of 64-bit sums agree clock by clock.
 
+mod block_ports;
 mod stepper;
 
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::{Counters, WideCounter};
 use incircle_protocol::{Counter, COUNTER_WORDS};
-use stepper::{ports, Stepper};
+use stepper::{named_ports, Stepper};
 
-ports!(
+named_ports!(
     Counters,
     [
         reset,
@@ -30,7 +31,7 @@ ports!(
     [value, insertions, duplicates],
     clock
 );
-ports!(WideCounter<4>, [zero, count], [low, high], clock);
+named_ports!(WideCounter<4>, [zero, count], [low, high], clock);
 
 /// Events that add one to one counter.
 const EVENTS: [(&str, Counter); 8] = [

@@ -1,6 +1,7 @@
 //! The leaves of the core: Rust behaviour, Verilog and an independent reference agree clock by clock, and each maps to the
 //! primitive it is meant for.
 
+mod block_ports;
 mod cosimulation;
 
 use std::collections::VecDeque;

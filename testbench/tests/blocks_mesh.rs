@@ -1,5 +1,6 @@
 //! The memories of the mesh and the blocks that write into them: Rust behaviour, Verilog and plain arrays agree clock by clock.
 
+mod block_ports;
 mod cosimulation;
 mod structures;
 

@@ -1,6 +1,7 @@
 //! Parts of the control blocks that hold state: the phases, the first triangle, the waiting point. Rust, Verilog and tables of what
 //! must happen agree clock by clock.
 
+mod block_ports;
 mod stepper;
 
 use std::collections::{BTreeMap, VecDeque};
@@ -9,9 +10,9 @@ use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::{PhaseMachine, Seeder};
 use incircle_hdl::link::PointSlot;
 use stepper::bundles::{record_write, Finding};
-use stepper::{ports, Stepper};
+use stepper::{named_ports, Stepper};
 
-ports!(
+named_ports!(
     PhaseMachine,
     [
         reset,
@@ -29,13 +30,13 @@ ports!(
     [is_idle, is_seed, is_walk, is_root, is_cavity, is_commit, is_drain, is_solo],
     clock
 );
-ports!(
+named_ports!(
     Seeder,
     [reset, clears, infinite, prepares, is_seed, done, verdict],
     [seeded, collinear, seeds, ends, write],
     clock
 );
-ports!(
+named_ports!(
     PointSlot,
     [reset, clears, capacity, collinear, accepts, word, takes],
     [valid, id, point, is_new, arrived, refused],

@@ -4,6 +4,7 @@
 //! The records are not those of a mesh but random ones, three links that differ and any corners, so that every turn, tie and ghost
 //! comes up; the pipeline does not know the difference.
 
+mod block_ports;
 mod cosimulation;
 mod structures;
 mod visit_model;

@@ -3,6 +3,7 @@
 //! The references share no formula with the hardware: orientation is a sum over the corners of the triangle, incircle the 3 x 3
 //! determinant of the lifted points.
 
+mod block_ports;
 mod cosimulation;
 
 use cosimulation::{named_ports, Cosimulation, Delay, Expected, Numbers};

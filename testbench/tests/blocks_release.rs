@@ -1,5 +1,6 @@
 //! The release of locks: Rust, Verilog and a list of what is still to be cleared agree clock by clock.
 
+mod block_ports;
 mod stepper;
 
 use std::collections::VecDeque;
@@ -8,9 +9,9 @@ use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Release;
 use incircle_protocol::{Config, MAX_RING, TINY};
 use stepper::bundles::{turned, Visit};
-use stepper::{ports, Cell, Stepper, Wave};
+use stepper::{named_ports, Cell, Stepper, Wave};
 
-ports!(
+named_ports!(
     Release,
     [reset, last_id, takes_locks, done, token, turned, starts],
     [is_busy, sweeps, clear_id, clear_enable],

@@ -1,6 +1,7 @@
 //! The answer stream: Rust, Verilog and the words that an answer has agree, crossed with idle, back-pressure and resets. What is
 //! offered and not taken must stand still, and the number of words loaded fixes the clock in which an answer ends.
 
+mod block_ports;
 mod stepper;
 
 use std::collections::VecDeque;
@@ -8,9 +9,9 @@ use std::collections::VecDeque;
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::Responder;
 use incircle_protocol::{Layout, CORE_COORD_BITS};
-use stepper::{ports, Cell, Stepper, Wave};
+use stepper::{named_ports, Cell, Stepper, Wave};
 
-ports!(
+named_ports!(
     Responder,
     [
         reset,

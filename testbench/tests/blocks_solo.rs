@@ -1,6 +1,7 @@
 //! Insertion alone: Rust, Verilog and recursive flips in a mesh of the test's own agree in every write, its order and its clock.
 //! The visits are answered from that mesh after a random delay; what comes out is checked to be Delaunay by exact arithmetic.
 
+mod block_ports;
 mod flip_mesh;
 mod stepper;
 
@@ -8,15 +9,15 @@ use flip_mesh::{Mesh, Point, Record, Written, INFINITE};
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::{Solo, SoloWrites};
 use stepper::bundles::{link_write, record_write, turned, Finding, Visit};
-use stepper::{ports, Stepper};
+use stepper::{named_ports, Stepper};
 
-ports!(
+named_ports!(
     Solo,
     [reset, starts, p, records, root_id, root, done, token, turned, verdict],
     [push, bundle, write, tests, flips, ends],
     clock
 );
-ports!(
+named_ports!(
     SoloWrites,
     [
         is_split,

@@ -1,5 +1,6 @@
 //! The parts of a visit: queue, reader and verdict agree in Rust, in Verilog and in plain arithmetic, clock by clock.
 
+mod block_ports;
 mod cosimulation;
 mod structures;
 mod visit_model;

@@ -1,44 +1,46 @@
 //! The waves in the headers of the blocks that a visit passes are what Rust and Verilog show.
 
+mod block_ports;
 mod stepper;
 mod structures;
 
 use std::collections::BTreeMap;
 
+use block_ports::NamedPorts;
 use incircle_hdl::engine::{Cavity, Issue, VisitPipeline, VisitReader, WritePort};
 use incircle_hdl::mesh::{TriangleStore, VertexStore};
 use incircle_protocol::TINY;
 use incircle_testbench::blocks;
-use stepper::{ports, Cell, Ports, Stepper, Wave};
+use stepper::{named_ports, Cell, Stepper, Wave};
 use structures::{pack, BUNDLE, TOKEN, TURNED, VERDICT, WRITE};
 use verilated::Direction;
 
-ports!(
+named_ports!(
     Issue,
     [reset, push, bundle, read, read_id],
     [token_valid, token, read_valid],
     clock
 );
-ports!(WritePort, [reset, commit, solo, seed], [write], clock);
-ports!(
+named_ports!(WritePort, [reset, commit, solo, seed], [write], clock);
+named_ports!(
     TriangleStore,
     [write, read_id, read_locks, clear_id, clear_enable],
     [v0, v1, v2, n0, n1, n2, was_set],
     clock
 );
-ports!(
+named_ports!(
     VertexStore,
     [write_id, write_position, write_enable, id0, id1, id2],
     [position0, position1, position2],
     clock
 );
-ports!(
+named_ports!(
     VisitReader,
     [infinite, token, v0, v1, v2, n0, n1, n2, was_set, position0, position1, position2],
     [turned, token_at_record, r0, r1, r2],
     clock
 );
-ports!(
+named_ports!(
     Cavity,
     [
         reset,
@@ -66,7 +68,7 @@ ports!(
     ],
     clock
 );
-ports!(
+named_ports!(
     VisitPipeline,
     [
         reset,
@@ -104,7 +106,7 @@ type Lane = (&'static str, &'static str, u32, u32, When);
 type Stimuli = [(usize, &'static str, u128)];
 
 /// Runs `clocks` clocks after one with `reset` and nothing else, and draws them.
-fn draw<U: Ports>(
+fn draw<U: NamedPorts>(
     name: &'static str,
     rust: U,
     stimuli: &Stimuli,

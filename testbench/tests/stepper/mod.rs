@@ -11,93 +11,13 @@ mod wave;
 
 use std::collections::BTreeMap;
 
-use incircle_hdl::engine::{Bundle, Entry, Token, Turned, Verdict, Write};
-use incircle_hdl::leaf::Unpacked;
 use incircle_testbench::blocks;
-use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
 
+pub(crate) use crate::block_ports::named_ports;
+use crate::block_ports::{number, set_number, settle, NamedPorts};
 #[allow(unused_imports)] // As above.
 pub use wave::{Cell, Wave};
-
-/// Passes a block may take to settle: far more than its depth.
-const SETTLING_PASSES: usize = 100;
-
-/// A port value as a number.
-pub trait PortNumber {
-    fn from_number(number: u128) -> Self;
-    fn to_number(self) -> u128;
-}
-
-impl PortNumber for bool {
-    fn from_number(number: u128) -> Self {
-        number != 0
-    }
-    fn to_number(self) -> u128 {
-        self.into()
-    }
-}
-
-impl<const N: usize> PortNumber for Bits<N> {
-    fn from_number(number: u128) -> Self {
-        let low = Bits::from(number as u64);
-        if N <= 64 {
-            return low;
-        }
-        low | Bits::from((number >> 64) as u64) << 64u64
-    }
-    fn to_number(self) -> u128 {
-        self.to_u128()
-    }
-}
-
-macro_rules! packed_port_numbers {
-    ($($name:ident),*) => {$(
-        impl PortNumber for $name {
-            fn from_number(number: u128) -> Self {
-                Self::unpacked(Bits::<{ $name::BITS }>::from_number(number))
-            }
-            fn to_number(self) -> u128 {
-                Bits::<{ $name::BITS }>::from(self).to_u128()
-            }
-        }
-    )*};
-}
-packed_port_numbers!(Bundle, Entry, Token, Turned, Verdict, Write);
-
-/// A block whose ports are reached by name.
-pub trait Ports: Block {
-    fn set(&mut self, port: &str, number: u128);
-    fn get(&self, port: &str) -> u128;
-    fn set_clock(&mut self, high: bool);
-}
-
-/// Gives a block [`Ports`]: its type, its inputs, its outputs, and `clock` if it has one.
-macro_rules! ports {
-    ($block:ty, [$($input:ident),*], [$($output:ident),*] $(, $clock:ident)?) => {
-        impl $crate::stepper::Ports for $block {
-            fn set(&mut self, port: &str, number: u128) {
-                use $crate::stepper::PortNumber;
-                match port {
-                    $(stringify!($input) => self.$input.next = PortNumber::from_number(number),)*
-                    _ => panic!("no input {port}"),
-                }
-            }
-            fn get(&self, port: &str) -> u128 {
-                use $crate::stepper::PortNumber;
-                match port {
-                    $(stringify!($output) => self.$output.val().to_number(),)*
-                    _ => panic!("no output {port}"),
-                }
-            }
-            fn set_clock(&mut self, high: bool) {
-                $(self.$clock.next = high.into();)?
-                let _ = high;
-            }
-        }
-    };
-}
-pub(crate) use ports;
 
 /// Both forms of a block, and the clocks that have passed.
 pub struct Stepper<U> {
@@ -108,7 +28,7 @@ pub struct Stepper<U> {
     clocks: usize,
 }
 
-impl<U: Ports> Stepper<U> {
+impl<U: NamedPorts> Stepper<U> {
     /// The block of this name in `incircle_hdl::export::blocks`. Its Verilog starts with random registers and memories, which
     /// shows where an output depends on what nobody wrote.
     pub fn new(name: &'static str, mut rust: U, seed: u32) -> Self {
@@ -135,17 +55,13 @@ impl<U: Ports> Stepper<U> {
     pub fn set(&mut self, port: &str, number: impl Into<u128>) {
         let number = number.into();
         self.rust.set(port, number);
-        let id = self.ports[port];
-        let words: Vec<u32> = (0..id.width().div_ceil(32))
-            .map(|word| (number >> (32 * word)) as u32)
-            .collect();
-        self.model.set_wide(id, &words);
+        set_number(&mut self.model, self.ports[port], number);
     }
 
     /// Brings the outputs up to date with the inputs.
     pub fn settle(&mut self) {
         self.rust.set_clock(false);
-        self.settle_rust();
+        settle(&mut self.rust, self.name);
         self.model.eval();
     }
 
@@ -200,24 +116,12 @@ impl<U: Ports> Stepper<U> {
     /// A rising edge.
     pub fn edge(&mut self) {
         self.rust.set_clock(true);
-        self.settle_rust();
+        settle(&mut self.rust, self.name);
         self.model.clock();
         self.clocks += 1;
     }
 
     fn both(&self, port: &str) -> (u128, u128) {
-        let id = self.ports[port];
-        let mut words = vec![0; id.width().div_ceil(32) as usize];
-        self.model.get_wide(id, &mut words);
-        let join = |number: u128, word: &u32| number << 32 | u128::from(*word);
-        (self.rust.get(port), words.iter().rev().fold(0, join))
-    }
-
-    fn settle_rust(&mut self) {
-        assert!(
-            simulate(&mut self.rust, SETTLING_PASSES),
-            "{} does not settle",
-            self.name
-        );
+        (self.rust.get(port), number(&self.model, self.ports[port]))
     }
 }
