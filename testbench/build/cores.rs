@@ -29,7 +29,11 @@ const FAULTS: [(&str, &str, &str); 3] = [
 pub fn all() -> Vec<(&'static str, String)> {
     let ring9 = Config { ring: 9, ..SMALL };
     let ring64 = Config { ring: 64, ..SMALL };
-    let least = Config { points: 4, ring: 3, ..SMALL };
+    let least = Config {
+        points: 4,
+        ring: 3,
+        ..SMALL
+    };
     let mut cores = vec![
         ("core_least", core(least)),
         ("core_tiny", core(TINY)),
