@@ -9,8 +9,8 @@ const TOP: &str = "incircle_core";
 fn main() {
     let mut builder = Builder::new();
     for config in incircle_protocol::NAMED {
-        let verilog = export::core(config, false)
-            .unwrap_or_else(|error| panic!("configuration {}: {error}", config.name));
+        let verilog =
+            export::core(config, false).unwrap_or_else(|error| panic!("configuration {}: {error}", config.name));
         builder = builder.model(
             ModelSource::new(&format!("core_{}", config.name), TOP, verilog)
                 .trace(true)

@@ -11,11 +11,7 @@ fn main() {
     println!("cargo:rerun-if-changed=build/cores.rs");
     let mut builder = Builder::new();
     for (name, verilog) in incircle_hdl::export::blocks() {
-        builder = builder.model(
-            ModelSource::new(&name, &name, verilog)
-                .trace(true)
-                .random_initial_state(true),
-        );
+        builder = builder.model(ModelSource::new(&name, &name, verilog).trace(true).random_initial_state(true));
     }
     for (name, verilog) in cores::all() {
         builder = builder.model(

@@ -1,7 +1,7 @@
 //! The incircle core in rust-hdl, and its export to Verilog.
 
-pub mod engine;
 pub mod committed;
+pub mod engine;
 pub mod export;
 pub mod leaf;
 pub mod link;

@@ -30,12 +30,7 @@ const LOCK: u32 = 0b10;
 
 impl<'a> Assembly<'a> {
     /// For the mesh of the points `order` names, on a device of this layout and capacity.
-    pub(crate) fn new(
-        order: &'a [u32],
-        points: &'a [Point],
-        layout: Layout,
-        capacity: u32,
-    ) -> Self {
+    pub(crate) fn new(order: &'a [u32], points: &'a [Point], layout: Layout, capacity: u32) -> Self {
         let records = 2 * order.len() - 2;
         Self {
             order,
@@ -63,11 +58,7 @@ impl<'a> Assembly<'a> {
             let ([a, b, c], [x, y, z]) = self.layout.record_from_words(words);
             let neighbor = x.max(y).max(z);
             if neighbor as usize >= self.records {
-                return Err(DeviceFault::NeighborOutOfRange {
-                    record,
-                    neighbor,
-                    records: self.records,
-                });
+                return Err(DeviceFault::NeighborOutOfRange { record, neighbor, records: self.records });
             }
             self.take_vertices(record, a, b, c)?;
         }
@@ -103,10 +94,7 @@ impl<'a> Assembly<'a> {
         let at = |index: u32| self.points[index as usize];
         let area = doubled_area(at(a), at(b), at(c));
         if area <= 0 {
-            return Err(DeviceFault::Orientation {
-                record,
-                corners: [at(a), at(b), at(c)],
-            });
+            return Err(DeviceFault::Orientation { record, corners: [at(a), at(b), at(c)] });
         }
         self.area += i128::from(area);
         self.triangles.push(smallest_first(a, b, c));
@@ -115,11 +103,7 @@ impl<'a> Assembly<'a> {
 
     fn input_index(&self, record: usize, vertex: u32) -> Result<u32, DeviceFault> {
         let known = self.order.get(vertex as usize).copied();
-        known.ok_or(DeviceFault::VertexOutOfRange {
-            record,
-            vertex,
-            points: self.order.len(),
-        })
+        known.ok_or(DeviceFault::VertexOutOfRange { record, vertex, points: self.order.len() })
     }
 
     /// Sorts and checks the whole: the canonical triangles and the hull.
@@ -127,10 +111,7 @@ impl<'a> Assembly<'a> {
         let hull = close_hull(self.hull_edges)?;
         let area = hull_area(&hull, self.points);
         if self.area != area {
-            return Err(DeviceFault::Area {
-                triangles: self.area,
-                hull: area,
-            });
+            return Err(DeviceFault::Area { triangles: self.area, hull: area });
         }
         let triangles = sort_triangles(self.triangles, self.points.len());
         match triangles.windows(2).find(|pair| pair[0] == pair[1]) {
@@ -146,13 +127,7 @@ fn check_spare_bits(record: usize, words: &[u32]) -> Result<(), DeviceFault> {
         match word >> (2 * NARROW_ID_BITS) {
             0 => {}
             LOCK if place == 0 => return Err(DeviceFault::Locked { record }),
-            _ => {
-                return Err(DeviceFault::SpareBits {
-                    record,
-                    place,
-                    word,
-                })
-            }
+            _ => return Err(DeviceFault::SpareBits { record, place, word }),
         }
     }
     Ok(())
@@ -176,10 +151,7 @@ fn smallest_first(a: u32, b: u32, c: u32) -> [u32; 3] {
 /// Chains the hull edges into one cycle that starts at its lowest index.
 fn close_hull(mut edges: Vec<[u32; 2]>) -> Result<Vec<u32>, DeviceFault> {
     edges.sort_unstable();
-    let open = |point| DeviceFault::OpenHull {
-        ghosts: edges.len(),
-        point,
-    };
+    let open = |point| DeviceFault::OpenHull { ghosts: edges.len(), point };
     if let Some(pair) = edges.windows(2).find(|pair| pair[0][0] == pair[1][0]) {
         return Err(open(pair[0][0]));
     }
@@ -211,8 +183,7 @@ fn hull_area(hull: &[u32], points: &[Point]) -> i128 {
         return 0;
     };
     let fan = rest.windows(2);
-    fan.map(|pair| i128::from(doubled_area(at(first), at(&pair[0]), at(&pair[1]))))
-        .sum()
+    fan.map(|pair| i128::from(doubled_area(at(first), at(&pair[0]), at(&pair[1])))).sum()
 }
 
 /// Sorts triangles by counting their first corners, then each corner's few triangles. O(n) for meshes, O(n log n) for any
@@ -263,9 +234,7 @@ mod tests {
 
     #[test]
     fn triangles_sort_like_the_standard_library() {
-        let mut triangles: Vec<[u32; 3]> = (0..500u32)
-            .map(|k| [k * 37 % 11, k * 101 % 97, k * 53 % 89])
-            .collect();
+        let mut triangles: Vec<[u32; 3]> = (0..500u32).map(|k| [k * 37 % 11, k * 101 % 97, k * 53 % 89]).collect();
         let sorted = sort_triangles(triangles.clone(), 11);
         triangles.sort_unstable();
         assert_eq!(sorted, triangles);

@@ -30,10 +30,8 @@ impl Device {
     /// # Errors
     /// [`Error::Address`] for an unknown address, and the errors of [`Device::model`].
     pub fn open(address: &str) -> Result<Self, Error> {
-        let choice = ModelChoice::parse(address).map_err(|reason| Error::Address {
-            address: address.to_owned(),
-            reason,
-        })?;
+        let choice =
+            ModelChoice::parse(address).map_err(|reason| Error::Address { address: address.to_owned(), reason })?;
         Self::model(choice.coord_bits, choice.capacity)
     }
 
@@ -50,9 +48,7 @@ impl Device {
 
     /// The device behind a transport: a simulation, a board, a test double. Nothing is sent yet.
     pub fn from_transport(transport: Box<dyn Transport>) -> Self {
-        Self {
-            link: Link::new(transport),
-        }
+        Self { link: Link::new(transport) }
     }
 
     /// Greets the device and checks what it says of itself; gives it ten seconds.
@@ -95,14 +91,9 @@ impl ModelChoice {
     fn parse(address: &str) -> Result<Self, String> {
         let (name, choices) = address.split_once('?').unwrap_or((address, ""));
         if name != crate::model::MODEL_NAME {
-            return Err(
-                "this library opens \"model\" by name, other devices from a transport".to_owned(),
-            );
+            return Err("this library opens \"model\" by name, other devices from a transport".to_owned());
         }
-        let mut choice = Self {
-            coord_bits: CORE_COORD_BITS,
-            capacity: MAX_MODEL_POINTS,
-        };
+        let mut choice = Self { coord_bits: CORE_COORD_BITS, capacity: MAX_MODEL_POINTS };
         for item in choices.split('&').filter(|item| !item.is_empty()) {
             let (key, value) = item.split_once('=').unwrap_or((item, ""));
             let number = || {
@@ -112,11 +103,7 @@ impl ModelChoice {
             match key {
                 "coord-bits" => choice.coord_bits = number()?,
                 "capacity" => choice.capacity = number()?,
-                _ => {
-                    return Err(format!(
-                        "\"{key}\" is unknown; \"coord-bits\" and \"capacity\" are known"
-                    ))
-                }
+                _ => return Err(format!("\"{key}\" is unknown; \"coord-bits\" and \"capacity\" are known")),
             }
         }
         Ok(choice)
@@ -130,32 +117,16 @@ mod tests {
 
     #[test]
     fn model_addresses_are_parsed() {
-        let choice = |coord_bits, capacity| ModelChoice {
-            coord_bits,
-            capacity,
-        };
-        assert_eq!(
-            ModelChoice::parse("model"),
-            Ok(choice(16, MAX_MODEL_POINTS))
-        );
-        assert_eq!(
-            ModelChoice::parse("model?coord-bits=20"),
-            Ok(choice(20, MAX_MODEL_POINTS))
-        );
+        let choice = |coord_bits, capacity| ModelChoice { coord_bits, capacity };
+        assert_eq!(ModelChoice::parse("model"), Ok(choice(16, MAX_MODEL_POINTS)));
+        assert_eq!(ModelChoice::parse("model?coord-bits=20"), Ok(choice(20, MAX_MODEL_POINTS)));
         let both = ModelChoice::parse("model?coord-bits=8&capacity=99");
         assert_eq!(both, Ok(choice(8, 99)));
     }
 
     #[test]
     fn bad_addresses_are_refused_with_a_reason() {
-        for address in [
-            "",
-            "modem",
-            "serial:/dev/x",
-            "model?bits=3",
-            "model?capacity=many",
-            "model?capacity",
-        ] {
+        for address in ["", "modem", "serial:/dev/x", "model?bits=3", "model?capacity=many", "model?capacity"] {
             let error = Device::open(address).err().expect(address);
             assert_eq!(error.kind(), ErrorKind::DeviceNotFound, "{error}");
             assert!(error.to_string().contains(address));

@@ -9,9 +9,7 @@ use crate::point::Point;
 #[non_exhaustive]
 pub enum DeviceFault {
     /// The identity does not start with the project's letters.
-    #[error(
-        "its identity starts with {found:#010x}, not {expected:#010x}, so it is no incircle device"
-    )]
+    #[error("its identity starts with {found:#010x}, not {expected:#010x}, so it is no incircle device")]
     Magic {
         /// Word received.
         found: u32,
@@ -33,9 +31,7 @@ pub enum DeviceFault {
     #[error("it claims to hold {0} points, but {MIN_POINTS} to {MAX_MODEL_POINTS} are possible")]
     Capacity(u32),
     /// The first word of an answer is none.
-    #[error(
-        "the answer starts with {found:#010x}, which is no header of an answer to opcode {opcode}"
-    )]
+    #[error("the answer starts with {found:#010x}, which is no header of an answer to opcode {opcode}")]
     Header {
         /// Word received.
         found: u32,
@@ -79,9 +75,7 @@ pub enum DeviceFault {
         points: usize,
     },
     /// A record names a neighbour that does not exist.
-    #[error(
-        "record {record} names record {neighbor} as a neighbour, but there are only {records}"
-    )]
+    #[error("record {record} names record {neighbor} as a neighbour, but there are only {records}")]
     NeighborOutOfRange {
         /// Number of the record.
         record: usize,
@@ -97,9 +91,7 @@ pub enum DeviceFault {
         record: usize,
     },
     /// Bits of a narrow record that hold nothing are set.
-    #[error(
-        "word {place} of record {record} is {word:#010x}, but its bits above the two ids must be 0"
-    )]
+    #[error("word {place} of record {record} is {word:#010x}, but its bits above the two ids must be 0")]
     SpareBits {
         /// Number of the record.
         record: usize,
@@ -129,7 +121,9 @@ pub enum DeviceFault {
         triangle: [u32; 3],
     },
     /// The ghosts do not close one hull.
-    #[error("its {ghosts} ghost records do not close one hull: the edge that leaves point {point} is missing or doubled")]
+    #[error(
+        "its {ghosts} ghost records do not close one hull: the edge that leaves point {point} is missing or doubled"
+    )]
     OpenHull {
         /// Ghost records received.
         ghosts: usize,

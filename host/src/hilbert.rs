@@ -81,34 +81,21 @@ mod tests {
     #[test]
     fn visits_every_cell_once_and_moves_one_cell_at_a_time() {
         let side = 64u32;
-        let mut cells: Vec<(u64, u32, u32)> = (0..side * side)
-            .map(|cell| {
-                (
-                    position_32(cell / side, cell % side),
-                    cell / side,
-                    cell % side,
-                )
-            })
-            .collect();
+        let mut cells: Vec<(u64, u32, u32)> =
+            (0..side * side).map(|cell| (position_32(cell / side, cell % side), cell / side, cell % side)).collect();
         cells.sort_unstable();
         for (expected, &(position, ..)) in cells.iter().enumerate() {
             assert_eq!(position, expected as u64);
         }
         for pair in cells.windows(2) {
-            assert_eq!(
-                pair[0].1.abs_diff(pair[1].1) + pair[0].2.abs_diff(pair[1].2),
-                1
-            );
+            assert_eq!(pair[0].1.abs_diff(pair[1].1) + pair[0].2.abs_diff(pair[1].2), 1);
         }
     }
 
     #[test]
     fn both_widths_agree() {
         for k in 0..1000u32 {
-            let (x, y) = (
-                k.wrapping_mul(40_503) & 0xffff,
-                k.wrapping_mul(2_654_435_761) >> 16,
-            );
+            let (x, y) = (k.wrapping_mul(40_503) & 0xffff, k.wrapping_mul(2_654_435_761) >> 16);
             assert_eq!(u64::from(position_16(x, y)), position_32(x, y));
         }
     }

@@ -74,11 +74,7 @@ use incircle_protocol::{CORE_COORD_BITS, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_P
 pub fn triangulate<P: Into<Point> + Copy>(points: &[P]) -> Result<Mesh, Error> {
     let points: Vec<Point> = points.iter().map(|&point| point.into()).collect();
     let used = points.iter().fold(0, |all, point| all | point.x | point.y);
-    let coord_bits = if used >> CORE_COORD_BITS == 0 {
-        CORE_COORD_BITS
-    } else {
-        MAX_COORD_BITS
-    };
+    let coord_bits = if used >> CORE_COORD_BITS == 0 { CORE_COORD_BITS } else { MAX_COORD_BITS };
     let capacity = u32::try_from(points.len()).unwrap_or(u32::MAX);
     let mut device = Device::model(coord_bits, capacity.clamp(MIN_POINTS, MAX_MODEL_POINTS))?;
     let mut session = device.session()?;

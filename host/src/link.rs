@@ -4,9 +4,8 @@
 use std::time::{Duration, Instant};
 
 use incircle_protocol::{
-    answer_opcode, answer_status, command_word, Identity, InsertReport, Opcode, Status,
-    COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, MAGIC, MAX_COORD_BITS, MAX_MODEL_POINTS,
-    MIN_COORD_BITS, MIN_POINTS, PROTOCOL_VERSION,
+    answer_opcode, answer_status, command_word, Identity, InsertReport, Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS,
+    INSERT_REPORT_WORDS, MAGIC, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_COORD_BITS, MIN_POINTS, PROTOCOL_VERSION,
 };
 
 use crate::error::Error;
@@ -26,10 +25,7 @@ impl Limit {
     pub(crate) fn of(timeout: Duration) -> Self {
         const YEAR: Duration = Duration::from_secs(365 * 24 * 3600);
         let timeout = timeout.min(YEAR);
-        Self {
-            deadline: Instant::now() + timeout,
-            timeout,
-        }
+        Self { deadline: Instant::now() + timeout, timeout }
     }
 }
 
@@ -41,10 +37,7 @@ pub(crate) struct Link {
 
 impl Link {
     pub(crate) fn new(transport: Box<dyn Transport>) -> Self {
-        Self {
-            transport,
-            out_of_step: false,
-        }
+        Self { transport, out_of_step: false }
     }
 
     pub(crate) fn name(&self) -> String {
@@ -54,12 +47,7 @@ impl Link {
     /// Asks who the device is, and believes only what a sound device can be.
     pub(crate) fn hello(&mut self, limit: Limit) -> Result<Identity, Error> {
         let mut words = [0; IDENTITY_WORDS];
-        self.ask(
-            Opcode::Hello,
-            &[command_word(Opcode::Hello)],
-            &mut words,
-            limit,
-        )?;
+        self.ask(Opcode::Hello, &[command_word(Opcode::Hello)], &mut words, limit)?;
         let identity = Identity::from_words(words);
         check_identity(&identity).map_err(|fault| self.distrust(Opcode::Hello, fault))?;
         Ok(identity)
@@ -67,12 +55,7 @@ impl Link {
 
     /// Makes the device forget everything.
     pub(crate) fn clear(&mut self, limit: Limit) -> Result<(), Error> {
-        self.ask(
-            Opcode::Clear,
-            &[command_word(Opcode::Clear)],
-            &mut [],
-            limit,
-        )
+        self.ask(Opcode::Clear, &[command_word(Opcode::Clear)], &mut [], limit)
     }
 
     /// Sends `words`, a whole `Insert` command, and returns the totals.
@@ -83,13 +66,7 @@ impl Link {
     }
 
     /// Reads `count` records from number `first` on into `words`, which is as long as they are.
-    pub(crate) fn read(
-        &mut self,
-        first: u32,
-        count: u32,
-        words: &mut [u32],
-        limit: Limit,
-    ) -> Result<(), Error> {
+    pub(crate) fn read(&mut self, first: u32, count: u32, words: &mut [u32], limit: Limit) -> Result<(), Error> {
         let command = [command_word(Opcode::Read), first, count];
         self.ask(Opcode::Read, &command, words, limit)
     }
@@ -97,64 +74,34 @@ impl Link {
     /// Reads the counters.
     pub(crate) fn counters(&mut self, limit: Limit) -> Result<Counters, Error> {
         let mut words = [0; COUNTER_WORDS];
-        self.ask(
-            Opcode::Counters,
-            &[command_word(Opcode::Counters)],
-            &mut words,
-            limit,
-        )?;
+        self.ask(Opcode::Counters, &[command_word(Opcode::Counters)], &mut words, limit)?;
         Ok(Counters::from_words(&words))
     }
 
     /// The error for a fault; the device is not asked again.
     pub(crate) fn distrust(&mut self, opcode: Opcode, fault: DeviceFault) -> Error {
         self.out_of_step = true;
-        Error::Device {
-            device: self.name(),
-            during: opcode_name(opcode),
-            fault,
-        }
+        Error::Device { device: self.name(), during: opcode_name(opcode), fault }
     }
 
     /// One command with its whole answer. After any error the streams count as out of step.
-    fn ask(
-        &mut self,
-        opcode: Opcode,
-        command: &[u32],
-        payload: &mut [u32],
-        limit: Limit,
-    ) -> Result<(), Error> {
+    fn ask(&mut self, opcode: Opcode, command: &[u32], payload: &mut [u32], limit: Limit) -> Result<(), Error> {
         if self.out_of_step {
-            return Err(Error::OutOfStep {
-                device: self.name(),
-            });
+            return Err(Error::OutOfStep { device: self.name() });
         }
         let result = self.exchange(opcode, command, payload, limit);
         self.out_of_step = result.is_err();
         result
     }
 
-    fn exchange(
-        &mut self,
-        opcode: Opcode,
-        command: &[u32],
-        payload: &mut [u32],
-        limit: Limit,
-    ) -> Result<(), Error> {
+    fn exchange(&mut self, opcode: Opcode, command: &[u32], payload: &mut [u32], limit: Limit) -> Result<(), Error> {
         let Limit { deadline, .. } = limit;
-        self.transport
-            .send(command, deadline)
-            .map_err(|source| self.failed(opcode, source, limit))?;
+        self.transport.send(command, deadline).map_err(|source| self.failed(opcode, source, limit))?;
         let mut header = [0; 2];
-        self.transport
-            .receive(&mut header, deadline)
-            .map_err(|source| self.failed(opcode, source, limit))?;
-        check_header(header, opcode, payload.len())
-            .map_err(|fault| self.distrust(opcode, fault))?;
+        self.transport.receive(&mut header, deadline).map_err(|source| self.failed(opcode, source, limit))?;
+        check_header(header, opcode, payload.len()).map_err(|fault| self.distrust(opcode, fault))?;
         if !payload.is_empty() {
-            self.transport
-                .receive(payload, deadline)
-                .map_err(|source| self.failed(opcode, source, limit))?;
+            self.transport.receive(payload, deadline).map_err(|source| self.failed(opcode, source, limit))?;
         }
         if Instant::now() > deadline {
             return Err(self.late(opcode, limit));
@@ -165,49 +112,28 @@ impl Link {
     fn failed(&self, opcode: Opcode, source: TransportError, limit: Limit) -> Error {
         match source {
             TransportError::Timeout { .. } => self.late(opcode, limit),
-            source => Error::Link {
-                device: self.name(),
-                during: opcode_name(opcode),
-                source,
-            },
+            source => Error::Link { device: self.name(), during: opcode_name(opcode), source },
         }
     }
 
     fn late(&self, opcode: Opcode, limit: Limit) -> Error {
-        Error::Timeout {
-            device: self.name(),
-            during: opcode_name(opcode),
-            timeout: limit.timeout,
-        }
+        Error::Timeout { device: self.name(), during: opcode_name(opcode), timeout: limit.timeout }
     }
 }
 
 /// Header and announced length of an answer must be what the command asks for.
 fn check_header(header: [u32; 2], opcode: Opcode, payload: usize) -> Result<(), DeviceFault> {
     let [header, length] = header;
-    let malformed = DeviceFault::Header {
-        found: header,
-        opcode: opcode as u8,
-    };
+    let malformed = DeviceFault::Header { found: header, opcode: opcode as u8 };
     let status = answer_status(header);
     match Status::from_u8(status) {
-        _ if answer_opcode(header) != opcode as u8 || header & 0xffff != 0 => {
-            return Err(malformed)
-        }
+        _ if answer_opcode(header) != opcode as u8 || header & 0xffff != 0 => return Err(malformed),
         None => return Err(malformed),
         Some(Status::Ok) => {}
-        Some(other) => {
-            return Err(DeviceFault::Status {
-                status,
-                meaning: status_meaning(other),
-            })
-        }
+        Some(other) => return Err(DeviceFault::Status { status, meaning: status_meaning(other) }),
     }
     if length as usize != payload {
-        return Err(DeviceFault::PayloadLength {
-            found: length,
-            expected: u32::try_from(payload).unwrap_or(u32::MAX),
-        });
+        return Err(DeviceFault::PayloadLength { found: length, expected: u32::try_from(payload).unwrap_or(u32::MAX) });
     }
     Ok(())
 }
@@ -215,16 +141,10 @@ fn check_header(header: [u32; 2], opcode: Opcode, payload: usize) -> Result<(), 
 /// Identity words are hostile until they pass here.
 fn check_identity(identity: &Identity) -> Result<(), DeviceFault> {
     if identity.magic != MAGIC {
-        return Err(DeviceFault::Magic {
-            found: identity.magic,
-            expected: MAGIC,
-        });
+        return Err(DeviceFault::Magic { found: identity.magic, expected: MAGIC });
     }
     if identity.protocol_version >> 16 != PROTOCOL_VERSION >> 16 {
-        return Err(DeviceFault::ProtocolVersion {
-            found: identity.protocol_version,
-            expected: PROTOCOL_VERSION,
-        });
+        return Err(DeviceFault::ProtocolVersion { found: identity.protocol_version, expected: PROTOCOL_VERSION });
     }
     if !(MIN_COORD_BITS..=MAX_COORD_BITS).contains(&identity.coord_bits) {
         return Err(DeviceFault::CoordBits(identity.coord_bits));

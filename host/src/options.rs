@@ -103,12 +103,7 @@ impl Options<'_> {
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Self {
-            timeout: None,
-            order: Order::default(),
-            progress: None,
-            insert_chunk: INSERT_CHUNK,
-        }
+        Self { timeout: None, order: Order::default(), progress: None, insert_chunk: INSERT_CHUNK }
     }
 }
 

@@ -133,9 +133,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn lattice(side: u32, step: u32) -> Vec<Point> {
-        (0..side * side)
-            .map(|k| Point::new(k / side * step, k % side * step))
-            .collect()
+        (0..side * side).map(|k| Point::new(k / side * step, k % side * step)).collect()
     }
 
     #[test]
@@ -147,14 +145,8 @@ mod tests {
         };
         let last = last_level(points.len());
         assert_eq!(last, 4);
-        let early = entries
-            .iter()
-            .filter(|e| level(crate::sort::Keyed::key(*e), last) > 0)
-            .count();
-        assert!(
-            (900..1150).contains(&early),
-            "{early} of 4096 before the last round"
-        );
+        let early = entries.iter().filter(|e| level(crate::sort::Keyed::key(*e), last) > 0).count();
+        assert!((900..1150).contains(&early), "{early} of 4096 before the last round");
     }
 
     #[test]
@@ -162,12 +154,8 @@ mod tests {
         let points = lattice(40, 7);
         let mut reversed = points.clone();
         reversed.reverse();
-        let in_order = |points: &[Point]| -> Vec<Point> {
-            brio_hilbert(points)
-                .iter()
-                .map(|&i| points[i as usize])
-                .collect()
-        };
+        let in_order =
+            |points: &[Point]| -> Vec<Point> { brio_hilbert(points).iter().map(|&i| points[i as usize]).collect() };
         assert_eq!(in_order(&points), in_order(&reversed));
     }
 

@@ -40,11 +40,7 @@ pub(crate) fn prepare(points: &[Point], order: Order) -> Prepared {
     if collinear {
         order.sort_unstable_by_key(|&index| points[index as usize]);
     }
-    Prepared {
-        order,
-        duplicates,
-        collinear,
-    }
+    Prepared { order, duplicates, collinear }
 }
 
 /// Keeps the first entry of each key, which has the lowest index because the sort was stable.
@@ -53,10 +49,7 @@ fn remove_duplicates<E: Entry>(entries: &mut Vec<E>) -> Vec<Duplicate> {
     entries.dedup_by(|later, kept| {
         let equal = later.key() == kept.key();
         if equal {
-            duplicates.push(Duplicate {
-                index: later.value(),
-                of: kept.value(),
-            });
+            duplicates.push(Duplicate { index: later.value(), of: kept.value() });
         }
         equal
     });
@@ -71,10 +64,7 @@ fn start_with_a_triangle(order: &mut [u32], points: &[Point]) -> bool {
         return false;
     };
     let (a, b) = (at(*first), at(*second));
-    let Some(found) = rest
-        .iter()
-        .position(|&index| doubled_area(a, b, at(index)) != 0)
-    else {
+    let Some(found) = rest.iter().position(|&index| doubled_area(a, b, at(index)) != 0) else {
         return false;
     };
     order[2..=found + 2].rotate_right(1);
@@ -109,10 +99,7 @@ mod tests {
 
     #[test]
     fn collinear_points_come_in_lexicographic_order() {
-        let prepared = prepare(
-            &points(&[(6, 3), (2, 1), (4, 2), (2, 1), (0, 0)]),
-            Order::Input,
-        );
+        let prepared = prepare(&points(&[(6, 3), (2, 1), (4, 2), (2, 1), (0, 0)]), Order::Input);
         assert!(prepared.collinear);
         assert_eq!(prepared.order, [4, 1, 2, 0]);
         assert_eq!(prepared.duplicates, [Duplicate { index: 3, of: 1 }]);
@@ -120,10 +107,7 @@ mod tests {
 
     #[test]
     fn the_first_point_off_the_line_becomes_the_third() {
-        let prepared = prepare(
-            &points(&[(0, 0), (1, 1), (2, 2), (3, 3), (3, 0), (9, 1)]),
-            Order::Input,
-        );
+        let prepared = prepare(&points(&[(0, 0), (1, 1), (2, 2), (3, 3), (3, 0), (9, 1)]), Order::Input);
         assert!(!prepared.collinear);
         assert_eq!(prepared.order, [0, 1, 4, 2, 3, 5]);
     }

@@ -37,10 +37,7 @@ pub struct Quantization {
 impl Quantization {
     /// The input coordinates of a grid point, within `largest_error`.
     pub fn restore(&self, point: Point) -> [f64; 2] {
-        [
-            f64::from(point.x) / self.scale + self.offset[0],
-            f64::from(point.y) / self.scale + self.offset[1],
-        ]
+        [f64::from(point.x) / self.scale + self.offset[0], f64::from(point.y) / self.scale + self.offset[1]]
     }
 }
 
@@ -60,17 +57,9 @@ pub fn integers(points: &[[f64; 2]], coord_bits: u32) -> Result<Vec<Point>, Erro
     }
     let grid = 0.0..=largest_coordinate(coord_bits);
     if let Some((index, axis, value)) = values(points).find(|(.., value)| !grid.contains(value)) {
-        return Err(Error::OutOfGrid {
-            index,
-            axis,
-            value,
-            coord_bits,
-        });
+        return Err(Error::OutOfGrid { index, axis, value, coord_bits });
     }
-    Ok(points
-        .iter()
-        .map(|&[x, y]| Point::new(x as u32, y as u32))
-        .collect())
+    Ok(points.iter().map(|&[x, y]| Point::new(x as u32, y as u32)).collect())
 }
 
 /// Lays values onto the grid and reports scale, offset, largest error and how many points fell together.
@@ -87,11 +76,7 @@ pub fn integers(points: &[[f64; 2]], coord_bits: u32) -> Result<Vec<Point>, Erro
 /// [`Error::NotFinite`] with the first value that is NaN or infinite, [`Error::Extent`] if the box is too large or too
 /// small for a scale, [`Error::Scale`] and [`Error::OutOfGrid`] with [`Quantize::Scale`], [`Error::CoordBits`] outside 1
 /// to 31, [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
-pub fn quantize(
-    points: &[[f64; 2]],
-    coord_bits: u32,
-    how: Quantize,
-) -> Result<(Vec<Point>, Quantization), Error> {
+pub fn quantize(points: &[[f64; 2]], coord_bits: u32, how: Quantize) -> Result<(Vec<Point>, Quantization), Error> {
     check_coord_bits(coord_bits)?;
     check_count(points)?;
     check_finite(points)?;
@@ -99,13 +84,7 @@ pub fn quantize(
         Quantize::Fit => fit(points, coord_bits)?,
         Quantize::Scale { scale, offset } => check_scale(scale, offset)?,
     };
-    let mut report = Quantization {
-        scale,
-        offset,
-        largest_error: 0.0,
-        merged: 0,
-        coord_bits,
-    };
+    let mut report = Quantization { scale, offset, largest_error: 0.0, merged: 0, coord_bits };
     let mut grid = Vec::with_capacity(points.len());
     for (index, point) in points.iter().enumerate() {
         let place = report.place(index, *point, matches!(how, Quantize::Fit))?;
@@ -126,19 +105,11 @@ impl Quantization {
         let line = |k: usize| ((point[k] - self.offset[k]) * self.scale).round_ties_even();
         let (x, y) = (line(0), line(1));
         if fitted {
-            return Ok(Point::new(
-                x.clamp(0.0, max) as u32,
-                y.clamp(0.0, max) as u32,
-            ));
+            return Ok(Point::new(x.clamp(0.0, max) as u32, y.clamp(0.0, max) as u32));
         }
         for (axis, value) in [('x', x), ('y', y)] {
             if !(0.0..=max).contains(&value) {
-                return Err(Error::OutOfGrid {
-                    index,
-                    axis,
-                    value,
-                    coord_bits: self.coord_bits,
-                });
+                return Err(Error::OutOfGrid { index, axis, value, coord_bits: self.coord_bits });
             }
         }
         Ok(Point::new(x as u32, y as u32))
@@ -158,10 +129,7 @@ fn values(points: &[[f64; 2]]) -> impl Iterator<Item = (usize, char, f64)> + '_ 
 
 fn check_count(points: &[[f64; 2]]) -> Result<(), Error> {
     if points.len() > MAX_POINTS {
-        return Err(Error::TooManyPoints {
-            points: points.len(),
-            max: MAX_POINTS,
-        });
+        return Err(Error::TooManyPoints { points: points.len(), max: MAX_POINTS });
     }
     Ok(())
 }

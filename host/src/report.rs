@@ -126,10 +126,7 @@ mod tests {
 
     #[test]
     fn cycles_per_insertion_needs_a_clock() {
-        let mut report = Report {
-            distinct: 4,
-            ..Report::default()
-        };
+        let mut report = Report { distinct: 4, ..Report::default() };
         assert_eq!(report.cycles_per_insertion(), None);
         let mut counters = Counters::default();
         report.counters = Some(counters);

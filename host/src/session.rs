@@ -56,22 +56,12 @@ impl<'d> Session<'d> {
     /// A coordinate beyond the device's bits, more distinct points than it holds, a failing link, an answer that no
     /// sound device gives, a passed deadline, or a cancelled job. After an error of link or device the session is out of
     /// step; after all others it can be used again.
-    pub fn triangulate_with(
-        &mut self,
-        points: &[Point],
-        options: &Options<'_>,
-    ) -> Result<Mesh, Error> {
+    pub fn triangulate_with(&mut self, points: &[Point], options: &Options<'_>) -> Result<Mesh, Error> {
         self.triangulate_owned(points.to_vec(), options)
     }
 
-    pub(crate) fn triangulate_owned(
-        &mut self,
-        points: Vec<Point>,
-        options: &Options<'_>,
-    ) -> Result<Mesh, Error> {
-        let timeout = options
-            .timeout
-            .unwrap_or_else(|| Options::default_timeout(points.len()));
+    pub(crate) fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Mesh, Error> {
+        let timeout = options.timeout.unwrap_or_else(|| Options::default_timeout(points.len()));
         let job = Job {
             identity: self.identity,
             layout: Layout::of(self.identity.coord_bits, self.identity.capacity),
@@ -95,10 +85,7 @@ struct Stopwatch {
 
 impl Stopwatch {
     fn start() -> Self {
-        Self {
-            since: Instant::now(),
-            stages: Vec::with_capacity(4),
-        }
+        Self { since: Instant::now(), stages: Vec::with_capacity(4) }
     }
 
     fn ended(&mut self, stage: Stage) {
@@ -123,20 +110,14 @@ impl<'j> Job<'j> {
     /// Every point must fit the device's grid, and all of them 32-bit indices.
     fn check_input(&self) -> Result<(), Error> {
         if self.points.len() > MAX_POINTS {
-            return Err(Error::TooManyPoints {
-                points: self.points.len(),
-                max: MAX_POINTS,
-            });
+            return Err(Error::TooManyPoints { points: self.points.len(), max: MAX_POINTS });
         }
         let coord_bits = self.identity.coord_bits;
         let outside = |point: &Point| (point.x | point.y) >> coord_bits != 0;
         match self.points.iter().position(outside) {
-            Some(index) => Err(Error::CoordinateOutOfRange {
-                index,
-                x: self.points[index].x,
-                y: self.points[index].y,
-                coord_bits,
-            }),
+            Some(index) => {
+                Err(Error::CoordinateOutOfRange { index, x: self.points[index].x, y: self.points[index].y, coord_bits })
+            }
             None => Ok(()),
         }
     }
@@ -159,23 +140,13 @@ impl<'j> Job<'j> {
         report.triangles = triangles.len();
         report.hull = hull.len();
         report.stages = self.watch.stages;
-        Ok(Mesh {
-            points: Vec::new(),
-            triangles,
-            hull,
-            duplicates: prepared.duplicates,
-            report,
-        })
+        Ok(Mesh { points: Vec::new(), triangles, hull, duplicates: prepared.duplicates, report })
     }
 
     fn check_capacity(&self, distinct: usize) -> Result<(), Error> {
         let capacity = self.identity.capacity;
         if distinct > capacity as usize {
-            return Err(Error::Capacity {
-                distinct,
-                capacity,
-                device: self.link.name(),
-            });
+            return Err(Error::Capacity { distinct, capacity, device: self.link.name() });
         }
         Ok(())
     }
@@ -211,8 +182,7 @@ impl<'j> Job<'j> {
             }
             let report = self.link.insert(&words, self.limit)?;
             sent += indices.len();
-            check_insert(&report, sent as u32)
-                .map_err(|fault| self.link.distrust(Opcode::Insert, fault))?;
+            check_insert(&report, sent as u32).map_err(|fault| self.link.distrust(Opcode::Insert, fault))?;
         }
         self.tell(Stage::Insert, sent, order.len())?;
         self.watch.ended(Stage::Insert);
@@ -232,11 +202,8 @@ impl<'j> Job<'j> {
             self.tell(Stage::Read, first, records)?;
             let count = READ_CHUNK.min(records - first);
             let words = &mut words[..count * width];
-            self.link
-                .read(first as u32, count as u32, words, self.limit)?;
-            assembly
-                .take(first, words)
-                .map_err(|fault| self.link.distrust(Opcode::Read, fault))?;
+            self.link.read(first as u32, count as u32, words, self.limit)?;
+            assembly.take(first, words).map_err(|fault| self.link.distrust(Opcode::Read, fault))?;
         }
         self.tell(Stage::Read, records, records)?;
         self.watch.ended(Stage::Read);
@@ -246,9 +213,7 @@ impl<'j> Job<'j> {
     /// The canonical triangles and the hull.
     fn assemble(&mut self, assembly: Assembly<'_>) -> Result<(Vec<[u32; 3]>, Vec<u32>), Error> {
         self.tell(Stage::Assemble, 0, self.points.len())?;
-        let finished = assembly
-            .finish()
-            .map_err(|fault| self.link.distrust(Opcode::Read, fault))?;
+        let finished = assembly.finish().map_err(|fault| self.link.distrust(Opcode::Read, fault))?;
         self.watch.ended(Stage::Assemble);
         Ok(finished)
     }
@@ -260,11 +225,7 @@ impl<'j> Job<'j> {
         };
         let progress = Progress { stage, done, total };
         if listener(progress).is_break() {
-            return Err(Error::Cancelled {
-                stage: stage.name(),
-                done,
-                total,
-            });
+            return Err(Error::Cancelled { stage: stage.name(), done, total });
         }
         Ok(())
     }
@@ -279,15 +240,8 @@ fn check_insert(report: &InsertReport, sent: u32) -> Result<(), DeviceFault> {
         ("points refused", report.refused, 0),
         ("records", report.records, 2 * sent - 2),
     ];
-    match counts
-        .into_iter()
-        .find(|(_, found, expected)| found != expected)
-    {
-        Some((what, found, expected)) => Err(DeviceFault::Count {
-            what,
-            found,
-            expected,
-        }),
+    match counts.into_iter().find(|(_, found, expected)| found != expected) {
+        Some((what, found, expected)) => Err(DeviceFault::Count { what, found, expected }),
         None => Ok(()),
     }
 }

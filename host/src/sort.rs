@@ -70,9 +70,7 @@ pub(crate) fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
         entries.sort_by_key(E::key);
         return;
     }
-    let (any, all) = entries.iter().fold((0, u64::MAX), |(any, all), e| {
-        (any | e.key(), all & e.key())
-    });
+    let (any, all) = entries.iter().fold((0, u64::MAX), |(any, all), e| (any | e.key(), all & e.key()));
     let varying = any & !all;
     let mut scratch = vec![E::default(); entries.len()];
     let mut shift = 0;

@@ -52,17 +52,8 @@ fn an_honest_device_passes() {
 #[test]
 fn lies_about_the_identity() {
     let hello = |place: usize, value: u32| fault(word(Opcode::Hello, 2 + place, move |_| value));
-    assert!(matches!(
-        hello(0, 0xdead_beef),
-        DeviceFault::Magic {
-            found: 0xdead_beef,
-            ..
-        }
-    ));
-    assert!(matches!(
-        hello(1, 2 << 16),
-        DeviceFault::ProtocolVersion { .. }
-    ));
+    assert!(matches!(hello(0, 0xdead_beef), DeviceFault::Magic { found: 0xdead_beef, .. }));
+    assert!(matches!(hello(1, 2 << 16), DeviceFault::ProtocolVersion { .. }));
     for bits in [0, 32, u32::MAX] {
         assert_eq!(hello(3, bits), DeviceFault::CoordBits(bits));
     }
@@ -81,44 +72,24 @@ fn a_larger_minor_version_is_welcome() {
 fn an_absurd_capacity_takes_no_memory() {
     // A device that claims a billion points speaks wide records; the model behind it does not, and that shows.
     let found = fault(word(Opcode::Hello, 2 + 4, |_| (1 << 30) - 1));
-    assert!(
-        matches!(found, DeviceFault::PayloadLength { .. }),
-        "{found}"
-    );
+    assert!(matches!(found, DeviceFault::PayloadLength { .. }), "{found}");
 }
 
 #[test]
 fn wrong_headers_and_lengths() {
     let header = |change: fn(u32) -> u32| fault(word(Opcode::Clear, 0, change));
-    assert!(matches!(
-        header(|h| h ^ 1 << 24),
-        DeviceFault::Header { opcode: 2, .. }
-    ));
+    assert!(matches!(header(|h| h ^ 1 << 24), DeviceFault::Header { opcode: 2, .. }));
     assert!(matches!(header(|h| h | 1), DeviceFault::Header { .. }));
-    assert!(matches!(
-        header(|h| h | 200 << 16),
-        DeviceFault::Header { .. }
-    ));
+    assert!(matches!(header(|h| h | 200 << 16), DeviceFault::Header { .. }));
     for length in [0, 1, 4, 6, u32::MAX] {
         let found = fault(word(Opcode::Insert, 1, move |_| length));
-        assert_eq!(
-            found,
-            DeviceFault::PayloadLength {
-                found: length,
-                expected: 5
-            }
-        );
+        assert_eq!(found, DeviceFault::PayloadLength { found: length, expected: 5 });
     }
 }
 
 #[test]
 fn every_failure_status_is_reported() {
-    for status in [
-        Status::UnknownOpcode,
-        Status::BadRange,
-        Status::Collinear,
-        Status::Full,
-    ] {
+    for status in [Status::UnknownOpcode, Status::BadRange, Status::Collinear, Status::Full] {
         let found = fault(move |opcode, answer| {
             if opcode == Opcode::Insert {
                 answer[0] = answer_header(opcode as u8, status);
@@ -140,44 +111,19 @@ fn wrong_counts() {
 
 #[test]
 fn wrong_records() {
-    let record =
-        |place: usize, change: fn(u32) -> u32| fault(word(Opcode::Read, 2 + 3 * 5 + place, change));
-    assert_eq!(
-        record(0, |w| w | 1 << 31),
-        DeviceFault::Locked { record: 5 }
-    );
+    let record = |place: usize, change: fn(u32) -> u32| fault(word(Opcode::Read, 2 + 3 * 5 + place, change));
+    assert_eq!(record(0, |w| w | 1 << 31), DeviceFault::Locked { record: 5 });
     type Change = fn(u32) -> u32;
-    let spare: [(usize, Change); 4] = [
-        (0, |w| w | 1 << 30),
-        (0, |w| w | 3 << 30),
-        (1, |w| w | 1 << 31),
-        (2, |w| w | 1 << 30),
-    ];
+    let spare: [(usize, Change); 4] =
+        [(0, |w| w | 1 << 30), (0, |w| w | 3 << 30), (1, |w| w | 1 << 31), (2, |w| w | 1 << 30)];
     for (place, change) in spare {
         let found = record(place, change);
-        assert!(
-            matches!(found, DeviceFault::SpareBits { record: 5, place: p, .. } if p == place),
-            "{found}"
-        );
+        assert!(matches!(found, DeviceFault::SpareBits { record: 5, place: p, .. } if p == place), "{found}");
     }
     let outside = record(1, |w| w & !0x7fff | 63);
-    assert!(matches!(
-        outside,
-        DeviceFault::VertexOutOfRange {
-            record: 5,
-            vertex: 63,
-            points: 40
-        }
-    ));
+    assert!(matches!(outside, DeviceFault::VertexOutOfRange { record: 5, vertex: 63, points: 40 }));
     let outside = record(1, |w| w & 0x7fff | 78 << 15);
-    assert!(matches!(
-        outside,
-        DeviceFault::NeighborOutOfRange {
-            record: 5,
-            neighbor: 78,
-            ..
-        }
-    ));
+    assert!(matches!(outside, DeviceFault::NeighborOutOfRange { record: 5, neighbor: 78, .. }));
 }
 
 /// Changes whole records; most such lies show only in the whole.
@@ -196,40 +142,22 @@ fn is_ghost(record: &[u32; 3]) -> bool {
 
 #[test]
 fn wrong_meshes() {
-    let finite = |records: &[[u32; 3]]| {
-        records
-            .iter()
-            .position(|r| !is_ghost(r))
-            .expect("a triangle")
-    };
+    let finite = |records: &[[u32; 3]]| records.iter().position(|r| !is_ghost(r)).expect("a triangle");
     let ghost = |records: &[[u32; 3]]| records.iter().position(is_ghost).expect("a ghost");
     let found = records(move |r| r[finite(r)].swap(0, 1));
     assert!(matches!(found, DeviceFault::Orientation { .. }), "{found}");
     let found = records(move |r| r[finite(r)][1] = r[finite(r)][0]);
-    assert!(
-        matches!(found, DeviceFault::RepeatedVertex { .. }),
-        "{found}"
-    );
+    assert!(matches!(found, DeviceFault::RepeatedVertex { .. }), "{found}");
     let found = records(move |r| r[ghost(r)] = r[finite(r)]);
     assert!(matches!(found, DeviceFault::OpenHull { .. }), "{found}");
     let found = records(move |r| r[finite(r)] = r[ghost(r)]);
     assert!(matches!(found, DeviceFault::OpenHull { .. }), "{found}");
     let found = records(|r| {
-        let triangle = r
-            .iter()
-            .copied()
-            .find(|record| !is_ghost(record))
-            .expect("a triangle");
-        r.iter_mut()
-            .filter(|record| !is_ghost(record))
-            .for_each(|record| *record = triangle);
+        let triangle = r.iter().copied().find(|record| !is_ghost(record)).expect("a triangle");
+        r.iter_mut().filter(|record| !is_ghost(record)).for_each(|record| *record = triangle);
     });
     assert!(matches!(found, DeviceFault::Area { .. }), "{found}");
-    let found = records(|r| {
-        r.iter_mut()
-            .filter(|record| is_ghost(record))
-            .for_each(|ghost| ghost.reverse())
-    });
+    let found = records(|r| r.iter_mut().filter(|record| is_ghost(record)).for_each(|ghost| ghost.reverse()));
     assert!(matches!(found, DeviceFault::Area { .. }), "{found}");
 }
 
@@ -268,13 +196,7 @@ fn a_well_formed_mesh_of_another_kind_is_left_to_the_validator() {
 
 #[test]
 fn short_answers_are_timeouts_and_the_session_ends() {
-    for opcode in [
-        Opcode::Hello,
-        Opcode::Clear,
-        Opcode::Insert,
-        Opcode::Read,
-        Opcode::Counters,
-    ] {
+    for opcode in [Opcode::Hello, Opcode::Clear, Opcode::Insert, Opcode::Read, Opcode::Counters] {
         let result = run(Liar::new(16, move |asked, answer| {
             if asked == opcode {
                 answer.pop();
@@ -300,13 +222,8 @@ fn a_slow_device_does_not_pass_its_deadline_unnoticed() {
     liar.silent_for = Duration::from_millis(30);
     let mut device = Device::from_transport(Box::new(liar));
     let mut session = device.session().expect("greeted");
-    let options = Options {
-        timeout: Some(Duration::from_millis(20)),
-        ..Options::default()
-    };
-    let error = session
-        .triangulate_with(&points(), &options)
-        .expect_err("too slow");
+    let options = Options { timeout: Some(Duration::from_millis(20)), ..Options::default() };
+    let error = session.triangulate_with(&points(), &options).expect_err("too slow");
     assert_eq!(error.kind(), ErrorKind::Timeout);
 }
 

@@ -27,14 +27,10 @@ fn random_points_at_every_width() {
 
 #[test]
 fn lattices_and_boxes_with_duplicates() {
-    let lattice: Vec<Point> = (0..2500)
-        .map(|k| Point::new(k / 50 * 3, k % 50 * 3))
-        .collect();
+    let lattice: Vec<Point> = (0..2500).map(|k| Point::new(k / 50 * 3, k % 50 * 3)).collect();
     assert_eq!(mesh_of(&lattice).triangles.len(), 2 * 49 * 49);
-    let rotated: Vec<Point> = (0..2500)
-        .map(|k| (k / 50, k % 50))
-        .map(|(i, j)| Point::new(200 + 3 * i - 2 * j, 2 * i + 3 * j))
-        .collect();
+    let rotated: Vec<Point> =
+        (0..2500).map(|k| (k / 50, k % 50)).map(|(i, j)| Point::new(200 + 3 * i - 2 * j, 2 * i + 3 * j)).collect();
     assert_eq!(mesh_of(&rotated).triangles.len(), 2 * 49 * 49);
     let mut random = Random(4);
     let heavy = mesh_of(&random.points(5000, 32));
@@ -58,9 +54,7 @@ fn circles_parabolas_and_chains() {
     assert!(mesh.report.distinct >= 100);
     let parabola: Vec<Point> = (0..250).map(|k| Point::new(k, k * k)).collect();
     assert_eq!(mesh_of(&parabola).triangles.len(), 248);
-    let chains: Vec<Point> = (0..400)
-        .map(|k| Point::new(k / 2 * 3, if k % 2 == 0 { 0 } else { 60_000 }))
-        .collect();
+    let chains: Vec<Point> = (0..400).map(|k| Point::new(k / 2 * 3, if k % 2 == 0 { 0 } else { 60_000 })).collect();
     assert_eq!(mesh_of(&chains).triangles.len(), 398);
 }
 
@@ -68,13 +62,8 @@ fn circles_parabolas_and_chains() {
 fn degenerate_inputs_are_answers() {
     assert_eq!(mesh_of(&[]).hull, []);
     assert_eq!(mesh_of(&[(7, 7).into()]).hull, [0]);
-    assert_eq!(
-        mesh_of(&[(7, 7).into(), (7, 7).into(), (1, 1).into()]).hull,
-        [2, 0]
-    );
-    let line: Vec<Point> = (0..100)
-        .map(|k| Point::new(k * 37 % 100 * 2, k * 37 % 100))
-        .collect();
+    assert_eq!(mesh_of(&[(7, 7).into(), (7, 7).into(), (1, 1).into()]).hull, [2, 0]);
+    let line: Vec<Point> = (0..100).map(|k| Point::new(k * 37 % 100 * 2, k * 37 % 100)).collect();
     let mesh = mesh_of(&line);
     assert!(mesh.is_collinear() && mesh.report.counters.is_none());
     assert_eq!(mesh.hull.len(), 100);
@@ -88,11 +77,7 @@ fn orders_chunks_and_input_order_do_not_change_the_mesh() {
     let mut session = device.session().expect("a session");
     for order in Order::ALL {
         for insert_chunk in [0, 3, 64, 100_000] {
-            let options = Options {
-                order,
-                insert_chunk,
-                ..Options::default()
-            };
+            let options = Options { order, insert_chunk, ..Options::default() };
             let mesh = session.triangulate_with(&points, &options).expect("a mesh");
             assert_eq!(mesh.triangles, expected.triangles);
             assert_eq!(mesh.hull, expected.hull);
@@ -128,22 +113,10 @@ fn capacity_is_exact() {
     assert!(session.triangulate(&points[..64]).is_ok());
     let error = session.triangulate(&points).expect_err("one too many");
     assert_eq!(error.kind(), ErrorKind::Capacity);
-    assert!(
-        matches!(
-            error,
-            Error::Capacity {
-                distinct: 65,
-                capacity: 64,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, Error::Capacity { distinct: 65, capacity: 64, .. }), "{error}");
     let mut doubled = points[..64].to_vec();
     doubled.extend(&points[..64]);
-    let mesh = session
-        .triangulate(&doubled)
-        .expect("duplicates take no room");
+    let mesh = session.triangulate(&doubled).expect("duplicates take no room");
     assert_right(&mesh);
 }
 
@@ -151,28 +124,11 @@ fn capacity_is_exact() {
 fn coordinates_beyond_the_device_are_named() {
     let mut device = Device::open("model?coord-bits=8").expect("the model");
     let mut session = device.session().expect("a session");
-    let error = session
-        .triangulate(&[(0, 0), (255, 255), (3, 256)])
-        .expect_err("too wide");
-    assert!(matches!(
-        error,
-        Error::CoordinateOutOfRange {
-            index: 2,
-            y: 256,
-            coord_bits: 8,
-            ..
-        }
-    ));
+    let error = session.triangulate(&[(0, 0), (255, 255), (3, 256)]).expect_err("too wide");
+    assert!(matches!(error, Error::CoordinateOutOfRange { index: 2, y: 256, coord_bits: 8, .. }));
     assert_eq!(error.kind(), ErrorKind::BadInput);
     let wide = triangulate(&[(0, 0), (u32::MAX, 0), (0, 1)]).expect_err("beyond 31 bits");
-    assert!(matches!(
-        wide,
-        Error::CoordinateOutOfRange {
-            index: 1,
-            coord_bits: 31,
-            ..
-        }
-    ));
+    assert!(matches!(wide, Error::CoordinateOutOfRange { index: 1, coord_bits: 31, .. }));
 }
 
 #[test]
@@ -185,11 +141,7 @@ fn progress_covers_all_stages_and_cancels_anywhere() {
         calls.borrow_mut().push(progress);
         ControlFlow::Continue(())
     };
-    let options = Options {
-        progress: Some(&listen),
-        insert_chunk: 500,
-        ..Options::default()
-    };
+    let options = Options { progress: Some(&listen), insert_chunk: 500, ..Options::default() };
     let expected = session.triangulate_with(&points, &options).expect("a mesh");
     let calls = calls.into_inner();
     for stage in [Stage::Order, Stage::Insert, Stage::Read, Stage::Assemble] {
@@ -202,19 +154,11 @@ fn progress_covers_all_stages_and_cancels_anywhere() {
             0 => ControlFlow::Break(()),
             _ => ControlFlow::Continue(()),
         };
-        let options = Options {
-            progress: Some(&listen),
-            insert_chunk: 500,
-            ..Options::default()
-        };
-        let error = session
-            .triangulate_with(&points, &options)
-            .expect_err("cancelled");
+        let options = Options { progress: Some(&listen), insert_chunk: 500, ..Options::default() };
+        let error = session.triangulate_with(&points, &options).expect_err("cancelled");
         assert_eq!(error.kind(), ErrorKind::Cancelled);
     }
-    let again = session
-        .triangulate(&points)
-        .expect("the session is still good");
+    let again = session.triangulate(&points).expect("the session is still good");
     assert_eq!(again.triangles, expected.triangles);
 }
 
@@ -223,17 +167,10 @@ fn a_passed_deadline_is_a_timeout() {
     let points = Random(9).points(5000, 1 << 16);
     let mut device = Device::open("model").expect("the model");
     let mut session = device.session().expect("a session");
-    let options = Options {
-        timeout: Some(Duration::from_nanos(1)),
-        ..Options::default()
-    };
-    let error = session
-        .triangulate_with(&points, &options)
-        .expect_err("too late");
+    let options = Options { timeout: Some(Duration::from_nanos(1)), ..Options::default() };
+    let error = session.triangulate_with(&points, &options).expect_err("too late");
     assert_eq!(error.kind(), ErrorKind::Timeout);
-    let error = session
-        .triangulate(&points)
-        .expect_err("the link is out of step");
+    let error = session.triangulate(&points).expect_err("the link is out of step");
     assert!(matches!(error, Error::OutOfStep { .. }), "{error}");
 }
 
@@ -248,10 +185,7 @@ fn pairs_arrays_and_vectors_are_points() {
     assert_eq!(triangulate(&arrays).expect("arrays").triangles, expected);
     let mut device = Device::open("model").expect("the model");
     let mut session = device.session().expect("a session");
-    assert_eq!(
-        session.triangulate(&vectors).expect("vectors").triangles,
-        expected
-    );
+    assert_eq!(session.triangulate(&vectors).expect("vectors").triangles, expected);
 }
 
 #[test]

@@ -9,10 +9,7 @@ use incircle::{triangulate, verify, Point};
 fn every_subset_of_a_three_by_four_grid() {
     let grid: Vec<Point> = (0..12).map(|k| Point::new(k / 4, k % 4)).collect();
     for subset in 0u32..1 << 12 {
-        let points: Vec<Point> = (0..12)
-            .filter(|k| subset >> k & 1 == 1)
-            .map(|k| grid[k as usize * 5 % 12])
-            .collect();
+        let points: Vec<Point> = (0..12).filter(|k| subset >> k & 1 == 1).map(|k| grid[k as usize * 5 % 12]).collect();
         let mesh = triangulate(&points).expect("a mesh");
         assert_eq!(mesh.triangles, brute_force(&points), "{points:?}");
         assert_right(&mesh);
@@ -93,11 +90,7 @@ fn the_validator_accepts_the_canonical_list_and_no_other() {
                 spoil(&mut spoilt, points.len() as u32, &mut random);
             }
         }
-        assert_eq!(
-            verify(&points, &spoilt).is_ok(),
-            spoilt == expected,
-            "{points:?} {spoilt:?}"
-        );
+        assert_eq!(verify(&points, &spoilt).is_ok(), spoilt == expected, "{points:?} {spoilt:?}");
         refused += usize::from(spoilt != expected);
     }
     assert!(refused > 15_000, "{refused}");

@@ -14,33 +14,13 @@ pub struct Config {
 }
 
 /// For tests and drawings: a wave fits a page, and boundary lists overflow often.
-pub const TINY: Config = Config {
-    name: "tiny",
-    points: 8,
-    ring: 6,
-    contexts: 1,
-};
+pub const TINY: Config = Config { name: "tiny", points: 8, ring: 6, contexts: 1 };
 /// For a small board.
-pub const SMALL: Config = Config {
-    name: "small",
-    points: 1024,
-    ring: 32,
-    contexts: 1,
-};
+pub const SMALL: Config = Config { name: "small", points: 1024, ring: 32, contexts: 1 };
 /// For an ECP5-85F.
-pub const FULL: Config = Config {
-    name: "full",
-    points: 8192,
-    ring: 32,
-    contexts: 1,
-};
+pub const FULL: Config = Config { name: "full", points: 8192, ring: 32, contexts: 1 };
 /// The largest that ids of 15 bits allow; for simulation.
-pub const LARGE: Config = Config {
-    name: "large",
-    points: 16384,
-    ring: 32,
-    contexts: 1,
-};
+pub const LARGE: Config = Config { name: "large", points: 16384, ring: 32, contexts: 1 };
 /// All named configurations, smallest first.
 pub const NAMED: [Config; 4] = [TINY, SMALL, FULL, LARGE];
 

@@ -73,24 +73,12 @@ pub struct InsertReport {
 impl InsertReport {
     /// As words on the link.
     pub const fn to_words(self) -> [u32; INSERT_REPORT_WORDS] {
-        [
-            self.arrived,
-            self.inserted,
-            self.duplicates,
-            self.refused,
-            self.records,
-        ]
+        [self.arrived, self.inserted, self.duplicates, self.refused, self.records]
     }
 
     /// From words on the link; nothing is checked.
     pub const fn from_words(words: [u32; INSERT_REPORT_WORDS]) -> Self {
-        Self {
-            arrived: words[0],
-            inserted: words[1],
-            duplicates: words[2],
-            refused: words[3],
-            records: words[4],
-        }
+        Self { arrived: words[0], inserted: words[1], duplicates: words[2], refused: words[3], records: words[4] }
     }
 }
 
@@ -110,12 +98,9 @@ pub const NARROW_ID_BITS: u32 = 15;
 impl Layout {
     /// The layout of an implementation with these coordinate bits and this capacity.
     pub const fn of(coord_bits: u32, capacity: u32) -> Self {
-        let narrow = crate::triangle_id_bits(capacity) <= NARROW_ID_BITS
-            && crate::vertex_id_bits(capacity) <= NARROW_ID_BITS;
-        Self {
-            point_words: if coord_bits <= 16 { 1 } else { 2 },
-            record_words: if narrow { 3 } else { 6 },
-        }
+        let narrow =
+            crate::triangle_id_bits(capacity) <= NARROW_ID_BITS && crate::vertex_id_bits(capacity) <= NARROW_ID_BITS;
+        Self { point_words: if coord_bits <= 16 { 1 } else { 2 }, record_words: if narrow { 3 } else { 6 } }
     }
 
     /// A point as words; the second counts only where `point_words` is 2.
@@ -132,19 +117,10 @@ impl Layout {
     pub fn record_from_words(self, words: &[u32]) -> ([u32; 3], [u32; 3]) {
         if self.record_words == 3 {
             let mask = (1 << NARROW_ID_BITS) - 1;
-            let column = |shift: u32| {
-                [
-                    words[0] >> shift & mask,
-                    words[1] >> shift & mask,
-                    words[2] >> shift & mask,
-                ]
-            };
+            let column = |shift: u32| [words[0] >> shift & mask, words[1] >> shift & mask, words[2] >> shift & mask];
             (column(0), column(NARROW_ID_BITS))
         } else {
-            (
-                [words[0], words[1], words[2]],
-                [words[3], words[4], words[5]],
-            )
+            ([words[0], words[1], words[2]], [words[3], words[4], words[5]])
         }
     }
 

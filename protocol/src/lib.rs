@@ -13,17 +13,12 @@ mod counters;
 mod layout;
 mod status;
 
-pub use command::{
-    answer_header, answer_opcode, answer_status, command_opcode, command_word, Opcode,
-};
+pub use command::{answer_header, answer_opcode, answer_status, command_opcode, command_word, Opcode};
 pub use config::{
-    Config, ConfigError, FULL, LARGE, MAX_MODEL_POINTS, MAX_POINTS, MAX_RING, MIN_POINTS, MIN_RING,
-    NAMED, SMALL, TINY,
+    Config, ConfigError, FULL, LARGE, MAX_MODEL_POINTS, MAX_POINTS, MAX_RING, MIN_POINTS, MIN_RING, NAMED, SMALL, TINY,
 };
 pub use counters::{Counter, COUNTER_WORDS};
-pub use layout::{
-    Identity, InsertReport, Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS,
-};
+pub use layout::{Identity, InsertReport, Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS};
 pub use status::Status;
 
 /// First word of the identity: the letters `inCi`.

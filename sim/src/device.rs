@@ -45,16 +45,15 @@ impl SimDevice {
     /// # Errors
     /// It is not one of [`incircle_protocol::NAMED`]: others were not translated when this crate was built.
     pub fn new(config: Config) -> Result<Self, SimError> {
-        let description = NAMED
-            .contains(&config)
-            .then(|| models::find(&format!("{CORE}{}", config.name)))
-            .flatten()
-            .ok_or_else(|| SimError::NotBuilt {
-                name: config.name,
-                points: config.points,
-                ring: config.ring,
-                built: built().join(", "),
-            })?;
+        let description =
+            NAMED.contains(&config).then(|| models::find(&format!("{CORE}{}", config.name))).flatten().ok_or_else(
+                || SimError::NotBuilt {
+                    name: config.name,
+                    points: config.points,
+                    ring: config.ring,
+                    built: built().join(", "),
+                },
+            )?;
         Self::of(description)
     }
 
@@ -78,14 +77,7 @@ impl SimDevice {
         model.set(reset, 0);
         model.set(response_ready, 1);
         model.eval();
-        Ok(Self {
-            model,
-            ports,
-            answers: VecDeque::new(),
-            offered: None,
-            left: None,
-            clocks: u64::from(RESET_CLOCKS),
-        })
+        Ok(Self { model, ports, answers: VecDeque::new(), offered: None, left: None, clocks: u64::from(RESET_CLOCKS) })
     }
 
     /// Hands all `words` to the core, within `max_clocks` clocks.
@@ -158,8 +150,7 @@ impl SimDevice {
         }
         self.offered = command;
         let data = command.unwrap_or(0);
-        self.model
-            .set(self.ports.command_valid, u64::from(command.is_some()));
+        self.model.set(self.ports.command_valid, u64::from(command.is_some()));
         self.model.set(self.ports.command_data, u64::from(data));
         // Outputs may depend on inputs of the same clock.
         self.model.eval();
@@ -190,13 +181,7 @@ impl SimDevice {
     }
 
     fn timeout(&self, awaited: Awaited, done: usize, wanted: usize, start: u64) -> SimError {
-        SimError::Timeout {
-            awaited,
-            done,
-            wanted,
-            clocks: self.clocks - start,
-            total: self.clocks,
-        }
+        SimError::Timeout { awaited, done, wanted, clocks: self.clocks - start, total: self.clocks }
     }
 }
 

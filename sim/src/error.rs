@@ -25,7 +25,9 @@ impl std::fmt::Display for Awaited {
 #[non_exhaustive]
 pub enum SimError {
     /// Not one of the configurations this program was built with.
-    #[error("there is no simulated core {name:?} of {points} points with {ring} boundary edges: choose one of {built}")]
+    #[error(
+        "there is no simulated core {name:?} of {points} points with {ring} boundary edges: choose one of {built}"
+    )]
     NotBuilt {
         /// Name asked for.
         name: &'static str,

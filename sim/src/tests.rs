@@ -1,8 +1,7 @@
 //! The two streams against a device that echoes, and the first words of every core.
 
 use incircle_protocol::{
-    answer_header, command_word, Config, Identity, Opcode, Status, CORE_COORD_BITS, IDENTITY_WORDS,
-    MAGIC, NAMED, SMALL,
+    answer_header, command_word, Config, Identity, Opcode, Status, CORE_COORD_BITS, IDENTITY_WORDS, MAGIC, NAMED, SMALL,
 };
 
 use crate::{models, Awaited, SimDevice, SimError};
@@ -31,10 +30,7 @@ fn equal_words_in_a_row_are_as_many_words() {
     device.receive(&mut answers, 100).unwrap();
     assert_eq!(answers, [8; 8]);
     let error = device.receive(&mut [0], 50).unwrap_err();
-    assert!(
-        matches!(error, SimError::Timeout { done: 0, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, SimError::Timeout { done: 0, .. }), "{error}");
 }
 
 #[test]
@@ -51,20 +47,10 @@ fn a_deaf_device_is_a_timeout_with_its_figures() {
     let mut device = echo();
     let before = device.clocks();
     let error = device.send(&[1, u32::MAX, 2, 3], 500).unwrap_err();
-    let expected = SimError::Timeout {
-        awaited: Awaited::CommandWords,
-        done: 2,
-        wanted: 4,
-        clocks: 500,
-        total: before + 500,
-    };
+    let expected =
+        SimError::Timeout { awaited: Awaited::CommandWords, done: 2, wanted: 4, clocks: 500, total: before + 500 };
     assert_eq!(error, expected);
-    assert!(
-        error
-            .to_string()
-            .contains("took 2 of 4 words in 500 clocks"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("took 2 of 4 words in 500 clocks"), "{error}");
 }
 
 #[test]
@@ -115,16 +101,7 @@ fn a_missing_answer_is_a_timeout_that_loses_nothing() {
     let mut answers = [0; 3];
     let error = device.receive(&mut answers, 60).unwrap_err();
     assert!(
-        matches!(
-            error,
-            SimError::Timeout {
-                awaited: Awaited::AnswerWords,
-                done: 2,
-                wanted: 3,
-                clocks: 60,
-                ..
-            }
-        ),
+        matches!(error, SimError::Timeout { awaited: Awaited::AnswerWords, done: 2, wanted: 3, clocks: 60, .. }),
         "{error}"
     );
     assert_eq!(answers, [0; 3]);
@@ -155,10 +132,7 @@ fn a_waveform_is_written() {
     drop(device);
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::remove_dir_all(&folder).unwrap();
-    assert!(
-        text.contains("command_ready") && text.contains("#100\n"),
-        "{text}"
-    );
+    assert!(text.contains("command_ready") && text.contains("#100\n"), "{text}");
 }
 
 #[test]
@@ -166,9 +140,7 @@ fn every_named_configuration_says_who_it_is() {
     for config in NAMED {
         let mut device = SimDevice::new(config).unwrap();
         // A core clears its memories after reset, a triangle a clock.
-        device
-            .send(&[command_word(Opcode::Hello)], 100_000)
-            .unwrap();
+        device.send(&[command_word(Opcode::Hello)], 100_000).unwrap();
         let mut answer = [0; 2 + IDENTITY_WORDS];
         device.receive(&mut answer, 100).unwrap();
         let [header, length, identity @ ..] = answer;

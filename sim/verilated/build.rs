@@ -23,10 +23,7 @@ fn compile() -> Result<(), BuildError> {
     let tests = "tests/models.v";
     let adder = ModelSource::file("wide_adder", "wide_adder", tests)?;
     let counter = ModelSource::file("counter", "counter", tests)?;
-    Builder::new()
-        .model(adder)
-        .model(counter.trace(true).random_initial_state(true))
-        .compile();
+    Builder::new().model(adder).model(counter.trace(true).random_initial_state(true)).compile();
     // After the models: what they need stands behind them for the linker.
     build::compile_runtime(&Verilator::locate()?)
 }

@@ -45,22 +45,14 @@ fn triangulate(criterion: &mut Criterion) {
         let mut source = Uniform(1);
         bencher.iter_batched(
             || source.points(|[x, y]| spade::Point2::new(f64::from(x), f64::from(y))),
-            |points| {
-                spade::DelaunayTriangulation::<spade::Point2<f64>>::bulk_load(points)
-                    .expect("a mesh")
-            },
+            |points| spade::DelaunayTriangulation::<spade::Point2<f64>>::bulk_load(points).expect("a mesh"),
             BatchSize::LargeInput,
         );
     });
     group.bench_function("delaunator", |bencher| {
         let mut source = Uniform(1);
         bencher.iter_batched(
-            || {
-                source.points(|[x, y]| delaunator::Point {
-                    x: x.into(),
-                    y: y.into(),
-                })
-            },
+            || source.points(|[x, y]| delaunator::Point { x: x.into(), y: y.into() }),
             |points| delaunator::triangulate(&points),
             BatchSize::LargeInput,
         );

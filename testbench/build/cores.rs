@@ -6,11 +6,7 @@ use incircle_protocol::{Config, FULL, LARGE, SMALL, TINY};
 /// A core with a fault that lock-step must find: name, and a piece of the Verilog that is replaced.
 const FAULTS: [(&str, &str, &str); 3] = [
     // One comparison reversed: which of two sides is lower, in the walk.
-    (
-        "broken_comparison",
-        "= e1_below_e0 & (~e2_below_e1);",
-        "= (~e1_below_e0) & (~e2_below_e1);",
-    ),
+    ("broken_comparison", "= e1_below_e0 & (~e2_below_e1);", "= (~e1_below_e0) & (~e2_below_e1);"),
     // One link write dropped.
     (
         "broken_link",
@@ -29,11 +25,7 @@ const FAULTS: [(&str, &str, &str); 3] = [
 pub fn all() -> Vec<(&'static str, String)> {
     let ring9 = Config { ring: 9, ..SMALL };
     let ring64 = Config { ring: 64, ..SMALL };
-    let least = Config {
-        points: 4,
-        ring: 3,
-        ..SMALL
-    };
+    let least = Config { points: 4, ring: 3, ..SMALL };
     let mut cores = vec![
         ("core_least", core(least)),
         ("core_tiny", core(TINY)),
@@ -46,10 +38,7 @@ pub fn all() -> Vec<(&'static str, String)> {
     for (name, sound, broken) in FAULTS {
         let verilog = core(SMALL);
         let places = verilog.matches(sound).count();
-        assert_eq!(
-            places, 1,
-            "{name}: the Verilog holds {sound:?} {places} times, not once"
-        );
+        assert_eq!(places, 1, "{name}: the Verilog holds {sound:?} {places} times, not once");
         cores.push((name, verilog.replace(sound, broken)));
     }
     cores

@@ -6,16 +6,16 @@ mod stepper;
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::AnswerWords;
 use incircle_protocol::{
-    answer_header, Identity, InsertReport, Layout, Opcode, Status, CORE_COORD_BITS, CORE_VERSION,
-    COUNTER_WORDS, MAGIC, PROTOCOL_VERSION,
+    answer_header, Identity, InsertReport, Layout, Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS, MAGIC,
+    PROTOCOL_VERSION,
 };
 use stepper::{named_ports, Stepper};
 
 named_ports!(
     AnswerWords,
     [
-        opcode, first, count, capacity, ring, collinear, arrived, refused, insertions, duplicates,
-        records, index, counter
+        opcode, first, count, capacity, ring, collinear, arrived, refused, insertions, duplicates, records, index,
+        counter
     ],
     [header, length, word, is_read]
 );
@@ -27,14 +27,7 @@ fn percent(random: &mut SplitMix64, times: u64) -> bool {
 
 /// A word of 32 bits, from the corners as often as not.
 fn word(random: &mut SplitMix64) -> u32 {
-    [
-        0,
-        1,
-        u32::MAX,
-        1 << 31,
-        random.next_u64() as u32,
-        random.below(8) as u32,
-    ][random.below(6) as usize]
+    [0, 1, u32::MAX, 1 << 31, random.next_u64() as u32, random.below(8) as u32][random.below(6) as usize]
 }
 
 /// Status, payload length and payload of the answer; the payload of a read is open.
@@ -60,18 +53,10 @@ struct Asked {
 impl Asked {
     fn random(random: &mut SplitMix64) -> Self {
         let records = random.below(1 << 15) as u32;
-        let first = if percent(random, 50) {
-            word(random)
-        } else {
-            records / 2
-        };
+        let first = if percent(random, 50) { word(random) } else { records / 2 };
         let rest = records.wrapping_sub(first);
         Self {
-            opcode: if percent(random, 80) {
-                random.below(7) as u8
-            } else {
-                word(random) as u8
-            },
+            opcode: if percent(random, 80) { random.below(7) as u8 } else { word(random) as u8 },
             first,
             count: match random.below(3) {
                 0 => word(random),
@@ -97,9 +82,7 @@ impl Asked {
         let (status, length, payload) = match Opcode::from_u8(self.opcode) {
             None => (Status::UnknownOpcode, 0, Some(vec![])),
             Some(Opcode::Clear) => (Status::Ok, 0, Some(vec![])),
-            Some(Opcode::Read) if end > u64::from(self.report.records) => {
-                (Status::BadRange, 0, None)
-            }
+            Some(Opcode::Read) if end > u64::from(self.report.records) => (Status::BadRange, 0, None),
             Some(Opcode::Read) => {
                 let words = Layout::of(CORE_COORD_BITS, self.capacity).record_words as u32;
                 (Status::Ok, words * self.count, None)
@@ -131,12 +114,7 @@ impl Asked {
                 (status, 5, Some(self.report.to_words().to_vec()))
             }
         };
-        Answer {
-            opcode: self.opcode,
-            status,
-            length,
-            payload,
-        }
+        Answer { opcode: self.opcode, status, length, payload }
     }
 }
 

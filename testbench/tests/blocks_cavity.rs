@@ -33,16 +33,8 @@ const INPUTS: [&str; 12] = [
     "entry_pointer",
     "inner_pointer",
 ];
-const OUTPUTS: [&str; 8] = [
-    "split",
-    "split_bundle",
-    "overflows",
-    "nothing_is_out",
-    "count",
-    "inner_count",
-    "entry",
-    "inner_id",
-];
+const OUTPUTS: [&str; 8] =
+    ["split", "split_bundle", "overflows", "nothing_is_out", "count", "inner_count", "entry", "inner_id"];
 
 #[test]
 fn root_bundle_locks_the_root_and_tests_its_neighbours() {
@@ -241,17 +233,11 @@ impl Growth {
                 let root = values[7] as u64 & 0x7fff;
                 match step {
                     0 => self.out.push(None),
-                    1 => self
-                        .out
-                        .extend([Some([0, 1, 0, root]), Some([1, 2, 0, root])]),
+                    1 => self.out.extend([Some([0, 1, 0, root]), Some([1, 2, 0, root])]),
                     _ => self.out.push(Some([2, 0, 0, root])),
                 }
                 self.appetite = [20, 50, 60, 100][numbers.bits(2) as usize];
-                self.phase = if step == 2 {
-                    Phase::Cavity
-                } else {
-                    Phase::Root(step + 1)
-                };
+                self.phase = if step == 2 { Phase::Cavity } else { Phase::Root(step + 1) };
             }
             Phase::Cavity | Phase::Drain => {
                 if overflows {
@@ -278,28 +264,17 @@ fn cavity(name: &str, ring: u32, inners: usize) {
         let (growth, numbers) = &mut *growth.borrow_mut();
         growth.stimulus(cycle == 0, numbers)
     });
-    Cosimulation {
-        name,
-        rust: Cavity::new(Config { ring, ..TINY }),
-        inputs: &INPUTS,
-        outputs: &OUTPUTS,
-    }
-    .run(stimuli, |values| {
-        let (growth, numbers) = &mut *growth.borrow_mut();
-        growth.cycle(values, numbers)
-    });
+    Cosimulation { name, rust: Cavity::new(Config { ring, ..TINY }), inputs: &INPUTS, outputs: &OUTPUTS }.run(
+        stimuli,
+        |values| {
+            let (growth, numbers) = &mut *growth.borrow_mut();
+            growth.cycle(values, numbers)
+        },
+    );
     let growth = growth.into_inner().0;
-    let reached = [
-        growth.splits,
-        growth.overflows,
-        growth.finished,
-        growth.most_inners,
-    ];
+    let reached = [growth.splits, growth.overflows, growth.finished, growth.most_inners];
     assert!(
-        reached
-            .iter()
-            .zip([1000, 20, 20, inners])
-            .all(|(seen, least)| *seen >= least),
+        reached.iter().zip([1000, 20, 20, inners]).all(|(seen, least)| *seen >= least),
         "splits, overflows, finished cavities, inner triangles: {reached:?}"
     );
 }

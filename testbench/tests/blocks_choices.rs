@@ -10,58 +10,19 @@ use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
 use stepper::bundles::{turned, Edge, Visit};
 use stepper::{named_ports, Stepper};
 
-named_ports!(
-    StarId,
-    [
-        ahead,
-        ahead_is_first,
-        current,
-        first,
-        inner_id,
-        inner_is_used_up,
-        records
-    ],
-    [id, shares]
-);
-named_ports!(
-    SoloVisit,
-    [is_mend, is_second, is_fetch, root_id, root, id, outer, back],
-    [bundle]
-);
+named_ports!(StarId, [ahead, ahead_is_first, current, first, inner_id, inner_is_used_up, records], [id, shares]);
+named_ports!(SoloVisit, [is_mend, is_second, is_fetch, root_id, root, id, outer, back], [bundle]);
 named_ports!(
     PushChoice,
-    [
-        looks,
-        look_id,
-        opens,
-        root_bundle,
-        split,
-        split_bundle,
-        solo_push,
-        solo_bundle
-    ],
+    [looks, look_id, opens, root_bundle, split, split_bundle, solo_push, solo_bundle],
     [push, bundle]
 );
 named_ports!(
     CommandGate,
-    [
-        is_command,
-        is_argument,
-        is_points,
-        sweeps,
-        none_is_left,
-        point_waits,
-        arrived,
-        seeded,
-        collinear
-    ],
+    [is_command, is_argument, is_points, sweeps, none_is_left, point_waits, arrived, seeded, collinear],
     [ready, awaits_point]
 );
-named_ports!(
-    RecordWords,
-    [v0, v1, v2, n0, n1, n2, was_set],
-    [word0, word1, word2]
-);
+named_ports!(RecordWords, [v0, v1, v2, n0, n1, n2, was_set], [word0, word1, word2]);
 
 const ROUNDS: usize = 4000;
 
@@ -121,19 +82,10 @@ fn solo_visit_looks_where_each_state_must() {
         block.set("is_fetch", act == 1);
         block.set("is_second", is_second);
         block.set("root", turned([v; 3], [n0, n1, n2], 2, true, [true; 3]));
-        for (port, value) in [
-            ("root_id", root_id),
-            ("id", star),
-            ("outer", outer),
-            ("back", back),
-        ] {
+        for (port, value) in [("root_id", root_id), ("id", star), ("outer", outer), ("back", back)] {
             block.set(port, value);
         }
-        let from = |f, u| Visit {
-            rotates: true,
-            f,
-            ..Visit::look(u)
-        };
+        let from = |f, u| Visit { rotates: true, f, ..Visit::look(u) };
         let visit = match act {
             0 => from(root_id, if is_second { n2 } else { n1 }),
             1 => Visit::look(star),
@@ -149,14 +101,11 @@ fn push_choice_hands_on_the_one_that_asks() {
     let mut random = SplitMix64::new(22);
     let mut block = Stepper::new("push_choice", PushChoice::default(), 1);
     for _ in 0..ROUNDS {
-        let bundles = [(); 3]
-            .map(|()| (u128::from(random.next_u64()) << 64 | u128::from(random.next_u64())) >> 50);
+        let bundles = [(); 3].map(|()| (u128::from(random.next_u64()) << 64 | u128::from(random.next_u64())) >> 50);
         let look = id(&mut random);
         let asks = random.below(5);
-        for (code, (port, bundle)) in ["root_bundle", "split_bundle", "solo_bundle"]
-            .into_iter()
-            .zip(bundles)
-            .enumerate()
+        for (code, (port, bundle)) in
+            ["root_bundle", "split_bundle", "solo_bundle"].into_iter().zip(bundles).enumerate()
         {
             block.set(port, bundle);
             block.set(["opens", "split", "solo_push"][code], asks == code as u64);
@@ -179,14 +128,8 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
     let mut block = Stepper::new("command_gate", CommandGate::default(), 1);
     for _ in 0..ROUNDS {
         let meaning = random.below(4);
-        let [sweeps, none_is_left, point_waits, seeded, collinear] =
-            [(); 5].map(|()| flip(&mut random));
-        let arrived = [
-            3,
-            3 | (1 << random.below(15)),
-            random.below(6),
-            id(&mut random),
-        ][random.below(4) as usize];
+        let [sweeps, none_is_left, point_waits, seeded, collinear] = [(); 5].map(|()| flip(&mut random));
+        let arrived = [3, 3 | (1 << random.below(15)), random.below(6), id(&mut random)][random.below(4) as usize];
         for (port, value) in [
             ("is_command", meaning == 0),
             ("is_argument", meaning == 1),
@@ -219,14 +162,10 @@ fn record_words_are_those_of_the_protocol() {
     let mut block = Stepper::new("record_words", RecordWords::default(), 1);
     let layout = Layout::of(CORE_COORD_BITS, MAX_POINTS);
     for _ in 0..ROUNDS {
-        let columns =
-            [(); 6].map(|()| [0, 0x7fff, random.below(1 << 15)][random.below(3) as usize] as u32);
+        let columns = [(); 6].map(|()| [0, 0x7fff, random.below(1 << 15)][random.below(3) as usize] as u32);
         let [v0, v1, v2, n @ ..] = columns;
         let lock = flip(&mut random);
-        for (port, value) in ["v0", "v1", "v2", "n0", "n1", "n2"]
-            .into_iter()
-            .zip(columns)
-        {
+        for (port, value) in ["v0", "v1", "v2", "n0", "n1", "n2"].into_iter().zip(columns) {
             block.set(port, value);
         }
         block.set("was_set", lock);

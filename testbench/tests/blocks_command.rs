@@ -56,11 +56,7 @@ fn command(random: &mut SplitMix64) -> Vec<u32> {
         1 | 2 => vec![command_word(Opcode::Clear)],
         3 => vec![command_word(Opcode::Counters)],
         4 => vec![(random.below(256) as u32 | 8) << 24],
-        5 | 6 => vec![
-            command_word(Opcode::Read),
-            random.next_u64() as u32,
-            random.next_u64() as u32,
-        ],
+        5 | 6 => vec![command_word(Opcode::Read), random.next_u64() as u32, random.next_u64() as u32],
         _ => {
             let points = random.below(10) as u32;
             let mut words = vec![command_word(Opcode::Insert), points];
@@ -116,10 +112,7 @@ impl Rig {
         self.block.edge();
         self.block.set("reset", false);
         self.reference = Reference::new();
-        self.around = Surroundings {
-            sweeping: self.random.below(20),
-            ..Surroundings::default()
-        };
+        self.around = Surroundings { sweeping: self.random.below(20), ..Surroundings::default() };
         self.words.clear();
         self.is_offered = false;
     }
@@ -138,11 +131,7 @@ impl Rig {
         let can_take = self.reference.waiting.is_some() && self.around.busy == 0;
         let takes_point = can_take && self.random.below(100) < pace.max(20);
         self.around.answer_is_taken = self.random.below(100) < pace;
-        let data = if self.is_offered {
-            self.words[0]
-        } else {
-            self.random.next_u64() as u32
-        };
+        let data = if self.is_offered { self.words[0] } else { self.random.next_u64() as u32 };
         self.set_pins(pins, takes_point, data);
         let ready = self.reference.is_ready(&self.around);
         self.block.expect("command_ready", ready);
@@ -159,17 +148,12 @@ impl Rig {
             answers: self.reference.answers,
         };
         self.block.edge();
-        let word = if ready && self.is_offered {
-            self.words.pop_front()
-        } else {
-            None
-        };
+        let word = if ready && self.is_offered { self.words.pop_front() } else { None };
         self.is_offered &= word.is_none();
         let refused = self.reference.refused;
         let around = self.around;
         self.live(takes_point);
-        self.reference
-            .edge(word, takes_point, pins, &around, self.capacity);
+        self.reference.edge(word, takes_point, pins, &around, self.capacity);
         self.refused += u32::from(self.reference.refused > refused);
     }
 
@@ -201,17 +185,11 @@ impl Rig {
             ("answers", reference.answers),
             ("inserting", reference.inserting),
             ("reading", reference.reading),
-            (
-                "awaits_point",
-                reference.wants.front() == Some(&Meaning::Point),
-            ),
+            ("awaits_point", reference.wants.front() == Some(&Meaning::Point)),
         ] {
             block.expect(port, expected);
         }
-        let (id, point) = (
-            reference.waiting.map(|point| point.0),
-            reference.waiting.map(|point| point.1),
-        );
+        let (id, point) = (reference.waiting.map(|point| point.0), reference.waiting.map(|point| point.1));
         for (port, expected) in [
             ("point_id", id),
             ("point", point),
@@ -296,9 +274,7 @@ fn command_port_shows_the_wave_of_its_header() {
         rig.around.busy = rig.around.busy.min(1);
         rig.around.answering = rig.around.answering.min(2);
         let shown = rig.shown;
-        let waiting = shown
-            .waiting
-            .map_or(Cell::Open, |(id, _)| Cell::Number(id.into()));
+        let waiting = shown.waiting.map_or(Cell::Open, |(id, _)| Cell::Number(id.into()));
         wave.take(&[
             ("sweeps", Cell::Bit(sweeps)),
             ("command_valid", Cell::Bit(offers)),

@@ -58,9 +58,7 @@ impl Ring {
         }
         Self {
             entries,
-            inner: (0..random.below(9))
-                .map(|_| random.below(1 << 15))
-                .collect(),
+            inner: (0..random.below(9)).map(|_| random.below(1 << 15)).collect(),
             p: random.below(1 << 15),
             records: random.below((1 << 15) - 64),
         }
@@ -114,17 +112,10 @@ impl Ring {
                 ends: false,
             });
             if ids[place].0 != edge.f {
-                acts.push(Act {
-                    makes: Some(link_write(edge.u, edge.slot, ids[place].0)),
-                    ..Act::default()
-                });
+                acts.push(Act { makes: Some(link_write(edge.u, edge.slot, ids[place].0)), ..Act::default() });
             }
         }
-        acts.push(Act {
-            ends: true,
-            takes_fresh: false,
-            makes: Some(record(0)),
-        });
+        acts.push(Act { ends: true, takes_fresh: false, makes: Some(record(0)) });
         acts
     }
 }
@@ -140,12 +131,8 @@ struct CommitRig {
 
 impl CommitRig {
     fn new() -> Self {
-        let mut rig = Self {
-            block: Stepper::new("commit", Commit::default(), 1),
-            made: None,
-            records: 0,
-            is_under_way: false,
-        };
+        let mut rig =
+            Self { block: Stepper::new("commit", Commit::default(), 1), made: None, records: 0, is_under_way: false };
         rig.reset();
         rig
     }
@@ -172,10 +159,7 @@ impl CommitRig {
         let entry = block.get("entry_pointer") as usize;
         let inner_bits = if self.is_under_way { 0x3f } else { 0 };
         let inner = block.get_masked("inner_pointer", inner_bits) as usize;
-        block.set(
-            "entry",
-            ring.entries.get(entry).map_or(0, |edge| edge.entry()),
-        );
+        block.set("entry", ring.entries.get(entry).map_or(0, |edge| edge.entry()));
         block.set("inner_id", ring.inner.get(inner).copied().unwrap_or(0));
         block.settle();
         block.expect("ends", act.ends);
@@ -216,10 +200,7 @@ fn commit_writes_the_star_of_any_ring() {
         let ring = Ring::random(edges, &mut random);
         let acts = ring.acts();
         let links = acts.len() - edges - 3;
-        assert_eq!(
-            acts.iter().filter(|act| act.makes.is_some()).count(),
-            edges + links
-        );
+        assert_eq!(acts.iter().filter(|act| act.makes.is_some()).count(), edges + links);
         longest = longest.max(acts.len());
         if random.below(6) == 0 {
             rig.commit(&ring, random.below(acts.len() as u64) as usize);
@@ -241,20 +222,9 @@ fn commit_writes_the_star_of_any_ring() {
 /// The cavity of two triangles 0 and 1 becomes the star of four: two old ids, two new ones.
 #[test]
 fn commit_shows_the_wave_of_its_header() {
-    let edge = |a, u, f, after| Edge {
-        a,
-        u,
-        slot: 1,
-        f,
-        after,
-    };
+    let edge = |a, u, f, after| Edge { a, u, slot: 1, f, after };
     let ring = Ring {
-        entries: vec![
-            edge(1, 5, 0, 1),
-            edge(2, 6, 1, 2),
-            edge(3, 7, 1, 3),
-            edge(4, 8, 0, 0),
-        ],
+        entries: vec![edge(1, 5, 0, 1), edge(2, 6, 1, 2), edge(3, 7, 1, 3), edge(4, 8, 0, 0)],
         inner: vec![],
         p: 9,
         records: 10,
@@ -273,10 +243,7 @@ fn commit_shows_the_wave_of_its_header() {
             ("takes_fresh", Cell::Bit(act.takes_fresh)),
             ("ends", Cell::Bit(act.ends)),
             ("write.valid", Cell::Bit(write.is_some())),
-            (
-                "write.vertices",
-                Cell::Bit(write.is_some_and(|write| write >> 16 & 1 == 1)),
-            ),
+            ("write.vertices", Cell::Bit(write.is_some_and(|write| write >> 16 & 1 == 1))),
             ("write.id", write.map_or(Cell::Open, id)),
         ]);
     }

@@ -69,10 +69,7 @@ fn play(block: &mut Stepper<Context>, row: &Row, noise: &mut Author) {
         ("point_id", noise.id().into()),
         ("point", noise.random.below(1 << 32).into()),
         ("token", noise.visit().token()),
-        (
-            "turned",
-            turned([noise.id(); 3], [noise.id(); 3], 3, true, [true; 3]),
-        ),
+        ("turned", turned([noise.id(); 3], [noise.id(); 3], 3, true, [true; 3])),
         ("verdict", noise.finding().verdict()),
         ("split_bundle", noise.bundle()),
         ("solo_bundle", noise.bundle()),
@@ -106,17 +103,9 @@ fn context_follows_every_story() {
     let mut seen = std::collections::BTreeMap::new();
     while block.clocks() < 12_000 {
         let is_broken = author.random.below(25) == 0;
-        let rows = if is_broken {
-            author.broken_story()
-        } else {
-            author.story()
-        };
+        let rows = if is_broken { author.broken_story() } else { author.story() };
         for row in &rows {
-            for (name, value) in row
-                .outputs
-                .iter()
-                .filter(|(name, _)| PHASES.contains(name) || EVENTS.contains(name))
-            {
+            for (name, value) in row.outputs.iter().filter(|(name, _)| PHASES.contains(name) || EVENTS.contains(name)) {
                 *seen.entry(*name).or_insert(0) += *value;
             }
             play(&mut block, row, &mut noise);

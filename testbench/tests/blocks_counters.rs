@@ -114,11 +114,7 @@ fn the_high_word_follows_a_clock_after_the_low_one() {
         }
         block.edge();
         wraps += u32::from(count && sum & 0xff == 0xff);
-        (sum_before, sum) = if zero {
-            (0, 0)
-        } else {
-            (sum, sum + u64::from(count))
-        };
+        (sum_before, sum) = if zero { (0, 0) } else { (sum, sum + u64::from(count)) };
     }
     assert!(wraps > 3, "{wraps}");
 }

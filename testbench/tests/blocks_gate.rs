@@ -12,11 +12,5 @@ fn every_block_passes_lint_and_synthesis() {
         .filter_map(|(name, verilog)| gate::pass(verilog, name).err())
         .map(|error| error.to_string())
         .collect();
-    assert!(
-        failures.is_empty(),
-        "{} of {} blocks fail:\n{}",
-        failures.len(),
-        blocks.len(),
-        failures.join("\n")
-    );
+    assert!(failures.is_empty(), "{} of {} blocks fail:\n{}", failures.len(), blocks.len(), failures.join("\n"));
 }

@@ -7,9 +7,7 @@ mod cosimulation;
 use std::collections::VecDeque;
 
 use cosimulation::{named_ports, Cosimulation, Delay, Expected, NamedPorts, Numbers};
-use incircle_hdl::leaf::{
-    BlockMemory, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier,
-};
+use incircle_hdl::leaf::{BlockMemory, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier};
 use incircle_testbench::gate::{cell_count, Cells};
 use rust_hdl_core::prelude::*;
 
@@ -26,21 +24,13 @@ named_ports!([const A: usize, const D: usize] Fifo<A, D>,
     [reset, push, push_data, pop], [valid, data], clock);
 
 const CYCLES: usize = 20_000;
-const MEMORY_PORTS: [&str; 4] = [
-    "write_address",
-    "write_data",
-    "write_enable",
-    "read_address",
-];
+const MEMORY_PORTS: [&str; 4] = ["write_address", "write_data", "write_enable", "read_address"];
 const LOCK_PORTS: [&str; 4] = ["test_address", "test_set", "clear_address", "clear_enable"];
 
 /// What the exported block of this name takes in an ECP5, with these lines before its Verilog.
 fn cells_with(defines: &str, name: &str) -> Cells {
     let blocks = incircle_hdl::export::blocks();
-    let (_, verilog) = blocks
-        .iter()
-        .find(|block| block.0 == name)
-        .expect("a block of this name");
+    let (_, verilog) = blocks.iter().find(|block| block.0 == name).expect("a block of this name");
     cell_count(&format!("{defines}{verilog}"), name).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -67,22 +57,16 @@ fn signed(value: u64, bits: u32) -> i64 {
 fn multiplier_multiplies_in_three_clocks() {
     let corners = [0, 1, 0x1_ffff, 0x2_0000, 0x2_0001, 0x3_ffff];
     let mut numbers = Numbers::new(1);
-    let mut stimuli: Vec<_> = corners
-        .iter()
-        .flat_map(|a| corners.iter().map(|b| vec![*a, *b]))
-        .collect();
+    let mut stimuli: Vec<_> = corners.iter().flat_map(|a| corners.iter().map(|b| vec![*a, *b])).collect();
     stimuli.extend((0..CYCLES).map(|_| vec![numbers.bits(18), numbers.bits(18)]));
     let mut delay = Delay::new(Multiplier::LATENCY);
-    Cosimulation {
-        name: "multiplier",
-        rust: Multiplier::default(),
-        inputs: &["a", "b"],
-        outputs: &["product"],
-    }
-    .run(stimuli, |values| {
-        let product = signed(values[0], 18) * signed(values[1], 18);
-        vec![delay.pass(u128::from(product as u64 & 0xf_ffff_ffff))]
-    });
+    Cosimulation { name: "multiplier", rust: Multiplier::default(), inputs: &["a", "b"], outputs: &["product"] }.run(
+        stimuli,
+        |values| {
+            let product = signed(values[0], 18) * signed(values[1], 18);
+            vec![delay.pass(u128::from(product as u64 & 0xf_ffff_ffff))]
+        },
+    );
 }
 
 /// Random reads and writes; a read never meets a write of the same word.
@@ -115,11 +99,7 @@ fn memory_reference(address_bits: usize, stored_bits: usize) -> impl FnMut(&[u64
     }
 }
 
-fn block_memory<const A: usize, const D: usize>(
-    name: &str,
-    address_bits: usize,
-    stored_bits: usize,
-) {
+fn block_memory<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
     let mut reference = memory_reference(address_bits, stored_bits);
     let mut delay = Delay::new(BlockMemory::<A, D>::LATENCY);
     Cosimulation {
@@ -128,9 +108,7 @@ fn block_memory<const A: usize, const D: usize>(
         inputs: &MEMORY_PORTS,
         outputs: &["read_data"],
     }
-    .run(memory_stimuli(A, D, address_bits), |values| {
-        vec![delay.pass(reference(values)).flatten()]
-    });
+    .run(memory_stimuli(A, D, address_bits), |values| vec![delay.pass(reference(values)).flatten()]);
 }
 
 #[test]
@@ -147,12 +125,7 @@ fn block_memory_ignores_what_is_above_its_shape() {
 fn block_memory_poisons_a_read_that_meets_a_write() {
     let mut memory = BlockMemory::<8, 12>::new(8, 12);
     memory.connect_all();
-    let both = [
-        ("write_address", 7),
-        ("write_data", 0xfff),
-        ("write_enable", 1),
-        ("read_address", 7),
-    ];
+    let both = [("write_address", 7), ("write_data", 0xfff), ("write_enable", 1), ("read_address", 7)];
     edge(&mut memory, &both);
     edge(&mut memory, &[("write_enable", 0)]);
     assert_eq!(memory.get("read_data"), 0x555);
@@ -168,9 +141,7 @@ fn lut_memory<const A: usize, const D: usize>(name: &str, address_bits: usize, s
         inputs: &MEMORY_PORTS,
         outputs: &["read_data"],
     }
-    .run(memory_stimuli(A, D, address_bits), |values| {
-        vec![reference(values)]
-    });
+    .run(memory_stimuli(A, D, address_bits), |values| vec![reference(values)]);
 }
 
 #[test]
@@ -199,21 +170,18 @@ fn lock_memory<const A: usize>(name: &str, address_bits: usize) {
         .collect();
     let mut locks = vec![false; 1 << address_bits];
     let mut delay = Delay::new(LockMemory::<A>::LATENCY);
-    Cosimulation {
-        name,
-        rust: LockMemory::<A>::new(address_bits),
-        inputs: &LOCK_PORTS,
-        outputs: &["was_set"],
-    }
-    .run(stimuli, |values| {
-        let tested = (values[0] & last) as usize;
-        let was_set = delay.pass(locks[tested].into());
-        locks[tested] |= values[1] == 1;
-        if values[3] == 1 {
-            locks[(values[2] & last) as usize] = false;
-        }
-        vec![was_set]
-    });
+    Cosimulation { name, rust: LockMemory::<A>::new(address_bits), inputs: &LOCK_PORTS, outputs: &["was_set"] }.run(
+        stimuli,
+        |values| {
+            let tested = (values[0] & last) as usize;
+            let was_set = delay.pass(locks[tested].into());
+            locks[tested] |= values[1] == 1;
+            if values[3] == 1 {
+                locks[(values[2] & last) as usize] = false;
+            }
+            vec![was_set]
+        },
+    );
 }
 
 #[test]
@@ -231,12 +199,7 @@ fn lock_memory_ignores_high_address_bits() {
 fn lock_memory_refuses_to_set_and_clear_one_lock_at_once() {
     let mut locks = LockMemory::<8>::new(4);
     locks.connect_all();
-    let both = [
-        ("test_address", 5),
-        ("test_set", 1),
-        ("clear_address", 5),
-        ("clear_enable", 1),
-    ];
+    let both = [("test_address", 5), ("test_set", 1), ("clear_address", 5), ("clear_enable", 1)];
     edge(&mut locks, &both);
 }
 
@@ -244,13 +207,8 @@ fn delay_line<const D: usize>(name: &str, stages: usize) {
     let mut numbers = Numbers::new(5);
     let stimuli: Vec<_> = (0..CYCLES).map(|_| vec![numbers.bits(D as u32)]).collect();
     let mut delay = Delay::new(stages);
-    Cosimulation {
-        name,
-        rust: DelayLine::<D>::new(stages),
-        inputs: &["data_in"],
-        outputs: &["data_out"],
-    }
-    .run(stimuli, |values| vec![delay.pass(values[0].into())]);
+    Cosimulation { name, rust: DelayLine::<D>::new(stages), inputs: &["data_in"], outputs: &["data_out"] }
+        .run(stimuli, |values| vec![delay.pass(values[0].into())]);
 }
 
 #[test]
@@ -265,21 +223,12 @@ fn delay_line_of_nineteen_stages() {
 
 #[test]
 fn flag_delay_of_one_two_and_nine_stages() {
-    for (name, stages) in [
-        ("flag_delay_1", 1),
-        ("flag_delay_2", 2),
-        ("flag_delay_9", 9),
-    ] {
+    for (name, stages) in [("flag_delay_1", 1), ("flag_delay_2", 2), ("flag_delay_9", 9)] {
         let mut numbers = Numbers::new(6);
         let stimuli: Vec<_> = (0..CYCLES).map(|_| vec![numbers.bits(1)]).collect();
         let mut delay = Delay::new(stages);
-        Cosimulation {
-            name,
-            rust: FlagDelay::new(stages),
-            inputs: &["flag_in"],
-            outputs: &["flag_out"],
-        }
-        .run(stimuli, |values| vec![delay.pass(values[0].into())]);
+        Cosimulation { name, rust: FlagDelay::new(stages), inputs: &["flag_in"], outputs: &["flag_out"] }
+            .run(stimuli, |values| vec![delay.pass(values[0].into())]);
     }
 }
 
@@ -293,17 +242,8 @@ fn fifo_stimuli(data_bits: usize, places: u32) -> Vec<Vec<u64>> {
             let pace = 1 + (cycle / 50) % 4;
             let push = held < places && numbers.once_in(pace);
             let pop = (held > 0 || push) && numbers.once_in(5 - pace);
-            held = if reset {
-                0
-            } else {
-                held + u32::from(push) - u32::from(pop)
-            };
-            vec![
-                reset.into(),
-                push.into(),
-                numbers.bits(data_bits as u32),
-                pop.into(),
-            ]
+            held = if reset { 0 } else { held + u32::from(push) - u32::from(pop) };
+            vec![reset.into(), push.into(), numbers.bits(data_bits as u32), pop.into()]
         })
         .collect()
 }
@@ -321,10 +261,7 @@ fn fifo<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_
         if values[1] == 1 {
             entries.push_back(u128::from(values[2]) & ((1 << stored_bits) - 1));
         }
-        let shown = vec![
-            Some(u128::from(!entries.is_empty())),
-            entries.front().copied(),
-        ];
+        let shown = vec![Some(u128::from(!entries.is_empty())), entries.front().copied()];
         if values[3] == 1 {
             entries.pop_front();
         }
@@ -360,17 +297,10 @@ fn multiplier_as_a_primitive_needs_no_register_outside() {
 
 #[test]
 fn memories_are_block_ram_without_bypass_logic() {
-    for (name, output_bits) in [
-        ("block_memory_8x12", 12),
-        ("block_memory_6x33", 33),
-        ("lock_memory_14", 1),
-    ] {
+    for (name, output_bits) in [("block_memory_8x12", 12), ("block_memory_6x33", 33), ("lock_memory_14", 1)] {
         let cells = cells(name);
         assert_eq!((cells.block_ram, cells.lut4), (1, 0), "{name}");
-        assert_eq!(
-            cells.flip_flops, output_bits,
-            "{name} has its output register and no other"
-        );
+        assert_eq!(cells.flip_flops, output_bits, "{name} has its output register and no other");
     }
 }
 

@@ -42,11 +42,7 @@ fn triangle_stimuli(stored_bits: u32) -> Vec<Vec<u128>> {
             write[1] = id(&mut numbers, stored_bits);
             let (read, clear) = (id(&mut numbers, stored_bits), id(&mut numbers, stored_bits));
             let (locks, clears) = (numbers.bits(1), numbers.bits(1));
-            let locks = if same(read, clear) {
-                locks & !clears
-            } else {
-                locks
-            };
+            let locks = if same(read, clear) { locks & !clears } else { locks };
             let numbers = [read, locks, clear, clears].map(u128::from);
             [&[pack(WRITE, write)], &numbers[..]].concat()
         })
@@ -60,8 +56,7 @@ fn triangle_reference(id_bits: u32, vertex_bits: u32) -> impl FnMut(&[u128]) -> 
     let mut locks = vec![false; last + 1];
     move |values| {
         let write = unpack(WRITE, values[0]);
-        let [read, written, cleared] =
-            [values[1], write[1].into(), values[3]].map(|id| id as usize & last);
+        let [read, written, cleared] = [values[1], write[1].into(), values[3]].map(|id| id as usize & last);
         let mut seen = columns[read];
         let mut was_set = Some(u128::from(locks[read]));
         for column in 0..6 {
@@ -94,9 +89,7 @@ fn triangle_store(name: &str, id_bits: u32, vertex_bits: u32) {
         inputs: &["write", "read_id", "read_locks", "clear_id", "clear_enable"],
         outputs: &["v0", "v1", "v2", "n0", "n1", "n2", "was_set"],
     }
-    .run(triangle_stimuli(id_bits), |values| {
-        delay.pass(reference(values)).unwrap_or(vec![None; 7])
-    });
+    .run(triangle_stimuli(id_bits), |values| delay.pass(reference(values)).unwrap_or(vec![None; 7]));
 }
 
 #[test]
@@ -125,14 +118,7 @@ fn vertex_store(name: &str, id_bits: u32) {
     Cosimulation {
         name,
         rust: VertexStore::new(id_bits as usize),
-        inputs: &[
-            "write_id",
-            "write_position",
-            "write_enable",
-            "id0",
-            "id1",
-            "id2",
-        ],
+        inputs: &["write_id", "write_position", "write_enable", "id0", "id1", "id2"],
         outputs: &["position0", "position1", "position2"],
     }
     .run(stimuli, |values| {
@@ -230,16 +216,10 @@ fn write_form<U: NamedPorts>(
     write: impl Fn(&[u64]) -> [u64; 12],
 ) {
     let mut numbers = Numbers::new(24);
-    let stimuli: Vec<Vec<u64>> = (0..CYCLES)
-        .map(|_| widths.iter().map(|width| numbers.bits(*width)).collect())
-        .collect();
-    Cosimulation {
-        name,
-        rust,
-        inputs,
-        outputs: &["write"],
-    }
-    .run(stimuli, |values| vec![Some(pack(WRITE, write(values)))]);
+    let stimuli: Vec<Vec<u64>> =
+        (0..CYCLES).map(|_| widths.iter().map(|width| numbers.bits(*width)).collect()).collect();
+    Cosimulation { name, rust, inputs, outputs: &["write"] }
+        .run(stimuli, |values| vec![Some(pack(WRITE, write(values)))]);
 }
 
 #[test]

@@ -44,16 +44,7 @@ named_ports!(
 );
 
 const CLOCKS: usize = 8000;
-const PHASES: [&str; 8] = [
-    "is_idle",
-    "is_seed",
-    "is_walk",
-    "is_root",
-    "is_cavity",
-    "is_commit",
-    "is_drain",
-    "is_solo",
-];
+const PHASES: [&str; 8] = ["is_idle", "is_seed", "is_walk", "is_root", "is_cavity", "is_commit", "is_drain", "is_solo"];
 /// In this phase this event leads to that phase; of two events at once the later line counts.
 const STEPS: [(&str, &str, &str); 11] = [
     ("is_idle", "takes_for_walk", "is_walk"),
@@ -223,8 +214,7 @@ fn seeder_writes_the_first_triangle() {
         block.edge();
         if inputs.done {
             let finding = inputs.finding;
-            kinds[usize::from(finding.is_straight) * 2
-                + usize::from(finding.is_left && !finding.is_straight)] += 1;
+            kinds[usize::from(finding.is_straight) * 2 + usize::from(finding.is_left && !finding.is_straight)] += 1;
         }
         reference.edge(&inputs, random.below(6) == 0);
     }

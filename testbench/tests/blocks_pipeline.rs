@@ -37,20 +37,8 @@ const INPUTS: [&str; 13] = [
     "clear_id",
     "clear_enable",
 ];
-const OUTPUTS: [&str; 12] = [
-    "done",
-    "token",
-    "turned",
-    "verdict",
-    "read_done",
-    "v0",
-    "v1",
-    "v2",
-    "n0",
-    "n1",
-    "n2",
-    "was_set",
-];
+const OUTPUTS: [&str; 12] =
+    ["done", "token", "turned", "verdict", "read_done", "v0", "v1", "v2", "n0", "n1", "n2", "was_set"];
 /// Clocks from `read` to `read_done`.
 const READ_CLOCKS: usize = 3;
 /// Records and vertices that a test uses.
@@ -63,15 +51,8 @@ const ROUNDS: usize = 45;
 #[derive(Clone)]
 enum Coming {
     Nothing,
-    Visit {
-        token: u128,
-        turned: u128,
-        verdict: u128,
-    },
-    Read {
-        record: Record,
-        was_set: bool,
-    },
+    Visit { token: u128, turned: u128, verdict: u128 },
+    Read { record: Record, was_set: bool },
 }
 
 /// The memories as arrays, the visits waiting, and what comes out when.
@@ -141,9 +122,7 @@ impl Visits {
         let columns = if whole { 0b1111 } else { self.numbers.bits(4) };
         let [vertices, link0, link1, link2] = [0, 1, 2, 3].map(|bit| columns >> bit & 1);
         let [v0, v1, v2] = corners;
-        let fields = [
-            1, id, vertices, link0, link1, link2, v0, v1, v2, n[0], n[1], n[2],
-        ];
+        let fields = [1, id, vertices, link0, link1, link2, v0, v1, v2, n[0], n[1], n[2]];
         pack(WRITE, fields)
     }
 
@@ -172,11 +151,7 @@ impl Visits {
                 write = self.write(id, false);
             }
             let place = self.numbers.next();
-            vertex = (
-                self.vertex_id(place),
-                self.position(),
-                self.numbers.bits(1) == 1,
-            );
+            vertex = (self.vertex_id(place), self.position(), self.numbers.bits(1) == 1);
             clears = true;
         }
         if clock == 19 {
@@ -186,8 +161,7 @@ impl Visits {
         let visits = (20..60).contains(&clock);
         let push = visits && self.waiting.len() < 7 && self.numbers.once_in(rate);
         let read = (94..102).contains(&clock) && self.numbers.bits(1) == 1;
-        let reset = cycle == 0
-            || (round % 4 == 1 && (20..102).contains(&clock) && self.numbers.once_in(25));
+        let reset = cycle == 0 || (round % 4 == 1 && (20..102).contains(&clock) && self.numbers.once_in(25));
         vec![
             reset.into(),
             self.infinite.into(),
@@ -223,11 +197,7 @@ impl Visits {
         shown[4] = Some(0);
         match self.coming[0].clone() {
             Coming::Nothing => {}
-            Coming::Visit {
-                token,
-                turned,
-                verdict,
-            } => {
+            Coming::Visit { token, turned, verdict } => {
                 let values = [1, token, turned, verdict];
                 for (place, value) in shown.iter_mut().zip(values) {
                     *place = Some(value);
@@ -259,9 +229,7 @@ impl Visits {
         let was_set = self.locks[u as usize];
         self.locks[u as usize] |= locks == 1;
         // The memory has no word for the infinite vertex: its id wraps.
-        let r = record
-            .v
-            .map(|vertex| point(self.positions[(vertex % self.vertices) as usize]));
+        let r = record.v.map(|vertex| point(self.positions[(vertex % self.vertices) as usize]));
         self.coming[VisitPipeline::STAGES - 1] = Coming::Visit {
             token,
             turned: record.pack_turned(slot, was_set, self.infinite),
@@ -275,10 +243,8 @@ impl Visits {
             self.coming[READ_CLOCKS - 2] = Coming::Read { record, was_set };
         }
         if values[2] == 1 {
-            let [is_pair, rotates, locks, x, after, f_entry, f, u, x2, after2, u2] =
-                unpack(BUNDLE, values[3]);
-            self.waiting
-                .push_back(pack(TOKEN, [rotates, locks, x, after, f_entry, f, u]));
+            let [is_pair, rotates, locks, x, after, f_entry, f, u, x2, after2, u2] = unpack(BUNDLE, values[3]);
+            self.waiting.push_back(pack(TOKEN, [rotates, locks, x, after, f_entry, f, u]));
             if is_pair == 1 {
                 let second = [rotates, locks, x2, after2, f_entry, f, u2];
                 self.waiting.push_back(pack(TOKEN, second));
@@ -308,9 +274,7 @@ impl Visits {
             self.waiting.clear();
             self.issued = None;
             self.reads = None;
-            self.coming
-                .iter_mut()
-                .for_each(|coming| *coming = Coming::Nothing);
+            self.coming.iter_mut().for_each(|coming| *coming = Coming::Nothing);
         }
     }
 }
@@ -319,28 +283,18 @@ fn visits(name: &str, config: Config) {
     let visits = RefCell::new(Visits::new(config));
     let stimuli = (0..ROUND * ROUNDS).map(|cycle| visits.borrow_mut().stimulus(cycle));
     let mut is_reset = false;
-    Cosimulation {
-        name,
-        rust: VisitPipeline::new(config),
-        inputs: &INPUTS,
-        outputs: &OUTPUTS,
-    }
-    .run(stimuli, |values| {
-        let shown = visits.borrow_mut().cycle(values);
-        // Registers start with anything.
-        let shown = if is_reset {
+    Cosimulation { name, rust: VisitPipeline::new(config), inputs: &INPUTS, outputs: &OUTPUTS }.run(
+        stimuli,
+        |values| {
+            let shown = visits.borrow_mut().cycle(values);
+            // Registers start with anything.
+            let shown = if is_reset { shown } else { vec![None; OUTPUTS.len()] };
+            is_reset = true;
             shown
-        } else {
-            vec![None; OUTPUTS.len()]
-        };
-        is_reset = true;
-        shown
-    });
-    let seen = visits.into_inner().seen;
-    assert!(
-        seen.iter().all(|count| *count > ROUNDS),
-        "visits, conflicts, located, locked before, read-outs: {seen:?}"
+        },
     );
+    let seen = visits.into_inner().seen;
+    assert!(seen.iter().all(|count| *count > ROUNDS), "visits, conflicts, located, locked before, read-outs: {seen:?}");
 }
 
 #[test]

@@ -69,8 +69,7 @@ fn bits_of(value: i128, bits: u32) -> u128 {
 
 /// Twice the signed area of a triangle, by the shoelace formula.
 fn orientation(a: Point, b: Point, c: Point) -> i128 {
-    let corner =
-        |u: Point, v: Point| i128::from(u.0) * i128::from(v.1) - i128::from(v.0) * i128::from(u.1);
+    let corner = |u: Point, v: Point| i128::from(u.0) * i128::from(v.1) - i128::from(v.0) * i128::from(u.1);
     corner(a, b) + corner(b, c) + corner(c, a)
 }
 
@@ -80,8 +79,7 @@ fn lifted_incircle(triangle: [Point; 3], p: Point) -> i128 {
         let (x, y) = (i128::from(vertex.0 - p.0), i128::from(vertex.1 - p.1));
         [x, y, x * x + y * y]
     });
-    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
 fn flags<const N: usize>(values: [bool; N]) -> Vec<u128> {
@@ -89,48 +87,22 @@ fn flags<const N: usize>(values: [bool; N]) -> Vec<u128> {
 }
 
 fn edge_flags(e: [i128; 3]) -> Vec<u128> {
-    flags([
-        e[0] < 0,
-        e[1] < 0,
-        e[2] < 0,
-        e[0] == 0,
-        e[1] == 0,
-        e[2] == 0,
-        e[1] < e[0],
-        e[2] < e[0],
-        e[2] < e[1],
-    ])
+    flags([e[0] < 0, e[1] < 0, e[2] < 0, e[0] == 0, e[1] == 0, e[2] == 0, e[1] < e[0], e[2] < e[0], e[2] < e[1]])
 }
 
 fn order_flags(r: [Point; 3], p: Point) -> Vec<u128> {
-    flags([
-        p < r[0],
-        p < r[1],
-        p < r[2],
-        p == r[0],
-        p == r[1],
-        p == r[2],
-        r[0] < r[1],
-        r[0] < r[2],
-    ])
+    flags([p < r[0], p < r[1], p < r[2], p == r[0], p == r[1], p == r[2], r[0] < r[1], r[0] < r[2]])
 }
 
 fn all_flags(r: [Point; 3], p: Point) -> Vec<u128> {
     let e = [0, 1, 2].map(|k| orientation(r[(k + 1) % 3], r[(k + 2) % 3], p));
     let incircle = lifted_incircle(r, p);
-    [
-        edge_flags(e),
-        flags([incircle > 0, incircle == 0]),
-        order_flags(r, p),
-    ]
-    .concat()
+    [edge_flags(e), flags([incircle > 0, incircle == 0]), order_flags(r, p)].concat()
 }
 
 /// Outputs of a pipeline: known values, or nothing while it fills.
 fn shown(delayed: Option<Vec<u128>>, outputs: usize) -> Vec<Expected> {
-    delayed.map_or(vec![None; outputs], |values| {
-        values.into_iter().map(Some).collect()
-    })
+    delayed.map_or(vec![None; outputs], |values| values.into_iter().map(Some).collect())
 }
 
 /// Four points, as the ports take them: from every corner of the input space that is dangerous, in turn.
@@ -174,23 +146,13 @@ fn run_visits<U: cosimulation::NamedPorts>(
     let mut numbers = Numbers::new(11);
     let mut corners = vec![];
     for code in 0..256_u64 {
-        let corner = |k: u64| {
-            word((
-                (code >> (2 * k) & 1) as i64 * LARGEST,
-                (code >> (2 * k + 1) & 1) as i64 * LARGEST,
-            ))
-        };
+        let corner =
+            |k: u64| word(((code >> (2 * k) & 1) as i64 * LARGEST, (code >> (2 * k + 1) & 1) as i64 * LARGEST));
         corners.push(vec![corner(0), corner(1), corner(2), corner(3)]);
     }
     corners.extend((0..CYCLES).map(|_| visit(&mut numbers)));
     let mut delay = Delay::new(latency);
-    Cosimulation {
-        name,
-        rust,
-        inputs: &POINT_PORTS,
-        outputs,
-    }
-    .run(corners, |values| {
+    Cosimulation { name, rust, inputs: &POINT_PORTS, outputs }.run(corners, |values| {
         let r = [point(values[0]), point(values[1]), point(values[2])];
         shown(delay.pass(reference(r, point(values[3]))), outputs.len())
     });
@@ -200,24 +162,12 @@ fn run_visits<U: cosimulation::NamedPorts>(
 fn visit_predicates_agree_with_the_lifted_determinant() {
     let outputs = [&EDGE_FLAGS[..], &INCIRCLE_FLAGS, &ORDER_FLAGS].concat();
     assert_eq!(VisitPredicates::LATENCY, 9);
-    run_visits(
-        "visit_predicates",
-        VisitPredicates::default(),
-        &outputs,
-        VisitPredicates::LATENCY,
-        all_flags,
-    );
+    run_visits("visit_predicates", VisitPredicates::default(), &outputs, VisitPredicates::LATENCY, all_flags);
 }
 
 #[test]
 fn vertex_order_sorts_by_x_then_y() {
-    run_visits(
-        "vertex_order",
-        VertexOrder::new(1),
-        &ORDER_FLAGS,
-        1,
-        order_flags,
-    );
+    run_visits("vertex_order", VertexOrder::new(1), &ORDER_FLAGS, 1, order_flags);
 }
 
 #[test]
@@ -241,12 +191,7 @@ fn dangerous_visits_are_among_the_random_ones() {
 
 #[test]
 fn incircle_fits_its_width() {
-    let corner = |code: u32| {
-        (
-            (code & 1) as i64 * LARGEST,
-            (code >> 1 & 1) as i64 * LARGEST,
-        )
-    };
+    let corner = |code: u32| ((code & 1) as i64 * LARGEST, (code >> 1 & 1) as i64 * LARGEST);
     let mut largest = 0;
     for code in 0..256 {
         let points = [0, 2, 4, 6].map(|shift| corner(code >> shift));
@@ -274,9 +219,7 @@ fn point_difference_never_wraps() {
     }
     .run(stimuli, |values| {
         let (from, to) = (point(values[0]), point(values[1]));
-        [to.0 - from.0, to.1 - from.1]
-            .map(|part| Some(bits_of(part.into(), 18)))
-            .to_vec()
+        [to.0 - from.0, to.1 - from.1].map(|part| Some(bits_of(part.into(), 18))).to_vec()
     });
 }
 
@@ -296,70 +239,40 @@ fn signed(value: u64, bits: u32) -> i128 {
 #[test]
 fn cross_and_dot_products() {
     let mut numbers = Numbers::new(13);
-    let stimuli: Vec<Vec<u64>> = (0..CYCLES)
-        .map(|_| (0..4).map(|_| difference(&mut numbers)).collect())
-        .collect();
+    let stimuli: Vec<Vec<u64>> = (0..CYCLES).map(|_| (0..4).map(|_| difference(&mut numbers)).collect()).collect();
     let inputs = ["a_x", "a_y", "b_x", "b_y"];
     let mut delay = Delay::new(CrossProduct::LATENCY);
-    Cosimulation {
-        name: "cross_product",
-        rust: CrossProduct::default(),
-        inputs: &inputs,
-        outputs: &["product"],
-    }
-    .run(stimuli.clone(), |values| {
-        let [a_x, a_y, b_x, b_y] = [0, 1, 2, 3].map(|k| signed(values[k], 18));
-        vec![delay.pass(bits_of(a_x * b_y - a_y * b_x, 36))]
-    });
+    Cosimulation { name: "cross_product", rust: CrossProduct::default(), inputs: &inputs, outputs: &["product"] }.run(
+        stimuli.clone(),
+        |values| {
+            let [a_x, a_y, b_x, b_y] = [0, 1, 2, 3].map(|k| signed(values[k], 18));
+            vec![delay.pass(bits_of(a_x * b_y - a_y * b_x, 36))]
+        },
+    );
     let mut delay = Delay::new(DotProduct::LATENCY);
-    Cosimulation {
-        name: "dot_product",
-        rust: DotProduct::default(),
-        inputs: &inputs,
-        outputs: &["product"],
-    }
-    .run(stimuli, |values| {
-        let [a_x, a_y, b_x, b_y] = [0, 1, 2, 3].map(|k| signed(values[k], 18));
-        vec![delay.pass(bits_of(a_x * b_x + a_y * b_y, 36))]
-    });
+    Cosimulation { name: "dot_product", rust: DotProduct::default(), inputs: &inputs, outputs: &["product"] }.run(
+        stimuli,
+        |values| {
+            let [a_x, a_y, b_x, b_y] = [0, 1, 2, 3].map(|k| signed(values[k], 18));
+            vec![delay.pass(bits_of(a_x * b_x + a_y * b_y, 36))]
+        },
+    );
 }
 
 #[test]
 fn wide_product_of_all_limbs() {
     let mut numbers = Numbers::new(14);
     let limit = 1_i64 << 33;
-    let corners = [
-        0,
-        1,
-        -1,
-        0x1_ffff,
-        0x2_0000,
-        -0x1_ffff,
-        -0x2_0000,
-        -0x2_0001,
-        limit - 1,
-        -limit,
-        1 - limit,
-    ];
+    let corners = [0, 1, -1, 0x1_ffff, 0x2_0000, -0x1_ffff, -0x2_0000, -0x2_0001, limit - 1, -limit, 1 - limit];
     let mut stimuli = vec![];
     for a in corners {
         stimuli.extend(corners.map(|b| [a, b]));
     }
     stimuli.extend((0..CYCLES).map(|_| [(); 2].map(|()| numbers.bits(34) as i64 - limit)));
-    let words = stimuli.into_iter().map(|pair| {
-        pair.map(|factor| bits_of(factor.into(), 36) as u64)
-            .to_vec()
-    });
+    let words = stimuli.into_iter().map(|pair| pair.map(|factor| bits_of(factor.into(), 36) as u64).to_vec());
     let mut delay = Delay::new(WideProduct::LATENCY);
-    Cosimulation {
-        name: "wide_product",
-        rust: WideProduct::default(),
-        inputs: &["a", "b"],
-        outputs: &["product"],
-    }
-    .run(words, |values| {
-        vec![delay.pass(bits_of(signed(values[0], 36) * signed(values[1], 36), 68))]
-    });
+    Cosimulation { name: "wide_product", rust: WideProduct::default(), inputs: &["a", "b"], outputs: &["product"] }
+        .run(words, |values| vec![delay.pass(bits_of(signed(values[0], 36) * signed(values[1], 36), 68))]);
 }
 
 #[test]
@@ -394,10 +307,7 @@ fn edge_signs_compare_signed() {
 #[test]
 fn visit_predicates_take_twenty_multipliers() {
     let blocks = incircle_hdl::export::blocks();
-    let (name, verilog) = blocks
-        .iter()
-        .find(|block| block.0 == "visit_predicates")
-        .expect("the block is exported");
+    let (name, verilog) = blocks.iter().find(|block| block.0 == "visit_predicates").expect("the block is exported");
     let cells = cell_count(verilog, name).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(cells.multipliers, VisitPredicates::MULTIPLIERS as u64);
     assert_eq!(cells.multipliers, 20);

@@ -40,10 +40,7 @@ struct Visiting {
 
 impl ReleaseReference {
     fn edge(&mut self, inputs: &Visiting, last_id: u64) {
-        self.shown = self
-            .to_sweep
-            .pop_front()
-            .or_else(|| self.to_free.pop_front());
+        self.shown = self.to_sweep.pop_front().or_else(|| self.to_free.pop_front());
         if inputs.takes_locks && inputs.done && inputs.locks && !inputs.was_set {
             self.log.push(inputs.u);
         }
@@ -51,36 +48,20 @@ impl ReleaseReference {
             self.to_free = self.log.drain(..).collect();
         }
         if inputs.reset {
-            *self = Self {
-                to_sweep: (0..=last_id).collect(),
-                ..Self::default()
-            };
+            *self = Self { to_sweep: (0..=last_id).collect(), ..Self::default() };
         }
     }
 }
 
 /// One clock of both.
-fn release_clock(
-    block: &mut Stepper<Release>,
-    reference: &mut ReleaseReference,
-    inputs: &Visiting,
-    last_id: u64,
-) {
-    let visit = Visit {
-        locks: inputs.locks,
-        u: inputs.u,
-        f: inputs.u ^ 0x7fff,
-        ..Visit::default()
-    };
+fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference, inputs: &Visiting, last_id: u64) {
+    let visit = Visit { locks: inputs.locks, u: inputs.u, f: inputs.u ^ 0x7fff, ..Visit::default() };
     block.set("last_id", last_id);
     block.set("reset", inputs.reset);
     block.set("takes_locks", inputs.takes_locks);
     block.set("done", inputs.done);
     block.set("token", visit.token());
-    block.set(
-        "turned",
-        turned([inputs.u; 3], [0x7fff; 3], 2, inputs.was_set, [true; 3]),
-    );
+    block.set("turned", turned([inputs.u; 3], [0x7fff; 3], 2, inputs.was_set, [true; 3]));
     block.set("starts", inputs.starts);
     block.settle();
     if block.clocks() > 0 {
@@ -131,10 +112,7 @@ fn release_frees_what_was_locked() {
 
 #[test]
 fn release_holds_the_locks_of_the_longest_list() {
-    let config = Config {
-        ring: MAX_RING,
-        ..TINY
-    };
+    let config = Config { ring: MAX_RING, ..TINY };
     release("release_64", config, 300);
 }
 
@@ -153,31 +131,18 @@ fn release_shows_the_wave_of_its_header() {
             starts: clock == 10,
             reset: clock == 0,
         };
-        let (frees, sweeps) = (
-            !reference.to_free.is_empty(),
-            !reference.to_sweep.is_empty(),
-        );
+        let (frees, sweeps) = (!reference.to_free.is_empty(), !reference.to_sweep.is_empty());
         let shown = reference.shown;
         release_clock(&mut block, &mut reference, &inputs, 3);
         wave.take(&[
             ("reset", Cell::Bit(inputs.reset)),
             ("sweeps", Cell::Bit(sweeps)),
             ("done", Cell::Bit(inputs.done)),
-            (
-                "token.u",
-                if inputs.done {
-                    Cell::Number(inputs.u.into())
-                } else {
-                    Cell::Open
-                },
-            ),
+            ("token.u", if inputs.done { Cell::Number(inputs.u.into()) } else { Cell::Open }),
             ("starts", Cell::Bit(inputs.starts)),
             ("is_busy", Cell::Bit(frees)),
             ("clear_enable", Cell::Bit(shown.is_some())),
-            (
-                "clear_id",
-                shown.map_or(Cell::Open, |id| Cell::Number(id.into())),
-            ),
+            ("clear_id", shown.map_or(Cell::Open, |id| Cell::Number(id.into()))),
         ]);
     }
     wave.assert_drawn_in(include_str!("../../hdl/src/engine/release.rs"));

@@ -13,34 +13,8 @@ use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
     Responder,
-    [
-        reset,
-        answers,
-        first,
-        header,
-        length,
-        word,
-        is_read,
-        read_done,
-        v0,
-        v1,
-        v2,
-        n0,
-        n1,
-        n2,
-        was_set,
-        response_ready
-    ],
-    [
-        index,
-        read,
-        read_id,
-        response_valid,
-        response_data,
-        is_idle,
-        ends,
-        is_taken
-    ],
+    [reset, answers, first, header, length, word, is_read, read_done, v0, v1, v2, n0, n1, n2, was_set, response_ready],
+    [index, read, read_id, response_valid, response_data, is_idle, ends, is_taken],
     clock
 );
 
@@ -51,14 +25,7 @@ fn percent(random: &mut SplitMix64, times: u64) -> bool {
 
 /// A word of 32 bits, from the corners as often as not.
 fn word(random: &mut SplitMix64) -> u32 {
-    [
-        0,
-        1,
-        u32::MAX,
-        1 << 31,
-        random.next_u64() as u32,
-        random.below(8) as u32,
-    ][random.below(6) as usize]
+    [0, 1, u32::MAX, 1 << 31, random.next_u64() as u32, random.below(8) as u32][random.below(6) as usize]
 }
 
 /// What an answer is made of, for the responder.
@@ -76,17 +43,11 @@ impl Sent {
         let records = (first..first + random.below(8)).map(columns);
         let payload = if reads {
             let layout = Layout::of(CORE_COORD_BITS, 1 << 14);
-            records
-                .flat_map(|(v, n, lock)| layout.record_to_words(v, n, lock)[..3].to_vec())
-                .collect()
+            records.flat_map(|(v, n, lock)| layout.record_to_words(v, n, lock)[..3].to_vec()).collect()
         } else {
             (0..random.below(15)).map(|_| word(random)).collect()
         };
-        Self {
-            header: word(random),
-            payload,
-            first: reads.then_some(first),
-        }
+        Self { header: word(random), payload, first: reads.then_some(first) }
     }
 
     fn words(&self) -> Vec<u32> {
@@ -98,11 +59,7 @@ impl Sent {
 fn columns(id: u64) -> ([u32; 3], [u32; 3], bool) {
     let id = id as u32;
     let column = |k: u32| (id ^ (0x1111 * k)) & 0x7fff;
-    (
-        [column(1), column(2), column(3)],
-        [column(4), column(5), column(6)],
-        id.is_multiple_of(3),
-    )
+    ([column(1), column(2), column(3)], [column(4), column(5), column(6)], id.is_multiple_of(3))
 }
 
 /// Clocks from a read to its record in the core.
@@ -169,20 +126,12 @@ impl ResponderRig {
         // Bits above an id do not count.
         block.set("first", sent.first.unwrap_or(0) | 0xabcd_0000);
         block.settle();
-        let index =
-            block.get_masked("index", if self.loaded > self.ended { 15 } else { 0 }) as usize;
+        let index = block.get_masked("index", if self.loaded > self.ended { 15 } else { 0 }) as usize;
         block.set("word", sent.payload.get(index).copied().unwrap_or(0xbad));
         let due = self.reads.front().is_some_and(|(clocks, _)| *clocks == 0);
-        let id = if due {
-            self.reads.pop_front().map_or(0, |(_, id)| id)
-        } else {
-            self.random.below(1 << 15)
-        };
+        let id = if due { self.reads.pop_front().map_or(0, |(_, id)| id) } else { self.random.below(1 << 15) };
         let (v, n, lock) = columns(id);
-        for (port, value) in ["v0", "v1", "v2", "n0", "n1", "n2"]
-            .into_iter()
-            .zip([v, n].concat())
-        {
+        for (port, value) in ["v0", "v1", "v2", "n0", "n1", "n2"].into_iter().zip([v, n].concat()) {
             block.set(port, value);
         }
         block.set("was_set", lock);
@@ -202,16 +151,12 @@ impl ResponderRig {
         self.block.expect("is_taken", !valid || ready);
         let data = valid.then(|| self.block.get("response_data"));
         if self.offered.is_some() {
-            assert_eq!(
-                data, self.offered,
-                "a word offered stands until it is taken"
-            );
+            assert_eq!(data, self.offered, "a word offered stands until it is taken");
         } else {
             self.loaded += usize::from(valid);
         }
         if self.block.is("read") {
-            self.reads
-                .push_back((self.read_clocks - 1, self.block.get("read_id") as u64));
+            self.reads.push_back((self.read_clocks - 1, self.block.get("read_id") as u64));
         } else {
             for read in &mut self.reads {
                 read.0 = read.0.saturating_sub(1);
@@ -226,14 +171,7 @@ impl ResponderRig {
             ("answers", Cell::Bit(answers)),
             ("read", Cell::Bit(self.block.is("read"))),
             ("response_valid", Cell::Bit(valid)),
-            (
-                "word",
-                if valid {
-                    Cell::Number(self.loaded as u128 - 1)
-                } else {
-                    Cell::Open
-                },
-            ),
+            ("word", if valid { Cell::Number(self.loaded as u128 - 1) } else { Cell::Open }),
             ("response_ready", Cell::Bit(ready)),
             ("ends", Cell::Bit(ends)),
             ("is_idle", Cell::Bit(self.block.is("is_idle"))),
@@ -252,11 +190,7 @@ impl ResponderRig {
             }
             if shown.ends {
                 self.ended += sent.words().len();
-                assert_eq!(
-                    self.loaded,
-                    self.ended - 1,
-                    "the last word is loaded at the edge of `ends`"
-                );
+                assert_eq!(self.loaded, self.ended - 1, "the last word is loaded at the edge of `ends`");
                 return (clock, header.unwrap_or(clock));
             }
         }
@@ -290,11 +224,7 @@ fn responder_sends_every_answer_whole_and_in_order() {
                 assert!(!shown.ends);
             }
         }
-        let nothing = Sent {
-            header: 0,
-            payload: vec![],
-            first: None,
-        };
+        let nothing = Sent { header: 0, payload: vec![], first: None };
         while rig.clock(false, &nothing).valid {}
         assert_eq!(rig.taken, expected);
     }
@@ -330,11 +260,7 @@ fn responder_shows_the_wave_of_its_header() {
     let mut rig = ResponderRig::new(100, READ_CLOCKS);
     let layout = Layout::of(CORE_COORD_BITS, 1 << 14);
     let (v, n, lock) = columns(5);
-    let sent = Sent {
-        header: 7,
-        payload: layout.record_to_words(v, n, lock)[..3].to_vec(),
-        first: Some(5),
-    };
+    let sent = Sent { header: 7, payload: layout.record_to_words(v, n, lock)[..3].to_vec(), first: Some(5) };
     let mut answers = false;
     for clock in 0..16 {
         rig.ready = if (4..6).contains(&clock) { 0 } else { 100 };
@@ -342,6 +268,5 @@ fn responder_shows_the_wave_of_its_header() {
         answers &= !rig.clock(answers, &sent).ends;
     }
     assert_eq!(rig.taken, sent.words());
-    rig.wave
-        .assert_drawn_in(include_str!("../../hdl/src/link/responder.rs"));
+    rig.wave.assert_drawn_in(include_str!("../../hdl/src/link/responder.rs"));
 }

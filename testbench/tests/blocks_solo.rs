@@ -52,13 +52,7 @@ fn packed(written: Written) -> u128 {
 }
 
 fn packed_record(record: &Record, slot: usize) -> u128 {
-    turned(
-        record.v,
-        record.n,
-        slot as u64,
-        false,
-        record.v.map(|v| v == INFINITE),
-    )
+    turned(record.v, record.n, slot as u64, false, record.v.map(|v| v == INFINITE))
 }
 
 struct Rig {
@@ -83,12 +77,8 @@ struct Seen {
 
 impl Rig {
     fn new(delay: (usize, u64)) -> Self {
-        let mut rig = Self {
-            block: Stepper::new("solo", Solo::default(), 1),
-            random: SplitMix64::new(8),
-            visit: None,
-            delay,
-        };
+        let mut rig =
+            Self { block: Stepper::new("solo", Solo::default(), 1), random: SplitMix64::new(8), visit: None, delay };
         rig.reset();
         rig
     }
@@ -106,55 +96,30 @@ impl Rig {
         let due = self.visit.filter(|(_, clocks)| *clocks == 0);
         self.block.set("done", due.is_some());
         let Some((visit, _)) = due else {
-            let noise = Finding {
-                conflict: self.random.below(2) == 0,
-                ..Finding::default()
-            };
+            let noise = Finding { conflict: self.random.below(2) == 0, ..Finding::default() };
             self.block.set("verdict", noise.verdict());
-            self.block
-                .set("token", Visit::look(self.random.below(1 << 15)).token());
+            self.block.set("token", Visit::look(self.random.below(1 << 15)).token());
             self.block.set("turned", u128::from(self.random.next_u64()));
             return;
         };
         let stored = mesh.records[visit.u as usize];
-        let slot = if visit.rotates {
-            stored.slot_to(visit.f)
-        } else {
-            0
-        };
+        let slot = if visit.rotates { stored.slot_to(visit.f) } else { 0 };
         let record = stored.turned(slot);
         let conflict = mesh.conflicts(record.v, point);
-        self.block.set(
-            "verdict",
-            Finding {
-                conflict,
-                ..Finding::default()
-            }
-            .verdict(),
-        );
+        self.block.set("verdict", Finding { conflict, ..Finding::default() }.verdict());
         self.block.set("token", visit.token());
         self.block.set("turned", packed_record(&record, slot));
         self.visit = None;
     }
 
     /// One clock; `mesh` takes the write that is seen.
-    fn clock(
-        &mut self,
-        starts: bool,
-        mesh: &mut Mesh,
-        point: Point,
-        expected: &[u128],
-        seen: &mut Seen,
-    ) {
+    fn clock(&mut self, starts: bool, mesh: &mut Mesh, point: Point, expected: &[u128], seen: &mut Seen) {
         self.block.set("starts", starts);
         self.set_completion(mesh, point);
         self.block.settle();
-        self.block
-            .expect_masked("write", 1, self.block.get_masked("write", 1));
+        self.block.expect_masked("write", 1, self.block.get_masked("write", 1));
         if self.block.get_masked("write", 1) == 1 {
-            let write = *expected
-                .get(seen.writes.len())
-                .expect("a write that the flips make");
+            let write = *expected.get(seen.writes.len()).expect("a write that the flips make");
             self.block.expect("write", write);
             seen.writes.push(write);
             mesh.write(unpacked(write));
@@ -183,8 +148,7 @@ impl Rig {
         self.block.set("p", mesh.points.len() as u64 - 1);
         self.block.set("records", mesh.records.len() as u64);
         self.block.set("root_id", root);
-        self.block
-            .set("root", packed_record(&mesh.records[root as usize], 0));
+        self.block.set("root", packed_record(&mesh.records[root as usize], 0));
     }
 
     /// Inserts the last point of the mesh, which its records do not know yet. Stops after that many clocks.
@@ -214,20 +178,10 @@ fn unpacked(write: u128) -> Written {
     let id = field(1);
     if write >> 16 & 1 == 1 {
         let columns = |place: u32| [field(place), field(place + 15), field(place + 30)];
-        return Written::Record(
-            id,
-            Record {
-                v: columns(20),
-                n: columns(65),
-            },
-        );
+        return Written::Record(id, Record { v: columns(20), n: columns(65) });
     }
     let slot = u64::from((write >> 17 & 7).trailing_zeros());
-    Written::Link {
-        id,
-        slot,
-        value: field(65),
-    }
+    Written::Link { id, slot, value: field(65) }
 }
 
 /// Points of a box of this side, the first three a triangle that turns left.
@@ -282,11 +236,7 @@ fn solo_inserts_as_recursive_flips_do() {
     for side in [4, 6, 16, 1 << 16] {
         flips += grow(&mut rig, &points(&mut random, side, 14), true).0;
     }
-    assert!(
-        flips > 60 && rig.block.clocks() > 4000,
-        "{flips} flips, {} clocks",
-        rig.block.clocks()
-    );
+    assert!(flips > 60 && rig.block.clocks() > 4000, "{flips} flips, {} clocks", rig.block.clocks());
 }
 
 #[test]
@@ -302,20 +252,8 @@ fn solo_takes_the_clocks_its_header_names() {
 }
 
 /// Inputs of `SoloWrites` that are ids.
-const IDS: [&str; 12] = [
-    "p",
-    "records",
-    "root_id",
-    "id",
-    "a",
-    "b",
-    "outer",
-    "after",
-    "preceding",
-    "apex",
-    "apex_after_a",
-    "apex_before_b",
-];
+const IDS: [&str; 12] =
+    ["p", "records", "root_id", "id", "a", "b", "outer", "after", "preceding", "apex", "apex_after_a", "apex_before_b"];
 
 #[test]
 fn solo_writes_what_each_state_asks_for() {
@@ -323,16 +261,12 @@ fn solo_writes_what_each_state_asks_for() {
     let mut block = Stepper::new("solo_writes", SoloWrites::default(), 1);
     for _ in 0..4000 {
         let ids = IDS.map(|_| random.below((1 << 15) - 1));
-        let [p, records, root_id, id, a, b, outer, after, preceding, apex, apex_after_a, apex_before_b] =
-            ids;
+        let [p, records, root_id, id, a, b, outer, after, preceding, apex, apex_after_a, apex_before_b] = ids;
         for (port, value) in IDS.into_iter().zip(ids) {
             block.set(port, value);
         }
         let [v0, v1, v2, n0, n1, n2] = [(); 6].map(|()| random.below(1 << 15));
-        block.set(
-            "root",
-            turned([v0, v1, v2], [n0, n1, n2], 1, true, [true; 3]),
-        );
+        block.set("root", turned([v0, v1, v2], [n0, n1, n2], 1, true, [true; 3]));
         let (visited, slot) = (random.below(1 << 15), random.below(3));
         block.set("visited", visited);
         block.set("slot", slot);

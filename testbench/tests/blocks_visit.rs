@@ -40,8 +40,7 @@ impl Queue {
     }
 
     fn push(&mut self, bundle: u128) {
-        let [is_pair, rotates, locks, x, after, f_entry, f, u, x2, after2, u2] =
-            unpack(BUNDLE, bundle);
+        let [is_pair, rotates, locks, x, after, f_entry, f, u, x2, after2, u2] = unpack(BUNDLE, bundle);
         let first = pack(TOKEN, [rotates, locks, x, after, f_entry, f, u]);
         self.waiting.push_back((first, is_pair == 0));
         if is_pair == 1 {
@@ -91,20 +90,13 @@ fn issue_makes_one_visit_a_clock_in_order() {
         queue.read_id = (values[3] == 1).then_some(values[4] as u64);
         if values[0] == 1 {
             let fullest = queue.fullest;
-            *queue = Queue {
-                fullest,
-                ..Queue::default()
-            };
+            *queue = Queue { fullest, ..Queue::default() };
         }
         let shown = if is_known { outputs } else { vec![None; 4] };
         is_known |= values[0] == 1;
         shown
     });
-    assert_eq!(
-        queue.into_inner().0.fullest,
-        PLACES,
-        "the test fills every place"
-    );
+    assert_eq!(queue.into_inner().0.fullest, PLACES, "the test fills every place");
 }
 
 /// A record with three links that differ, and the infinite vertex on one corner or none.
@@ -115,10 +107,7 @@ fn record(numbers: &mut Numbers) -> Record {
         v[place] = INFINITE;
     }
     let n0 = numbers.bits(15);
-    Record {
-        v,
-        n: [n0, n0 ^ (1 + numbers.bits(3)), n0 ^ (9 + numbers.bits(2))],
-    }
+    Record { v, n: [n0, n0 ^ (1 + numbers.bits(3)), n0 ^ (9 + numbers.bits(2))] }
 }
 
 #[test]
@@ -172,15 +161,8 @@ fn visit_reader_turns_record_and_corners() {
         let visit = |clocks: usize| {
             let (columns, token) = (ago(clocks)?, unpack(TOKEN, ago(clocks + 2)?[1]));
             let column = |port: usize| columns[port] as u64;
-            let record = Record {
-                v: [2, 3, 4].map(column),
-                n: [5, 6, 7].map(column),
-            };
-            Some((
-                record,
-                record.slot(token[0] == 1, token[5]),
-                columns[8] == 1,
-            ))
+            let record = Record { v: [2, 3, 4].map(column), n: [5, 6, 7].map(column) };
+            Some((record, record.slot(token[0] == 1, token[5]), columns[8] == 1))
         };
         let turned = visit(2).map(|(record, slot, was_set)| {
             turns[slot] += 1;
@@ -200,11 +182,7 @@ fn visit_reader_turns_record_and_corners() {
 /// Four points: few places, so that lines, circles and equal points are common; or the whole range.
 fn points(numbers: &mut Numbers) -> [Point; 4] {
     let bits = [1, 2, 2, 3, 4, 16][(numbers.next() % 6) as usize];
-    let shift = if bits < 16 {
-        [0, 12][numbers.bits(1) as usize]
-    } else {
-        0
-    };
+    let shift = if bits < 16 { [0, 12][numbers.bits(1) as usize] } else { 0 };
     let mut coordinate = || (numbers.bits(bits) << shift) as i64;
     [(); 4].map(|()| (coordinate(), coordinate()))
 }
@@ -284,8 +262,5 @@ fn verdict_logic_agrees_with_the_geometry() {
         seen[3] += usize::from(record.v.contains(&INFINITE));
         vec![Some(verdict)]
     });
-    assert!(
-        seen.iter().all(|count| *count > CYCLES / 10),
-        "conflicts, located, cocircular, ghosts: {seen:?}"
-    );
+    assert!(seen.iter().all(|count| *count > CYCLES / 10), "conflicts, located, cocircular, ghosts: {seen:?}");
 }

@@ -15,12 +15,7 @@ use stepper::{named_ports, Cell, Stepper, Wave};
 use structures::{pack, BUNDLE, TOKEN, TURNED, VERDICT, WRITE};
 use verilated::Direction;
 
-named_ports!(
-    Issue,
-    [reset, push, bundle, read, read_id],
-    [token_valid, token, read_valid],
-    clock
-);
+named_ports!(Issue, [reset, push, bundle, read, read_id], [token_valid, token, read_valid], clock);
 named_ports!(WritePort, [reset, commit, solo, seed], [write], clock);
 named_ports!(
     TriangleStore,
@@ -56,16 +51,7 @@ named_ports!(
         entry_pointer,
         inner_pointer
     ],
-    [
-        split,
-        split_bundle,
-        overflows,
-        nothing_is_out,
-        count,
-        inner_count,
-        entry,
-        inner_id
-    ],
+    [split, split_bundle, overflows, nothing_is_out, count, inner_count, entry, inner_id],
     clock
 );
 named_ports!(
@@ -106,18 +92,10 @@ type Lane = (&'static str, &'static str, u32, u32, When);
 type Stimuli = [(usize, &'static str, u128)];
 
 /// Runs `clocks` clocks after one with `reset` and nothing else, and draws them.
-fn draw<U: NamedPorts>(
-    name: &'static str,
-    rust: U,
-    stimuli: &Stimuli,
-    clocks: usize,
-    lanes: &[Lane],
-) -> Wave {
+fn draw<U: NamedPorts>(name: &'static str, rust: U, stimuli: &Stimuli, clocks: usize, lanes: &[Lane]) -> Wave {
     let ports = blocks::model(name).description().ports();
-    let inputs: Vec<&'static str> = ports
-        .filter(|port| port.direction == Direction::Input && port.name != "clock")
-        .map(|port| port.name)
-        .collect();
+    let inputs: Vec<&'static str> =
+        ports.filter(|port| port.direction == Direction::Input && port.name != "clock").map(|port| port.name).collect();
     let mut stepper = Stepper::new(name, rust, 1);
     let mut wave = Wave::default();
     for input in &inputs {
@@ -184,26 +162,19 @@ fn issue_shows_the_wave_of_its_header() {
         ("read_valid", "read_valid", 0, 1, When::Always),
         ("token.u", "token", 35, 15, When::If("read_valid")),
     ];
-    draw("issue_3", Issue::new(3), &stimuli, 8, &lanes)
-        .assert_drawn_in(include_str!("../../hdl/src/engine/issue.rs"));
+    draw("issue_3", Issue::new(3), &stimuli, 8, &lanes).assert_drawn_in(include_str!("../../hdl/src/engine/issue.rs"));
 }
 
 /// A write of a record with these columns; `columns` has a bit for the vertices and one for each link.
 fn write(id: u64, columns: u64, v0: u64, n1: u64) -> u128 {
     let [vertices, link0, link1, link2] = [0, 1, 2, 3].map(|bit| columns >> bit & 1);
-    pack(
-        WRITE,
-        [1, id, vertices, link0, link1, link2, v0, 0, 0, 0, n1, 0],
-    )
+    pack(WRITE, [1, id, vertices, link0, link1, link2, v0, 0, 0, 0, n1, 0])
 }
 
 #[test]
 fn write_port_shows_the_wave_of_its_header() {
-    let stimuli = [
-        (1, "commit", write(5, 15, 1, 1)),
-        (2, "commit", write(6, 15, 1, 1)),
-        (4, "solo", write(7, 15, 1, 1)),
-    ];
+    let stimuli =
+        [(1, "commit", write(5, 15, 1, 1)), (2, "commit", write(6, 15, 1, 1)), (4, "solo", write(7, 15, 1, 1))];
     let lanes = [
         ("commit.valid", "commit", 0, 1, When::Always),
         ("commit.id", "commit", 1, 15, When::If("commit")),
@@ -245,22 +216,11 @@ fn triangle_store_shows_the_wave_of_its_header() {
 
 #[test]
 fn vertex_store_shows_the_wave_of_its_header() {
-    let stimuli = [
-        (0, "write_enable", 1),
-        (0, "write_id", 3),
-        (0, "write_position", 42),
-        (1, "id0", 3),
-    ];
+    let stimuli = [(0, "write_enable", 1), (0, "write_id", 3), (0, "write_position", 42), (1, "id0", 3)];
     let lanes = [
         ("write_enable", "write_enable", 0, 1, When::Always),
         ("write_id", "write_id", 0, 15, When::If("write_enable")),
-        (
-            "write_position",
-            "write_position",
-            0,
-            32,
-            When::If("write_enable"),
-        ),
+        ("write_position", "write_position", 0, 32, When::If("write_enable")),
         ("id0", "id0", 0, 15, When::At(&[1])),
         ("position0", "position0", 0, 32, When::At(&[3])),
     ];
@@ -303,20 +263,9 @@ fn cavity_shows_the_wave_of_its_header() {
         stimuli.push((clock, "is_root", u128::from((1..4).contains(&clock))));
         stimuli.push((clock, "is_cavity", u128::from(clock > 3)));
     }
-    stimuli.extend([
-        (1, "root_visits", 1),
-        (2, "root_visits", 2),
-        (3, "root_visits", 1),
-    ]);
+    stimuli.extend([(1, "root_visits", 1), (2, "root_visits", 2), (3, "root_visits", 1)]);
     // The root's lock, then the three tests and the two that the first of them asks for.
-    let visits = [
-        (4, 0, 0, 0),
-        (5, 1, 0, 1),
-        (7, 1, 1, 0),
-        (8, 1, 2, 0),
-        (10, 1, 0, 0),
-        (11, 1, 3, 0),
-    ];
+    let visits = [(4, 0, 0, 0), (5, 1, 0, 1), (7, 1, 1, 0), (8, 1, 2, 0), (10, 1, 0, 0), (11, 1, 3, 0)];
     for (clock, rotates, x, conflict) in visits {
         stimuli.push((clock, "done", 1));
         stimuli.push((clock, "token", pack(TOKEN, [rotates, 0, x, 0, 0, 0, 0])));
@@ -341,11 +290,7 @@ fn cavity_shows_the_wave_of_its_header() {
 
 #[test]
 fn visit_pipeline_shows_the_wave_of_its_header() {
-    let stimuli = [
-        (0, "push", 1),
-        (0, "bundle", bundle(1, 1, 2)),
-        (18, "read", 1),
-    ];
+    let stimuli = [(0, "push", 1), (0, "bundle", bundle(1, 1, 2)), (18, "read", 1)];
     let lanes = [
         ("push", "push", 0, 1, When::Always),
         ("bundle.x", "bundle", 3, 6, When::If("push")),

@@ -26,12 +26,7 @@ fn every_named_core_passes_lint_and_synthesis() {
     for config in NAMED {
         for with_probe in [false, true] {
             let passed = gate::pass(&core(config, with_probe), CORE_NAME);
-            assert!(
-                passed.is_ok(),
-                "{} with probe {with_probe}: {}",
-                config.name,
-                passed.unwrap_err()
-            );
+            assert!(passed.is_ok(), "{} with probe {with_probe}: {}", config.name, passed.unwrap_err());
         }
     }
 }
@@ -44,11 +39,7 @@ fn memories_and_multipliers_of_the_small_core_map_to_theirs() {
     for (name, count, measured) in [
         ("LUT4", cells.lut4, MEASURED.lut4),
         ("carry cells", cells.carry, MEASURED.carry),
-        (
-            "distributed RAMs",
-            cells.distributed_ram,
-            MEASURED.distributed_ram,
-        ),
+        ("distributed RAMs", cells.distributed_ram, MEASURED.distributed_ram),
         ("flip-flops", cells.flip_flops, MEASURED.flip_flops),
         ("block RAMs", cells.block_ram, MEASURED.block_ram),
     ] {

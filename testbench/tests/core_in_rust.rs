@@ -19,33 +19,16 @@ fn two_jobs_clock_by_clock() {
     let mut core = Core::new(TINY).unwrap();
     core.connect_all();
     let mut model = ClockModel::new(TINY).unwrap();
-    let points = [
-        0x0000_0000,
-        0x0000_0009,
-        0x0009_0000,
-        0x0003_0003,
-        0x0009_0009,
-        0x0005_0001,
-        0x0003_0003,
-        0x0001_0008,
-    ];
+    let points =
+        [0x0000_0000, 0x0000_0009, 0x0009_0000, 0x0003_0003, 0x0009_0009, 0x0005_0001, 0x0003_0003, 0x0001_0008];
     let mut commands = Job::of(&points, 8, TINY.points, TINY.ring).commands;
     commands.extend(Job::of(&points[..5], 2, TINY.points, TINY.ring).commands);
     let mut rest = commands.as_slice();
     let mut chance = 1u64;
     for clock in 0..3500 {
-        chance = chance
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        chance = chance.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         let reset = clock == 0;
-        let inputs = Inputs {
-            reset,
-            ..Stalls {
-                idle: 20,
-                back_pressure: 20,
-            }
-            .inputs(rest, chance >> 8)
-        };
+        let inputs = Inputs { reset, ..Stalls { idle: 20, back_pressure: 20 }.inputs(rest, chance >> 8) };
         core.clock.next = false.into();
         core.reset.next = inputs.reset;
         core.command_valid.next = inputs.command_valid;
@@ -54,24 +37,11 @@ fn two_jobs_clock_by_clock() {
         settle(&mut core);
         let expected = model.outputs();
         if !reset {
-            let found = (
-                core.command_ready.val(),
-                core.response_valid.val(),
-                core.response_data.val().to_u32(),
-            );
-            let said = (
-                expected.command_ready,
-                expected.response_valid,
-                expected.response_data,
-            );
+            let found = (core.command_ready.val(), core.response_valid.val(), core.response_data.val().to_u32());
+            let said = (expected.command_ready, expected.response_valid, expected.response_data);
             assert_eq!(found, said, "clock {clock}: {}", model.describe());
             let write = core.write.val();
-            assert_eq!(
-                write.valid,
-                expected.write.valid,
-                "clock {clock}: {}",
-                model.describe()
-            );
+            assert_eq!(write.valid, expected.write.valid, "clock {clock}: {}", model.describe());
             assert_eq!(write.id.to_u32(), expected.write.id, "clock {clock}");
         }
         if !reset && inputs.command_valid && expected.command_ready {

@@ -22,35 +22,18 @@ const ALLOWED: [(&str, &[&str]); 8] = [
     ("incircle-model", &["incircle-protocol"]),
     ("incircle-hdl", &["incircle-protocol"]),
     ("verilated", &[]),
-    (
-        "incircle-sim",
-        &["incircle-protocol", "incircle-hdl", "verilated"],
-    ),
+    ("incircle-sim", &["incircle-protocol", "incircle-hdl", "verilated"]),
     ("incircle", &["incircle-protocol", "incircle-model"]),
-    (
-        "incircle-cli",
-        &["incircle-protocol", "incircle", "incircle-sim"],
-    ),
+    ("incircle-cli", &["incircle-protocol", "incircle", "incircle-sim"]),
     (
         "incircle-testbench",
-        &[
-            "incircle-protocol",
-            "incircle-model",
-            "incircle-hdl",
-            "verilated",
-            "incircle",
-            "incircle-cli",
-        ],
+        &["incircle-protocol", "incircle-model", "incircle-hdl", "verilated", "incircle", "incircle-cli"],
     ),
 ];
 
 /// What a package must not reach by any way that ships, and why.
 const UNREACHABLE: [(&str, &[&str], &str); 3] = [
-    (
-        "incircle-hdl",
-        &["incircle-model", "incircle", "verilated"],
-        "hardware must not be able to call its own oracle",
-    ),
+    ("incircle-hdl", &["incircle-model", "incircle", "verilated"], "hardware must not be able to call its own oracle"),
     (
         "incircle-model",
         &["incircle-hdl", "rust-hdl", "verilated", "incircle-sim"],
@@ -84,18 +67,15 @@ fn breaches(graph: &Graph) -> Vec<String> {
             }
         }
     }
-    if graph
-        .get("incircle-protocol")
-        .is_some_and(|uses| !uses.is_empty())
-    {
+    if graph.get("incircle-protocol").is_some_and(|uses| !uses.is_empty()) {
         found.push("incircle-protocol must use nothing at all".to_string());
     }
     for (package, forbidden, reason) in UNREACHABLE {
         for reached in reachable(graph, package) {
             // `rust-hdl` stands for all its parts; a name of this workspace stands for itself.
-            let is_forbidden = forbidden.iter().any(|&name| {
-                reached == name || (name == "rust-hdl" && reached.starts_with("rust-hdl-"))
-            });
+            let is_forbidden = forbidden
+                .iter()
+                .any(|&name| reached == name || (name == "rust-hdl" && reached.starts_with("rust-hdl-")));
             if is_forbidden {
                 found.push(format!("{package} reaches {reached}: {reason}"));
             }
@@ -163,11 +143,7 @@ fn allowed_graph_and(user: &str, used: &str, kind: DependencyKind) -> Graph {
             (package.to_string(), uses.collect())
         })
         .collect();
-    graph.get_mut(user).unwrap().push(Use {
-        package: used.to_string(),
-        kind,
-        optional: false,
-    });
+    graph.get_mut(user).unwrap().push(Use { package: used.to_string(), kind, optional: false });
     graph
 }
 
@@ -179,100 +155,27 @@ fn a_graph_that_keeps_the_rules_passes() {
 
 /// One use more than allowed, and what the checker must say of it: user, used, kind, part of a sentence.
 const BREACHES: [(&str, &str, DependencyKind, &str); 14] = [
-    (
-        "incircle-hdl",
-        "incircle-model",
-        DependencyKind::Normal,
-        "incircle-hdl reaches incircle-model",
-    ),
-    (
-        "incircle-hdl",
-        "incircle-model",
-        DependencyKind::Development,
-        "incircle-hdl must not use incircle-model",
-    ),
-    (
-        "incircle-hdl",
-        "incircle",
-        DependencyKind::Normal,
-        "incircle-hdl reaches incircle-model",
-    ),
-    (
-        "incircle-protocol",
-        "incircle-model",
-        DependencyKind::Normal,
-        "incircle-hdl reaches incircle-model",
-    ),
-    (
-        "incircle-protocol",
-        "serde",
-        DependencyKind::Normal,
-        "incircle-protocol must use nothing",
-    ),
-    (
-        "incircle-model",
-        "rust-hdl-core",
-        DependencyKind::Normal,
-        "incircle-model reaches rust-hdl-core",
-    ),
-    (
-        "incircle",
-        "rust-hdl-core",
-        DependencyKind::Build,
-        "incircle reaches rust-hdl-core",
-    ),
-    (
-        "incircle",
-        "rust-hdl",
-        DependencyKind::Normal,
-        "incircle reaches rust-hdl",
-    ),
-    (
-        "incircle",
-        "verilated",
-        DependencyKind::Normal,
-        "incircle reaches verilated",
-    ),
-    (
-        "incircle",
-        "incircle-sim",
-        DependencyKind::Normal,
-        "incircle reaches incircle-hdl",
-    ),
-    (
-        "incircle-model",
-        "incircle-sim",
-        DependencyKind::Normal,
-        "incircle reaches verilated",
-    ),
-    (
-        "incircle",
-        "incircle-sim",
-        DependencyKind::Development,
-        "incircle must not use incircle-sim",
-    ),
-    (
-        "incircle-cli",
-        "incircle-sim",
-        DependencyKind::Normal,
-        "only as an option",
-    ),
-    (
-        "incircle-cli",
-        "incircle-testbench",
-        DependencyKind::Development,
-        "incircle-cli must not use incircle-testbench",
-    ),
+    ("incircle-hdl", "incircle-model", DependencyKind::Normal, "incircle-hdl reaches incircle-model"),
+    ("incircle-hdl", "incircle-model", DependencyKind::Development, "incircle-hdl must not use incircle-model"),
+    ("incircle-hdl", "incircle", DependencyKind::Normal, "incircle-hdl reaches incircle-model"),
+    ("incircle-protocol", "incircle-model", DependencyKind::Normal, "incircle-hdl reaches incircle-model"),
+    ("incircle-protocol", "serde", DependencyKind::Normal, "incircle-protocol must use nothing"),
+    ("incircle-model", "rust-hdl-core", DependencyKind::Normal, "incircle-model reaches rust-hdl-core"),
+    ("incircle", "rust-hdl-core", DependencyKind::Build, "incircle reaches rust-hdl-core"),
+    ("incircle", "rust-hdl", DependencyKind::Normal, "incircle reaches rust-hdl"),
+    ("incircle", "verilated", DependencyKind::Normal, "incircle reaches verilated"),
+    ("incircle", "incircle-sim", DependencyKind::Normal, "incircle reaches incircle-hdl"),
+    ("incircle-model", "incircle-sim", DependencyKind::Normal, "incircle reaches verilated"),
+    ("incircle", "incircle-sim", DependencyKind::Development, "incircle must not use incircle-sim"),
+    ("incircle-cli", "incircle-sim", DependencyKind::Normal, "only as an option"),
+    ("incircle-cli", "incircle-testbench", DependencyKind::Development, "incircle-cli must not use incircle-testbench"),
 ];
 
 #[test]
 fn each_kind_of_breach_is_found() {
     for (user, used, kind, sentence) in BREACHES {
         let found = breaches(&allowed_graph_and(user, used, kind));
-        assert!(
-            found.iter().any(|breach| breach.contains(sentence)),
-            "{user} -> {used} gives {found:?}"
-        );
+        assert!(found.iter().any(|breach| breach.contains(sentence)), "{user} -> {used} gives {found:?}");
     }
 }
 

@@ -41,9 +41,7 @@ fn anchors(text: &str) -> BTreeSet<String> {
         .filter(|line| line.starts_with('#'))
         .map(|line| {
             let title = line.trim_start_matches('#').trim().to_lowercase();
-            let kept = title
-                .chars()
-                .filter(|c| c.is_alphanumeric() || " -".contains(*c));
+            let kept = title.chars().filter(|c| c.is_alphanumeric() || " -".contains(*c));
             kept.collect::<String>().replace(' ', "-")
         })
         .collect()
@@ -61,10 +59,7 @@ fn links_lead_somewhere() {
             assert!(target.exists(), "{document} links to {link}");
             if !anchor.is_empty() {
                 let text = std::fs::read_to_string(&target).expect("a text");
-                assert!(
-                    anchors(&text).contains(anchor),
-                    "{document} links to {link}"
-                );
+                assert!(anchors(&text).contains(anchor), "{document} links to {link}");
             }
             checked += 1;
         }
@@ -75,11 +70,7 @@ fn links_lead_somewhere() {
 /// Everything in backquotes that looks like a path of this repository.
 fn paths(text: &str) -> Vec<&str> {
     let quoted = text.split('`').skip(1).step_by(2);
-    quoted
-        .filter(|quote| {
-            quote.contains('/') && quote.ends_with(".rs") && !quote.contains(['*', ' '])
-        })
-        .collect()
+    quoted.filter(|quote| quote.contains('/') && quote.ends_with(".rs") && !quote.contains(['*', ' '])).collect()
 }
 
 #[test]
@@ -89,9 +80,7 @@ fn files_named_by_the_architecture_exist() {
     assert!(paths.len() >= 15, "only {} paths found", paths.len());
     for path in paths {
         let places = ["", "hdl/src", "sim/model/src", "host/src"];
-        let exists = places
-            .iter()
-            .any(|place| root().join(place).join(path).exists());
+        let exists = places.iter().any(|place| root().join(place).join(path).exists());
         assert!(exists, "ARCHITECTURE.md names {path}");
     }
 }
@@ -107,10 +96,7 @@ fn the_example_is_the_one_that_doctests_compile() {
         .filter_map(|line| line.strip_prefix("//!"))
         .map(|line| line.strip_prefix(' ').unwrap_or(line))
         .collect();
-    assert!(
-        documentation.join("\n").contains(example),
-        "host/src/lib.rs differs"
-    );
+    assert!(documentation.join("\n").contains(example), "host/src/lib.rs differs");
 }
 
 fn metadata() -> Metadata {
@@ -123,9 +109,7 @@ fn metadata() -> Metadata {
 
 /// `MIT/Apache-2.0` and `Apache-2.0 OR MIT` are the same.
 fn licence(text: &str) -> BTreeSet<String> {
-    let parts = text
-        .split(['/', ' '])
-        .filter(|part| !part.is_empty() && *part != "OR");
+    let parts = text.split(['/', ' ']).filter(|part| !part.is_empty() && *part != "OR");
     parts.map(str::to_owned).collect()
 }
 
@@ -134,17 +118,9 @@ fn dependencies(metadata: &Metadata) -> BTreeMap<String, BTreeSet<String>> {
     let outside = metadata
         .workspace_packages()
         .into_iter()
-        .flat_map(|package: &Package| {
-            package
-                .dependencies
-                .iter()
-                .filter(|dependency| dependency.path.is_none())
-        });
+        .flat_map(|package: &Package| package.dependencies.iter().filter(|dependency| dependency.path.is_none()));
     let names: BTreeSet<_> = outside.map(|dependency| dependency.name.clone()).collect();
-    let used = metadata
-        .packages
-        .iter()
-        .filter(|package| names.contains(package.name.as_str()));
+    let used = metadata.packages.iter().filter(|package| names.contains(package.name.as_str()));
     used.map(|package| {
         let text = package.license.as_deref().unwrap_or("none");
         (package.name.to_string(), licence(text))

@@ -19,7 +19,8 @@ fn sound_verilog_passes() {
 
 #[test]
 fn an_undeclared_name_is_rejected_by_both_tools() {
-    let verilog = module("wire [7:0] sum;\nassign sum = a + b + {7'd0, WIDTH_OF_SUM};\nalways @(posedge clock) y <= sum;");
+    let verilog =
+        module("wire [7:0] sum;\nassign sum = a + b + {7'd0, WIDTH_OF_SUM};\nalways @(posedge clock) y <= sum;");
     let error = gate::lint(&verilog, "block").unwrap_err();
     assert!(error.to_string().contains("WIDTH_OF_SUM"), "{error}");
     let error = gate::synthesise(&verilog, "block").unwrap_err();
@@ -47,8 +48,7 @@ fn a_latch_is_rejected_by_both_tools() {
 
 #[test]
 fn a_width_mismatch_is_rejected_by_the_strict_lint_and_is_the_known_hole_of_the_other() {
-    let verilog =
-        module("wire [3:0] low;\nassign low = a + b;\nalways @(posedge clock) y <= {low, low};");
+    let verilog = module("wire [3:0] low;\nassign low = a + b;\nalways @(posedge clock) y <= {low, low};");
     let error = gate::lint_strictly(&verilog, "block").unwrap_err();
     assert!(error.to_string().contains("WIDTH"), "{error}");
     gate::lint(&verilog, "block").unwrap();
@@ -63,9 +63,7 @@ fn an_unused_signal_is_rejected() {
 
 #[test]
 fn an_unused_part_of_a_bundle_is_not_a_fault() {
-    let verilog = module(
-        "wire [7:0] sum;\nassign sum = a + b;\nalways @(posedge clock) y <= {sum[6:0], 1'b0};",
-    );
+    let verilog = module("wire [7:0] sum;\nassign sum = a + b;\nalways @(posedge clock) y <= {sum[6:0], 1'b0};");
     gate::lint(&verilog, "block").unwrap();
     let error = gate::lint_strictly(&verilog, "block").unwrap_err();
     assert!(error.to_string().contains("UNUSED"), "{error}");
@@ -98,17 +96,11 @@ fn a_missing_module_and_a_syntax_error_are_rejected() {
 
 #[test]
 fn cells_are_counted() {
-    let verilog =
-        "module block(input wire clock, input wire signed [17:0] a, input wire signed [17:0] b,
+    let verilog = "module block(input wire clock, input wire signed [17:0] a, input wire signed [17:0] b,
         output reg signed [35:0] y, output reg f);
         always @(posedge clock) begin y <= a * b; f <= a[0] & b[0]; end
         endmodule";
     let cells = gate::cell_count(verilog, "block").unwrap();
-    let expected = Cells {
-        lut4: 1,
-        flip_flops: 37,
-        multipliers: 1,
-        ..Cells::default()
-    };
+    let expected = Cells { lut4: 1, flip_flops: 37, multipliers: 1, ..Cells::default() };
     assert_eq!(cells, expected);
 }

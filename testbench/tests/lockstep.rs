@@ -24,9 +24,7 @@ fn tiny_jobs_in_tiny_boxes() {
         }
         let side = [2, 3, 4, 16, 1 << 16][job as usize % 5];
         let count = random.below(12);
-        let points: Vec<u32> = (0..count)
-            .map(|_| word(random.below(side), random.below(side)))
-            .collect();
+        let points: Vec<u32> = (0..count).map(|_| word(random.below(side), random.below(side))).collect();
         let piece = 1 + random.below(4) as usize;
         rig.run(&points, piece, Stalls::ALL[job as usize % 9]);
     }
@@ -45,11 +43,7 @@ fn overflowing_lists() {
         random.shuffle(&mut points);
         rig.run(&points, 77, Stalls::NONE);
     }
-    assert!(
-        rig.counted(Counter::Overflows) > 150,
-        "{} overflows",
-        rig.counted(Counter::Overflows)
-    );
+    assert!(rig.counted(Counter::Overflows) > 150, "{} overflows", rig.counted(Counter::Overflows));
     rig.expect_clocks(800_000);
 }
 
@@ -59,21 +53,9 @@ fn every_distribution_to_the_brim() {
     for (k, &distribution) in Distribution::all().iter().enumerate() {
         rig.start_anew(k as u32);
         // One point more than it holds, one less, and many duplicates in few bits.
-        rig.run(
-            &ordered(distribution, 1025, 16, k as u64),
-            1025,
-            Stalls::ALL[k % 9],
-        );
-        rig.run(
-            &ordered(distribution, 1023, 8, k as u64),
-            400,
-            Stalls::ALL[(k + 4) % 9],
-        );
-        rig.run(
-            &ordered(distribution, 600, 16, 7 + k as u64),
-            600,
-            Stalls::NONE,
-        );
+        rig.run(&ordered(distribution, 1025, 16, k as u64), 1025, Stalls::ALL[k % 9]);
+        rig.run(&ordered(distribution, 1023, 8, k as u64), 400, Stalls::ALL[(k + 4) % 9]);
+        rig.run(&ordered(distribution, 600, 16, 7 + k as u64), 600, Stalls::NONE);
     }
     rig.expect_clocks(4_500_000);
 }
@@ -81,12 +63,7 @@ fn every_distribution_to_the_brim() {
 #[test]
 fn the_full_core() {
     let mut rig = Rig::new("core_full", FULL, 4);
-    for distribution in [
-        Distribution::Uniform,
-        Distribution::Kuzmin,
-        Distribution::Lattice,
-        Distribution::Line,
-    ] {
+    for distribution in [Distribution::Uniform, Distribution::Kuzmin, Distribution::Lattice, Distribution::Line] {
         rig.run(&ordered(distribution, 8192, 16, 4), 8192, Stalls::NONE);
     }
     rig.expect_clocks(4_600_000);
@@ -97,12 +74,7 @@ fn resets_in_mid_job() {
     let mut rig = Rig::new("core_small_ring9", RING9, 5);
     let mut random = SplitMix64::new(5);
     for k in 0..150 {
-        let points = ordered(
-            Distribution::all()[k % Distribution::all().len()],
-            60,
-            8,
-            k as u64,
-        );
+        let points = ordered(Distribution::all()[k % Distribution::all().len()], 60, 8, k as u64);
         rig.run_and_reset(&points, random.below(9000), Stalls::ALL[k % 9]);
         if k % 10 == 0 {
             rig.run(&points, 60, Stalls::NONE);
@@ -120,24 +92,11 @@ fn commands_out_of_place() {
         for _ in 0..20 {
             let mut more = match random.below(6) {
                 0 => vec![(random.below(256) as u32) << 24],
-                1 => vec![
-                    command_word(Opcode::Read),
-                    random.below(20) as u32,
-                    random.below(20) as u32,
-                ],
-                2 => vec![
-                    command_word(Opcode::Read),
-                    u32::MAX - random.below(3) as u32,
-                    random.below(5) as u32,
-                ],
+                1 => vec![command_word(Opcode::Read), random.below(20) as u32, random.below(20) as u32],
+                2 => vec![command_word(Opcode::Read), u32::MAX - random.below(3) as u32, random.below(5) as u32],
                 3 => vec![command_word(Opcode::Counters)],
                 4 => vec![command_word(Opcode::Clear)],
-                _ => vec![
-                    command_word(Opcode::Insert),
-                    2,
-                    word(random.below(9), 3),
-                    word(4, random.below(9)),
-                ],
+                _ => vec![command_word(Opcode::Insert), 2, word(random.below(9), 3), word(4, random.below(9))],
             };
             // A random opcode may want arguments.
             match more[0] >> 24 {
@@ -154,29 +113,19 @@ fn commands_out_of_place() {
 
 #[test]
 fn the_least_core_and_the_longest_list() {
-    let least = Config {
-        points: 4,
-        ring: 3,
-        ..SMALL
-    };
+    let least = Config { points: 4, ring: 3, ..SMALL };
     let mut rig = Rig::new("core_least", least, 7);
     let mut random = SplitMix64::new(7);
     for job in 0..500 {
         let side = [3, 9, 1 << 16][job % 3];
         let count = random.below(7);
-        let points: Vec<u32> = (0..count)
-            .map(|_| word(random.below(side), random.below(side)))
-            .collect();
+        let points: Vec<u32> = (0..count).map(|_| word(random.below(side), random.below(side))).collect();
         rig.run(&points, 3, Stalls::ALL[job % 9]);
     }
     rig.expect_clocks(100_000);
     let ring64 = Config { ring: 64, ..SMALL };
     let mut rig = Rig::new("core_small_ring64", ring64, 8);
-    for distribution in [
-        Distribution::Parabola,
-        Distribution::TwoChains,
-        Distribution::Lattice,
-    ] {
+    for distribution in [Distribution::Parabola, Distribution::TwoChains, Distribution::Lattice] {
         let mut points = ordered(distribution, 700, 16, 8);
         rig.run(&points, 700, Stalls::NONE);
         random.shuffle(&mut points);
@@ -188,61 +137,35 @@ fn the_least_core_and_the_longest_list() {
 #[test]
 fn the_large_core_to_the_brim() {
     let mut rig = Rig::new("core_large", LARGE, 9);
-    rig.run(
-        &ordered(Distribution::Uniform, 16385, 16, 9),
-        16385,
-        Stalls::NONE,
-    );
+    rig.run(&ordered(Distribution::Uniform, 16385, 16, 9), 16385, Stalls::NONE);
     rig.expect_clocks(2_000_000);
 }
 
 /// Runs some jobs that touch every rule; returns the first mismatch and leaves its waveform.
 fn first_mismatch(name: &str) -> Option<(Mismatch, PathBuf)> {
-    [Distribution::Uniform, Distribution::Lattice]
-        .into_iter()
-        .find_map(|distribution| {
-            let job = Job::of(
-                &ordered(distribution, 200, 6, 1),
-                200,
-                SMALL.points,
-                SMALL.ring,
-            );
-            let mut pair = Lockstep::new(name, SMALL, 1);
-            let mut random = SplitMix64::new(1);
-            let mismatch = pair
-                .run(&job, Stalls::NONE, &mut || random.next_u64())
-                .err()?;
-            let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.vcd"));
-            pair.leave_waveform(&path);
-            Some((mismatch, path))
-        })
+    [Distribution::Uniform, Distribution::Lattice].into_iter().find_map(|distribution| {
+        let job = Job::of(&ordered(distribution, 200, 6, 1), 200, SMALL.points, SMALL.ring);
+        let mut pair = Lockstep::new(name, SMALL, 1);
+        let mut random = SplitMix64::new(1);
+        let mismatch = pair.run(&job, Stalls::NONE, &mut || random.next_u64()).err()?;
+        let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.vcd"));
+        pair.leave_waveform(&path);
+        Some((mismatch, path))
+    })
 }
 
 #[test]
 fn broken_cores_are_caught_and_reported() {
-    assert!(
-        first_mismatch("core_small").is_none(),
-        "the sound core passes the same jobs"
-    );
+    assert!(first_mismatch("core_small").is_none(), "the sound core passes the same jobs");
     for name in ["broken_comparison", "broken_link", "broken_tie"] {
         let (mismatch, path) = first_mismatch(name).unwrap_or_else(|| panic!("{name} passes"));
         let report = mismatch.to_string();
         println!("{name}: {report}\n");
         assert_ne!(mismatch.expected, mismatch.found);
-        for part in [
-            "clock ",
-            mismatch.port,
-            "the model says",
-            "the model is at: phase",
-            "last events:\n",
-        ] {
+        for part in ["clock ", mismatch.port, "the model says", "the model is at: phase", "last events:\n"] {
             assert!(report.contains(part), "{part:?} is missing in {report}");
         }
-        let wave = std::fs::read_to_string(&path)
-            .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        assert!(
-            wave.contains("$enddefinitions") && wave.contains("response_data"),
-            "{name}: no waveform"
-        );
+        let wave = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        assert!(wave.contains("$enddefinitions") && wave.contains("response_data"), "{name}: no waveform");
     }
 }

@@ -125,11 +125,7 @@ impl Cavity {
     /// The cavity of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = ring_bits(config);
-        Self {
-            list: LutMemory::new(bits, ENTRY_WORD_BITS),
-            inner: LutMemory::new(bits, 15),
-            ..Self::default()
-        }
+        Self { list: LutMemory::new(bits, ENTRY_WORD_BITS), inner: LutMemory::new(bits, 15), ..Self::default() }
     }
 }
 
@@ -189,11 +185,7 @@ impl Logic for Cavity {
         self.inner_id.next = self.inner.read_data.val();
         if self.splits.val() {
             self.entries.d.next = self.entries.q.val() + self.one.val();
-            self.half_open.d.next = self
-                .half_open
-                .q
-                .val()
-                .replace_bit(self.f_entry.val().index(), true);
+            self.half_open.d.next = self.half_open.q.val().replace_bit(self.f_entry.val().index(), true);
             if self.edge_was_passed.val() & self.root_keeps_an_edge.val() {
                 self.half_open.d.next = self.half_open.q.val().replace_bit(1, true);
             }

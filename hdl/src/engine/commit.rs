@@ -111,18 +111,7 @@ pub struct Commit {
 impl Logic for Commit {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(
-            self,
-            clock,
-            state,
-            pointer,
-            first,
-            current,
-            current_id,
-            ahead,
-            ahead_is_first,
-            opens
-        );
+        dff_setup!(self, clock, state, pointer, first, current, current_id, ahead, ahead_is_first, opens);
         dff_setup!(
             self,
             clock,
@@ -154,8 +143,7 @@ impl Logic for Commit {
         self.star_id.records.next = self.records.val();
         self.takes_fresh.next =
             (self.state.q.val() == CommitState::Record) & self.star_id.shares.val() & self.inner_is_used_up.val();
-        self.needs_link.next =
-            (!self.opens.q.val()) & (self.current_id.q.val() != self.current.q.val().f);
+        self.needs_link.next = (!self.opens.q.val()) & (self.current_id.q.val() != self.current.q.val().f);
         self.ends.next = self.state.q.val() == CommitState::Close;
 
         // The writes; when the ring closes, the current entry is the first again.

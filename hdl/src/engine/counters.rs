@@ -79,26 +79,14 @@ pub struct Counters {
 
 // `select` counts in the order of `Counter`; a change there must come here.
 const _: () = assert!(
-    Counter::ReadCycles as usize == 4
-        && Counter::Insertions as usize == 6
-        && Counter::Flips as usize == 13,
+    Counter::ReadCycles as usize == 4 && Counter::Insertions as usize == 6 && Counter::Flips as usize == 13,
     "the words of this block follow the protocol"
 );
 
 impl Logic for Counters {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(
-            self,
-            clock,
-            inserted,
-            duplicated,
-            walk_visits,
-            tests,
-            triangles,
-            overflows,
-            flips
-        );
+        dff_setup!(self, clock, inserted, duplicated, walk_visits, tests, triangles, overflows, flips);
         clock!(self, clock, insert_cycles, wait_cycles, read_cycles);
         self.one.next = 1.into();
         self.three.next = 3.into();

@@ -228,8 +228,7 @@ impl Logic for InsertionEngine {
         self.solo.turned.next = self.pipeline.turned.val();
         self.solo.verdict.next = self.pipeline.verdict.val();
         self.lock_release.last_id.next = self.last_id.val();
-        self.lock_release.takes_locks.next =
-            self.insertion.is_cavity.val() | self.insertion.is_drain.val();
+        self.lock_release.takes_locks.next = self.insertion.is_cavity.val() | self.insertion.is_drain.val();
         self.lock_release.done.next = self.pipeline.done.val();
         self.lock_release.token.next = self.pipeline.token.val();
         self.lock_release.turned.next = self.pipeline.turned.val();

@@ -63,24 +63,14 @@ pub struct Issue {
 impl Issue {
     /// A queue of `2^entry_bits` bundles.
     pub fn new(entry_bits: usize) -> Self {
-        Self {
-            queue: Fifo::new(entry_bits, BUNDLE_BITS),
-            ..Self::default()
-        }
+        Self { queue: Fifo::new(entry_bits, BUNDLE_BITS), ..Self::default() }
     }
 }
 
 impl Logic for Issue {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(
-            self,
-            clock,
-            issued,
-            issued_valid,
-            issued_read,
-            second_is_due
-        );
+        dff_setup!(self, clock, issued, issued_valid, issued_read, second_is_due);
         clock!(self, clock, queue);
         self.queue.reset.next = self.reset.val();
         self.queue.push.next = self.push.val();

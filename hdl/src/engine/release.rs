@@ -80,10 +80,7 @@ pub struct Release {
 impl Release {
     /// The log of a configuration: an insertion sets at most `2 * ring - 2` locks.
     pub fn new(config: Config) -> Self {
-        Self {
-            log: LutMemory::new(super::visit_pipeline::ring_bits(config) + 1, 15),
-            ..Self::default()
-        }
+        Self { log: LutMemory::new(super::visit_pipeline::ring_bits(config) + 1, 15), ..Self::default() }
     }
 }
 
@@ -99,10 +96,8 @@ impl Logic for Release {
         self.clear_id.next = self.cleared.q.val();
         self.clear_enable.next = self.clears.q.val();
 
-        self.takes.next = self.takes_locks.val()
-            & self.done.val()
-            & self.token.val().locks
-            & (!self.turned.val().was_set);
+        self.takes.next =
+            self.takes_locks.val() & self.done.val() & self.token.val().locks & (!self.turned.val().was_set);
         self.log.write_address.next = self.logged.q.val();
         self.log.write_data.next = self.token.val().u;
         self.log.write_enable.next = self.takes.val();

@@ -133,7 +133,9 @@ impl Logic for Solo {
         self.visit.outer.next = self.outer.q.val();
         self.visit.back.next = self.back.q.val();
         self.bundle.next = self.visit.bundle.val();
-        self.is_visiting.next = (self.state.q.val() == SoloState::Mend) | (self.state.q.val() == SoloState::Fetch) | (self.state.q.val() == SoloState::Test);
+        self.is_visiting.next = (self.state.q.val() == SoloState::Mend)
+            | (self.state.q.val() == SoloState::Fetch)
+            | (self.state.q.val() == SoloState::Test);
         self.push.next = self.is_visiting.val() & (!self.awaits.q.val());
         self.awaits.d.next = self.is_visiting.val() & (!self.done.val());
 
@@ -160,9 +162,7 @@ impl Logic for Solo {
         self.write.next = self.request.q.val();
         self.request.d.next.valid = false;
 
-        self.rests.next = (self.state.q.val() == SoloState::Test)
-            & self.done.val()
-            & (!self.verdict.val().conflict);
+        self.rests.next = (self.state.q.val() == SoloState::Test) & self.done.val() & (!self.verdict.val().conflict);
         self.tests.next = (self.state.q.val() == SoloState::Test) & self.done.val();
         self.is_flip.next = self.state.q.val() == SoloState::Flip;
         self.flips.next = self.is_flip.val() & self.is_last_step.val();

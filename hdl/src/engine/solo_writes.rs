@@ -143,10 +143,7 @@ impl Logic for SoloWrites {
         if self.is_split.val() {
             self.write.next = self.record.write.val();
         }
-        if (!self.is_mend.val())
-            & (!self.is_test.val())
-            & (self.is_step0.val() | self.is_step1.val())
-        {
+        if (!self.is_mend.val()) & (!self.is_test.val()) & (self.is_step0.val() | self.is_step1.val()) {
             self.write.next = self.record.write.val();
         }
     }

@@ -76,8 +76,7 @@ pub struct VerdictLogic {
 impl Logic for VerdictLogic {
     #[hdl_gen]
     fn update(&mut self) {
-        self.is_ghost.next =
-            self.turned.val().infinite0 | self.turned.val().infinite1 | self.turned.val().infinite2;
+        self.is_ghost.next = self.turned.val().infinite0 | self.turned.val().infinite1 | self.turned.val().infinite2;
 
         // A ghost: where the point lies from its one finite side.
         self.is_beyond.next = (!self.e0_negative.val()) & (!self.e0_zero.val());
@@ -95,21 +94,19 @@ impl Logic for VerdictLogic {
         }
 
         // min(p, r0) < min(r1, r2)
-        self.takes_tie.next = (self.p_before_r1.val() & self.p_before_r2.val())
-            | (self.r0_before_r1.val() & self.r0_before_r2.val());
+        self.takes_tie.next =
+            (self.p_before_r1.val() & self.p_before_r2.val()) | (self.r0_before_r1.val() & self.r0_before_r2.val());
         if self.is_ghost.val() {
-            self.verdict.next.conflict =
-                self.is_beyond.val() | (self.is_on_hull_line.val() & self.is_between.val());
+            self.verdict.next.conflict = self.is_beyond.val() | (self.is_on_hull_line.val() & self.is_between.val());
         } else {
             self.verdict.next.conflict =
                 self.incircle_positive.val() | (self.incircle_zero.val() & self.takes_tie.val());
         }
 
         // The walk.
-        self.is_outside_some_side.next =
-            self.e0_negative.val() | self.e1_negative.val() | self.e2_negative.val();
-        self.leaves_by_side2.next = (self.e1_below_e0.val() & self.e2_below_e1.val())
-            | ((!self.e1_below_e0.val()) & self.e2_below_e0.val());
+        self.is_outside_some_side.next = self.e0_negative.val() | self.e1_negative.val() | self.e2_negative.val();
+        self.leaves_by_side2.next =
+            (self.e1_below_e0.val() & self.e2_below_e1.val()) | ((!self.e1_below_e0.val()) & self.e2_below_e0.val());
         self.leaves_by_side1.next = self.e1_below_e0.val() & (!self.e2_below_e1.val());
         self.verdict.next.walk_next = self.turned.val().n0;
         if self.is_ghost.val() {

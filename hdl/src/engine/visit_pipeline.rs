@@ -29,10 +29,7 @@
 //! read_done       _______________________________________________________________/^^\__
 //! ```
 
-use super::{
-    Bundle, Issue, Token, Turned, Verdict, VerdictLogic, VisitReader, Write, TOKEN_BITS,
-    TURNED_BITS,
-};
+use super::{Bundle, Issue, Token, Turned, Verdict, VerdictLogic, VisitReader, Write, TOKEN_BITS, TURNED_BITS};
 use crate::leaf::{DelayLine, Unpack};
 use crate::mesh::{TriangleStore, VertexStore};
 use crate::predicate::VisitPredicates;
@@ -163,17 +160,7 @@ impl Logic for VisitPipeline {
             turned_register,
             verdict_register
         );
-        clock!(
-            self,
-            clock,
-            issue,
-            triangles,
-            vertices,
-            reader,
-            predicates,
-            token_delay,
-            turned_delay
-        );
+        clock!(self, clock, issue, triangles, vertices, reader, predicates, token_delay, turned_delay);
         self.one.next = 1.into();
         self.reader.infinite.next = self.infinite.val();
         self.issue.reset.next = self.reset.val();
@@ -184,8 +171,7 @@ impl Logic for VisitPipeline {
 
         // Clocks 0 to 2: the record.
         self.triangles.read_id.next = self.issue.token.val().u;
-        self.triangles.read_locks.next =
-            self.issue.token_valid.val() & self.issue.token.val().locks;
+        self.triangles.read_locks.next = self.issue.token_valid.val() & self.issue.token.val().locks;
         self.triangles.write.next = self.write.val();
         self.triangles.clear_id.next = self.clear_id.val();
         self.triangles.clear_enable.next = self.clear_enable.val();

@@ -4,17 +4,14 @@ use incircle_protocol::{Config, MAX_RING, TINY};
 
 use super::block;
 use crate::engine::{
-    Commit, Context, Counters, PhaseMachine, PushChoice, Release, Seeder, Solo, SoloVisit,
-    SoloWrites, StarId, WideCounter,
+    Commit, Context, Counters, PhaseMachine, PushChoice, Release, Seeder, Solo, SoloVisit, SoloWrites, StarId,
+    WideCounter,
 };
 use crate::link::{AnswerWords, CommandGate, CommandPort, PointSlot, RecordWords, Responder};
 
 /// The name of each root module, and its Verilog.
 pub(super) fn control_blocks() -> Vec<(String, String)> {
-    let longest_list = Config {
-        ring: MAX_RING,
-        ..TINY
-    };
+    let longest_list = Config { ring: MAX_RING, ..TINY };
     // `context` and `release` alone are words of SystemVerilog.
     vec![
         block(Commit::default(), "commit"),

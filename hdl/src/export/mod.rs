@@ -32,28 +32,11 @@ impl fmt::Display for ExportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (names, fault, remedy) = match self {
             Self::Config(error) => return error.fmt(f),
-            Self::OpenSignals(names) => (
-                names,
-                "are driven by nothing",
-                "assign or connect each of them",
-            ),
-            Self::LogicLoops(names) => (
-                names,
-                "are read before they are assigned",
-                "assign them first",
-            ),
-            Self::DrivenInputs(names) => (
-                names,
-                "are inputs that their own block assigns",
-                "assign them one level up",
-            ),
+            Self::OpenSignals(names) => (names, "are driven by nothing", "assign or connect each of them"),
+            Self::LogicLoops(names) => (names, "are read before they are assigned", "assign them first"),
+            Self::DrivenInputs(names) => (names, "are inputs that their own block assigns", "assign them one level up"),
         };
-        write!(
-            f,
-            "{} signals {fault} ({}): {remedy}",
-            names.len(),
-            names.join(", ")
-        )
+        write!(f, "{} signals {fault} ({}): {remedy}", names.len(), names.join(", "))
     }
 }
 
@@ -62,10 +45,8 @@ impl std::error::Error for ExportError {}
 impl From<CheckError> for ExportError {
     fn from(error: CheckError) -> Self {
         let names = |paths: Vec<rust_hdl_core::check_error::PathedName>| {
-            let mut names: Vec<_> = paths
-                .into_iter()
-                .map(|signal| format!("{}${}", signal.path, signal.name))
-                .collect();
+            let mut names: Vec<_> =
+                paths.into_iter().map(|signal| format!("{}${}", signal.path, signal.name)).collect();
             names.sort();
             names
         };
@@ -88,10 +69,7 @@ pub fn verilog<U: Block>(uut: &U, name: &str) -> Result<String, ExportError> {
     check_all(uut)?;
     let mut modules = ModuleDefines::default();
     uut.accept(name, &mut modules);
-    Ok(format!(
-        "`default_nettype none\n{}\n`default_nettype wire\n",
-        modules.defines()
-    ))
+    Ok(format!("`default_nettype none\n{}\n`default_nettype wire\n", modules.defines()))
 }
 
 /// Connects a block and exports it under a name.
@@ -113,11 +91,7 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
     let mut uut = Core::new(config).map_err(ExportError::Config)?;
     uut.connect_all();
     let inside = format!("{CORE_NAME}_logic");
-    Ok(format!(
-        "{}{}",
-        verilog(&uut, &inside)?,
-        wrapper(&inside, with_probe)
-    ))
+    Ok(format!("{}{}", verilog(&uut, &inside)?, wrapper(&inside, with_probe)))
 }
 
 /// Every block that is tested alone: the name of its root module, and its Verilog.

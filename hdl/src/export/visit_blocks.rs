@@ -4,17 +4,13 @@ use incircle_protocol::{Config, MAX_RING, SMALL, TINY};
 
 use super::block;
 use crate::engine::{
-    Cavity, Issue, LinkWrite, RecordWrite, RootBundle, SeedWrites, VerdictLogic, VisitPipeline,
-    VisitReader, WritePort,
+    Cavity, Issue, LinkWrite, RecordWrite, RootBundle, SeedWrites, VerdictLogic, VisitPipeline, VisitReader, WritePort,
 };
 use crate::mesh::{TriangleStore, VertexStore};
 
 /// The name of each root module, and its Verilog.
 pub(super) fn visit_blocks() -> Vec<(String, String)> {
-    let longest_list = Config {
-        ring: MAX_RING,
-        ..TINY
-    };
+    let longest_list = Config { ring: MAX_RING, ..TINY };
     vec![
         block(TriangleStore::new(5, 4), "triangle_store_5_4"),
         block(TriangleStore::new(15, 15), "triangle_store_15"),

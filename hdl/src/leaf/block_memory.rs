@@ -73,12 +73,7 @@ impl<const A: usize, const D: usize> BlockMemory<A, D> {
 
     /// What a read that meets a write of the same word gives in simulation.
     fn poison(&self) -> Bits<D> {
-        (0..D)
-            .step_by(2)
-            .fold(Bits::default(), |word: Bits<D>, bit| {
-                word.replace_bit(bit, true)
-            })
-            & self._stored_mask
+        (0..D).step_by(2).fold(Bits::default(), |word: Bits<D>, bit| word.replace_bit(bit, true)) & self._stored_mask
     }
 }
 

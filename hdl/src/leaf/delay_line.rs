@@ -47,10 +47,7 @@ impl<const D: usize> DelayLine<D> {
     /// If `stages` is not in `MIN_STAGES..=MAX_STAGES`.
     pub fn new(stages: usize) -> Self {
         let (fewest, most) = (Self::MIN_STAGES, Self::MAX_STAGES);
-        assert!(
-            (fewest..=most).contains(&stages),
-            "a delay line has {fewest} to {most} stages, not {stages}"
-        );
+        assert!((fewest..=most).contains(&stages), "a delay line has {fewest} to {most} stages, not {stages}");
         let distance = stages - BlockMemory::<COUNTER_BITS, D>::LATENCY;
         Self {
             clock: Signal::default(),

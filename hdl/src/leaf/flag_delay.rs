@@ -62,10 +62,7 @@ impl Logic for FlagDelay {
         Verilog::Custom(match self._line.len() {
             0 => format!("{always} flag_out <= flag_in;\n"),
             1 => format!("reg line;\n{always} {{flag_out, line}} <= {{line, flag_in}};\n"),
-            held => format!(
-                "reg [{top}:0] line;\n{always} {{flag_out, line}} <= {{line, flag_in}};\n",
-                top = held - 1
-            ),
+            held => format!("reg [{top}:0] line;\n{always} {{flag_out, line}} <= {{line, flag_in}};\n", top = held - 1),
         })
     }
 }

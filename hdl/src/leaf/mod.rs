@@ -27,10 +27,7 @@ const MAX_ADDRESS_BITS: usize = 20;
 /// Refuses the shape of a memory that its ports cannot carry.
 fn assert_shape(address_bits: usize, address_port: usize, stored_bits: usize, data_port: usize) {
     let widest = address_port.min(MAX_ADDRESS_BITS);
-    assert!(
-        (1..=widest).contains(&address_bits),
-        "a memory here has 1 to {widest} address bits, not {address_bits}"
-    );
+    assert!((1..=widest).contains(&address_bits), "a memory here has 1 to {widest} address bits, not {address_bits}");
     assert!(
         (1..=data_port).contains(&stored_bits),
         "a memory here keeps 1 to {data_port} bits of a word, not {stored_bits}"
@@ -62,9 +59,6 @@ fn unused_part(port: &str, width: usize, kept: usize) -> String {
     if kept == width {
         String::new()
     } else {
-        format!(
-            "wire unused_{port} = &{{1'b0, {port}[{}:{kept}]}};\n",
-            width - 1
-        )
+        format!("wire unused_{port} = &{{1'b0, {port}[{}:{kept}]}};\n", width - 1)
     }
 }

@@ -16,8 +16,8 @@
 //! Latency: none (combinational).
 
 use incircle_protocol::{
-    Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS, IDENTITY_WORDS,
-    INSERT_REPORT_WORDS, MAGIC, PROTOCOL_VERSION,
+    Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, MAGIC,
+    PROTOCOL_VERSION,
 };
 use rust_hdl_core::prelude::*;
 

@@ -57,8 +57,7 @@ impl Logic for CommandGate {
             self.ready.next = !self.sweeps.val();
         }
         if self.is_points.val() {
-            self.ready.next =
-                (!self.none_is_left.val()) & (!self.point_waits.val()) & (!self.start_is_open.val());
+            self.ready.next = (!self.none_is_left.val()) & (!self.point_waits.val()) & (!self.start_is_open.val());
         }
     }
 }

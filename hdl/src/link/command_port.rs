@@ -194,10 +194,7 @@ impl Logic for CommandPort {
         self.is_insert.next = self.command.q.val() == self.insert_code.val();
 
         self.clearing.d.next = false;
-        if (self.state.q.val() != CommandState::Answer)
-            & self.responder_is_idle.val()
-            & self.answer_is_taken.val()
-        {
+        if (self.state.q.val() != CommandState::Answer) & self.responder_is_idle.val() & self.answer_is_taken.val() {
             self.is_reading.d.next = false;
         }
         match self.state.q.val() {
@@ -257,7 +254,7 @@ impl Logic for CommandPort {
         }
         if self.reset.val() {
             self.state.d.next = CommandState::Command;
-                self.clearing.d.next = false;
+            self.clearing.d.next = false;
             self.is_inserting.d.next = false;
             self.is_reading.d.next = false;
         }

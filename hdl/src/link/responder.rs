@@ -151,9 +151,8 @@ impl Logic for Responder {
         self.is_last_column.next = self.column.q.val() == self.last_column.val();
 
         // A record is fetched when the one before has been loaded.
-        self.asks.next = (self.state.q.val() == AnswerState::Records)
-            & (!self.fetching.q.val())
-            & (!self.buffered.q.val());
+        self.asks.next =
+            (self.state.q.val() == AnswerState::Records) & (!self.fetching.q.val()) & (!self.buffered.q.val());
         self.read.next = self.asks.val();
         self.read_id.next = self.record_id.q.val();
         self.words.v0.next = self.v0.val();

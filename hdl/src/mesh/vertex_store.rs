@@ -53,10 +53,7 @@ impl VertexStore {
 
     /// A store of `2^id_bits` vertices.
     pub fn new(id_bits: usize) -> Self {
-        Self {
-            copies: [(); 3].map(|()| BlockMemory::new(id_bits, 32)),
-            ..Self::default()
-        }
+        Self { copies: [(); 3].map(|()| BlockMemory::new(id_bits, 32)), ..Self::default() }
     }
 }
 

@@ -83,10 +83,7 @@ impl EdgeSigns {
     /// # Panics
     /// If `latency` is below 3.
     pub fn new(latency: usize) -> Self {
-        assert!(
-            latency >= 3,
-            "the signs of edges take at least 3 clocks, not {latency}"
-        );
+        assert!(latency >= 3, "the signs of edges take at least 3 clocks, not {latency}");
         let delay = || FlagDelay::new(latency - 2);
         Self {
             clock: Signal::default(),
@@ -137,21 +134,9 @@ impl Logic for EdgeSigns {
         clock!(self, clock, value_0, value_1, value_2);
         clock!(self, clock, negative_0, negative_1, negative_2, zero_0, zero_1, zero_2);
         clock!(self, clock, low_1_below_0, low_2_below_0, low_2_below_1);
-        clock!(
-            self,
-            clock,
-            delay_negative_0,
-            delay_negative_1,
-            delay_negative_2
-        );
+        clock!(self, clock, delay_negative_0, delay_negative_1, delay_negative_2);
         clock!(self, clock, delay_zero_0, delay_zero_1, delay_zero_2);
-        clock!(
-            self,
-            clock,
-            delay_1_below_0,
-            delay_2_below_0,
-            delay_2_below_1
-        );
+        clock!(self, clock, delay_1_below_0, delay_2_below_0, delay_2_below_1);
         // Edge 1.
         self.value_0.d.next = bit_cast::<33, 36>(self.e0.val());
         self.value_1.d.next = bit_cast::<33, 36>(self.e1.val());

@@ -101,20 +101,8 @@ impl VertexOrder {
 impl Logic for VertexOrder {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(
-            self,
-            clock,
-            delay_before_r0,
-            delay_before_r1,
-            delay_before_r2
-        );
-        clock!(
-            self,
-            clock,
-            delay_equals_r0,
-            delay_equals_r1,
-            delay_equals_r2
-        );
+        clock!(self, clock, delay_before_r0, delay_before_r1, delay_before_r2);
+        clock!(self, clock, delay_equals_r0, delay_equals_r1, delay_equals_r2);
         clock!(self, clock, delay_r0_before_r1, delay_r0_before_r2);
         self.key_r0.point.next = self.r0.val();
         self.key_r1.point.next = self.r1.val();

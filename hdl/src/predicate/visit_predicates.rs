@@ -165,16 +165,7 @@ impl Logic for VisitPredicates {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, cross_0, cross_1, cross_2, cross_apex, dot_apex, dot_point);
-        clock!(
-            self,
-            clock,
-            edges,
-            order,
-            point_by_apex,
-            apex_by_point,
-            positive,
-            zero
-        );
+        clock!(self, clock, edges, order, point_by_apex, apex_by_point, positive, zero);
 
         // Vectors between the points.
         self.p_to_r0.from.next = self.p.val();

@@ -108,14 +108,7 @@ impl Default for WideProduct {
 impl Logic for WideProduct {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(
-            self,
-            clock,
-            high_by_high,
-            high_by_low,
-            low_by_high,
-            low_by_low
-        );
+        clock!(self, clock, high_by_high, high_by_low, low_by_high, low_by_low);
         clock!(self, clock, upper, middle, lower, product_high, product_low);
 
         // Edges 1 to 3: limbs into the multipliers.

@@ -155,9 +155,8 @@ impl Logic for Core {
         // The counters.
         self.counters.clears.next = self.command_port.clears.val();
         self.counters.inserting.next = self.command_port.inserting.val();
-        self.counters.waiting.next = self.command_port.inserting.val()
-            & self.command_port.awaits_point.val()
-            & self.engine.is_quiet.val();
+        self.counters.waiting.next =
+            self.command_port.inserting.val() & self.command_port.awaits_point.val() & self.engine.is_quiet.val();
         self.counters.reading.next = self.command_port.reading.val();
         self.counters.seeds.next = self.engine.seeds.val();
         self.counters.commit_ends.next = self.engine.commit_ends.val();

@@ -44,11 +44,7 @@ pub fn wrapper(core: &str, with_probe: bool) -> String {
     if with_probe {
         let mut fields: Vec<&str> = Vec::new();
         for (name, width) in PROBE {
-            let range = if width == 1 {
-                String::new()
-            } else {
-                format!("[{}:0] ", width - 1)
-            };
+            let range = if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) };
             ports.push(format!("output wire {range}{name}"));
             fields.insert(0, name);
         }
@@ -86,9 +82,6 @@ mod tests {
     #[test]
     fn the_probe_is_as_wide_as_the_write_port() {
         let width: usize = PROBE.iter().map(|(_, width)| width).sum();
-        assert_eq!(
-            width,
-            <crate::engine::Write as rust_hdl_core::prelude::Synth>::BITS
-        );
+        assert_eq!(width, <crate::engine::Write as rust_hdl_core::prelude::Synth>::BITS);
     }
 }

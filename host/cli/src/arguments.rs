@@ -18,8 +18,7 @@ pub struct Cli {
     pub command: Command,
 }
 
-const EXIT_CODES: &str =
-    "Exit codes: 0 ok, 1 verification failed, 2 usage, 3 bad input, 4 device not found or no \
+const EXIT_CODES: &str = "Exit codes: 0 ok, 1 verification failed, 2 usage, 3 bad input, 4 device not found or no \
 permission, 5 link error, 6 device error or timeout, 7 capacity, 130 interrupted.";
 
 /// The subcommands.
@@ -202,10 +201,7 @@ fn quantize_from(text: &str) -> Result<Quantize, String> {
     if text == "fit" {
         return Ok(Quantize::Fit);
     }
-    let numbers: Result<Vec<f64>, _> = text
-        .split(',')
-        .map(|part| part.trim().parse::<f64>())
-        .collect();
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
     let (scale, offset) = match numbers.as_deref() {
         Ok(&[scale]) => (scale, [0.0, 0.0]),
         Ok(&[scale, x, y]) => (scale, [x, y]),
@@ -219,9 +215,7 @@ fn quantize_from(text: &str) -> Result<Quantize, String> {
 }
 
 fn seconds_from(text: &str) -> Result<Duration, String> {
-    let seconds: f64 = text
-        .parse()
-        .map_err(|_| "give seconds, such as 2.5".to_owned())?;
+    let seconds: f64 = text.parse().map_err(|_| "give seconds, such as 2.5".to_owned())?;
     match Duration::try_from_secs_f64(seconds) {
         Ok(duration) if !duration.is_zero() => Ok(duration),
         _ => Err("give a positive number of seconds".to_owned()),
@@ -241,9 +235,7 @@ mod tests {
     #[test]
     fn every_configuration_has_its_name() {
         for name in ConfigName::value_variants() {
-            let shown = name
-                .to_possible_value()
-                .map(|value| value.get_name().to_owned());
+            let shown = name.to_possible_value().map(|value| value.get_name().to_owned());
             assert_eq!(shown.as_deref(), Some(name.config().name));
         }
     }
@@ -251,10 +243,7 @@ mod tests {
     #[test]
     fn quantisation_is_read() {
         assert_eq!(quantize_from("fit"), Ok(Quantize::Fit));
-        let scale = Quantize::Scale {
-            scale: 2.0,
-            offset: [-1.5, 0.0],
-        };
+        let scale = Quantize::Scale { scale: 2.0, offset: [-1.5, 0.0] };
         assert_eq!(quantize_from("2,-1.5,0"), Ok(scale));
         for bad in ["", "0", "-1", "nan", "1,2", "fill", "1,inf,0"] {
             assert!(quantize_from(bad).is_err(), "{bad}");

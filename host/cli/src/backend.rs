@@ -40,43 +40,23 @@ pub fn open(
     trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
     match choice.backend {
-        BackendName::Model => open_model(
-            choice,
-            coord_bits,
-            points.map_or(MAX_POINTS, <[Point]>::len),
-        ),
+        BackendName::Model => open_model(choice, coord_bits, points.map_or(MAX_POINTS, <[Point]>::len)),
         BackendName::Sim => open_sim(choice, coord_bits, points, trace),
     }
 }
 
-fn open_model(
-    choice: &BackendArguments,
-    coord_bits: u32,
-    points: usize,
-) -> Result<Backend, Failure> {
+fn open_model(choice: &BackendArguments, coord_bits: u32, points: usize) -> Result<Backend, Failure> {
     if choice.config.is_some() {
-        return Err(Failure::usage(
-            "--config chooses a configuration of the core: it needs --backend sim",
-        ));
+        return Err(Failure::usage("--config chooses a configuration of the core: it needs --backend sim"));
     }
     let capacity = points.clamp(LEAST_CAPACITY, MAX_POINTS);
     let capacity = u32::try_from(capacity).unwrap_or(u32::MAX);
     let device = Device::model(coord_bits, capacity).map_err(|error| failure_of(&error))?;
-    Ok(Backend {
-        device,
-        name: "model",
-        config: None,
-        insert_chunk: incircle::INSERT_CHUNK,
-    })
+    Ok(Backend { device, name: "model", config: None, insert_chunk: incircle::INSERT_CHUNK })
 }
 
 #[cfg(not(feature = "sim"))]
-fn open_sim(
-    _: &BackendArguments,
-    _: u32,
-    _: Option<&[Point]>,
-    _: Option<&Path>,
-) -> Result<Backend, Failure> {
+fn open_sim(_: &BackendArguments, _: u32, _: Option<&[Point]>, _: Option<&Path>) -> Result<Backend, Failure> {
     Err(Failure::usage(
         "this incircle was built without the simulated core: install Verilator and build it with \
          'cargo build --release --features sim'",

@@ -36,10 +36,7 @@ pub struct Failure {
 impl Failure {
     /// A failure with this exit code and this sentence.
     pub fn new(exit: Exit, message: impl Into<String>) -> Self {
-        Self {
-            exit,
-            message: message.into(),
-        }
+        Self { exit, message: message.into() }
     }
 
     /// Wrong input, exit code 3.
@@ -76,11 +73,7 @@ pub fn quoted(value: &[u8]) -> String {
     let head = &value[..value.len().min(4 * QUOTED + 4)];
     let text = String::from_utf8_lossy(head);
     let mut characters = text.chars();
-    let shown: String = characters
-        .by_ref()
-        .take(QUOTED)
-        .flat_map(char::escape_debug)
-        .collect();
+    let shown: String = characters.by_ref().take(QUOTED).flat_map(char::escape_debug).collect();
     if characters.next().is_some() || head.len() < value.len() {
         format!("'{shown}…' ({} bytes)", value.len())
     } else {
@@ -111,9 +104,6 @@ mod tests {
         assert_eq!(quoted(b"a\nb"), "'a\\nb'");
         let long = vec![b'7'; 1_000_000];
         let shown = quoted(&long);
-        assert!(
-            shown.len() < 80 && shown.ends_with("(1000000 bytes)"),
-            "{shown}"
-        );
+        assert!(shown.len() < 80 && shown.ends_with("(1000000 bytes)"), "{shown}");
     }
 }

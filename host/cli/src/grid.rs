@@ -23,32 +23,19 @@ pub fn lay(table: &PointTable, grid: &GridArguments) -> Result<Laid, Failure> {
         Some(how) => how,
         None => match integers(&table.points, bits) {
             Ok(points) => {
-                return Ok(Laid {
-                    points,
-                    quantization: None,
-                });
+                return Ok(Laid { points, quantization: None });
             }
             Err(Error::NotInteger { .. }) => Quantize::Fit,
             Err(error) => return Err(refuse(&error, table, false)),
         },
     };
-    let (points, quantization) =
-        quantize(&table.points, bits, how).map_err(|error| refuse(&error, table, true))?;
-    Ok(Laid {
-        points,
-        quantization: Some(quantization),
-    })
+    let (points, quantization) = quantize(&table.points, bits, how).map_err(|error| refuse(&error, table, true))?;
+    Ok(Laid { points, quantization: Some(quantization) })
 }
 
 /// Library errors that name a point name its place in the file here.
 fn refuse(error: &Error, table: &PointTable, quantized: bool) -> Failure {
-    let Error::OutOfGrid {
-        index,
-        axis,
-        value,
-        coord_bits,
-    } = error
-    else {
+    let Error::OutOfGrid { index, axis, value, coord_bits } = error else {
         return failure_of(error);
     };
     let place = table.place(*index, usize::from(*axis == 'y'));
@@ -59,15 +46,12 @@ fn refuse(error: &Error, table: &PointTable, quantized: bool) -> Failure {
             "{place}: the value falls on {shown}, outside 0 to {last} ({coord_bits} bits): choose another scale or --quantize fit"
         ));
     }
-    let needed =
-        (*coord_bits..=31).find(|bits| (0.0..=((1u64 << bits) - 1) as f64).contains(value));
+    let needed = (*coord_bits..=31).find(|bits| (0.0..=((1u64 << bits) - 1) as f64).contains(value));
     let advice = match needed {
         Some(bits) => format!("give --coord-bits {bits} or --quantize fit"),
         None => "give --quantize fit".to_owned(),
     };
-    Failure::input(format!(
-        "{place}: {shown} is outside 0 to {last} ({coord_bits} bits): {advice}"
-    ))
+    Failure::input(format!("{place}: {shown} is outside 0 to {last} ({coord_bits} bits): {advice}"))
 }
 
 /// The exit code of a library error.
@@ -78,9 +62,7 @@ pub fn failure_of(error: &Error) -> Failure {
         ErrorKind::DeviceNotFound => Exit::NoDevice,
         ErrorKind::Link => Exit::Link,
         ErrorKind::Capacity => Exit::Capacity,
-        ErrorKind::Cancelled => {
-            return Failure::new(Exit::Interrupted, "interrupted: nothing was written")
-        }
+        ErrorKind::Cancelled => return Failure::new(Exit::Interrupted, "interrupted: nothing was written"),
         // Timeouts, wrong answers, and whatever is added later.
         _ => Exit::Device,
     };

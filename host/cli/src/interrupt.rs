@@ -31,10 +31,7 @@ pub fn watch() -> Result<(), Failure> {
     match ctrlc::set_handler(handler) {
         // Set by an earlier run in this process.
         Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(()),
-        Err(error) => Err(Failure::new(
-            Exit::Device,
-            format!("interrupts cannot be watched: {error}"),
-        )),
+        Err(error) => Err(Failure::new(Exit::Device, format!("interrupts cannot be watched: {error}"))),
     }
 }
 
@@ -46,10 +43,7 @@ pub fn raised() -> bool {
 /// Ends an interrupted run.
 pub fn check() -> Result<(), Failure> {
     if raised() {
-        return Err(Failure::new(
-            Exit::Interrupted,
-            "interrupted: nothing was written",
-        ));
+        return Err(Failure::new(Exit::Interrupted, "interrupted: nothing was written"));
     }
     Ok(())
 }

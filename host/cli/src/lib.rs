@@ -39,11 +39,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(refusal) => {
             // A closed standard output is no matter here.
             let _ = refusal.print();
-            return ExitCode::from(if refusal.use_stderr() {
-                Exit::Usage as u8
-            } else {
-                0
-            });
+            return ExitCode::from(if refusal.use_stderr() { Exit::Usage as u8 } else { 0 });
         }
     };
     let result = interrupt::watch().and_then(|()| match &cli.command {

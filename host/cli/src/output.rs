@@ -41,31 +41,21 @@ impl Output {
     /// that is there must be writable.
     pub fn prepare(path: &Path, input: Option<&Path>) -> Result<Self, Failure> {
         if is_standard(path) {
-            return Ok(Self {
-                target: Target::Standard,
-                name: "standard output".to_owned(),
-            });
+            return Ok(Self { target: Target::Standard, name: "standard output".to_owned() });
         }
         let name = path.display().to_string();
         if input.is_some_and(|input| is_same(input, path)) {
-            return Err(Failure::usage(format!(
-                "{name} is both the input and the output: choose another output"
-            )));
+            return Err(Failure::usage(format!("{name} is both the input and the output: choose another output")));
         }
         let target = match fs::metadata(path) {
             Ok(found) if found.is_dir() => {
-                return Err(Failure::input(format!(
-                    "{name} cannot be written: it is a folder"
-                )));
+                return Err(Failure::input(format!("{name} cannot be written: it is a folder")));
             }
             Ok(found) if found.is_file() => {
                 let writable = OpenOptions::new().write(true).open(path);
                 writable.map_err(|error| cannot_write(&name, &error))?;
                 // A link is followed, so that what it points to is replaced and not the link.
-                Target::Ordinary(
-                    path.canonicalize()
-                        .map_err(|error| cannot_write(&name, &error))?,
-                )
+                Target::Ordinary(path.canonicalize().map_err(|error| cannot_write(&name, &error))?)
             }
             Ok(_) => Target::Special(path.to_owned()),
             Err(error) if error.kind() == ErrorKind::NotFound => {
@@ -91,44 +81,32 @@ impl Output {
     pub fn reserve(self) -> Result<Written, Failure> {
         match self.target {
             Target::Ordinary(_) => self.write(|_| Ok(())),
-            Target::Standard | Target::Special(_) => Err(Failure::usage(format!(
-                "{} is no ordinary file: choose another output for this",
-                self.name
-            ))),
+            Target::Standard | Target::Special(_) => {
+                Err(Failure::usage(format!("{} is no ordinary file: choose another output for this", self.name)))
+            }
         }
     }
 
     /// Whether this is the same ordinary file as another output, there already or not.
     pub fn is_same(&self, other: &Self) -> bool {
         let place = |output: &Self| match &output.target {
-            Target::Ordinary(path) => folder_of(path)
-                .canonicalize()
-                .ok()
-                .map(|folder| folder.join(path.file_name().unwrap_or_default())),
+            Target::Ordinary(path) => {
+                folder_of(path).canonicalize().ok().map(|folder| folder.join(path.file_name().unwrap_or_default()))
+            }
             Target::Standard | Target::Special(_) => None,
         };
         place(self).is_some_and(|path| place(other) == Some(path))
     }
 
     /// Writes everything that `content` writes. A reader that closed the pipe is no failure.
-    pub fn write(
-        self,
-        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<Written, Failure> {
+    pub fn write(self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Written, Failure> {
         let Self { target, name } = self;
-        let done = |renaming| Written {
-            renaming,
-            name: name.clone(),
-        };
+        let done = |renaming| Written { renaming, name: name.clone() };
         let result = match target {
-            Target::Standard => {
-                ignore_closed(fill(io::stdout().lock(), content)).map(|()| done(None))
-            }
+            Target::Standard => ignore_closed(fill(io::stdout().lock(), content)).map(|()| done(None)),
             Target::Special(path) => {
                 let opened = OpenOptions::new().write(true).open(path);
-                opened
-                    .and_then(|file| ignore_closed(fill(file, content)))
-                    .map(|()| done(None))
+                opened.and_then(|file| ignore_closed(fill(file, content))).map(|()| done(None))
             }
             Target::Ordinary(path) => {
                 let part = part_beside(&path);
@@ -213,10 +191,7 @@ fn begin(part: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-fn fill(
-    file: impl Write,
-    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
+fn fill(file: impl Write, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut buffered = BufWriter::with_capacity(1 << 16, file);
     content(&mut buffered)?;
     buffered.flush()

@@ -23,20 +23,12 @@ pub struct PointTable {
 impl PointTable {
     /// An empty table of text rows whose coordinates stand in these columns, counted from 1.
     pub fn of_rows(columns: [usize; 2]) -> Self {
-        Self {
-            points: Vec::new(),
-            origin: Origin::Rows(Vec::new()),
-            columns,
-        }
+        Self { points: Vec::new(), origin: Origin::Rows(Vec::new()), columns }
     }
 
     /// An empty table of items of this name (`vertex`, `feature`).
     pub fn of_items(name: &'static str) -> Self {
-        Self {
-            points: Vec::new(),
-            origin: Origin::Items(name),
-            columns: [1, 2],
-        }
+        Self { points: Vec::new(), origin: Origin::Items(name), columns: [1, 2] }
     }
 
     /// Adds a point that stands in this row (rows count from 1; ignored for items).
@@ -55,11 +47,7 @@ impl PointTable {
                 row: rows.get(index).map_or(index + 1, |&row| row as usize),
                 column: self.columns[axis.min(1)],
             },
-            Origin::Items(name) => Place::Item {
-                name,
-                number: index + 1,
-                axis: if axis == 0 { 'x' } else { 'y' },
-            },
+            Origin::Items(name) => Place::Item { name, number: index + 1, axis: if axis == 0 { 'x' } else { 'y' } },
         }
     }
 }

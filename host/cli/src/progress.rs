@@ -23,11 +23,7 @@ pub struct Meter {
 impl Meter {
     /// A meter that shows nothing if `quiet`, or if nobody watches.
     pub fn new(quiet: bool) -> Self {
-        Self {
-            shown: !quiet && stderr().is_terminal(),
-            since: Instant::now(),
-            bar: OnceCell::new(),
-        }
+        Self { shown: !quiet && stderr().is_terminal(), since: Instant::now(), bar: OnceCell::new() }
     }
 
     /// Takes news of the job.
@@ -56,9 +52,7 @@ impl Drop for Meter {
 fn new_bar(total: usize) -> ProgressBar {
     let bar = ProgressBar::new(total as u64);
     // The pattern is fixed and right; were it not, the library's own style would do.
-    if let Ok(style) =
-        ProgressStyle::with_template("{msg:>10} {bar:40} {human_pos}/{human_len} {eta}")
-    {
+    if let Ok(style) = ProgressStyle::with_template("{msg:>10} {bar:40} {human_pos}/{human_len} {eta}") {
         bar.set_style(style);
     }
     bar

@@ -23,19 +23,8 @@ pub struct RunReport<'a> {
 
 impl<'a> RunReport<'a> {
     /// A report of a job on this back end, the command's own stages still empty.
-    pub fn new(
-        job: &'a Report,
-        backend: &Backend,
-        coord_bits: u32,
-        quantization: Option<&'a Quantization>,
-    ) -> Self {
-        Self {
-            job,
-            backend: (backend.name, backend.config),
-            coord_bits,
-            quantization,
-            stages: Vec::new(),
-        }
+    pub fn new(job: &'a Report, backend: &Backend, coord_bits: u32, quantization: Option<&'a Quantization>) -> Self {
+        Self { job, backend: (backend.name, backend.config), coord_bits, quantization, stages: Vec::new() }
     }
 
     /// The object that `--json` prints. Cycles are there where the back end has a clock.
@@ -66,10 +55,7 @@ impl<'a> RunReport<'a> {
 
     fn seconds(&self) -> Value {
         let seconds = |duration: Duration| Value::from(duration.as_secs_f64());
-        let stages = self
-            .stages
-            .iter()
-            .map(|&(name, duration)| (name.to_owned(), seconds(duration)));
+        let stages = self.stages.iter().map(|&(name, duration)| (name.to_owned(), seconds(duration)));
         let mut object: Map<String, Value> = stages.collect();
         let total = self.stages.iter().map(|&(_, duration)| duration).sum();
         object.insert("total".to_owned(), seconds(total));
@@ -93,24 +79,13 @@ impl<'a> RunReport<'a> {
         }
         lines.push(self.counts_line());
         if job.collinear {
-            let why = if job.distinct < 3 {
-                "fewer than three distinct points"
-            } else {
-                "all points lie on one line"
-            };
+            let why = if job.distinct < 3 { "fewer than three distinct points" } else { "all points lie on one line" };
             lines.push(format!("no triangles: {why}"));
         }
         if verbose {
-            let stages = self
-                .stages
-                .iter()
-                .map(|(name, duration)| format!("{name} {:.6} s", duration.as_secs_f64()));
+            let stages = self.stages.iter().map(|(name, duration)| format!("{name} {:.6} s", duration.as_secs_f64()));
             lines.push(stages.collect::<Vec<_>>().join(", "));
-            lines.extend(
-                job.counters
-                    .as_ref()
-                    .map(|counters| counters_json(counters).to_string()),
-            );
+            lines.extend(job.counters.as_ref().map(|counters| counters_json(counters).to_string()));
         }
         lines
     }

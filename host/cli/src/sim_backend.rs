@@ -16,17 +16,11 @@ const SLICE: u64 = 100_000;
 /// A freshly made core of this configuration. With `trace` a waveform of all its signals goes to that file; dropping the
 /// device completes it.
 pub fn open(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
-    let mut device =
-        SimDevice::new(config).map_err(|error| Failure::new(Exit::NoDevice, error.to_string()))?;
+    let mut device = SimDevice::new(config).map_err(|error| Failure::new(Exit::NoDevice, error.to_string()))?;
     if let Some(path) = trace {
-        device
-            .trace_to(path)
-            .map_err(|error| Failure::input(error.to_string()))?;
+        device.trace_to(path).map_err(|error| Failure::input(error.to_string()))?;
     }
-    Ok(Device::from_transport(Box::new(SimTransport {
-        device,
-        name: config.name,
-    })))
+    Ok(Device::from_transport(Box::new(SimTransport { device, name: config.name })))
 }
 
 /// A simulated core as a transport. A slice of clocks that did not suffice is followed by the next, until the deadline.

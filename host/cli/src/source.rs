@@ -25,9 +25,7 @@ pub fn read_points(path: &Path, from: Option<PointFormat>) -> Result<PointTable,
         })?,
     };
     let bytes = read_bytes(path)?;
-    format
-        .read(&bytes)
-        .map_err(|failure| failure.in_file(name(path)))
+    format.read(&bytes).map_err(|failure| failure.in_file(name(path)))
 }
 
 /// Reads the triangles of a mesh file; `format` overrides the extension.
@@ -40,9 +38,7 @@ pub fn read_mesh(path: &Path, format: Option<MeshFormat>) -> Result<Vec<[u32; 3]
         ))
     })?;
     let bytes = read_bytes(path)?;
-    format
-        .read(&bytes)
-        .map_err(|failure| failure.in_file(name(path)))
+    format.read(&bytes).map_err(|failure| failure.in_file(name(path)))
 }
 
 /// The name of a file as messages say it.
@@ -57,10 +53,7 @@ pub fn name(path: &Path) -> String {
 fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let result = if is_standard(path) {
         let mut bytes = Vec::new();
-        std::io::stdin()
-            .lock()
-            .read_to_end(&mut bytes)
-            .map(|_| bytes)
+        std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
     } else {
         std::fs::read(path)
     };

@@ -18,14 +18,12 @@ pub fn without_mark(bytes: &[u8]) -> Result<&[u8], Failure> {
 pub fn rows(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let body = bytes.strip_suffix(b"\n").unwrap_or(bytes);
     let rows = body.split(|&byte| byte == b'\n').enumerate();
-    rows.filter(move |_| !bytes.is_empty())
-        .map(|(index, row)| (index + 1, row.strip_suffix(b"\r").unwrap_or(row)))
+    rows.filter(move |_| !bytes.is_empty()).map(|(index, row)| (index + 1, row.strip_suffix(b"\r").unwrap_or(row)))
 }
 
 /// The values of a row that are parted by spaces and tabs.
 pub fn words(row: &[u8]) -> impl Iterator<Item = &[u8]> {
-    row.split(u8::is_ascii_whitespace)
-        .filter(|word| !word.is_empty())
+    row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
 /// The row without what follows a `#`.
@@ -36,9 +34,7 @@ pub fn without_comment(row: &[u8]) -> &[u8] {
 /// Whether the value is meant as a number, right or wrong: rows that hold none may be headers.
 pub fn looks_like_number(value: &[u8]) -> bool {
     let value = value.trim_ascii();
-    let starts = value
-        .first()
-        .is_some_and(|byte| byte.is_ascii_digit() || b"+-.".contains(byte));
+    let starts = value.first().is_some_and(|byte| byte.is_ascii_digit() || b"+-.".contains(byte));
     starts || std::str::from_utf8(value).is_ok_and(|text| text.parse::<f64>().is_ok())
 }
 
@@ -50,38 +46,27 @@ pub fn coordinate(value: &[u8], place: Place) -> Result<f64, Failure> {
     }
     let Ok(text) = std::str::from_utf8(value) else {
         let shown = quoted(value);
-        return Err(Failure::input(format!(
-            "{place}: {shown} is not UTF-8 text"
-        )));
+        return Err(Failure::input(format!("{place}: {shown} is not UTF-8 text")));
     };
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         Ok(_) => Err(not_finite(&quoted(value), place)),
-        Err(_) => Err(Failure::input(format!(
-            "{place}: {} is not a number",
-            quoted(value)
-        ))),
+        Err(_) => Err(Failure::input(format!("{place}: {} is not a number", quoted(value)))),
     }
 }
 
 /// The refusal of NaN, infinities, and numbers too large for a double.
 pub fn not_finite(shown: &str, place: Place) -> Failure {
-    Failure::input(format!(
-        "{place}: {shown} is not a finite number: a point needs two numbers"
-    ))
+    Failure::input(format!("{place}: {shown} is not a finite number: a point needs two numbers"))
 }
 
 /// A whole number from 0 to 2^32 - 1 that is called `what` in messages.
 pub fn whole(value: &[u8], what: &str, place: Place) -> Result<u32, Failure> {
     let value = value.trim_ascii();
-    let parsed = std::str::from_utf8(value)
-        .ok()
-        .and_then(|text| text.parse::<u32>().ok());
+    let parsed = std::str::from_utf8(value).ok().and_then(|text| text.parse::<u32>().ok());
     parsed.ok_or_else(|| {
         let shown = quoted(value);
-        Failure::input(format!(
-            "{place}: {shown} is not {what}, a whole number from 0 to 4294967295"
-        ))
+        Failure::input(format!("{place}: {shown} is not {what}, a whole number from 0 to 4294967295"))
     })
 }
 
@@ -91,11 +76,7 @@ mod tests {
 
     #[test]
     fn rows_end_in_any_way() {
-        let numbered = |text: &'static str| {
-            rows(text.as_bytes())
-                .map(|(n, r)| (n, r.len()))
-                .collect::<Vec<_>>()
-        };
+        let numbered = |text: &'static str| rows(text.as_bytes()).map(|(n, r)| (n, r.len())).collect::<Vec<_>>();
         assert_eq!(numbered(""), []);
         assert_eq!(numbered("ab"), [(1, 2)]);
         assert_eq!(numbered("ab\r\n\r\nc\n"), [(1, 2), (2, 0), (3, 1)]);
@@ -117,10 +98,7 @@ mod tests {
         assert_eq!(coordinate(b" 2147483647 ", place), Ok(2_147_483_647.0));
         for bad in ["nan", "-inf", "1e999", "", "1,5", "0x10"] {
             let failure = coordinate(bad.as_bytes(), place).expect_err(bad);
-            assert!(
-                failure.message.starts_with("row 3, column 2: "),
-                "{failure}"
-            );
+            assert!(failure.message.starts_with("row 3, column 2: "), "{failure}");
         }
     }
 }

@@ -6,31 +6,11 @@ use common::{accept, refuse, Scratch};
 
 #[test]
 fn csv_values_that_are_no_finite_numbers() {
-    refuse(
-        "p.csv",
-        "0,0\n1,NaN\n",
-        &["row 2, column 2", "'NaN'", "finite"],
-    );
-    refuse(
-        "p.csv",
-        "0,0\ninf,1\n",
-        &["row 2, column 1", "'inf'", "finite"],
-    );
-    refuse(
-        "p.csv",
-        "0,0\n1,-Infinity\n",
-        &["row 2, column 2", "finite"],
-    );
-    refuse(
-        "p.csv",
-        "1e999,0\n",
-        &["row 1, column 1", "'1e999'", "finite"],
-    );
-    refuse(
-        "p.csv",
-        "0,0\n1,abc\n",
-        &["row 2, column 2", "'abc'", "not a number"],
-    );
+    refuse("p.csv", "0,0\n1,NaN\n", &["row 2, column 2", "'NaN'", "finite"]);
+    refuse("p.csv", "0,0\ninf,1\n", &["row 2, column 1", "'inf'", "finite"]);
+    refuse("p.csv", "0,0\n1,-Infinity\n", &["row 2, column 2", "finite"]);
+    refuse("p.csv", "1e999,0\n", &["row 1, column 1", "'1e999'", "finite"]);
+    refuse("p.csv", "0,0\n1,abc\n", &["row 2, column 2", "'abc'", "not a number"]);
     refuse("p.csv", "0,0\n1,0x10\n", &["row 2, column 2", "'0x10'"]);
     refuse("p.csv", "0,0\n1,\n", &["row 2, column 2", "missing"]);
     refuse("p.csv", "12a,0\n1,2\n", &["row 1, column 1", "'12a'"]);
@@ -39,37 +19,13 @@ fn csv_values_that_are_no_finite_numbers() {
 
 #[test]
 fn values_out_of_range() {
-    refuse(
-        "p.csv",
-        "x,y\n0,0\n70000,1\n",
-        &["row 3, column 1", "70000", "65535", "--coord-bits 17"],
-    );
-    refuse(
-        "p.csv",
-        "0,0\n\n5,-1\n",
-        &["row 3, column 2", "-1", "--quantize fit"],
-    );
-    refuse(
-        "p.csv",
-        "# a\r\n\r\n0,0\r\n\r\n# b\r\n  \r\n5,-1\r\n",
-        &["row 7, column 2"],
-    );
-    refuse(
-        "p.csv",
-        "lat,name,lon\n1,a,2\n3,b,99999\n",
-        &["row 3, column 3", "99999"],
-    );
+    refuse("p.csv", "x,y\n0,0\n70000,1\n", &["row 3, column 1", "70000", "65535", "--coord-bits 17"]);
+    refuse("p.csv", "0,0\n\n5,-1\n", &["row 3, column 2", "-1", "--quantize fit"]);
+    refuse("p.csv", "# a\r\n\r\n0,0\r\n\r\n# b\r\n  \r\n5,-1\r\n", &["row 7, column 2"]);
+    refuse("p.csv", "lat,name,lon\n1,a,2\n3,b,99999\n", &["row 3, column 3", "99999"]);
     refuse("p.csv", "0,0\n1e300,1\n", &["row 2, column 1", "1e300"]);
-    refuse(
-        "p.node",
-        "2 2 0 0\n1 0 0\n2 0 65536\n",
-        &["row 3, column 3", "65536"],
-    );
-    refuse(
-        "p.obj",
-        "v 0 0 0\nvn 1 1 1\nv -3 0 0\n",
-        &["row 3, column 2", "-3"],
-    );
+    refuse("p.node", "2 2 0 0\n1 0 0\n2 0 65536\n", &["row 3, column 3", "65536"]);
+    refuse("p.obj", "v 0 0 0\nvn 1 1 1\nv -3 0 0\n", &["row 3, column 2", "-3"]);
     refuse("p.csv", "1e308,0\n-1e308,0.5\n", &["p.csv"]);
 }
 
@@ -90,31 +46,15 @@ fn csv_quotes_that_are_not_closed() {
 #[test]
 fn long_lines_and_wrong_encodings() {
     let long = "9".repeat(1_000_000);
-    refuse(
-        "p.csv",
-        format!("0,0\n1,{long}\n"),
-        &["row 2, column 2", "bytes"],
-    );
+    refuse("p.csv", format!("0,0\n1,{long}\n"), &["row 2, column 2", "bytes"]);
     refuse("p.csv", &long, &["row 1", "(1000000 bytes)"]);
-    refuse(
-        "p.csv",
-        format!("0,0\n{}\n", ",".repeat(1_000_000)),
-        &["row 2", "1000001 columns"],
-    );
+    refuse("p.csv", format!("0,0\n{}\n", ",".repeat(1_000_000)), &["row 2", "1000001 columns"]);
     refuse("p.xyz", &long, &["row 1", "(1000000 bytes)"]);
     refuse("p.node", &long, &["row 1, column 1", "(1000000 bytes)"]);
-    refuse(
-        "p.obj",
-        format!("v 1 {long}x\n"),
-        &["row 1, column 3", "bytes"],
-    );
+    refuse("p.obj", format!("v 1 {long}x\n"), &["row 1, column 3", "bytes"]);
     refuse("p.ply", format!("ply\n{long}\n"), &["PLY"]);
     refuse("p.geojson", &long, &["GeoJSON"]);
-    refuse(
-        "p.csv",
-        b"0,0\n\xff\xfe\xfd,1\n",
-        &["row 2, column 1", "UTF-8"],
-    );
+    refuse("p.csv", b"0,0\n\xff\xfe\xfd,1\n", &["row 2, column 1", "UTF-8"]);
     refuse("p.csv", b"\xff\xfe0\0,\x001\0", &["UTF-16"]);
     refuse("p.xyz", b"0 0\n1 \xe9\n", &["row 2, column 2", "UTF-8"]);
     refuse("p.geojson", b"{\"type\":\"\xff\"}", &["UTF-8"]);
@@ -131,11 +71,7 @@ fn empty_files() {
     accept("p.xyz", "x y z\n# nothing\n", 0);
     accept("p.obj", "", 0);
     accept("p.node", "0 2 0 0\n", 0);
-    accept(
-        "p.geojson",
-        r#"{"type":"FeatureCollection","features":[]}"#,
-        0,
-    );
+    accept("p.geojson", r#"{"type":"FeatureCollection","features":[]}"#, 0);
     refuse("p.node", "", &["empty", "N 2"]);
     refuse("p.ply", "", &["PLY header"]);
     refuse("p.geojson", " ", &["empty"]);
@@ -150,43 +86,15 @@ fn xyz_of_wrong_form() {
 
 #[test]
 fn node_counts_and_ids() {
-    refuse(
-        "p.node",
-        "3 2 0 0\n0 0 0\n1 1 1\n",
-        &["promises 3", "holds 2"],
-    );
-    refuse(
-        "p.node",
-        "1 2 0 0\n0 0 0\n1 1 1\n",
-        &["row 3", "one point more", "promises"],
-    );
-    refuse(
-        "p.node",
-        "4294967295 2 0 0\n0 0 0\n",
-        &["promises 4294967295", "holds 1"],
-    );
-    refuse(
-        "p.node",
-        "2 3 0 0\n0 0 0\n1 1 1\n",
-        &["row 1, column 2", "'3'"],
-    );
-    refuse(
-        "p.node",
-        "2 2 0 0\n5 0 0\n6 1 1\n",
-        &["row 2, column 1", "0 or 1"],
-    );
-    refuse(
-        "p.node",
-        "2 2 0 0\n0 0 0\n2 1 1\n",
-        &["row 3, column 1", "not 1"],
-    );
+    refuse("p.node", "3 2 0 0\n0 0 0\n1 1 1\n", &["promises 3", "holds 2"]);
+    refuse("p.node", "1 2 0 0\n0 0 0\n1 1 1\n", &["row 3", "one point more", "promises"]);
+    refuse("p.node", "4294967295 2 0 0\n0 0 0\n", &["promises 4294967295", "holds 1"]);
+    refuse("p.node", "2 3 0 0\n0 0 0\n1 1 1\n", &["row 1, column 2", "'3'"]);
+    refuse("p.node", "2 2 0 0\n5 0 0\n6 1 1\n", &["row 2, column 1", "0 or 1"]);
+    refuse("p.node", "2 2 0 0\n0 0 0\n2 1 1\n", &["row 3, column 1", "not 1"]);
     refuse("p.node", "2 2 0 0\n0 0 0\n1 1\n", &["row 3", "2 values"]);
     refuse("p.node", "-1 2 0 0\n", &["row 1, column 1", "'-1'"]);
-    accept(
-        "p.node",
-        "3 2 1 1\n# ids from 0\n0 0 0 0.5 1\n1 5 0 0.5 1\n\n2 0 5 0.5 0\n",
-        1,
-    );
+    accept("p.node", "3 2 1 1\n# ids from 0\n0 0 0 0.5 1\n1 5 0 0.5 1\n\n2 0 5 0.5 0\n", 1);
     accept("p.node", "3 2 0 0\n1 0 0\n2 5 0\n3 0 5 # the last\n", 1);
 }
 
@@ -199,16 +107,10 @@ fn obj_of_wrong_form() {
 #[test]
 fn files_that_are_not_there_or_cannot_be_read() {
     let scratch = Scratch::new();
-    scratch
-        .run("triangulate none.csv -o m.ele")
-        .fails(3, &["none.csv", "No such file"]);
+    scratch.run("triangulate none.csv -o m.ele").fails(3, &["none.csv", "No such file"]);
     std::fs::create_dir(scratch.path("folder.csv")).expect("a folder can be made");
-    scratch
-        .run("triangulate folder.csv -o m.ele")
-        .fails(3, &["folder.csv", "directory"]);
+    scratch.run("triangulate folder.csv -o m.ele").fails(3, &["folder.csv", "directory"]);
     scratch.write("p.dat", "0,0\n");
-    scratch
-        .run("triangulate p.dat -o m.ele")
-        .fails(2, &["p.dat", "--from"]);
+    scratch.run("triangulate p.dat -o m.ele").fails(2, &["p.dat", "--from"]);
     scratch.run("triangulate p.dat --from csv -o m.ele").ok();
 }

@@ -11,11 +11,7 @@ const FIVE: &str = "0,0\n10,0\n0,10\n10,10\n5,3\n";
 const FIVE_ELE: &str = "4 3 0\n0 0 1 4\n1 0 4 2\n2 1 3 4\n3 2 4 3\n";
 
 fn report(stdout: &str) -> Value {
-    assert_eq!(
-        stdout.lines().count(),
-        1,
-        "one object on one line: {stdout}"
-    );
+    assert_eq!(stdout.lines().count(), 1, "one object on one line: {stdout}");
     serde_json::from_str(stdout).expect("the report is JSON")
 }
 
@@ -50,14 +46,10 @@ fn sets_without_triangles_are_answers() {
     ];
     for (name, points) in sets {
         scratch.write(&format!("{name}.csv"), points);
-        scratch
-            .run(&format!("triangulate {name}.csv -o {name}.ele"))
-            .ok();
+        scratch.run(&format!("triangulate {name}.csv -o {name}.ele")).ok();
         assert_eq!(scratch.read(&format!("{name}.ele")), "0 3 0\n", "{name}");
         for format in ["obj", "ply", "vtk", "geojson", "json", "csv", "svg"] {
-            scratch
-                .run(&format!("triangulate {name}.csv -o {name}-mesh.{format}"))
-                .ok();
+            scratch.run(&format!("triangulate {name}.csv -o {name}-mesh.{format}")).ok();
         }
         scratch.run(&format!("verify {name}.csv {name}.ele")).ok();
     }
@@ -70,13 +62,7 @@ fn json_report_has_all_keys() {
     let run = scratch.run("triangulate p.csv -o m.ele --json").ok();
     assert_eq!(run.stderr, "");
     let report = report(&run.stdout);
-    for (key, count) in [
-        ("points", 6),
-        ("distinct", 5),
-        ("duplicates", 1),
-        ("triangles", 4),
-        ("hull", 4),
-    ] {
+    for (key, count) in [("points", 6), ("distinct", 5), ("duplicates", 1), ("triangles", 4), ("hull", 4)] {
         assert_eq!(report[key], count, "{key}");
     }
     assert_eq!(report["backend"], "model");
@@ -84,9 +70,7 @@ fn json_report_has_all_keys() {
     assert_eq!(report["quantisation"], Value::Null);
     assert_eq!(report["counters"]["insertions"], 5);
     assert_eq!(report["coord_bits"], 16);
-    for stage in [
-        "load", "quantise", "order", "insert", "read", "assemble", "write", "total",
-    ] {
+    for stage in ["load", "quantise", "order", "insert", "read", "assemble", "write", "total"] {
         assert!(report["seconds"][stage].is_f64(), "{stage}: {report}");
     }
 }
@@ -105,9 +89,7 @@ fn integers_are_untouched_and_fractions_are_fitted() {
     assert_eq!(quantisation["offset"], serde_json::json!([-1.5, 0.0]));
     assert_eq!(quantisation["merged"], 0);
     // The mesh has the coordinates of the file.
-    assert!(scratch
-        .read("f.obj")
-        .starts_with("v -1.5 0 0\nv 1.5 0 0\nv 0 1 0\nv 0 0.5 0\nf "));
+    assert!(scratch.read("f.obj").starts_with("v -1.5 0 0\nv 1.5 0 0\nv 0 1 0\nv 0 0.5 0\nf "));
     scratch.run("verify f.csv f.obj").ok();
 }
 
@@ -115,42 +97,21 @@ fn integers_are_untouched_and_fractions_are_fitted() {
 fn quantisation_can_be_asked_for() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "-70000,0\n70000,0\n0,140000\n3,5\n");
-    scratch
-        .run("triangulate p.csv -o m.ele")
-        .fails(3, &["row 1, column 1", "-70000", "--quantize fit"]);
-    let run = scratch
-        .run("triangulate p.csv -o m.ele --quantize fit --json")
-        .ok();
-    assert_eq!(
-        report(&run.stdout)["quantisation"]["scale"],
-        65535.0 / 140_000.0
-    );
+    scratch.run("triangulate p.csv -o m.ele").fails(3, &["row 1, column 1", "-70000", "--quantize fit"]);
+    let run = scratch.run("triangulate p.csv -o m.ele --quantize fit --json").ok();
+    assert_eq!(report(&run.stdout)["quantisation"]["scale"], 65535.0 / 140_000.0);
     scratch.run("verify p.csv m.ele --quantize fit").ok();
-    scratch
-        .run("triangulate p.csv -o m.ele --quantize 0.25,-70000,0")
-        .ok();
-    scratch
-        .run("verify p.csv m.ele --quantize 0.25,-70000,0")
-        .ok();
-    scratch
-        .run("triangulate p.csv -o m.ele --quantize 1,-70000,0")
-        .fails(3, &["row 2, column 1", "140000"]);
+    scratch.run("triangulate p.csv -o m.ele --quantize 0.25,-70000,0").ok();
+    scratch.run("verify p.csv m.ele --quantize 0.25,-70000,0").ok();
+    scratch.run("triangulate p.csv -o m.ele --quantize 1,-70000,0").fails(3, &["row 2, column 1", "140000"]);
 }
 
 #[test]
 fn coordinate_bits_bound_the_grid() {
     let scratch = Scratch::new();
-    scratch.write(
-        "p.csv",
-        "0,0\n2147483647,0\n0,2147483647\n2147483646,2147483646\n",
-    );
-    scratch.run("triangulate p.csv -o m.ele").fails(
-        3,
-        &["row 2, column 1", "2147483647", "65535", "--coord-bits 31"],
-    );
-    scratch
-        .run("triangulate p.csv -o m.ele --coord-bits 31")
-        .ok();
+    scratch.write("p.csv", "0,0\n2147483647,0\n0,2147483647\n2147483646,2147483646\n");
+    scratch.run("triangulate p.csv -o m.ele").fails(3, &["row 2, column 1", "2147483647", "65535", "--coord-bits 31"]);
+    scratch.run("triangulate p.csv -o m.ele --coord-bits 31").ok();
     scratch.run("verify p.csv m.ele --coord-bits 31").ok();
     scratch.write("small.csv", "0,0\n255,0\n0,256\n");
     scratch
@@ -172,18 +133,13 @@ fn verification_tells_right_from_wrong() {
         ("flipped", "4 3 0\n0 0 1 2\n1 1 3 2\n2 1 4 2\n3 0 4 1\n"),
         ("missing", "3 3 0\n0 0 1 4\n1 0 4 2\n2 1 3 4\n"),
         ("miscounted", "4 3 0\n0 0 1 4\n1 0 4 2\n2 1 3 4\n"),
-        (
-            "doubled",
-            "5 3 0\n0 0 1 4\n1 0 4 2\n2 1 3 4\n3 2 4 3\n4 2 4 3\n",
-        ),
+        ("doubled", "5 3 0\n0 0 1 4\n1 0 4 2\n2 1 3 4\n3 2 4 3\n4 2 4 3\n"),
         ("beyond", "4 3 0\n0 0 1 4\n1 0 4 2\n2 1 3 4\n3 2 4 5\n"),
         ("empty", "0 3 0\n"),
     ];
     for (name, mesh) in wrong {
         scratch.write(&format!("{name}.ele"), mesh);
-        scratch
-            .run(&format!("verify p.csv {name}.ele"))
-            .fails(1, &[name]);
+        scratch.run(&format!("verify p.csv {name}.ele")).fails(1, &[name]);
         let run = scratch.run(&format!("verify p.csv {name}.ele --json"));
         assert_eq!(run.code, Some(1), "{name}");
         assert_eq!(report(&run.stdout)["valid"], false, "{name}");
@@ -191,9 +147,7 @@ fn verification_tells_right_from_wrong() {
     // The other diagonal of a square is Delaunay, but not the canonical answer.
     scratch.write("square.csv", "0,0\n4,0\n4,4\n0,4\n");
     scratch.write("square.ele", "2 3 0\n0 0 1 3\n1 1 2 3\n");
-    scratch
-        .run("verify square.csv square.ele")
-        .fails(1, &["square.ele"]);
+    scratch.run("verify square.csv square.ele").fails(1, &["square.ele"]);
 }
 
 #[test]
@@ -237,9 +191,7 @@ fn wrong_use_ends_with_two() {
 fn a_build_without_the_core_says_how_to_build_it() {
     let scratch = Scratch::new();
     scratch.write("p.csv", FIVE);
-    scratch
-        .run("triangulate p.csv -o m.ele --backend sim")
-        .fails(2, &["--features sim"]);
+    scratch.run("triangulate p.csv -o m.ele --backend sim").fails(2, &["--features sim"]);
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 
@@ -248,10 +200,7 @@ fn help_version_and_completions_go_to_standard_output() {
     let scratch = Scratch::new();
     for arguments in ["--help", "triangulate --help", "--version"] {
         let run = scratch.run(arguments).ok();
-        assert!(
-            run.stdout.contains("incircle") && run.stderr.is_empty(),
-            "{run:?}"
-        );
+        assert!(run.stdout.contains("incircle") && run.stderr.is_empty(), "{run:?}");
     }
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let run = scratch.run(&format!("completions {shell}")).ok();
@@ -264,14 +213,10 @@ fn help_version_and_completions_go_to_standard_output() {
 #[test]
 fn orders_and_formats_do_not_change_the_mesh() {
     let scratch = Scratch::new();
-    scratch
-        .run("generate checkers -n 500 --seed 3 -o p.csv")
-        .ok();
+    scratch.run("generate checkers -n 500 --seed 3 -o p.csv").ok();
     scratch.run("triangulate p.csv -o m.ele").ok();
     for order in ["hilbert", "input"] {
-        scratch
-            .run(&format!("triangulate p.csv -o {order}.ele --order {order}"))
-            .ok();
+        scratch.run(&format!("triangulate p.csv -o {order}.ele --order {order}")).ok();
         assert_eq!(scratch.read("m.ele"), scratch.read(&format!("{order}.ele")));
     }
 }
@@ -280,9 +225,7 @@ fn orders_and_formats_do_not_change_the_mesh() {
 fn a_run_out_of_time_ends_with_six() {
     let scratch = Scratch::new();
     scratch.run("generate uniform -n 200000 -o p.csv").ok();
-    scratch
-        .run("triangulate p.csv -o m.ele --timeout 0.0000001")
-        .fails(6, &["s"]);
+    scratch.run("triangulate p.csv -o m.ele --timeout 0.0000001").fails(6, &["s"]);
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 
@@ -293,10 +236,7 @@ fn quiet_is_quiet_and_verbose_says_more() {
     let quiet = scratch.run("triangulate p.csv -o m.ele -q").ok();
     assert_eq!((quiet.stdout.as_str(), quiet.stderr.as_str()), ("", ""));
     let plain = scratch.run("triangulate p.csv -o m.ele").ok();
-    assert!(
-        plain.stderr.starts_with("quantised to 16 bits"),
-        "{plain:?}"
-    );
+    assert!(plain.stderr.starts_with("quantised to 16 bits"), "{plain:?}");
     let verbose = scratch.run("triangulate p.csv -o m.ele -v").ok();
     assert!(verbose.stderr.contains("walk_visits"), "{verbose:?}");
 }
@@ -309,7 +249,5 @@ fn extreme_values_stay_short_in_messages() {
     assert!(run.stderr.contains("offset (1e300, 0)"), "{run:?}");
     assert!(run.stderr.lines().all(|line| line.len() < 200), "{run:?}");
     scratch.write("p.csv", "0,0\n1e-310,0\n0,0.0\n");
-    scratch
-        .run("triangulate p.csv -o n.ele")
-        .fails(3, &["span 1e-310 units"]);
+    scratch.run("triangulate p.csv -o n.ele").fails(3, &["span 1e-310 units"]);
 }

@@ -6,21 +6,11 @@ use common::Scratch;
 use serde_json::Value;
 
 /// The same six points in every format, one of them twice.
-const POINTS: [[f64; 2]; 6] = [
-    [0.0, 0.0],
-    [10.0, 0.0],
-    [0.0, 10.0],
-    [10.0, 10.0],
-    [5.0, 3.0],
-    [10.0, 0.0],
-];
+const POINTS: [[f64; 2]; 6] = [[0.0, 0.0], [10.0, 0.0], [0.0, 10.0], [10.0, 10.0], [5.0, 3.0], [10.0, 0.0]];
 const ELE: &str = "4 3 0\n0 0 1 4\n1 0 4 2\n2 1 3 4\n3 2 4 3\n";
 
 fn rows(row: impl Fn(usize, f64, f64) -> String) -> String {
-    let all = POINTS
-        .iter()
-        .enumerate()
-        .map(|(index, &[x, y])| row(index, x, y));
+    let all = POINTS.iter().enumerate().map(|(index, &[x, y])| row(index, x, y));
     all.collect::<Vec<_>>().join("\n") + "\n"
 }
 
@@ -44,8 +34,7 @@ fn binary_ply(format: &str, bytes: fn(f64) -> Vec<u8>) -> Vec<u8> {
 #[test]
 fn every_point_format_gives_the_same_mesh() {
     let scratch = Scratch::new();
-    let collection =
-        |items: String| format!("{{\"type\":\"FeatureCollection\",\"features\":[{items}]}}");
+    let collection = |items: String| format!("{{\"type\":\"FeatureCollection\",\"features\":[{items}]}}");
     let feature = |x, y| {
         format!(
             "{{\"type\":\"Feature\",\"properties\":{{\"a\":1}},\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{x},{y}]}}}}"
@@ -80,9 +69,7 @@ fn every_point_format_gives_the_same_mesh() {
     ];
     for (name, content) in files {
         scratch.write(name, content);
-        scratch
-            .run(&format!("triangulate {name} -o {name}.ele"))
-            .ok();
+        scratch.run(&format!("triangulate {name} -o {name}.ele")).ok();
         assert_eq!(scratch.read(&format!("{name}.ele")), ELE, "{name}");
     }
 }
@@ -91,83 +78,50 @@ fn every_point_format_gives_the_same_mesh() {
 fn standard_input_and_output_work() {
     let scratch = Scratch::new();
     let csv = rows(|_, x, y| format!("{x},{y}"));
-    let run = scratch
-        .run_with_input("triangulate - -o - --format ele", csv.as_bytes())
-        .ok();
+    let run = scratch.run_with_input("triangulate - -o - --format ele", csv.as_bytes()).ok();
     assert_eq!(run.stdout, ELE);
     let xyz = rows(|_, x, y| format!("{x} {y}"));
-    let run = scratch
-        .run_with_input(
-            "triangulate - --from xyz -o - --format csv -q",
-            xyz.as_bytes(),
-        )
-        .ok();
+    let run = scratch.run_with_input("triangulate - --from xyz -o - --format csv -q", xyz.as_bytes()).ok();
     assert_eq!(run.stdout, "0,1,4\n0,4,2\n1,3,4\n2,4,3\n");
     scratch.write("m.ele", ELE);
-    scratch
-        .run_with_input("verify - m.ele", csv.as_bytes())
-        .ok();
+    scratch.run_with_input("verify - m.ele", csv.as_bytes()).ok();
     assert_eq!(scratch.files(), ["m.ele"]);
 }
 
 #[test]
 fn meshes_can_be_read_back() {
     let scratch = Scratch::new();
-    scratch
-        .run("generate clusters -n 300 --bits 10 --seed 5 -o p.csv")
-        .ok();
+    scratch.run("generate clusters -n 300 --bits 10 --seed 5 -o p.csv").ok();
     for format in ["ele", "obj", "ply", "json", "csv"] {
-        scratch
-            .run(&format!("triangulate p.csv -o m.{format}"))
-            .ok();
+        scratch.run(&format!("triangulate p.csv -o m.{format}")).ok();
         scratch.run(&format!("verify p.csv m.{format}")).ok();
         // The format can also be named.
-        scratch
-            .run(&format!("triangulate p.csv -o m.bin --format {format}"))
-            .ok();
-        assert_eq!(
-            scratch.read("m.bin"),
-            scratch.read(&format!("m.{format}")),
-            "{format}"
-        );
-        scratch
-            .run(&format!("verify p.csv m.bin --format {format}"))
-            .ok();
+        scratch.run(&format!("triangulate p.csv -o m.bin --format {format}")).ok();
+        assert_eq!(scratch.read("m.bin"), scratch.read(&format!("m.{format}")), "{format}");
+        scratch.run(&format!("verify p.csv m.bin --format {format}")).ok();
     }
 }
 
 #[test]
 fn points_are_read_back_from_json() {
     let scratch = Scratch::new();
-    for points in [
-        rows(|_, x, y| format!("{x},{y}")),
-        "0.1,1e300\n-3e299,0\n7,0\n".to_owned(),
-        String::new(),
-    ] {
+    for points in [rows(|_, x, y| format!("{x},{y}")), "0.1,1e300\n-3e299,0\n7,0\n".to_owned(), String::new()] {
         scratch.write("p.csv", points);
         scratch.run("triangulate p.csv -o m.json").ok();
         scratch.run("triangulate m.json -o again.json").ok();
         assert_eq!(scratch.read("again.json"), scratch.read("m.json"));
         scratch.run("verify m.json m.json").ok();
     }
-    let run = scratch.run_with_input(
-        "triangulate - --from json -o - --format csv",
-        br#"{"points":[[0,0],[1,0],[0,1]]}"#,
-    );
+    let run =
+        scratch.run_with_input("triangulate - --from json -o - --format csv", br#"{"points":[[0,0],[1,0],[0,1]]}"#);
     assert_eq!(run.ok().stdout, "0,1,2\n");
 }
 
 #[test]
 fn triangles_own_files_count_from_one() {
     let scratch = Scratch::new();
-    scratch.write(
-        "p.node",
-        format!("6 2 0 0\n{}", rows(|i, x, y| format!("{} {x} {y}", i + 1))),
-    );
-    scratch.write(
-        "m.ele",
-        "4 3 0\n1 1 2 5\n2 1 5 3\n3 2 4 5\n4 3 5 4\n# Generated by triangle\n",
-    );
+    scratch.write("p.node", format!("6 2 0 0\n{}", rows(|i, x, y| format!("{} {x} {y}", i + 1))));
+    scratch.write("m.ele", "4 3 0\n1 1 2 5\n2 1 5 3\n3 2 4 5\n4 3 5 4\n# Generated by triangle\n");
     scratch.run("verify p.node m.ele").ok();
 }
 
@@ -176,24 +130,17 @@ fn text_formats_say_what_they_should() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0.5,0\n4,0\n0,4\n4,0\n");
     let mesh = |format: &str| {
-        scratch
-            .run(&format!("triangulate p.csv -o m.{format}"))
-            .ok();
+        scratch.run(&format!("triangulate p.csv -o m.{format}")).ok();
         scratch.read(&format!("m.{format}"))
     };
     assert_eq!(mesh("ele"), "1 3 0\n0 0 1 2\n");
     assert_eq!(mesh("csv"), "0,1,2\n");
-    assert_eq!(
-        mesh("obj"),
-        "v 0.5 0 0\nv 4 0 0\nv 0 4 0\nv 4 0 0\nf 1 2 3\n"
-    );
+    assert_eq!(mesh("obj"), "v 0.5 0 0\nv 4 0 0\nv 0 4 0\nv 4 0 0\nf 1 2 3\n");
     assert!(mesh("ply").ends_with("end_header\n0.5 0 0\n4 0 0\n0 4 0\n4 0 0\n3 0 1 2\n"));
     let vtk = mesh("vtk");
     assert!(vtk.starts_with("# vtk DataFile Version 3.0\n"), "{vtk}");
     assert!(
-        vtk.ends_with(
-            "POINTS 4 double\n0.5 0 0\n4 0 0\n0 4 0\n4 0 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n"
-        ),
+        vtk.ends_with("POINTS 4 double\n0.5 0 0\n4 0 0\n0 4 0\n4 0 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n"),
         "{vtk}"
     );
 }
@@ -203,9 +150,7 @@ fn json_formats_are_json() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0.5,0\n4,0\n0,4\n4,0\n");
     let mesh = |format: &str| -> Value {
-        scratch
-            .run(&format!("triangulate p.csv -o m.{format}"))
-            .ok();
+        scratch.run(&format!("triangulate p.csv -o m.{format}")).ok();
         serde_json::from_str(&scratch.read(&format!("m.{format}"))).expect("it is JSON")
     };
     let json = mesh("json");
@@ -216,31 +161,19 @@ fn json_formats_are_json() {
     let geojson = mesh("geojson");
     assert_eq!(geojson["type"], "FeatureCollection");
     let ring = &geojson["features"][0]["geometry"]["coordinates"][0];
-    assert_eq!(
-        *ring,
-        serde_json::json!([[0.5, 0], [4, 0], [0, 4], [0.5, 0]])
-    );
+    assert_eq!(*ring, serde_json::json!([[0.5, 0], [4, 0], [0, 4], [0.5, 0]]));
 }
 
 #[test]
 fn svg_shows_every_triangle_the_hull_and_the_points() {
     let scratch = Scratch::new();
-    scratch
-        .run("generate uniform -n 400 --seed 2 -o p.csv")
-        .ok();
+    scratch.run("generate uniform -n 400 --seed 2 -o p.csv").ok();
     let run = scratch.run("triangulate p.csv -o m.svg --json").ok();
     let report: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
     let svg = scratch.read("m.svg");
-    assert!(
-        svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=")
-            && svg.ends_with("</svg>\n")
-    );
+    assert!(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=") && svg.ends_with("</svg>\n"));
     let corners = svg.matches('z').count() as u64;
-    assert_eq!(
-        corners,
-        report["triangles"].as_u64().expect("a number") + 1,
-        "triangles and the hull"
-    );
+    assert_eq!(corners, report["triangles"].as_u64().expect("a number") + 1, "triangles and the hull");
     assert_eq!(svg.matches("h0").count(), 400);
     assert!(svg.len() < 40_000, "{} bytes", svg.len());
 }
@@ -257,14 +190,9 @@ fn svg_fits_any_extent() {
     ];
     for points in sets {
         scratch.write("p.csv", points);
-        scratch
-            .run("triangulate p.csv -o m.svg --quantize fit")
-            .ok();
+        scratch.run("triangulate p.csv -o m.svg --quantize fit").ok();
         let svg = scratch.read("m.svg");
-        assert!(
-            !svg.contains("NaN") && !svg.contains("inf"),
-            "{points}: {svg}"
-        );
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{points}: {svg}");
     }
     scratch.write("p.csv", "0,0\n1e-310,0\n0,1e-310\n");
     scratch.run("triangulate p.csv -o m.svg --quantize 1").ok();
@@ -276,27 +204,16 @@ fn svg_fits_any_extent() {
 #[test]
 fn the_airports_of_the_world_become_a_picture() {
     let scratch = Scratch::new();
-    let data = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../testbench/data/airports.csv"
-    );
-    let run = scratch
-        .run(&format!("triangulate {data} -o world.svg --json"))
-        .ok();
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../testbench/data/airports.csv");
+    let run = scratch.run(&format!("triangulate {data} -o world.svg --json")).ok();
     let report: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
     assert_eq!(report["points"], 28_298);
     assert_eq!(report["distinct"], 28_266);
     // Five airports share a place; at 16 bits 27 more fall together.
     assert_eq!(report["quantisation"]["merged"], 27);
     assert!(scratch.read("world.svg").len() < 1_500_000);
-    let run = scratch
-        .run(&format!(
-            "triangulate {data} -o world.ele --coord-bits 31 --json"
-        ))
-        .ok();
+    let run = scratch.run(&format!("triangulate {data} -o world.ele --coord-bits 31 --json")).ok();
     let report: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
     assert_eq!(report["distinct"], 28_293);
-    scratch
-        .run(&format!("verify {data} world.ele --coord-bits 31"))
-        .ok();
+    scratch.run(&format!("verify {data} world.ele --coord-bits 31")).ok();
 }

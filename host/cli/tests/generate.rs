@@ -9,11 +9,7 @@ use incircle_cli::generate::{generate, Distribution};
 fn files_hold_exactly_the_points_of_the_library() {
     let scratch = Scratch::new();
     for &distribution in Distribution::all() {
-        scratch
-            .run(&format!(
-                "generate {distribution} -n 200 --bits 12 --seed 9 -o p.csv"
-            ))
-            .ok();
+        scratch.run(&format!("generate {distribution} -n 200 --bits 12 --seed 9 -o p.csv")).ok();
         let points = generate(distribution, 200, 12, 9).expect("the bits are possible");
         let expected: String = points.iter().map(|[x, y]| format!("{x},{y}\n")).collect();
         assert_eq!(scratch.read("p.csv"), expected, "{distribution}");
@@ -23,9 +19,7 @@ fn files_hold_exactly_the_points_of_the_library() {
 #[test]
 fn first_points_are_known() {
     let scratch = Scratch::new();
-    let run = scratch
-        .run("generate uniform -n 3 --bits 16 --seed 1234567 -o -")
-        .ok();
+    let run = scratch.run("generate uniform -n 3 --bits 16 --seed 1234567 -o -").ok();
     // The top 16 bits of the published sequence of SplitMix64 for this seed.
     assert_eq!(run.stdout.lines().next(), Some("22942,11379"));
 }
@@ -34,11 +28,7 @@ fn first_points_are_known() {
 fn every_set_is_triangulated_and_verified() {
     let scratch = Scratch::new();
     for &distribution in Distribution::all() {
-        scratch
-            .run(&format!(
-                "generate {distribution} -n 700 --bits 16 --seed 4 -o p.csv"
-            ))
-            .ok();
+        scratch.run(&format!("generate {distribution} -n 700 --bits 16 --seed 4 -o p.csv")).ok();
         scratch.run("triangulate p.csv -o m.ele").ok();
         scratch.run("verify p.csv m.ele").ok();
     }
@@ -48,12 +38,8 @@ fn every_set_is_triangulated_and_verified() {
 fn other_formats_hold_the_same_points() {
     let scratch = Scratch::new();
     let meshes = ["csv", "xyz", "node"].map(|format| {
-        scratch
-            .run(&format!("generate normal -n 100 --seed 2 -o p.{format}"))
-            .ok();
-        scratch
-            .run(&format!("triangulate p.{format} -o {format}.ele"))
-            .ok();
+        scratch.run(&format!("generate normal -n 100 --seed 2 -o p.{format}")).ok();
+        scratch.run(&format!("triangulate p.{format} -o {format}.ele")).ok();
         scratch.read(&format!("{format}.ele"))
     });
     assert!(meshes.iter().all(|mesh| *mesh == meshes[0]));
@@ -71,9 +57,7 @@ fn no_points_are_possible() {
 fn more_points_than_a_job_may_have_are_refused() {
     let scratch = Scratch::new();
     for n in ["536870912", "4294967295"] {
-        scratch
-            .run(&format!("generate uniform -n {n} -o p.csv"))
-            .fails(2, &[n, "536870911"]);
+        scratch.run(&format!("generate uniform -n {n} -o p.csv")).fails(2, &[n, "536870911"]);
     }
     assert!(scratch.files().is_empty());
 }
@@ -85,15 +69,9 @@ fn more_points_than_memory_end_with_seven() {
     let program = env!("CARGO_BIN_EXE_incircle");
     for distribution in ["uniform", "clusters", "lattice"] {
         // A quarter of a gigabyte of addresses, where four fifths of one are wanted.
-        let line = format!(
-            "ulimit -v 262144 && '{program}' generate {distribution} -n 100000000 -o p.csv"
-        );
-        let output = std::process::Command::new("sh")
-            .args(["-c", &line])
-            .current_dir(scratch.path(""))
-            .output();
-        common::Run::of(output.expect("the shell starts"))
-            .fails(7, &["no memory for 100000000 points"]);
+        let line = format!("ulimit -v 262144 && '{program}' generate {distribution} -n 100000000 -o p.csv");
+        let output = std::process::Command::new("sh").args(["-c", &line]).current_dir(scratch.path("")).output();
+        common::Run::of(output.expect("the shell starts")).fails(7, &["no memory for 100000000 points"]);
     }
     assert!(scratch.files().is_empty());
 }

@@ -66,9 +66,7 @@ fn spoil(sample: &[u8], random: &mut SplitMix64) -> Vec<u8> {
 fn spoilt_point_files_never_panic() {
     let mut random = SplitMix64::new(1);
     for (format, sample) in POINT_FILES {
-        let right = format
-            .read(sample)
-            .unwrap_or_else(|failure| panic!("{format:?}: {failure}"));
+        let right = format.read(sample).unwrap_or_else(|failure| panic!("{format:?}: {failure}"));
         assert!(!right.points.is_empty());
         let mut refused = 0;
         for _ in 0..3000 {
@@ -81,10 +79,7 @@ fn spoilt_point_files_never_panic() {
                 Err(failure) => {
                     refused += 1;
                     let sentence = failure.to_string();
-                    assert!(
-                        !sentence.contains('\n') && sentence.len() < 400,
-                        "{sentence}"
-                    );
+                    assert!(!sentence.contains('\n') && sentence.len() < 400, "{sentence}");
                 }
             }
         }
@@ -96,17 +91,12 @@ fn spoilt_point_files_never_panic() {
 fn spoilt_mesh_files_never_panic() {
     let mut random = SplitMix64::new(2);
     for (format, sample) in MESH_FILES {
-        let right = format
-            .read(sample)
-            .unwrap_or_else(|failure| panic!("{format:?}: {failure}"));
+        let right = format.read(sample).unwrap_or_else(|failure| panic!("{format:?}: {failure}"));
         assert_eq!(right, [[0, 1, 2], [1, 3, 2]], "{format:?}");
         for _ in 0..3000 {
             if let Err(failure) = format.read(&spoil(sample, &mut random)) {
                 let sentence = failure.to_string();
-                assert!(
-                    !sentence.contains('\n') && sentence.len() < 400,
-                    "{sentence}"
-                );
+                assert!(!sentence.contains('\n') && sentence.len() < 400, "{sentence}");
             }
         }
     }

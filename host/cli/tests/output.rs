@@ -12,24 +12,14 @@ const POINTS: &str = "0,0\n10,0\n0,10\n";
 fn the_input_is_never_overwritten() {
     let scratch = Scratch::new();
     scratch.write("p.csv", POINTS);
-    scratch
-        .run("triangulate p.csv -o p.csv")
-        .fails(2, &["p.csv", "both the input and the output"]);
-    scratch
-        .run("triangulate p.csv -o ./p.csv")
-        .fails(2, &["both"]);
+    scratch.run("triangulate p.csv -o p.csv").fails(2, &["p.csv", "both the input and the output"]);
+    scratch.run("triangulate p.csv -o ./p.csv").fails(2, &["both"]);
     #[cfg(unix)]
     {
-        std::os::unix::fs::symlink(scratch.path("p.csv"), scratch.path("link.csv"))
-            .expect("a link can be made");
-        std::fs::hard_link(scratch.path("p.csv"), scratch.path("hard.csv"))
-            .expect("a link can be made");
-        scratch
-            .run("triangulate p.csv -o link.csv")
-            .fails(2, &["both"]);
-        scratch
-            .run("triangulate link.csv -o hard.csv")
-            .fails(2, &["both"]);
+        std::os::unix::fs::symlink(scratch.path("p.csv"), scratch.path("link.csv")).expect("a link can be made");
+        std::fs::hard_link(scratch.path("p.csv"), scratch.path("hard.csv")).expect("a link can be made");
+        scratch.run("triangulate p.csv -o link.csv").fails(2, &["both"]);
+        scratch.run("triangulate link.csv -o hard.csv").fails(2, &["both"]);
     }
     assert_eq!(scratch.read("p.csv"), POINTS);
 }
@@ -58,9 +48,7 @@ fn a_link_that_leads_nowhere_is_no_output() {
     let scratch = Scratch::new();
     scratch.write("p.csv", POINTS);
     std::os::unix::fs::symlink("gone.ele", scratch.path("link.ele")).expect("a link can be made");
-    scratch
-        .run("triangulate p.csv -o link.ele")
-        .fails(3, &["link.ele", "link to a file that does not exist"]);
+    scratch.run("triangulate p.csv -o link.ele").fails(3, &["link.ele", "link to a file that does not exist"]);
     assert_eq!(scratch.files(), ["link.ele", "p.csv"]);
     let link = std::fs::symlink_metadata(scratch.path("link.ele")).expect("it is there");
     assert!(link.file_type().is_symlink());
@@ -106,9 +94,7 @@ fn a_failed_run_leaves_an_older_output_alone() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\nx,1\n");
     scratch.write("m.ele", "older");
-    scratch
-        .run("triangulate p.csv -o m.ele")
-        .fails(3, &["row 2"]);
+    scratch.run("triangulate p.csv -o m.ele").fails(3, &["row 2"]);
     assert_eq!(scratch.read("m.ele"), "older");
     scratch.write("p.csv", POINTS);
     scratch.run("triangulate p.csv -o m.ele").ok();
@@ -121,15 +107,9 @@ fn folders_are_no_outputs() {
     let scratch = Scratch::new();
     scratch.write("p.csv", POINTS);
     std::fs::create_dir(scratch.path("folder.ele")).expect("a folder can be made");
-    scratch
-        .run("triangulate p.csv -o folder.ele")
-        .fails(3, &["folder.ele", "folder"]);
-    scratch
-        .run("triangulate p.csv -o none/m.ele")
-        .fails(3, &["none/m.ele", "No such file"]);
-    scratch
-        .run("generate uniform -n 5 -o none/p.csv")
-        .fails(3, &["none/p.csv"]);
+    scratch.run("triangulate p.csv -o folder.ele").fails(3, &["folder.ele", "folder"]);
+    scratch.run("triangulate p.csv -o none/m.ele").fails(3, &["none/m.ele", "No such file"]);
+    scratch.run("generate uniform -n 5 -o none/p.csv").fails(3, &["none/p.csv"]);
     assert_eq!(scratch.files(), ["folder.ele", "p.csv"]);
 }
 
@@ -139,39 +119,20 @@ fn a_full_disk_is_an_error_and_stays_a_device() {
     use std::os::unix::fs::FileTypeExt;
     let scratch = Scratch::new();
     scratch.write("p.csv", POINTS);
-    scratch
-        .run("triangulate p.csv -o /dev/full --format svg")
-        .fails(3, &["/dev/full", "No space left"]);
-    scratch
-        .run("generate uniform -n 5 -o /dev/full")
-        .fails(3, &["/dev/full", "No space left"]);
+    scratch.run("triangulate p.csv -o /dev/full --format svg").fails(3, &["/dev/full", "No space left"]);
+    scratch.run("generate uniform -n 5 -o /dev/full").fails(3, &["/dev/full", "No space left"]);
     let run = scratch.command(["triangulate", "p.csv", "-o", "-", "--format", "ele"]);
-    let device = || {
-        Stdio::from(
-            std::fs::File::options()
-                .write(true)
-                .open("/dev/full")
-                .expect("it can be opened"),
-        )
-    };
-    let fails = |mut run: std::process::Command| {
-        common::Run::of(run.stdout(device()).output().expect("it runs"))
-    };
+    let device = || Stdio::from(std::fs::File::options().write(true).open("/dev/full").expect("it can be opened"));
+    let fails = |mut run: std::process::Command| common::Run::of(run.stdout(device()).output().expect("it runs"));
     fails(run).fails(3, &["standard output", "No space left"]);
     // The report cannot be printed: the mesh is not left behind either.
     let run = scratch.command(["triangulate", "p.csv", "-o", "m.ele", "--json"]);
     fails(run).fails(3, &["standard output"]);
     assert_eq!(scratch.files(), ["p.csv"]);
-    let kind = std::fs::metadata("/dev/full")
-        .expect("it is there")
-        .file_type();
+    let kind = std::fs::metadata("/dev/full").expect("it is there").file_type();
     assert!(kind.is_char_device());
-    scratch
-        .run("triangulate p.csv -o /dev/null --format ele")
-        .ok();
-    let kind = std::fs::metadata("/dev/null")
-        .expect("it is there")
-        .file_type();
+    scratch.run("triangulate p.csv -o /dev/null --format ele").ok();
+    let kind = std::fs::metadata("/dev/null").expect("it is there").file_type();
     assert!(kind.is_char_device());
 }
 
@@ -182,15 +143,11 @@ fn a_file_that_is_replaced_keeps_its_permissions_and_links_are_followed() {
     let scratch = Scratch::new();
     scratch.write("p.csv", POINTS);
     let real = scratch.write("real.ele", "");
-    std::fs::set_permissions(&real, std::fs::Permissions::from_mode(0o640))
-        .expect("permissions can be set");
+    std::fs::set_permissions(&real, std::fs::Permissions::from_mode(0o640)).expect("permissions can be set");
     std::os::unix::fs::symlink("real.ele", scratch.path("link.ele")).expect("a link can be made");
     scratch.run("triangulate p.csv -o link.ele").ok();
     assert_eq!(scratch.read("real.ele"), "1 3 0\n0 0 1 2\n");
-    let mode = std::fs::metadata(&real)
-        .expect("it is there")
-        .permissions()
-        .mode();
+    let mode = std::fs::metadata(&real).expect("it is there").permissions().mode();
     assert_eq!(mode & 0o777, 0o640);
     let link = std::fs::symlink_metadata(scratch.path("link.ele")).expect("it is there");
     assert!(link.file_type().is_symlink());
@@ -203,11 +160,7 @@ fn a_reader_that_leaves_is_no_error() {
     let scratch = Scratch::new();
     scratch.run("generate uniform -n 50000 -o p.csv").ok();
     let mut command = scratch.command(["triangulate", "p.csv", "-o", "-", "--format", "ele", "-q"]);
-    let mut child = command
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("it starts");
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts");
     let mut stdout = child.stdout.take().expect("the output is a pipe");
     stdout.read_exact(&mut [0; 4]).expect("the mesh begins");
     drop(stdout);
@@ -221,36 +174,18 @@ fn a_reader_that_leaves_is_no_error() {
 fn an_interrupt_leaves_no_file() {
     let scratch = Scratch::new();
     let interrupt = |signal: &str, id: u32| {
-        let status = std::process::Command::new("kill")
-            .args([signal, &id.to_string()])
-            .status();
+        let status = std::process::Command::new("kill").args([signal, &id.to_string()]).status();
         assert!(status.expect("kill runs").success());
     };
-    scratch
-        .run("generate uniform -n 2000000 --bits 31 -o big.csv")
-        .ok();
+    scratch.run("generate uniform -n 2000000 --bits 31 -o big.csv").ok();
     let runs = [
         ("-INT", vec!["triangulate", "-", "-o", "m.ele"]),
         ("-TERM", vec!["triangulate", "-", "-o", "m.ele"]),
-        (
-            "-INT",
-            vec![
-                "triangulate",
-                "big.csv",
-                "-o",
-                "m.ele",
-                "--coord-bits",
-                "31",
-            ],
-        ),
+        ("-INT", vec!["triangulate", "big.csv", "-o", "m.ele", "--coord-bits", "31"]),
     ];
     for (signal, arguments) in runs {
         let mut command = scratch.command(&arguments);
-        let child = command
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn();
+        let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
         let mut child = child.expect("it starts");
         std::thread::sleep(std::time::Duration::from_millis(600));
         interrupt(signal, child.id());

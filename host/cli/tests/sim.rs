@@ -9,14 +9,8 @@ use serde_json::Value;
 /// Triangulates `p.csv` with both back ends and gives the simulation's report.
 #[track_caller]
 fn compare(scratch: &Scratch, options: &str) -> Value {
-    scratch
-        .run(&format!("triangulate p.csv -o model.ele {options}"))
-        .ok();
-    let run = scratch
-        .run(&format!(
-            "triangulate p.csv -o sim.ele --backend sim --json {options}"
-        ))
-        .ok();
+    scratch.run(&format!("triangulate p.csv -o model.ele {options}")).ok();
+    let run = scratch.run(&format!("triangulate p.csv -o sim.ele --backend sim --json {options}")).ok();
     assert_eq!(scratch.read("model.ele"), scratch.read("sim.ele"));
     scratch.run(&format!("verify p.csv sim.ele {options}")).ok();
     serde_json::from_str(&run.stdout).expect("the report is JSON")
@@ -26,11 +20,7 @@ fn compare(scratch: &Scratch, options: &str) -> Value {
 fn named_sets_of_a_thousand_points() {
     let scratch = Scratch::new();
     for distribution in incircle_cli::generate::Distribution::all() {
-        scratch
-            .run(&format!(
-                "generate {distribution} -n 1000 --bits 16 --seed 1 -o p.csv"
-            ))
-            .ok();
+        scratch.run(&format!("generate {distribution} -n 1000 --bits 16 --seed 1 -o p.csv")).ok();
         let report = compare(&scratch, "");
         assert_eq!(report["backend"], "sim");
         assert_eq!(report["config"], "small", "{distribution}");
@@ -55,13 +45,7 @@ fn the_report_says_the_bits_of_the_grid() {
 #[test]
 fn sets_without_triangles() {
     let scratch = Scratch::new();
-    for points in [
-        "",
-        "3,4\n",
-        "3,4\n5,6\n",
-        "3,4\n3,4\n",
-        "0,0\n2,2\n1,1\n7,7\n",
-    ] {
+    for points in ["", "3,4\n", "3,4\n5,6\n", "3,4\n3,4\n", "0,0\n2,2\n1,1\n7,7\n"] {
         scratch.write("p.csv", points);
         let report = compare(&scratch, "");
         assert_eq!(report["cycles"], 0);
@@ -74,9 +58,7 @@ fn the_smallest_core_that_holds_the_points_is_taken() {
     let scratch = Scratch::new();
     for (n, config) in [(3, "tiny"), (8, "tiny"), (9, "small"), (1024, "small")] {
         // All different: evenly spaced on a parabola.
-        scratch
-            .run(&format!("generate parabola -n {n} -o p.csv"))
-            .ok();
+        scratch.run(&format!("generate parabola -n {n} -o p.csv")).ok();
         assert_eq!(compare(&scratch, "")["config"], config, "{n}");
     }
     // Duplicates do not count.
@@ -89,15 +71,11 @@ fn what_no_core_holds_ends_with_seven() {
     let scratch = Scratch::new();
     scratch.run("generate parabola -n 16385 -o p.csv").ok();
     let all = "tiny 8, small 1024, full 8192, large 16384";
-    scratch
-        .run("triangulate p.csv -o m.ele --backend sim")
-        .fails(7, &["16385", all, "--backend model"]);
+    scratch.run("triangulate p.csv -o m.ele --backend sim").fails(7, &["16385", all, "--backend model"]);
     scratch.run("generate parabola -n 9 -o p.csv").ok();
     let run = scratch.run("triangulate p.csv -o m.ele --backend sim --config tiny");
     run.fails(7, &["9 distinct points", "tiny", all]);
-    scratch
-        .run("triangulate p.csv -o m.ele --backend sim --coord-bits 17")
-        .fails(7, &["16 bits", "17"]);
+    scratch.run("triangulate p.csv -o m.ele --backend sim --coord-bits 17").fails(7, &["16 bits", "17"]);
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 
@@ -105,19 +83,14 @@ fn what_no_core_holds_ends_with_seven() {
 fn a_core_says_what_it_is() {
     let scratch = Scratch::new();
     let run = scratch.run("info --backend sim --config full").ok();
-    assert!(
-        run.stdout.contains("coordinates of 16 bits\n8192 points\n"),
-        "{run:?}"
-    );
+    assert!(run.stdout.contains("coordinates of 16 bits\n8192 points\n"), "{run:?}");
 }
 
 #[test]
 fn a_job_out_of_time_ends_with_six() {
     let scratch = Scratch::new();
     scratch.run("generate uniform -n 1000 -o p.csv").ok();
-    scratch
-        .run("triangulate p.csv -o m.ele --backend sim --timeout 0.001")
-        .fails(6, &["sim:small", "0.001 s"]);
+    scratch.run("triangulate p.csv -o m.ele --backend sim --timeout 0.001").fails(6, &["sim:small", "0.001 s"]);
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 
@@ -125,25 +98,16 @@ fn a_job_out_of_time_ends_with_six() {
 fn a_trace_is_a_waveform_of_the_whole_job() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n9,0\n0,9\n4,3\n");
-    let run = scratch
-        .run("triangulate p.csv -o m.ele --backend sim --trace t.vcd --json")
-        .ok();
+    let run = scratch.run("triangulate p.csv -o m.ele --backend sim --trace t.vcd --json").ok();
     let report: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
     assert_eq!(scratch.files(), ["m.ele", "p.csv", "t.vcd"]);
     let trace = scratch.read("t.vcd");
-    for part in [
-        "$timescale",
-        "$enddefinitions",
-        "command_valid",
-        "response_data",
-    ] {
+    for part in ["$timescale", "$enddefinitions", "command_valid", "response_data"] {
         assert!(trace.contains(part), "{part}");
     }
     // Insertion and read-out are in it, clock by clock.
     let clocks = trace.lines().filter(|line| line.starts_with('#')).count() as u64;
-    let job = report["cycles"]
-        .as_u64()
-        .zip(report["read_cycles"].as_u64());
+    let job = report["cycles"].as_u64().zip(report["read_cycles"].as_u64());
     let (insert, read) = job.expect("cycles are counted");
     assert!(clocks > insert + read, "{clocks} {report}");
 }
@@ -152,17 +116,11 @@ fn a_trace_is_a_waveform_of_the_whole_job() {
 fn a_run_that_fails_leaves_no_trace() {
     let scratch = Scratch::new();
     scratch.run("generate uniform -n 1000 -o p.csv").ok();
-    scratch
-        .run("triangulate p.csv -o m.ele --backend sim --trace t.vcd --timeout 0.001")
-        .fails(6, &["sim:small"]);
+    scratch.run("triangulate p.csv -o m.ele --backend sim --trace t.vcd --timeout 0.001").fails(6, &["sim:small"]);
     scratch
         .run("triangulate p.csv -o m.ele --backend sim --trace ./m.ele")
         .fails(2, &["both the mesh and the waveform"]);
-    scratch
-        .run("triangulate p.csv -o m.ele --backend sim --trace p.csv")
-        .fails(2, &["both the input"]);
-    scratch
-        .run("triangulate p.csv -o m.ele --backend sim --trace -")
-        .fails(2, &["ordinary file"]);
+    scratch.run("triangulate p.csv -o m.ele --backend sim --trace p.csv").fails(2, &["both the input"]);
+    scratch.run("triangulate p.csv -o m.ele --backend sim --trace -").fails(2, &["ordinary file"]);
     assert_eq!(scratch.files(), ["p.csv"]);
 }

@@ -7,11 +7,7 @@ use super::sites::Sites;
 use super::{VerifyError, VerifySummary};
 
 /// Checks all edges and counts edges and ties.
-pub(super) fn check(
-    sites: &Sites<'_>,
-    triangles: &[[u32; 3]],
-    summary: &mut VerifySummary,
-) -> Result<(), VerifyError> {
+pub(super) fn check(sites: &Sites<'_>, triangles: &[[u32; 3]], summary: &mut VerifySummary) -> Result<(), VerifyError> {
     let sides = sides(triangles);
     let edges = || sides.chunk_by(|one, other| one.0 == other.0);
     let mut hull = HullEdges::of(&summary.hull, sites.points.len());
@@ -63,11 +59,7 @@ fn check_sides(triangles: &[[u32; 3]], sides: &[Side]) -> Result<(), VerifyError
         let edge = ends(triangles, later);
         let mut earlier = sides[..place].iter();
         if let Some(&(_, twin)) = earlier.find(|twin| ends(triangles, twin.1) == edge) {
-            return Err(VerifyError::SameSide {
-                one: (twin / 3) as usize,
-                other: (later / 3) as usize,
-                edge,
-            });
+            return Err(VerifyError::SameSide { one: (twin / 3) as usize, other: (later / 3) as usize, edge });
         }
     }
     Ok(())
@@ -91,10 +83,7 @@ impl HullEdges {
     fn take(&mut self, halfedge: u32, edge: [u32; 2]) -> Result<(), VerifyError> {
         let following = &mut self.following[edge[0] as usize];
         if *following != Some(edge[1]) {
-            return Err(VerifyError::OpenEdge {
-                triangle: (halfedge / 3) as usize,
-                edge,
-            });
+            return Err(VerifyError::OpenEdge { triangle: (halfedge / 3) as usize, edge });
         }
         *following = None;
         Ok(())
@@ -111,37 +100,19 @@ impl HullEdges {
 }
 
 /// Local Delaunay property and tie rule of the edge between two triangles; true for a tie.
-fn check_inner_edge(
-    sites: &Sites<'_>,
-    triangles: &[[u32; 3]],
-    one: u32,
-    other: u32,
-) -> Result<bool, VerifyError> {
-    let corner = |halfedge: u32, step: u32| {
-        triangles[(halfedge / 3) as usize][((halfedge % 3 + step) % 3) as usize]
-    };
-    let (a, b, c, d) = (
-        corner(one, 0),
-        corner(one, 1),
-        corner(one, 2),
-        corner(other, 2),
-    );
+fn check_inner_edge(sites: &Sites<'_>, triangles: &[[u32; 3]], one: u32, other: u32) -> Result<bool, VerifyError> {
+    let corner = |halfedge: u32, step: u32| triangles[(halfedge / 3) as usize][((halfedge % 3 + step) % 3) as usize];
+    let (a, b, c, d) = (corner(one, 0), corner(one, 1), corner(one, 2), corner(other, 2));
     match circle_side(sites.at(a), sites.at(b), sites.at(c), sites.at(d)) {
         Ordering::Less => Ok(false),
-        Ordering::Greater => Err(VerifyError::NotDelaunay {
-            triangle: (one / 3) as usize,
-            point: d,
-            edge: [a, b],
-        }),
+        Ordering::Greater => Err(VerifyError::NotDelaunay { triangle: (one / 3) as usize, point: d, edge: [a, b] }),
         Ordering::Equal => {
             let corners = [a, d, b, c];
             let smallest = corners.into_iter().min_by_key(|&index| sites.at(index));
             match smallest {
-                Some(smallest) if smallest != a && smallest != b => Err(VerifyError::WrongTie {
-                    corners,
-                    edge: [a, b],
-                    smallest,
-                }),
+                Some(smallest) if smallest != a && smallest != b => {
+                    Err(VerifyError::WrongTie { corners, edge: [a, b], smallest })
+                }
                 _ => Ok(true),
             }
         }

@@ -9,10 +9,7 @@ pub(super) const COORDINATE_LIMIT: u32 = 1 << 31;
 
 /// The vector from `from` to `to`.
 fn vector(from: Point, to: Point) -> [i128; 2] {
-    [
-        i128::from(to.x) - i128::from(from.x),
-        i128::from(to.y) - i128::from(from.y),
-    ]
+    [i128::from(to.x) - i128::from(from.x), i128::from(to.y) - i128::from(from.y)]
 }
 
 fn minor(one: [i128; 2], other: [i128; 2]) -> i128 {
@@ -57,10 +54,7 @@ mod tests {
 
     #[test]
     fn area_is_positive_to_the_left() {
-        assert_eq!(
-            area(p(0, 0), p(MAX, 0), p(0, MAX)),
-            i128::from(MAX) * i128::from(MAX)
-        );
+        assert_eq!(area(p(0, 0), p(MAX, 0), p(0, MAX)), i128::from(MAX) * i128::from(MAX));
         assert_eq!(area(p(0, 0), p(5, 5), p(9, 9)), 0);
         assert_eq!(area(p(0, 0), p(0, 2), p(2, 0)), -4);
     }

@@ -85,17 +85,11 @@ pub fn verify(points: &[Point], triangles: &[[u32; 3]]) -> Result<VerifySummary,
 fn check_sizes(points: &[Point], triangles: &[[u32; 3]]) -> Result<(), VerifyError> {
     let count = points.len().max(triangles.len());
     if count > MAX_COUNT {
-        return Err(VerifyError::TooLarge {
-            count,
-            max: MAX_COUNT,
-        });
+        return Err(VerifyError::TooLarge { count, max: MAX_COUNT });
     }
     let too_large = |point: &Point| point.x.max(point.y) >= COORDINATE_LIMIT;
     match points.iter().position(too_large) {
-        Some(index) => Err(VerifyError::CoordinateTooLarge {
-            index,
-            point: points[index],
-        }),
+        Some(index) => Err(VerifyError::CoordinateTooLarge { index, point: points[index] }),
         None => Ok(()),
     }
 }
@@ -105,11 +99,7 @@ fn check_triangles(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<i128, Ve
     let mut covered = 0;
     for (triangle, &corners) in triangles.iter().enumerate() {
         check_corners(sites, triangle, corners)?;
-        let area = exact::area(
-            sites.at(corners[0]),
-            sites.at(corners[1]),
-            sites.at(corners[2]),
-        );
+        let area = exact::area(sites.at(corners[0]), sites.at(corners[1]), sites.at(corners[2]));
         if area <= 0 {
             return Err(VerifyError::NotCounterClockwise { triangle, corners });
         }
@@ -117,16 +107,10 @@ fn check_triangles(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<i128, Ve
         if corners[0] > corners[1] || corners[0] > corners[2] {
             return Err(VerifyError::NotRotated { triangle, corners });
         }
-        let before = triangle
-            .checked_sub(1)
-            .and_then(|before| triangles.get(before));
+        let before = triangle.checked_sub(1).and_then(|before| triangles.get(before));
         match before.map(|before| before.cmp(&corners)) {
-            Some(std::cmp::Ordering::Equal) => {
-                return Err(VerifyError::DoubledTriangle { triangle, corners })
-            }
-            Some(std::cmp::Ordering::Greater) => {
-                return Err(VerifyError::NotSorted { triangle, corners })
-            }
+            Some(std::cmp::Ordering::Equal) => return Err(VerifyError::DoubledTriangle { triangle, corners }),
+            Some(std::cmp::Ordering::Greater) => return Err(VerifyError::NotSorted { triangle, corners }),
             _ => {}
         }
     }
@@ -137,20 +121,8 @@ fn check_triangles(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<i128, Ve
 fn check_corners(sites: &Sites<'_>, triangle: usize, corners: [u32; 3]) -> Result<(), VerifyError> {
     for index in corners {
         match sites.lowest.get(index as usize) {
-            None => {
-                return Err(VerifyError::IndexOutOfRange {
-                    triangle,
-                    index,
-                    points: sites.points.len(),
-                })
-            }
-            Some(&of) if of != index => {
-                return Err(VerifyError::NotLowestIndex {
-                    triangle,
-                    index,
-                    of,
-                })
-            }
+            None => return Err(VerifyError::IndexOutOfRange { triangle, index, points: sites.points.len() }),
+            Some(&of) if of != index => return Err(VerifyError::NotLowestIndex { triangle, index, of }),
             Some(_) => {}
         }
     }
@@ -176,10 +148,7 @@ fn check_all_used(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<(), Verif
     for &index in triangles.as_flattened() {
         used[index as usize] = true;
     }
-    let unused = sites
-        .distinct
-        .iter()
-        .filter(|&&index| !used[index as usize]);
+    let unused = sites.distinct.iter().filter(|&&index| !used[index as usize]);
     match unused.min() {
         Some(&index) => Err(VerifyError::UnusedPoint { index }),
         None => Ok(()),
@@ -190,9 +159,7 @@ fn check_area(sites: &Sites<'_>, hull: &[u32], triangles: i128) -> Result<(), Ve
     let origin = Point::new(0, 0);
     let following = hull.iter().skip(1).chain(hull.first());
     let sectors = hull.iter().zip(following);
-    let hull = sectors
-        .map(|(&from, &to)| exact::area(origin, sites.at(from), sites.at(to)))
-        .sum();
+    let hull = sectors.map(|(&from, &to)| exact::area(origin, sites.at(from), sites.at(to))).sum();
     if triangles == hull {
         Ok(())
     } else {
@@ -213,10 +180,7 @@ pub(crate) fn check_hull(hull: &[u32], summary: &VerifySummary) -> Result<(), Ve
 }
 
 /// The list of duplicates must be that of the points.
-pub(crate) fn check_duplicates(
-    points: &[Point],
-    duplicates: &[Duplicate],
-) -> Result<(), VerifyError> {
+pub(crate) fn check_duplicates(points: &[Point], duplicates: &[Duplicate]) -> Result<(), VerifyError> {
     let expected: Vec<Duplicate> = Sites::of(points).duplicates().collect();
     match first_difference(duplicates, &expected) {
         Some(place) => Err(VerifyError::Duplicates { place }),
@@ -229,10 +193,7 @@ fn first_difference<T: PartialEq>(one: &[T], other: &[T]) -> Option<usize> {
     if one == other {
         return None;
     }
-    let common = one
-        .iter()
-        .zip(other)
-        .take_while(|(one, other)| one == other);
+    let common = one.iter().zip(other).take_while(|(one, other)| one == other);
     Some(common.count())
 }
 

@@ -28,11 +28,7 @@ impl<'a> Sites<'a> {
         if let Some(&first) = distinct.first() {
             lowest[first as usize] = first;
         }
-        Self {
-            points,
-            distinct,
-            lowest,
-        }
+        Self { points, distinct, lowest }
     }
 
     pub(super) fn at(&self, index: u32) -> Point {
@@ -80,8 +76,7 @@ impl<'a> Sites<'a> {
     /// The points that fell onto an earlier one, by index.
     pub(super) fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
         let all = (0..).zip(self.lowest.iter());
-        all.filter(|(index, of)| index != *of)
-            .map(|(index, &of)| Duplicate { index, of })
+        all.filter(|(index, of)| index != *of).map(|(index, &of)| Duplicate { index, of })
     }
 }
 
@@ -107,12 +102,7 @@ mod tests {
 
     #[test]
     fn collinear_points_are_their_own_hull() {
-        for raw in [
-            &[][..],
-            &[(1, 1)],
-            &[(1, 1), (1, 1)],
-            &[(3, 3), (1, 1), (2, 2)],
-        ] {
+        for raw in [&[][..], &[(1, 1)], &[(1, 1), (1, 1)], &[(3, 3), (1, 1), (2, 2)]] {
             let points = points(raw);
             let sites = Sites::of(&points);
             assert!(sites.are_collinear());
@@ -123,10 +113,7 @@ mod tests {
     #[test]
     fn duplicates_point_to_the_lowest_index() {
         let points = points(&[(1, 1), (0, 0), (1, 1), (0, 0), (1, 1)]);
-        let pairs: Vec<(u32, u32)> = Sites::of(&points)
-            .duplicates()
-            .map(|d| (d.index, d.of))
-            .collect();
+        let pairs: Vec<(u32, u32)> = Sites::of(&points).duplicates().map(|d| (d.index, d.of)).collect();
         assert_eq!(pairs, [(2, 0), (3, 1), (4, 0)]);
     }
 }

@@ -22,10 +22,7 @@ fn error(points: &[Point], triangles: &[[u32; 3]]) -> VerifyError {
 fn the_lattice_is_right_and_all_its_squares_are_ties() {
     let (points, triangles) = lattice();
     let summary = verify(&points, &triangles).expect("a right mesh");
-    assert_eq!(
-        (summary.triangles, summary.edges, summary.ties),
-        (18, 33, 9)
-    );
+    assert_eq!((summary.triangles, summary.edges, summary.ties), (18, 33, 9));
     assert_eq!(summary.hull.len(), 12);
 }
 
@@ -36,10 +33,7 @@ fn a_flipped_tie_is_found() {
     triangles.extend([[5, 9, 6], [6, 9, 10]]);
     triangles.sort_unstable();
     let found = error(&points, &triangles);
-    assert!(
-        matches!(found, VerifyError::WrongTie { smallest: 5, .. }),
-        "{found}"
-    );
+    assert!(matches!(found, VerifyError::WrongTie { smallest: 5, .. }), "{found}");
 }
 
 #[test]
@@ -49,16 +43,7 @@ fn a_flipped_edge_is_found() {
     let square = [(0, 0), (10, 0), (12, 10), (0, 10)].map(Point::from);
     assert!(verify(&square, &[[0, 1, 3], [1, 2, 3]]).is_ok());
     let found = error(&square, &[[0, 1, 2], [0, 2, 3]]);
-    assert!(
-        matches!(
-            found,
-            VerifyError::NotDelaunay {
-                edge: [2, 0] | [0, 2],
-                ..
-            }
-        ),
-        "{found}"
-    );
+    assert!(matches!(found, VerifyError::NotDelaunay { edge: [2, 0] | [0, 2], .. }), "{found}");
 }
 
 #[test]
@@ -68,17 +53,7 @@ fn a_missing_triangle_is_found() {
         let mut fewer = triangles.clone();
         fewer.remove(missing);
         let found = error(&points, &fewer);
-        assert!(
-            matches!(
-                found,
-                VerifyError::TriangleCount {
-                    found: 17,
-                    expected: 18,
-                    ..
-                }
-            ),
-            "{found}"
-        );
+        assert!(matches!(found, VerifyError::TriangleCount { found: 17, expected: 18, .. }), "{found}");
     }
 }
 
@@ -87,10 +62,7 @@ fn a_doubled_triangle_is_found() {
     let (points, mut triangles) = lattice();
     triangles.insert(5, triangles[5]);
     let found = error(&points, &triangles);
-    assert!(
-        matches!(found, VerifyError::DoubledTriangle { triangle: 6, .. }),
-        "{found}"
-    );
+    assert!(matches!(found, VerifyError::DoubledTriangle { triangle: 6, .. }), "{found}");
 }
 
 #[test]
@@ -98,28 +70,16 @@ fn the_canonical_form_is_demanded() {
     let (points, triangles) = lattice();
     let mut turned = triangles.clone();
     turned[3].rotate_left(1);
-    assert!(matches!(
-        error(&points, &turned),
-        VerifyError::NotRotated { triangle: 3, .. }
-    ));
+    assert!(matches!(error(&points, &turned), VerifyError::NotRotated { triangle: 3, .. }));
     let mut swapped = triangles.clone();
     swapped.swap(6, 7);
-    assert!(matches!(
-        error(&points, &swapped),
-        VerifyError::NotSorted { triangle: 7, .. }
-    ));
+    assert!(matches!(error(&points, &swapped), VerifyError::NotSorted { triangle: 7, .. }));
     let mut mirrored = triangles.clone();
     mirrored[2].swap(1, 2);
-    assert!(matches!(
-        error(&points, &mirrored),
-        VerifyError::NotCounterClockwise { triangle: 2, .. }
-    ));
+    assert!(matches!(error(&points, &mirrored), VerifyError::NotCounterClockwise { triangle: 2, .. }));
     let mut wild = triangles;
     wild[17][2] = 16;
-    assert!(matches!(
-        error(&points, &wild),
-        VerifyError::IndexOutOfRange { index: 16, .. }
-    ));
+    assert!(matches!(error(&points, &wild), VerifyError::IndexOutOfRange { index: 16, .. }));
 }
 
 #[test]
@@ -127,14 +87,7 @@ fn duplicates_go_by_their_lowest_index() {
     let points = [(0, 0), (5, 0), (5, 0), (0, 5)].map(Point::from);
     assert!(verify(&points, &[[0, 1, 3]]).is_ok());
     let found = error(&points, &[[0, 2, 3]]);
-    assert_eq!(
-        found,
-        VerifyError::NotLowestIndex {
-            triangle: 0,
-            index: 2,
-            of: 1
-        }
-    );
+    assert_eq!(found, VerifyError::NotLowestIndex { triangle: 0, index: 2, of: 1 });
 }
 
 #[test]
@@ -157,44 +110,27 @@ fn an_open_edge_and_a_shared_side_are_found_behind_right_sums() {
     // Right count and right area, but the triangles overlap: a parallelogram's halves of equal area in the wrong places.
     let points = [(0, 0), (4, 0), (4, 4), (0, 4)].map(Point::from);
     let found = error(&points, &[[0, 1, 2], [0, 1, 3]]);
-    assert!(
-        matches!(found, VerifyError::SameSide { edge: [0, 1], .. }),
-        "{found}"
-    );
+    assert!(matches!(found, VerifyError::SameSide { edge: [0, 1], .. }), "{found}");
     let found = error(&points, &[[0, 1, 3], [0, 2, 3]]);
-    let named = matches!(
-        found,
-        VerifyError::SameSide { edge: [3, 0], .. } | VerifyError::OpenEdge { .. }
-    );
+    let named = matches!(found, VerifyError::SameSide { edge: [3, 0], .. } | VerifyError::OpenEdge { .. });
     assert!(named, "{found}");
 }
 
 #[test]
 fn collinear_points_have_no_triangles() {
-    for raw in [
-        &[][..],
-        &[(3, 3)],
-        &[(3, 3), (3, 3)],
-        &[(0, 0), (7, 7), (3, 3), (5, 5)],
-    ] {
+    for raw in [&[][..], &[(3, 3)], &[(3, 3), (3, 3)], &[(0, 0), (7, 7), (3, 3), (5, 5)]] {
         let points: Vec<Point> = raw.iter().map(|&pair| pair.into()).collect();
         let summary = verify(&points, &[]).expect("no triangles are right");
         assert!(summary.collinear);
         let found = error(&points, &[[0, 1, 2]]);
-        assert_eq!(
-            found,
-            VerifyError::TrianglesOfCollinearPoints { triangles: 1 }
-        );
+        assert_eq!(found, VerifyError::TrianglesOfCollinearPoints { triangles: 1 });
     }
 }
 
 #[test]
 fn coordinates_beyond_the_arithmetic_are_refused() {
     let points = [(0, 0), (1 << 31, 0), (0, 1)].map(Point::from);
-    assert!(matches!(
-        error(&points, &[[0, 1, 2]]),
-        VerifyError::CoordinateTooLarge { index: 1, .. }
-    ));
+    assert!(matches!(error(&points, &[[0, 1, 2]]), VerifyError::CoordinateTooLarge { index: 1, .. }));
 }
 
 #[test]
@@ -203,22 +139,9 @@ fn hull_and_duplicates_are_compared_place_by_place() {
     let summary = verify(&points, &[[0, 1, 3]]).expect("a right mesh");
     assert_eq!(check_hull(&[0, 1, 3], &summary), Ok(()));
     let short = check_hull(&[0, 1], &summary);
-    assert_eq!(
-        short,
-        Err(VerifyError::Hull {
-            place: 2,
-            found: None,
-            expected: Some(3)
-        })
-    );
-    assert_eq!(
-        check_duplicates(&points, &[Duplicate { index: 2, of: 1 }]),
-        Ok(())
-    );
-    assert_eq!(
-        check_duplicates(&points, &[]),
-        Err(VerifyError::Duplicates { place: 0 })
-    );
+    assert_eq!(short, Err(VerifyError::Hull { place: 2, found: None, expected: Some(3) }));
+    assert_eq!(check_duplicates(&points, &[Duplicate { index: 2, of: 1 }]), Ok(()));
+    assert_eq!(check_duplicates(&points, &[]), Err(VerifyError::Duplicates { place: 0 }));
 }
 
 #[test]

@@ -44,10 +44,7 @@ impl Transport for Liar {
         std::thread::sleep(self.silent_for);
         let wanted = words.len();
         if self.answer.len() < wanted {
-            return Err(TransportError::Timeout {
-                done: self.answer.len(),
-                wanted,
-            });
+            return Err(TransportError::Timeout { done: self.answer.len(), wanted });
         }
         for (word, answer) in words.iter_mut().zip(self.answer.drain(..wanted)) {
             *word = answer;

@@ -19,9 +19,7 @@ impl Random {
     }
 
     pub fn points(&mut self, count: usize, side: u32) -> Vec<Point> {
-        (0..count)
-            .map(|_| Point::new(self.below(side), self.below(side)))
-            .collect()
+        (0..count).map(|_| Point::new(self.below(side), self.below(side))).collect()
     }
 }
 
@@ -34,10 +32,7 @@ fn area(a: Point, b: Point, c: Point) -> i64 {
 /// lexicographically smallest of the four on the lifted paraboloid. For small coordinates.
 fn conflicts(a: Point, b: Point, c: Point, d: Point) -> bool {
     let lift = |p: Point| {
-        let (x, y) = (
-            i64::from(p.x) - i64::from(d.x),
-            i64::from(p.y) - i64::from(d.y),
-        );
+        let (x, y) = (i64::from(p.x) - i64::from(d.x), i64::from(p.y) - i64::from(d.y));
         x * x + y * y
     };
     let inside = lift(a) * area(d, b, c) + lift(b) * area(d, c, a) + lift(c) * area(d, a, b);
@@ -62,8 +57,7 @@ pub fn brute_force(points: &[Point]) -> Vec<[u32; 3]> {
         for &j in &distinct[place + 1..] {
             for &k in &distinct[place + 1..] {
                 let (a, b, c) = (points[i], points[j], points[k]);
-                let empty =
-                    |&m: &usize| m == i || m == j || m == k || !conflicts(a, b, c, points[m]);
+                let empty = |&m: &usize| m == i || m == j || m == k || !conflicts(a, b, c, points[m]);
                 if area(a, b, c) > 0 && distinct.iter().all(empty) {
                     triangles.push([i as u32, j as u32, k as u32]);
                 }

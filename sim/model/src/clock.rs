@@ -91,12 +91,7 @@ impl ClockModel {
         let config = config.check()?;
         let mut registers = Registers::default();
         registers.release.reset();
-        Ok(Self {
-            config,
-            registers,
-            pipeline: Pipeline::default(),
-            memory: Memory::new(config),
-        })
+        Ok(Self { config, registers, pipeline: Pipeline::default(), memory: Memory::new(config) })
     }
 
     /// The outputs as they stand.
@@ -148,15 +143,13 @@ impl ClockModel {
         now.command.clock(&was, &wires, self.config);
         now.responder.clock(&was, &wires, self.config);
         now.context.clock(&was, &wires);
-        now.cavity
-            .clock(&was, &wires, &mut self.memory, self.config);
+        now.cavity.clock(&was, &wires, &mut self.memory, self.config);
         now.commit.clock(&was, &self.memory);
         now.solo.clock(&was, &wires);
         now.counters.clock(&was, &wires);
         self.pipeline.clock(&was, &wires, &mut self.memory);
         self.memory.clock(&was, &wires);
-        now.release
-            .clock(&was, &wires, &mut self.memory, self.config);
+        now.release.clock(&was, &wires, &mut self.memory, self.config);
         now.write.clock(&was);
     }
 }

@@ -38,12 +38,9 @@ impl fmt::Display for ModelError {
                     protocol::MAX_MODEL_POINTS
                 )
             }
-            Self::Ring(given) => write!(
-                f,
-                "a boundary list holds {} to {} edges, not {given}",
-                protocol::MIN_RING,
-                protocol::MAX_RING
-            ),
+            Self::Ring(given) => {
+                write!(f, "a boundary list holds {} to {} edges, not {given}", protocol::MIN_RING, protocol::MAX_RING)
+            }
         }
     }
 }
@@ -143,10 +140,7 @@ impl CommandModel {
         let mut filled = 0;
         while filled < buffer.len() {
             let ready = self.answers.len().min(buffer.len() - filled);
-            for (place, word) in buffer[filled..filled + ready]
-                .iter_mut()
-                .zip(self.answers.drain(..ready))
-            {
+            for (place, word) in buffer[filled..filled + ready].iter_mut().zip(self.answers.drain(..ready)) {
                 *place = word;
             }
             filled += ready;
@@ -203,8 +197,7 @@ impl CommandModel {
     }
 
     fn answer(&mut self, opcode: u8, status: Status, payload: &[u32]) {
-        self.answers
-            .extend([answer_header(opcode, status), payload.len() as u32]);
+        self.answers.extend([answer_header(opcode, status), payload.len() as u32]);
         self.answers.extend(payload);
     }
 
@@ -234,10 +227,7 @@ impl CommandModel {
                     continue;
                 }
             };
-            self.mesh.insert(Point {
-                x: x & mask,
-                y: y & mask,
-            });
+            self.mesh.insert(Point { x: x & mask, y: y & mask });
             left -= 1;
         }
         self.await_points(left);
@@ -267,8 +257,7 @@ impl CommandModel {
         let length = count.checked_mul(self.layout.record_words as u32);
         match (first.checked_add(count), length) {
             (Some(end), Some(length)) if end <= records => {
-                self.answers
-                    .extend([answer_header(opcode, Status::Ok), length]);
+                self.answers.extend([answer_header(opcode, Status::Ok), length]);
                 self.reading = (first, end);
             }
             _ => self.answer(opcode, Status::BadRange, &[]),

@@ -33,10 +33,7 @@ impl Record {
             1 => [c[1], c[2], c[0]],
             _ => [c[2], c[0], c[1]],
         };
-        Record {
-            v: turn(self.v),
-            n: turn(self.n),
-        }
+        Record { v: turn(self.v), n: turn(self.n) }
     }
 }
 
@@ -155,22 +152,10 @@ impl Mesh {
         let (b, c) = if turn > 0 { (1, 2) } else { (2, 1) };
         let inf = self.infinite;
         self.records.extend([
-            Record {
-                v: [0, b, c],
-                n: [1, 2, 3],
-            },
-            Record {
-                v: [c, b, inf],
-                n: [3, 2, 0],
-            },
-            Record {
-                v: [0, c, inf],
-                n: [1, 3, 0],
-            },
-            Record {
-                v: [b, 0, inf],
-                n: [2, 1, 0],
-            },
+            Record { v: [0, b, c], n: [1, 2, 3] },
+            Record { v: [c, b, inf], n: [3, 2, 0] },
+            Record { v: [0, c, inf], n: [1, 3, 0] },
+            Record { v: [b, 0, inf], n: [2, 1, 0] },
         ]);
         self.counts.insertions = 3;
         Insertion::Inserted

@@ -15,10 +15,7 @@ pub struct Point {
 /// `q - p`, exact.
 #[inline]
 fn difference(q: Point, p: Point) -> (i64, i64) {
-    (
-        i64::from(q.x) - i64::from(p.x),
-        i64::from(q.y) - i64::from(p.y),
-    )
+    (i64::from(q.x) - i64::from(p.x), i64::from(q.y) - i64::from(p.y))
 }
 
 /// The z component of `a x b`. For 31-bit coordinates below `2 * (2^31 - 1)^2 < 2^63` in magnitude.
@@ -49,8 +46,7 @@ pub fn orient2d(a: Point, b: Point, c: Point) -> i64 {
 pub fn incircle(r: [Point; 3], p: Point) -> i128 {
     let (a, b) = (difference(r[1], r[0]), difference(r[2], r[0]));
     let (u, v) = (difference(r[1], p), difference(r[2], p));
-    i128::from(cross(u, v)) * i128::from(dot(a, b))
-        - i128::from(cross(a, b)) * i128::from(dot(u, v))
+    i128::from(cross(u, v)) * i128::from(dot(a, b)) - i128::from(cross(a, b)) * i128::from(dot(u, v))
 }
 
 /// Whether inserting `p` removes the finite triangle `r`, whose edge `r[1] r[2]` faces `p`.

@@ -7,13 +7,7 @@ use incircle_model::{ClockModel, CommandModel, Inputs};
 use incircle_protocol::{command_word, Config, Counter, Opcode, COUNTER_WORDS, SMALL, TINY};
 
 /// Runs a command stream through the core; a side is stalled in one of `stall` clocks (0: never).
-fn run(
-    core: &mut ClockModel,
-    commands: &[u32],
-    answers: usize,
-    random: &mut Random,
-    stall: u32,
-) -> Vec<u32> {
+fn run(core: &mut ClockModel, commands: &[u32], answers: usize, random: &mut Random, stall: u32) -> Vec<u32> {
     let mut taken = Vec::new();
     let mut rest = commands;
     let mut clocks = 0;
@@ -41,18 +35,9 @@ fn run(
 }
 
 fn job(points: &[u32], records: u32) -> Vec<u32> {
-    let mut words = vec![
-        command_word(Opcode::Clear),
-        command_word(Opcode::Insert),
-        points.len() as u32,
-    ];
+    let mut words = vec![command_word(Opcode::Clear), command_word(Opcode::Insert), points.len() as u32];
     words.extend(points);
-    words.extend([
-        command_word(Opcode::Read),
-        0,
-        records,
-        command_word(Opcode::Counters),
-    ]);
+    words.extend([command_word(Opcode::Read), 0, records, command_word(Opcode::Counters)]);
     words
 }
 
@@ -60,9 +45,7 @@ fn compare(config: Config, random: &mut Random, core: &mut ClockModel, stall: u3
     let mut model = CommandModel::new(16, config.points, config.ring).unwrap();
     let side = [3, 4, 5, 8, 40, 1 << 16][random.below(6) as usize];
     let count = 1 + random.below(config.points.min(300) + config.points.min(300) / 4);
-    let points: Vec<u32> = (0..count)
-        .map(|_| random.below(side) | random.below(side) << 16)
-        .collect();
+    let points: Vec<u32> = (0..count).map(|_| random.below(side) | random.below(side) << 16).collect();
     model.send(&job(&points, 0));
     let records = model.mesh().records().len() as u32;
     let commands = job(&points, records);
@@ -74,11 +57,7 @@ fn compare(config: Config, random: &mut Random, core: &mut ClockModel, stall: u3
     expected.truncate(length);
     let mut answers = run(core, &commands, length, random, stall);
     let counters = length - COUNTER_WORDS;
-    for cycles in [
-        Counter::InsertCycles,
-        Counter::WaitCycles,
-        Counter::ReadCycles,
-    ] {
+    for cycles in [Counter::InsertCycles, Counter::WaitCycles, Counter::ReadCycles] {
         answers[counters + cycles as usize] = 0;
     }
     assert_eq!(answers, expected, "points {points:x?}");
@@ -89,12 +68,9 @@ fn compare(config: Config, random: &mut Random, core: &mut ClockModel, stall: u3
 fn answers_as_the_model_by_commands() {
     let mut random = Random(3);
     let mut alone = 0;
-    for (config, jobs) in [
-        (TINY, 800),
-        (Config { ring: 3, ..SMALL }, 60),
-        (Config { ring: 9, ..SMALL }, 60),
-        (SMALL, 60),
-    ] {
+    for (config, jobs) in
+        [(TINY, 800), (Config { ring: 3, ..SMALL }, 60), (Config { ring: 9, ..SMALL }, 60), (SMALL, 60)]
+    {
         let mut core = ClockModel::new(config).unwrap();
         for job in 0..jobs {
             alone += compare(config, &mut random, &mut core, [0, 2, 5][job % 3]);

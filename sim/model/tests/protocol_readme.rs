@@ -3,8 +3,7 @@
 
 use incircle_model::{ClockModel, CommandModel, Inputs};
 use incircle_protocol::{
-    answer_opcode, answer_status, Config, Counter, Layout, Opcode, Status, CORE_COORD_BITS, SMALL,
-    TINY,
+    answer_opcode, answer_status, Config, Counter, Layout, Opcode, Status, CORE_COORD_BITS, SMALL, TINY,
 };
 use std::collections::BTreeSet;
 
@@ -33,9 +32,7 @@ fn parameter(heading: &str, key: &str) -> u32 {
 /// The words of a line without its direction and its comment.
 fn words(line: &str) -> Vec<u32> {
     let said = line[1..].split(';').next().expect("a first part");
-    said.split_whitespace()
-        .map(|word| u32::from_str_radix(word, 16).expect(line))
-        .collect()
+    said.split_whitespace().map(|word| u32::from_str_radix(word, 16).expect(line)).collect()
 }
 
 fn exchange(block: &str) -> Exchange {
@@ -73,13 +70,7 @@ fn hex(words: &[u32]) -> String {
 
 #[test]
 fn the_model_by_commands_says_it() {
-    for Exchange {
-        coord_bits,
-        capacity,
-        ring,
-        steps,
-    } in exchanges()
-    {
+    for Exchange { coord_bits, capacity, ring, steps } in exchanges() {
         let mut model = CommandModel::new(coord_bits, capacity, ring).expect("possible");
         for (sent, expected) in steps {
             model.send(&sent);
@@ -123,11 +114,7 @@ fn the_core_says_it() {
         if exchange.coord_bits != CORE_COORD_BITS {
             continue;
         }
-        let config = Config {
-            points: exchange.capacity,
-            ring: exchange.ring,
-            ..TINY
-        };
+        let config = Config { points: exchange.capacity, ring: exchange.ring, ..TINY };
         let mut core = ClockModel::new(config).expect("possible");
         for (sent, expected) in exchange.steps {
             let mut said = answer_of(&mut core, &sent);
@@ -146,8 +133,7 @@ fn the_core_says_it() {
 
 #[test]
 fn every_opcode_status_and_layout_is_shown() {
-    let (mut opcodes, mut statuses, mut record_words) =
-        (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
+    let (mut opcodes, mut statuses, mut record_words) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
     for exchange in exchanges() {
         record_words.insert(Layout::of(exchange.coord_bits, exchange.capacity).record_words);
         for (_, answer) in exchange.steps {
@@ -165,16 +151,8 @@ fn every_opcode_status_and_layout_is_shown() {
 #[test]
 fn the_tables_have_the_numbers_of_the_crate() {
     let mut rows: Vec<String> = Vec::new();
-    rows.extend(
-        (0..=255)
-            .filter_map(Opcode::from_u8)
-            .map(|it| format!("| {} | `{it:?}` |", it as u8)),
-    );
-    rows.extend(
-        (0..=255)
-            .filter_map(Status::from_u8)
-            .map(|it| format!("| {} | `{it:?}` |", it as u8)),
-    );
+    rows.extend((0..=255).filter_map(Opcode::from_u8).map(|it| format!("| {} | `{it:?}` |", it as u8)));
+    rows.extend((0..=255).filter_map(Status::from_u8).map(|it| format!("| {} | `{it:?}` |", it as u8)));
     use Counter::*;
     rows.extend(
         [

@@ -45,10 +45,7 @@ impl PortId {
 
     /// Name of the port in Verilog.
     pub fn name(self) -> &'static str {
-        self.model
-            .ports()
-            .nth(self.index)
-            .map_or("?", |port| port.name)
+        self.model.ports().nth(self.index).map_or("?", |port| port.name)
     }
 }
 
@@ -137,12 +134,7 @@ impl ModelDescription {
             wanted: name.to_string(),
             ports: self.ports().map(|port| port.name).collect(),
         })?;
-        Ok(PortId {
-            model: self,
-            index,
-            width: port.width,
-            direction: port.direction,
-        })
+        Ok(PortId { model: self, index, width: port.width, direction: port.direction })
     }
 }
 

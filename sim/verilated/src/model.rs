@@ -57,14 +57,8 @@ impl Model {
         let handle = unsafe { (description.create)(seed, addresses.as_mut_ptr()) };
         // C++ `new` ends the program rather than give null, as the shim's functions let no exception out.
         let handle = NonNull::new(handle).expect("C++ gives an instance or ends the program");
-        let mut model = Self {
-            description,
-            handle,
-            addresses,
-            clock: description.port("clock").ok(),
-            time: 0,
-            tracing: false,
-        };
+        let mut model =
+            Self { description, handle, addresses, clock: description.port("clock").ok(), time: 0, tracing: false };
         for port in description.ports() {
             // The generator has filled the inputs too.
             if let (Direction::Input, Ok(id)) = (port.direction, model.port(port.name)) {
@@ -120,12 +114,7 @@ impl Model {
     #[inline]
     pub fn get(&self, port: PortId) -> u64 {
         let address = self.address(port);
-        assert!(
-            port.width <= 64,
-            "port {} of {} bits: read it with get_wide",
-            port.name(),
-            port.width
-        );
+        assert!(port.width <= 64, "port {} of {} bits: read it with get_wide", port.name(), port.width);
         // SAFETY: as in `set`; nobody writes while `&self` is borrowed.
         unsafe {
             match port.width {
@@ -158,9 +147,7 @@ impl Model {
         let address = self.input(port).cast::<u32>();
         let spare = words.len() as u32 * 32 - port.width;
         assert!(
-            words
-                .last()
-                .is_some_and(|last| spare == 0 || last >> (32 - spare) == 0),
+            words.last().is_some_and(|last| spare == 0 || last >> (32 - spare) == 0),
             "port {} of {} bits cannot take the words {words:x?}",
             port.name(),
             port.width
@@ -210,10 +197,7 @@ impl Model {
     pub fn clock(&mut self) {
         match self.clock {
             Some(clock) => self.clock_on(clock),
-            None => panic!(
-                "model {} has no input `clock`: name one with clock_on",
-                self.description.name()
-            ),
+            None => panic!("model {} has no input `clock`: name one with clock_on", self.description.name()),
         }
     }
 
@@ -255,11 +239,7 @@ impl Model {
 
     #[inline]
     fn input(&self, port: PortId) -> *mut c_void {
-        assert!(
-            port.direction == Direction::Input,
-            "port {} is an output and cannot be set",
-            port.name()
-        );
+        assert!(port.direction == Direction::Input, "port {} is an output and cannot be set", port.name());
         self.address(port)
     }
 

@@ -30,12 +30,8 @@ impl Model {
     /// The model was built without tracing, or the file cannot be made.
     pub fn trace_to(&mut self, path: impl AsRef<Path>) -> Result<(), TraceError> {
         let path = path.as_ref();
-        let open = self.description().trace_open.ok_or(TraceError::NotBuilt {
-            model: self.description().name(),
-        })?;
-        let failed = || TraceError::File {
-            path: path.to_path_buf(),
-        };
+        let open = self.description().trace_open.ok_or(TraceError::NotBuilt { model: self.description().name() })?;
+        let failed = || TraceError::File { path: path.to_path_buf() };
         let name = CString::new(path.as_os_str().as_encoded_bytes()).map_err(|_| failed())?;
         // SAFETY: a live instance and a zero-terminated name that outlives the call.
         self.tracing = unsafe { open(self.handle(), name.as_ptr()) } != 0;

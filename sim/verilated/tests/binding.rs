@@ -64,10 +64,7 @@ fn adds_wide_words() {
 
 #[test]
 fn knows_its_ports() {
-    let ports: Vec<_> = models::counter()
-        .ports()
-        .map(|port| (port.name, port.width, port.direction))
-        .collect();
+    let ports: Vec<_> = models::counter().ports().map(|port| (port.name, port.width, port.direction)).collect();
     let expected = [
         ("clock", 1, Direction::Input),
         ("count", 40, Direction::Output),
@@ -85,10 +82,7 @@ fn knows_its_ports() {
 #[test]
 fn a_missing_port_is_an_error_that_lists_the_others() {
     let error = Model::new(models::wide_adder()).port("c").unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "model wide_adder has no port \"c\"; its ports are a, b, carry, sum"
-    );
+    assert_eq!(error.to_string(), "model wide_adder has no port \"c\"; its ports are a, b, carry, sum");
 }
 
 #[test]
@@ -130,14 +124,7 @@ fn writes_a_waveform() {
     model.clock();
     model.trace_flush();
     let text = std::fs::read_to_string(&path).unwrap();
-    for part in [
-        "points$valid",
-        "#10\n",
-        "#11\n",
-        "#15\n",
-        "#20\n",
-        "b10100101 ",
-    ] {
+    for part in ["points$valid", "#10\n", "#11\n", "#15\n", "#20\n", "b10100101 "] {
         assert!(text.contains(part), "no {part:?} in\n{text}");
     }
     let second = fresh_file("counter_again.vcd");
@@ -153,12 +140,7 @@ fn writes_a_waveform() {
 fn says_why_no_waveform_is_written() {
     let mut model = Model::new(models::wide_adder());
     let error = model.trace_to(fresh_file("adder.vcd")).unwrap_err();
-    assert_eq!(
-        error,
-        TraceError::NotBuilt {
-            model: "wide_adder"
-        }
-    );
+    assert_eq!(error, TraceError::NotBuilt { model: "wide_adder" });
     let mut model = Model::new(models::counter());
     let missing = fresh_file("no_such_folder").join("counter.vcd");
     let error = model.trace_to(&missing).unwrap_err();
@@ -200,10 +182,7 @@ fn instances_are_independent_and_move_between_threads() {
                 })
             })
             .collect();
-        handles
-            .into_iter()
-            .map(|handle| handle.join().unwrap())
-            .collect()
+        handles.into_iter().map(|handle| handle.join().unwrap()).collect()
     });
     assert_eq!(counts, [100, 200, 300, 400]);
 }

@@ -103,22 +103,16 @@ fn lint_with(verilog: &str, top: &str, waived: &[&str]) -> Result<(), GateError>
     scratch.write(&file, verilog)?;
     // Errors still end it with an exit code; warnings are judged one by one.
     let mut arguments = vec!["--lint-only", "-Wall", "-Wno-fatal"];
-    let waivers: Vec<_> = waived
-        .iter()
-        .map(|warning| format!("-Wno-{warning}"))
-        .collect();
+    let waivers: Vec<_> = waived.iter().map(|warning| format!("-Wno-{warning}")).collect();
     arguments.extend(waivers.iter().map(String::as_str));
     arguments.extend(["--top-module", top, &file]);
     let printed = run("verilator", &arguments, top, &scratch)?;
     let is_accepted = |line: &str| {
         let mut accepted = ACCEPTED.iter();
-        !waived.is_empty()
-            && accepted.any(|(kind, detail)| line.contains(kind) && line.contains(detail))
+        !waived.is_empty() && accepted.any(|(kind, detail)| line.contains(kind) && line.contains(detail))
     };
-    let complaints: Vec<_> = printed
-        .lines()
-        .filter(|line| line.starts_with("%Warning") && !is_accepted(line))
-        .collect();
+    let complaints: Vec<_> =
+        printed.lines().filter(|line| line.starts_with("%Warning") && !is_accepted(line)).collect();
     complain("verilator", top, &complaints)
 }
 
@@ -127,11 +121,7 @@ fn complain(tool: &'static str, top: &str, complaints: &[&str]) -> Result<(), Ga
     if complaints.is_empty() {
         return Ok(());
     }
-    Err(GateError::Complaint {
-        tool,
-        top: top.to_string(),
-        lines: complaints.join("\n"),
-    })
+    Err(GateError::Complaint { tool, top: top.to_string(), lines: complaints.join("\n") })
 }
 
 /// The whole gate: [`lint`], then [`synthesise`].

@@ -56,26 +56,18 @@ fn yosys(verilog: &str, top: &str, passes: &str, scratch: &Scratch) -> Result<()
     scratch.write("design.v", verilog)?;
     let script = format!("read_verilog design.v; {passes}");
     let printed = run(YOSYS, &["-p", &script], top, scratch)?;
-    let complaints: Vec<_> = printed
-        .lines()
-        .filter(|line| COMPLAINTS.iter().any(|complaint| line.contains(complaint)))
-        .collect();
+    let complaints: Vec<_> =
+        printed.lines().filter(|line| COMPLAINTS.iter().any(|complaint| line.contains(complaint))).collect();
     complain(YOSYS, top, &complaints)
 }
 
 fn cells(report: &str) -> Result<Cells, String> {
-    let report: serde_json::Value =
-        serde_json::from_str(report).map_err(|error| error.to_string())?;
+    let report: serde_json::Value = serde_json::from_str(report).map_err(|error| error.to_string())?;
     let counts = report
         .pointer("/design/num_cells_by_type")
         .and_then(serde_json::Value::as_object)
         .ok_or("it has no table design/num_cells_by_type")?;
-    let count = |cell: &str| {
-        counts
-            .get(cell)
-            .and_then(serde_json::Value::as_u64)
-            .unwrap_or(0)
-    };
+    let count = |cell: &str| counts.get(cell).and_then(serde_json::Value::as_u64).unwrap_or(0);
     Ok(Cells {
         lut4: count("LUT4"),
         carry: count("CCU2C"),

@@ -8,27 +8,16 @@ use super::{GateError, Scratch};
 ///
 /// # Errors
 /// It cannot be started, or its exit code is not 0; then the error holds what it printed.
-pub(super) fn run(
-    tool: &'static str,
-    arguments: &[&str],
-    top: &str,
-    scratch: &Scratch,
-) -> Result<String, GateError> {
+pub(super) fn run(tool: &'static str, arguments: &[&str], top: &str, scratch: &Scratch) -> Result<String, GateError> {
     let output = Command::new(tool)
         .args(arguments)
         .current_dir(scratch.path())
         .output()
         .map_err(|source| GateError::Missing { tool, source })?;
-    let printed = [output.stdout, output.stderr]
-        .map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
-        .concat();
+    let printed = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat();
     if output.status.success() {
         Ok(printed)
     } else {
-        Err(GateError::Refused {
-            tool,
-            top: top.to_string(),
-            output: printed,
-        })
+        Err(GateError::Refused { tool, top: top.to_string(), output: printed })
     }
 }

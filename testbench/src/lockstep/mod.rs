@@ -62,17 +62,7 @@ impl Lockstep {
         let inputs = INPUTS.map(port);
         let model = ClockModel::new(config).unwrap_or_else(|error| panic!("{error}"));
         let (name, recording) = (name.to_string(), Vec::new());
-        Self {
-            name,
-            seed,
-            core,
-            model,
-            inputs,
-            outputs,
-            recording,
-            history: History::default(),
-            clocks: 1,
-        }
+        Self { name, seed, core, model, inputs, outputs, recording, history: History::default(), clocks: 1 }
     }
 
     /// Replays everything since the start on a fresh core, and leaves the last clocks of it as a waveform.
@@ -84,8 +74,7 @@ impl Lockstep {
         let shown = self.recording.len().saturating_sub(TRACED);
         for (clock, inputs) in self.recording.iter().enumerate() {
             if clock == shown {
-                core.trace_to(path)
-                    .unwrap_or_else(|error| panic!("{error}"));
+                core.trace_to(path).unwrap_or_else(|error| panic!("{error}"));
             }
             drive(&mut core, &self.inputs, inputs);
             core.clock();
@@ -116,13 +105,7 @@ impl Lockstep {
             let found = self.core.get(port);
             if found != expected {
                 let doing = self.model.describe();
-                return Err(self.history.mismatch(
-                    self.clocks,
-                    port.name(),
-                    expected,
-                    found,
-                    doing,
-                ));
+                return Err(self.history.mismatch(self.clocks, port.name(), expected, found, doing));
             }
         }
         self.core.clock();
@@ -135,9 +118,7 @@ impl Lockstep {
 /// A core after one clock with reset, out of random registers and memories.
 fn started(name: &str, seed: u32) -> Model {
     let mut core = blocks::randomized(name, seed);
-    let reset = core
-        .port(INPUTS[0])
-        .unwrap_or_else(|error| panic!("{error}"));
+    let reset = core.port(INPUTS[0]).unwrap_or_else(|error| panic!("{error}"));
     core.set(reset, 1);
     core.clock();
     core.set(reset, 0);
@@ -154,13 +135,7 @@ fn drive(core: &mut Model, ports: &[PortId; INPUTS.len()], inputs: &Inputs) {
 
 /// The model's outputs as the core's ports carry them.
 fn words_of(outputs: &Outputs) -> [u64; OUTPUTS.len()] {
-    let Write {
-        valid,
-        id,
-        vertices,
-        links,
-        record,
-    } = outputs.write;
+    let Write { valid, id, vertices, links, record } = outputs.write;
     let links = u64::from(links[0]) | u64::from(links[1]) << 1 | u64::from(links[2]) << 2;
     [
         u64::from(outputs.command_ready),

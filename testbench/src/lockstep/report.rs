@@ -66,14 +66,7 @@ impl History {
         doing: String,
     ) -> Mismatch {
         let events = self.events.iter().map(describe).collect();
-        Mismatch {
-            clock,
-            port,
-            expected,
-            found,
-            doing,
-            events,
-        }
+        Mismatch { clock, port, expected, found, doing, events }
     }
 }
 
@@ -90,10 +83,7 @@ fn describe((clock, inputs, outputs): &(u64, Inputs, Outputs)) -> String {
     }
     let write = outputs.write;
     if write.valid {
-        text += &format!(
-            " write {} links {:?} {:?}",
-            write.id, write.links, write.record
-        );
+        text += &format!(" write {} links {:?} {:?}", write.id, write.links, write.record);
     }
     text
 }

@@ -15,20 +15,14 @@ pub struct Stalls {
 
 impl Stalls {
     /// Neither.
-    pub const NONE: Self = Self {
-        idle: 0,
-        back_pressure: 0,
-    };
+    pub const NONE: Self = Self { idle: 0, back_pressure: 0 };
     /// The crossing of both.
     pub const ALL: [Self; 9] = {
         let rates = [0, 64, 230];
         let mut all = [Self::NONE; 9];
         let mut k = 0;
         while k < 9 {
-            all[k] = Self {
-                idle: rates[k / 3],
-                back_pressure: rates[k % 3],
-            };
+            all[k] = Self { idle: rates[k / 3], back_pressure: rates[k % 3] };
             k += 1;
         }
         all
@@ -61,9 +55,8 @@ impl Job {
     /// Clears, inserts the points in the given pieces, reads all records and the counters; `answers` comes from the model by
     /// commands.
     pub fn of(points: &[u32], piece: usize, capacity: u32, ring: u32) -> Self {
-        let mut model =
-            incircle_model::CommandModel::new(incircle_protocol::CORE_COORD_BITS, capacity, ring)
-                .unwrap_or_else(|error| panic!("{error}"));
+        let mut model = incircle_model::CommandModel::new(incircle_protocol::CORE_COORD_BITS, capacity, ring)
+            .unwrap_or_else(|error| panic!("{error}"));
         let mut commands = vec![command_word(Opcode::Hello), command_word(Opcode::Clear)];
         for piece in points.chunks(piece.max(1)) {
             commands.extend([command_word(Opcode::Insert), piece.len() as u32]);
@@ -71,12 +64,7 @@ impl Job {
         }
         model.send(&commands);
         let records = model.mesh().records().len() as u32;
-        let rest = [
-            command_word(Opcode::Read),
-            0,
-            records,
-            command_word(Opcode::Counters),
-        ];
+        let rest = [command_word(Opcode::Read), 0, records, command_word(Opcode::Counters)];
         commands.extend(rest);
         model.send(&rest);
         let mut answers = 0;
@@ -99,12 +87,7 @@ impl Lockstep {
     ///
     /// # Panics
     /// If the job takes more clocks than any job of its size can.
-    pub fn run(
-        &mut self,
-        job: &Job,
-        stalls: Stalls,
-        random: &mut impl FnMut() -> u64,
-    ) -> Result<Vec<u32>, Mismatch> {
+    pub fn run(&mut self, job: &Job, stalls: Stalls, random: &mut impl FnMut() -> u64) -> Result<Vec<u32>, Mismatch> {
         let mut answers = Vec::with_capacity(job.answers);
         let mut rest = job.commands.as_slice();
         let limit = self.clocks + 1_000_000 + 40_000 * job.commands.len() as u64;
@@ -119,11 +102,7 @@ impl Lockstep {
                 rest = &rest[1..];
             }
             self.clock(inputs)?;
-            assert!(
-                self.clocks < limit,
-                "no end after {} clocks: a hang that core and model share",
-                self.clocks
-            );
+            assert!(self.clocks < limit, "no end after {} clocks: a hang that core and model share", self.clocks);
         }
         Ok(answers)
     }

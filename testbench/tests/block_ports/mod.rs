@@ -102,9 +102,7 @@ pub fn settle(block: &mut impl Block, name: &str) {
 
 /// Drives an input of the model of any width.
 pub fn set_number(model: &mut Model, port: PortId, number: u128) {
-    let words: Vec<u32> = (0..port.width().div_ceil(32))
-        .map(|word| (number >> (32 * word)) as u32)
-        .collect();
+    let words: Vec<u32> = (0..port.width().div_ceil(32)).map(|word| (number >> (32 * word)) as u32).collect();
     model.set_wide(port, &words);
 }
 
@@ -112,8 +110,5 @@ pub fn set_number(model: &mut Model, port: PortId, number: u128) {
 pub fn number(model: &Model, port: PortId) -> u128 {
     let mut words = vec![0; port.width().div_ceil(32) as usize];
     model.get_wide(port, &mut words);
-    words
-        .iter()
-        .rev()
-        .fold(0, |number, word| number << 32 | u128::from(*word))
+    words.iter().rev().fold(0, |number, word| number << 32 | u128::from(*word))
 }

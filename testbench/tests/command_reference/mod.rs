@@ -50,10 +50,7 @@ pub struct Reference {
 
 impl Reference {
     pub fn new() -> Self {
-        Self {
-            wants: [Meaning::Command].into(),
-            ..Self::default()
-        }
+        Self { wants: [Meaning::Command].into(), ..Self::default() }
     }
 
     pub fn is_ready(&self, around: &Surroundings) -> bool {
@@ -105,14 +102,7 @@ impl Reference {
     }
 
     /// A rising edge, at which `word` is taken if there is one.
-    pub fn edge(
-        &mut self,
-        word: Option<u32>,
-        takes_point: bool,
-        pins: Pins,
-        around: &Surroundings,
-        capacity: u32,
-    ) {
+    pub fn edge(&mut self, word: Option<u32>, takes_point: bool, pins: Pins, around: &Surroundings, capacity: u32) {
         let was = self.clone();
         (self.is_new, self.clears, self.is_complete) = (false, false, false);
         if takes_point {

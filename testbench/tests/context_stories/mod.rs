@@ -5,14 +5,7 @@ use incircle_cli::generate::SplitMix64;
 use crate::stepper::bundles::{record_write, turned, Finding, Visit};
 
 pub const INFINITE: u64 = 0x7fff;
-pub const PHASES: [&str; 6] = [
-    "is_idle",
-    "is_root",
-    "is_cavity",
-    "is_drain",
-    "is_commit",
-    "is_solo",
-];
+pub const PHASES: [&str; 6] = ["is_idle", "is_root", "is_cavity", "is_drain", "is_commit", "is_solo"];
 pub const EVENTS: [&str; 5] = ["takes_point", "seeds", "drained", "walk_visit", "duplicate"];
 /// Inputs that do nothing while low; all others are noise where a story does not set them.
 pub const QUIET: [&str; 12] = [
@@ -50,18 +43,12 @@ pub struct Push {
 impl Push {
     /// All bits of a bundle.
     fn whole(bundle: u128) -> Self {
-        Self {
-            bundle,
-            mask: (1 << 78) - 1,
-        }
+        Self { bundle, mask: (1 << 78) - 1 }
     }
 
     /// One visit: what stands in the place of a second does not matter.
     fn single(visit: Visit) -> Self {
-        Self {
-            bundle: visit.bundle(false, [0; 3]),
-            mask: (1 << 51) - 1,
-        }
+        Self { bundle: visit.bundle(false, [0; 3]), mask: (1 << 51) - 1 }
     }
 }
 
@@ -133,15 +120,8 @@ impl Author {
 
     /// A clock in this phase, with these inputs and events.
     fn row(&mut self, phase: &str, inputs: &[(&'static str, u128)], events: &[&str]) {
-        let mut outputs: Vec<_> = PHASES
-            .iter()
-            .map(|name| (*name, u128::from(*name == phase)))
-            .collect();
-        outputs.extend(
-            EVENTS
-                .iter()
-                .map(|name| (*name, u128::from(events.contains(name)))),
-        );
+        let mut outputs: Vec<_> = PHASES.iter().map(|name| (*name, u128::from(*name == phase))).collect();
+        outputs.extend(EVENTS.iter().map(|name| (*name, u128::from(events.contains(name)))));
         outputs.extend([
             ("records", u128::from(self.records)),
             ("seeded", self.seeded.into()),
@@ -157,12 +137,7 @@ impl Author {
             outputs.push(("root_visits", 0));
         }
         let (push, write) = (self.push.take(), self.write.take());
-        self.rows.push(Row {
-            inputs: inputs.to_vec(),
-            outputs,
-            push,
-            write,
-        });
+        self.rows.push(Row { inputs: inputs.to_vec(), outputs, push, write });
     }
 
     fn rows_of(&mut self, phase: &str, most: u64) {
@@ -175,12 +150,7 @@ impl Author {
     fn point(&mut self) {
         let (id, point) = (self.arrived, self.random.below(1 << 32));
         let locks = self.random.below(2).into();
-        let inputs = [
-            ("point_valid", 1),
-            ("point_id", id.into()),
-            ("point", point.into()),
-            ("locks_are_held", locks),
-        ];
+        let inputs = [("point_valid", 1), ("point_id", id.into()), ("point", point.into()), ("locks_are_held", locks)];
         self.row("is_idle", &inputs, &["takes_point"]);
         self.vertex = Some((id, point));
         self.arrived += 1;
@@ -198,10 +168,7 @@ impl Author {
     /// The look at the first three, and their records.
     fn seed(&mut self) {
         self.rows_of("seed", 20);
-        let finding = Finding {
-            is_straight: self.random.below(4) == 0,
-            ..self.finding()
-        };
+        let finding = Finding { is_straight: self.random.below(4) == 0, ..self.finding() };
         self.row("seed", &[("done", 1), ("verdict", finding.verdict())], &[]);
         if finding.is_straight {
             self.collinear = true;
@@ -226,41 +193,15 @@ impl Author {
         let mut at = self.start;
         loop {
             self.rows_of("is_walk", 8);
-            let finding = Finding {
-                located: self.random.below(3) == 0,
-                ..self.finding()
-            };
-            let token = Visit {
-                u: at,
-                ..self.visit()
-            }
-            .token();
+            let finding = Finding { located: self.random.below(3) == 0, ..self.finding() };
+            let token = Visit { u: at, ..self.visit() }.token();
             let columns = [(); 6].map(|()| self.id());
             let [v0, v1, v2, n @ ..] = columns;
             let slot = self.random.below(3);
-            let root = turned(
-                [v0, v1, v2],
-                n,
-                slot,
-                finding.conflict,
-                [finding.is_left; 3],
-            );
-            let inputs = [
-                ("done", 1),
-                ("token", token),
-                ("turned", root),
-                ("verdict", finding.verdict()),
-            ];
+            let root = turned([v0, v1, v2], n, slot, finding.conflict, [finding.is_left; 3]);
+            let inputs = [("done", 1), ("token", token), ("turned", root), ("verdict", finding.verdict())];
             let is_duplicate = finding.located && finding.falls_onto_corner;
-            self.row(
-                "is_walk",
-                &inputs,
-                if is_duplicate {
-                    &["walk_visit", "duplicate"]
-                } else {
-                    &["walk_visit"]
-                },
-            );
+            self.row("is_walk", &inputs, if is_duplicate { &["walk_visit", "duplicate"] } else { &["walk_visit"] });
             if !finding.located {
                 self.push = Some(Push::single(Visit::look(finding.walk_next)));
                 at = finding.walk_next;
@@ -279,46 +220,19 @@ impl Author {
     fn open(&mut self, root: u64, n: [u64; 3]) {
         for _ in 0..self.random.below(4) * 5 {
             self.row("is_root", &[("locks_are_held", 1)], &[]);
-            self.rows
-                .last_mut()
-                .expect("a row")
-                .outputs
-                .push(("root_visits", 0));
+            self.rows.last_mut().expect("a row").outputs.push(("root_visits", 0));
         }
-        let test = Visit {
-            rotates: true,
-            locks: true,
-            f: root,
-            ..Visit::default()
-        };
-        let lock = Visit {
-            locks: true,
-            ..Visit::look(root)
-        };
-        let pair = Visit {
-            after: 1,
-            u: n[0],
-            ..test
-        };
+        let test = Visit { rotates: true, locks: true, f: root, ..Visit::default() };
+        let lock = Visit { locks: true, ..Visit::look(root) };
+        let pair = Visit { after: 1, u: n[0], ..test };
         let pushes = [
             (1, Push::single(lock)),
             (2, Push::whole(pair.bundle(true, [1, 2, n[1]]))),
-            (
-                1,
-                Push::single(Visit {
-                    x: 2,
-                    u: n[2],
-                    ..test
-                }),
-            ),
+            (1, Push::single(Visit { x: 2, u: n[2], ..test })),
         ];
         for (visits, push) in pushes {
             self.row("is_root", &[], &[]);
-            self.rows
-                .last_mut()
-                .expect("a row")
-                .outputs
-                .push(("root_visits", visits));
+            self.rows.last_mut().expect("a row").outputs.push(("root_visits", visits));
             self.push = Some(push);
         }
         self.grow();
@@ -346,16 +260,7 @@ impl Author {
         let (done, verdict) = (self.random.below(2).into(), self.finding().verdict());
         if self.random.below(2) == 0 {
             let bundle = self.bundle();
-            self.row(
-                phase,
-                &[
-                    ("done", done),
-                    ("verdict", verdict),
-                    ("split", 1),
-                    ("split_bundle", bundle),
-                ],
-                &[],
-            );
+            self.row(phase, &[("done", done), ("verdict", verdict), ("split", 1), ("split_bundle", bundle)], &[]);
             self.push = Some(Push::whole(bundle));
         } else {
             self.row(phase, &[("done", done), ("verdict", verdict)], &[]);
@@ -376,11 +281,7 @@ impl Author {
         for _ in 0..self.random.below(6) {
             self.rows_of("is_solo", 5);
             let bundle = self.bundle();
-            let inputs = [
-                ("solo_push", 1),
-                ("solo_bundle", bundle),
-                ("done", self.random.below(2).into()),
-            ];
+            let inputs = [("solo_push", 1), ("solo_bundle", bundle), ("done", self.random.below(2).into())];
             self.row("is_solo", &inputs, &[]);
             self.push = Some(Push::whole(bundle));
         }

@@ -76,10 +76,7 @@ impl<U: NamedPorts> Cosimulation<'_, U> {
 
 /// The port of `name` or `name[low+:width]`, the lowest bit, and a mask.
 fn part(output: &str) -> (&str, u32, u128) {
-    let Some((name, range)) = output
-        .strip_suffix(']')
-        .and_then(|part| part.split_once('['))
-    else {
+    let Some((name, range)) = output.strip_suffix(']').and_then(|part| part.split_once('[')) else {
         return (output, 0, u128::MAX);
     };
     let (low, width) = range.split_once("+:").expect("a range as [low+:width]");

@@ -22,10 +22,7 @@ impl Record {
 
     pub fn turned(&self, slot: usize) -> Self {
         let turn = |c: [u64; 3]| [c[slot], c[(slot + 1) % 3], c[(slot + 2) % 3]];
-        Self {
-            v: turn(self.v),
-            n: turn(self.n),
-        }
+        Self { v: turn(self.v), n: turn(self.n) }
     }
 }
 
@@ -62,8 +59,7 @@ fn lifted(triangle: [Point; 3], p: Point) -> i128 {
         let (x, y) = (i128::from(q.0 - p.0), i128::from(q.1 - p.1));
         [x, y, x * x + y * y]
     });
-    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
 impl Mesh {
@@ -110,14 +106,9 @@ impl Mesh {
     pub fn places_of(&self, p: Point) -> Vec<u64> {
         let holds = |record: &Record| match self.hull_edge(record.v) {
             Some((a, b)) => area(a, b, p) > 0,
-            None => {
-                (0..3).all(|k| area(self.at(record.v[k]), self.at(record.v[(k + 1) % 3]), p) >= 0)
-            }
+            None => (0..3).all(|k| area(self.at(record.v[k]), self.at(record.v[(k + 1) % 3]), p) >= 0),
         };
-        (0..self.records.len())
-            .filter(|id| holds(&self.records[*id]))
-            .map(|id| id as u64)
-            .collect()
+        (0..self.records.len()).filter(|id| holds(&self.records[*id])).map(|id| id as u64).collect()
     }
 
     pub fn write(&mut self, written: Written) {
@@ -143,11 +134,7 @@ impl Mesh {
         let p = self.points.len() as u64;
         self.points.push(point);
         let mut deeds = Deeds::default();
-        let ids = [
-            root,
-            self.records.len() as u64,
-            self.records.len() as u64 + 1,
-        ];
+        let ids = [root, self.records.len() as u64, self.records.len() as u64 + 1];
         let old = self.records[root as usize];
         for k in 0..3 {
             let v = [p, old.v[(k + 1) % 3], old.v[(k + 2) % 3]];
@@ -177,37 +164,17 @@ impl Mesh {
         let [p, a, b] = star.v;
         if !self.conflicts(u.v, self.at(p)) {
             if back != id {
-                self.does(
-                    deeds,
-                    Written::Link {
-                        id: outer,
-                        slot: slot as u64,
-                        value: id,
-                    },
-                );
+                self.does(deeds, Written::Link { id: outer, slot: slot as u64, value: id });
             }
             return;
         }
         deeds.flips += 1;
         let apex = u.v[0];
-        let first = Record {
-            v: [p, a, apex],
-            n: [u.n[1], outer, star.n[2]],
-        };
-        let second = Record {
-            v: [p, apex, b],
-            n: [u.n[2], star.n[1], id],
-        };
+        let first = Record { v: [p, a, apex], n: [u.n[1], outer, star.n[2]] };
+        let second = Record { v: [p, apex, b], n: [u.n[2], star.n[1], id] };
         self.does(deeds, Written::Record(id, first));
         self.does(deeds, Written::Record(outer, second));
-        self.does(
-            deeds,
-            Written::Link {
-                id: star.n[1],
-                slot: 2,
-                value: outer,
-            },
-        );
+        self.does(deeds, Written::Link { id: star.n[1], slot: 2, value: outer });
         self.legalise(deeds, id, outer);
         self.legalise(deeds, outer, outer);
     }
@@ -223,27 +190,16 @@ impl Mesh {
                 let beyond = self.records[record.n[k] as usize];
                 let slot = beyond.slot_to(id as u64);
                 assert_eq!(
-                    (
-                        beyond.n[slot],
-                        beyond.v[(slot + 1) % 3],
-                        beyond.v[(slot + 2) % 3]
-                    ),
+                    (beyond.n[slot], beyond.v[(slot + 1) % 3], beyond.v[(slot + 2) % 3]),
                     (id as u64, b, a),
                     "link {k} of record {id}"
                 );
             }
             if self.hull_edge(record.v).is_none() {
                 let triangle = record.v.map(|v| self.at(v));
-                assert!(
-                    area(triangle[0], triangle[1], triangle[2]) > 0,
-                    "record {id} turns left"
-                );
+                assert!(area(triangle[0], triangle[1], triangle[2]) > 0, "record {id} turns left");
                 let is_inside = |q: &&Point| lifted(triangle, **q) > 0;
-                assert_eq!(
-                    self.points.iter().find(is_inside),
-                    None,
-                    "inside the circle of record {id}"
-                );
+                assert_eq!(self.points.iter().find(is_inside), None, "inside the circle of record {id}");
             }
         }
     }

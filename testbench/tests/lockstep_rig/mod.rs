@@ -14,19 +14,12 @@ pub fn word(x: u64, y: u64) -> u32 {
 
 /// Points of a distribution in the order in which the host sends them, duplicates included.
 pub fn ordered(distribution: Distribution, count: usize, bits: u32, seed: u64) -> Vec<u32> {
-    let points =
-        generate(distribution, count, bits, seed).unwrap_or_else(|error| panic!("{error}"));
+    let points = generate(distribution, count, bits, seed).unwrap_or_else(|error| panic!("{error}"));
     let points: Vec<Point> = points.into_iter().map(Point::from).collect();
     let order = incircle::order::brio_hilbert(&points);
-    let mut ordered: Vec<Point> = order
-        .into_iter()
-        .map(|index| points[index as usize])
-        .collect();
+    let mut ordered: Vec<Point> = order.into_iter().map(|index| points[index as usize]).collect();
     make_first_three_span(&mut ordered);
-    ordered
-        .into_iter()
-        .map(|p| word(u64::from(p.x), u64::from(p.y)))
-        .collect()
+    ordered.into_iter().map(|p| word(u64::from(p.x), u64::from(p.y))).collect()
 }
 
 /// Moves the first point that is not collinear with the first two distinct ones to place 3.
@@ -81,11 +74,7 @@ impl Rig {
     pub fn expect_clocks(&mut self, least: u64) {
         self.clocks += self.pair.clocks();
         println!("{}: {} clocks", self.name, self.clocks);
-        assert!(
-            self.clocks >= least,
-            "{} clocks, {least} are meant",
-            self.clocks
-        );
+        assert!(self.clocks >= least, "{} clocks, {least} are meant", self.clocks);
     }
 
     /// A counter summed over all jobs.
@@ -106,29 +95,17 @@ impl Rig {
         let cycles = counters..counters + Counter::Insertions as usize;
         answers[cycles.clone()].fill(0);
         expected[cycles].fill(0);
-        assert_eq!(
-            answers, expected,
-            "the core and the model clock by clock agree, the model by commands does not"
-        );
+        assert_eq!(answers, expected, "the core and the model clock by clock agree, the model by commands does not");
     }
 
     /// Any commands; `Counters` answers may hold cycles, so answers are compared clock by clock only.
     pub fn run_commands(&mut self, commands: &[u32], stalls: Stalls) {
-        let mut job = Job {
-            commands: commands.to_vec(),
-            answers: 0,
-        };
+        let mut job = Job { commands: commands.to_vec(), answers: 0 };
         // The pair keeps its mesh from run to run, so the number of answer words comes from running dry.
         self.execute(&job, stalls);
         job.commands.clear();
         for _ in 0..400 {
-            self.step(
-                Inputs {
-                    response_ready: true,
-                    ..Inputs::default()
-                },
-                &job,
-            );
+            self.step(Inputs { response_ready: true, ..Inputs::default() }, &job);
         }
     }
 
@@ -149,12 +126,8 @@ impl Rig {
         for _ in 0..length {
             let chance = self.random.next_u64();
             let command_valid = chance & 1 == 0;
-            let inputs = Inputs {
-                reset: true,
-                command_valid,
-                command_data: chance as u32,
-                response_ready: chance & 2 == 0,
-            };
+            let inputs =
+                Inputs { reset: true, command_valid, command_data: chance as u32, response_ready: chance & 2 == 0 };
             self.step(inputs, &job);
         }
     }
@@ -176,12 +149,7 @@ impl Rig {
     fn fail(&self, mismatch: &Mismatch, job: &Job) -> ! {
         let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{}.vcd", self.name));
         self.pair.leave_waveform(&path);
-        panic!(
-            "{}: {mismatch}\nwaveform: {}\njob {:x?}",
-            self.name,
-            path.display(),
-            job.commands
-        );
+        panic!("{}: {mismatch}\nwaveform: {}\njob {:x?}", self.name, path.display(), job.commands);
     }
 
     fn by_commands(&self, job: &Job) -> Vec<u32> {

@@ -26,14 +26,7 @@ pub fn record_write(id: u64, v: [u64; 3], n: [u64; 3]) -> u128 {
 /// A `Write` of one link.
 pub fn link_write(id: u64, slot: u64, value: u64) -> u128 {
     let column = |k| (u64::from(slot == k), 1);
-    let head = [
-        (1, 1),
-        (id, ID_BITS),
-        (0, 1),
-        column(0),
-        column(1),
-        column(2),
-    ];
+    let head = [(1, 1), (id, ID_BITS), (0, 1), column(0), column(1), column(2)];
     pack(&[&head[..], &ids(&[0; 3]), &ids(&[value; 3])].concat())
 }
 
@@ -52,10 +45,7 @@ pub struct Visit {
 impl Visit {
     /// A look at a record as it is stored.
     pub fn look(u: u64) -> Self {
-        Self {
-            u,
-            ..Self::default()
-        }
+        Self { u, ..Self::default() }
     }
 
     fn fields(self) -> [(u64, u32); 7] {
@@ -99,13 +89,8 @@ impl Visit {
 
 /// A `Turned`: vertices, links, slot, lock bit, which vertices are infinite.
 pub fn turned(v: [u64; 3], n: [u64; 3], slot: u64, was_set: bool, infinite: [bool; 3]) -> u128 {
-    let tail = [
-        (slot, 2),
-        (was_set.into(), 1),
-        (infinite[0].into(), 1),
-        (infinite[1].into(), 1),
-        (infinite[2].into(), 1),
-    ];
+    let tail =
+        [(slot, 2), (was_set.into(), 1), (infinite[0].into(), 1), (infinite[1].into(), 1), (infinite[2].into(), 1)];
     pack(&[&ids(&v), &ids(&n), &tail[..]].concat())
 }
 
@@ -147,12 +132,6 @@ pub struct Edge {
 impl Edge {
     /// As an `Entry`.
     pub fn entry(self) -> u128 {
-        pack(&[
-            (self.a, ID_BITS),
-            (self.u, ID_BITS),
-            (self.slot, 2),
-            (self.f, ID_BITS),
-            (self.after, 6),
-        ])
+        pack(&[(self.a, ID_BITS), (self.u, ID_BITS), (self.slot, 2), (self.f, ID_BITS), (self.after, 6)])
     }
 }

@@ -35,16 +35,8 @@ impl<U: NamedPorts> Stepper<U> {
         rust.connect_all();
         let model = blocks::randomized(name, seed);
         let ports = model.description().ports();
-        let ports = ports
-            .map(|port| (port.name, model.port(port.name).expect("a port it lists")))
-            .collect();
-        Self {
-            name,
-            rust,
-            model,
-            ports,
-            clocks: 0,
-        }
+        let ports = ports.map(|port| (port.name, model.port(port.name).expect("a port it lists"))).collect();
+        Self { name, rust, model, ports, clocks: 0 }
     }
 
     /// Clocks that have passed.

@@ -24,14 +24,10 @@ impl Wave {
     /// Draws one clock; the same signals in the same order at each.
     pub fn take(&mut self, signals: &[(&str, Cell)]) {
         if self.lines.is_empty() {
-            self.lines = signals
-                .iter()
-                .map(|(name, _)| format!("{name:NAME$}"))
-                .collect();
+            self.lines = signals.iter().map(|(name, _)| format!("{name:NAME$}")).collect();
             self.before = vec![false; signals.len()];
         }
-        for (((_, cell), line), before) in signals.iter().zip(&mut self.lines).zip(&mut self.before)
-        {
+        for (((_, cell), line), before) in signals.iter().zip(&mut self.lines).zip(&mut self.before) {
             line.push_str(&match (*cell, *before) {
                 (Cell::Bit(true), true) => "^^^".to_string(),
                 (Cell::Bit(true), false) => "/^^".to_string(),
@@ -46,14 +42,7 @@ impl Wave {
 
     /// The header of this source must hold the wave, line by line.
     pub fn assert_drawn_in(self, source: &str) {
-        let drawn: String = self
-            .lines
-            .iter()
-            .map(|line| format!("//! {line}\n"))
-            .collect();
-        assert!(
-            source.contains(&drawn),
-            "the header does not hold this wave:\n{drawn}"
-        );
+        let drawn: String = self.lines.iter().map(|line| format!("//! {line}\n")).collect();
+        assert!(source.contains(&drawn), "the header does not hold this wave:\n{drawn}");
     }
 }

@@ -28,8 +28,7 @@ pub fn incircle(triangle: [Point; 3], p: Point) -> i128 {
         let (x, y) = (i128::from(vertex.0 - p.0), i128::from(vertex.1 - p.1));
         [x, y, x * x + y * y]
     });
-    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
 /// A record, stored or turned.
@@ -42,10 +41,7 @@ pub struct Record {
 impl Record {
     /// The slot that comes first when a visit from `f` turns the record.
     pub fn slot(&self, rotates: bool, f: u64) -> usize {
-        self.n
-            .iter()
-            .position(|link| rotates && *link == f)
-            .unwrap_or(0)
+        self.n.iter().position(|link| rotates && *link == f).unwrap_or(0)
     }
 
     pub fn turned(&self, slot: usize) -> Self {
@@ -60,19 +56,7 @@ impl Record {
         let [v0, v1, v2] = self.v;
         let [n0, n1, n2] = self.n;
         let [i0, i1, i2] = self.v.map(|vertex| u64::from(vertex == infinite));
-        let fields = [
-            v0,
-            v1,
-            v2,
-            n0,
-            n1,
-            n2,
-            slot as u64,
-            was_set.into(),
-            i0,
-            i1,
-            i2,
-        ];
+        let fields = [v0, v1, v2, n0, n1, n2, slot as u64, was_set.into(), i0, i1, i2];
         pack(TURNED, fields)
     }
 
@@ -95,29 +79,10 @@ impl Record {
             located = side.iter().all(|side| *side >= 0);
             falls_onto_corner = r.contains(&p);
             let lowest = side.iter().min();
-            next = side
-                .iter()
-                .position(|side| Some(side) == lowest)
-                .unwrap_or(0);
+            next = side.iter().position(|side| Some(side) == lowest).unwrap_or(0);
         }
-        let flags = [
-            conflict,
-            located,
-            falls_onto_corner,
-            side[2] > 0,
-            side[2] == 0,
-        ];
+        let flags = [conflict, located, falls_onto_corner, side[2] > 0, side[2] == 0];
         let [conflict, located, corner, is_left, is_straight] = flags.map(u64::from);
-        pack(
-            VERDICT,
-            [
-                conflict,
-                located,
-                corner,
-                is_left,
-                is_straight,
-                self.n[next],
-            ],
-        )
+        pack(VERDICT, [conflict, located, corner, is_left, is_straight, self.n[next]])
     }
 }

@@ -10,11 +10,6 @@ use crate::output;
 pub fn run(arguments: &CompletionsArguments) -> Result<(), Failure> {
     // Into memory first: the generator panics when it cannot write.
     let mut script = Vec::new();
-    clap_complete::generate(
-        arguments.shell,
-        &mut Cli::command(),
-        "incircle",
-        &mut script,
-    );
+    clap_complete::generate(arguments.shell, &mut Cli::command(), "incircle", &mut script);
     output::print(&String::from_utf8_lossy(&script))
 }

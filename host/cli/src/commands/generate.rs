@@ -21,10 +21,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         Some(PointFormat::Xyz) => xyz::write_points,
         Some(PointFormat::Node) => node::write_points,
         _ => {
-            return Err(Failure::usage(format!(
-                "{}: points are written as .csv, .xyz or .node",
-                path.display()
-            )));
+            return Err(Failure::usage(format!("{}: points are written as .csv, .xyz or .node", path.display())));
         }
     };
     let n = arguments.n as usize;

@@ -11,10 +11,7 @@ use crate::output;
 /// Runs the subcommand: opens the back end, greets it and prints its identity.
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let mut backend = backend::open(&arguments.backend, CORE_COORD_BITS, None, None)?;
-    let session = backend
-        .device
-        .session()
-        .map_err(|error| failure_of(&error))?;
+    let session = backend.device.session().map_err(|error| failure_of(&error))?;
     let identity = session.identity();
     let [major, minor, patch] = [16, 8, 0].map(|shift| identity.core_version >> shift & 0xff);
     let protocol = identity.protocol_version;

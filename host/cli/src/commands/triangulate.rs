@@ -25,11 +25,8 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let table = source::read_points(&arguments.points, arguments.from)?;
     watch.ended("load");
     interrupt::check()?;
-    let Laid {
-        points,
-        quantization,
-    } = grid::lay(&table, &arguments.grid)
-        .map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
+    let Laid { points, quantization } =
+        grid::lay(&table, &arguments.grid).map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
     watch.ended("quantise");
     let trace = trace.map(Output::reserve).transpose()?;
     let mut backend = backend::open(
@@ -50,9 +47,7 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let written = output.write(|out| write(&table, &mesh, format, out))?;
     watch.ended("write");
     report.stages = watch.stages;
-    output::finish(trace.into_iter().chain([written]), || {
-        tell(&report, arguments)
-    })
+    output::finish(trace.into_iter().chain([written]), || tell(&report, arguments))
 }
 
 /// Where the mesh goes, checked before the work.
@@ -67,17 +62,12 @@ fn prepare_mesh(arguments: &TriangulateArguments) -> Result<Output, Failure> {
 }
 
 /// Where the waveform goes, if one is asked for; checked before the work.
-fn prepare_trace(
-    arguments: &TriangulateArguments,
-    mesh: &Output,
-) -> Result<Option<Output>, Failure> {
+fn prepare_trace(arguments: &TriangulateArguments, mesh: &Output) -> Result<Option<Output>, Failure> {
     let Some(path) = &arguments.trace else {
         return Ok(None);
     };
     if arguments.backend.backend != BackendName::Sim {
-        return Err(Failure::usage(
-            "--trace records the simulated core: it needs --backend sim",
-        ));
+        return Err(Failure::usage("--trace records the simulated core: it needs --backend sim"));
     }
     let trace = Output::prepare(path, Some(&arguments.points))?;
     if trace.is_same(mesh) {
@@ -102,9 +92,7 @@ fn tell(report: &RunReport<'_>, arguments: &TriangulateArguments) -> Result<(), 
 
 fn format_of(arguments: &TriangulateArguments) -> Result<MeshFormat, Failure> {
     let path: &Path = &arguments.output;
-    let format = arguments
-        .format
-        .or_else(|| MeshFormat::of_extension(extension(path)));
+    let format = arguments.format.or_else(|| MeshFormat::of_extension(extension(path)));
     format.ok_or_else(|| {
         Failure::usage(format!(
             "{}: the extension names no format of meshes: add --format ele, obj, ply, vtk, geojson, json, csv or svg",
@@ -129,31 +117,14 @@ fn triangulate(
     let session = backend.device.session();
     let mesh = session.and_then(|mut session| session.triangulate_with(points, &options));
     // An interrupt may show as any error.
-    mesh.map_err(|error| {
-        interrupt::check()
-            .err()
-            .unwrap_or_else(|| failure_of(&error))
-    })
+    mesh.map_err(|error| interrupt::check().err().unwrap_or_else(|| failure_of(&error)))
 }
 
 /// The mesh goes out with the coordinates that came in, not with those of the grid.
-fn write(
-    table: &PointTable,
-    mesh: &Mesh,
-    format: MeshFormat,
-    out: &mut dyn std::io::Write,
-) -> std::io::Result<()> {
-    let duplicates: Vec<_> = mesh
-        .duplicates
-        .iter()
-        .map(|duplicate| [duplicate.index, duplicate.of])
-        .collect();
-    let view = MeshView {
-        points: &table.points,
-        triangles: &mesh.triangles,
-        hull: &mesh.hull,
-        duplicates: &duplicates,
-    };
+fn write(table: &PointTable, mesh: &Mesh, format: MeshFormat, out: &mut dyn std::io::Write) -> std::io::Result<()> {
+    let duplicates: Vec<_> = mesh.duplicates.iter().map(|duplicate| [duplicate.index, duplicate.of]).collect();
+    let view =
+        MeshView { points: &table.points, triangles: &mesh.triangles, hull: &mesh.hull, duplicates: &duplicates };
     format.write(&view, out)
 }
 
@@ -165,10 +136,7 @@ struct Watch {
 
 impl Watch {
     fn start() -> Self {
-        Self {
-            since: Instant::now(),
-            stages: Vec::new(),
-        }
+        Self { since: Instant::now(), stages: Vec::new() }
     }
 
     fn ended(&mut self, stage: &'static str) {

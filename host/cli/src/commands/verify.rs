@@ -12,8 +12,7 @@ use crate::{grid, output, source};
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let table = source::read_points(&arguments.points, arguments.from)?;
     let points_name = source::name(&arguments.points);
-    let laid =
-        grid::lay(&table, &arguments.grid).map_err(|failure| failure.in_file(&points_name))?;
+    let laid = grid::lay(&table, &arguments.grid).map_err(|failure| failure.in_file(&points_name))?;
     let mesh_name = source::name(&arguments.mesh);
     let checked = source::read_mesh(&arguments.mesh, arguments.format).and_then(|triangles| {
         incircle::verify(&laid.points, &triangles).map_err(|error| {
@@ -27,19 +26,13 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
         Ok(summary) => summary,
         Err(failure) => {
             if arguments.json && failure.exit == Exit::Rejected {
-                output::print(&format!(
-                    "{}\n",
-                    json!({ "valid": false, "reason": failure.message })
-                ))?;
+                output::print(&format!("{}\n", json!({ "valid": false, "reason": failure.message })))?;
             }
             return Err(failure);
         }
     };
     if arguments.json {
-        output::print(&format!(
-            "{}\n",
-            to_json(&summary, laid.quantization.as_ref())
-        ))
+        output::print(&format!("{}\n", to_json(&summary, laid.quantization.as_ref())))
     } else if arguments.quiet {
         Ok(())
     } else {

@@ -15,14 +15,8 @@ use crate::points::{Place, PointTable};
 use crate::text;
 
 /// Header names of the two columns, in lower case.
-const NAMES: [(&str, &str); 6] = [
-    ("x", "y"),
-    ("lon", "lat"),
-    ("lng", "lat"),
-    ("long", "lat"),
-    ("longitude", "latitude"),
-    ("easting", "northing"),
-];
+const NAMES: [(&str, &str); 6] =
+    [("x", "y"), ("lon", "lat"), ("lng", "lat"), ("long", "lat"), ("longitude", "latitude"), ("easting", "northing")];
 
 /// Reads points.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
@@ -46,10 +40,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
         refuse_other_width(&record, width, row)?;
         let value = |axis: usize| {
             let column = columns[axis];
-            let place = Place::Cell {
-                row,
-                column: column + 1,
-            };
+            let place = Place::Cell { row, column: column + 1 };
             text::coordinate(record.get(column).unwrap_or_default(), place)
         };
         table.push([value(0)?, value(1)?], row);
@@ -79,10 +70,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
         }
         let mut triangle = [0; 3];
         for (column, (corner, value)) in triangle.iter_mut().zip(&record).enumerate() {
-            let place = Place::Cell {
-                row,
-                column: column + 1,
-            };
+            let place = Place::Cell { row, column: column + 1 };
             *corner = text::whole(value, "a point index", place)?;
         }
         triangles.push(triangle);
@@ -121,10 +109,7 @@ fn delimiter(bytes: &[u8]) -> u8 {
     let first = rows.find(|row| !row.trim_ascii().is_empty() && !row.starts_with(b"#"));
     let first = first.unwrap_or_default();
     let candidates = [b',', b';', b'\t'];
-    candidates
-        .into_iter()
-        .find(|byte| first.contains(byte))
-        .unwrap_or(b',')
+    candidates.into_iter().find(|byte| first.contains(byte)).unwrap_or(b',')
 }
 
 /// Reads the next row that is not blank.
@@ -162,11 +147,7 @@ fn row_of(record: &ByteRecord, bytes: &[u8]) -> usize {
 }
 
 fn named_columns(header: &ByteRecord) -> [usize; 2] {
-    let find = |name: &str| {
-        header
-            .iter()
-            .position(|field| field.trim_ascii().eq_ignore_ascii_case(name.as_bytes()))
-    };
+    let find = |name: &str| header.iter().position(|field| field.trim_ascii().eq_ignore_ascii_case(name.as_bytes()));
     let mut pairs = NAMES.iter().filter_map(|(x, y)| Some([find(x)?, find(y)?]));
     pairs.next().unwrap_or([0, 1])
 }

@@ -10,12 +10,8 @@ use crate::formats::{triangle, MeshView};
 use crate::points::Place;
 use crate::text;
 
-const HEADER: triangle::Header = triangle::Header {
-    name: ".ele",
-    row: "N 3 0",
-    items: "triangles",
-    second: ("number of corners", "3"),
-};
+const HEADER: triangle::Header =
+    triangle::Header { name: ".ele", row: "N 3 0", items: "triangles", second: ("number of corners", "3") };
 
 /// Reads triangles. A list that is longer or shorter than its first row promises is no right mesh, whatever it holds.
 pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
@@ -37,10 +33,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
         ));
     }
     if first_id == 1 && triangles.iter().flatten().all(|&vertex| vertex > 0) {
-        triangles
-            .iter_mut()
-            .flatten()
-            .for_each(|vertex| *vertex -= 1);
+        triangles.iter_mut().flatten().for_each(|vertex| *vertex -= 1);
     }
     Ok(triangles)
 }
@@ -50,15 +43,10 @@ fn read_row(content: &[u8], row: usize) -> Result<[u32; 4], Failure> {
     let mut words = text::words(content);
     for (index, value) in values.iter_mut().enumerate() {
         let Some(word) = words.next() else {
-            return Err(Failure::input(format!(
-                "row {row} has {index} values: a triangle is a row 'id a b c'"
-            )));
+            return Err(Failure::input(format!("row {row} has {index} values: a triangle is a row 'id a b c'")));
         };
         let what = if index == 0 { "an id" } else { "a point index" };
-        let place = Place::Cell {
-            row,
-            column: index + 1,
-        };
+        let place = Place::Cell { row, column: index + 1 };
         *value = text::whole(word, what, place)?;
     }
     Ok(values)

@@ -15,16 +15,14 @@ use crate::points::PointTable;
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let bytes = crate::text::without_mark(bytes)?;
     if bytes.trim_ascii().is_empty() {
-        return Err(Failure::input(
-            "the file is empty: GeoJSON is an object such as a FeatureCollection",
-        ));
+        return Err(Failure::input("the file is empty: GeoJSON is an object such as a FeatureCollection"));
     }
     let Ok(text) = std::str::from_utf8(bytes) else {
         return Err(Failure::input("the file is not UTF-8 text"));
     };
-    let document: GeoJson = text.parse().map_err(|error: geojson::Error| {
-        Failure::input(format!("not GeoJSON: {}", one_line(&error.to_string())))
-    })?;
+    let document: GeoJson = text
+        .parse()
+        .map_err(|error: geojson::Error| Failure::input(format!("not GeoJSON: {}", one_line(&error.to_string()))))?;
     let mut table = PointTable::of_items("point");
     match &document {
         GeoJson::Geometry(geometry) => add_geometry(geometry, &mut table, "the geometry")?,
@@ -41,26 +39,21 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
 fn add_feature(feature: &Feature, table: &mut PointTable, number: usize) -> Result<(), Failure> {
     match &feature.geometry {
         Some(geometry) => add_geometry(geometry, table, &format!("feature {number}")),
-        None => Err(Failure::input(format!(
-            "feature {number} has no geometry, so no point"
-        ))),
+        None => Err(Failure::input(format!("feature {number} has no geometry, so no point"))),
     }
 }
 
 fn add_geometry(geometry: &Geometry, table: &mut PointTable, place: &str) -> Result<(), Failure> {
     match &geometry.value {
         GeometryValue::Point { coordinates } => add_position(coordinates, table, place),
-        GeometryValue::MultiPoint { coordinates } => coordinates
-            .iter()
-            .try_for_each(|position| add_position(position, table, place)),
+        GeometryValue::MultiPoint { coordinates } => {
+            coordinates.iter().try_for_each(|position| add_position(position, table, place))
+        }
         // The JSON parser has bounded how deep collections nest.
-        GeometryValue::GeometryCollection { geometries } => geometries
-            .iter()
-            .try_for_each(|inner| add_geometry(inner, table, place)),
-        other => Err(Failure::input(format!(
-            "{place} is a {}: only Point and MultiPoint are read",
-            other.type_name()
-        ))),
+        GeometryValue::GeometryCollection { geometries } => {
+            geometries.iter().try_for_each(|inner| add_geometry(inner, table, place))
+        }
+        other => Err(Failure::input(format!("{place} is a {}: only Point and MultiPoint are read", other.type_name()))),
     }
 }
 
@@ -71,10 +64,9 @@ fn add_position(position: &Position, table: &mut PointTable, place: &str) -> Res
             table.push([*x, *y], 0);
             Ok(())
         }
-        other => Err(Failure::input(format!(
-            "{place} has {} coordinates: a point needs two finite numbers",
-            other.len()
-        ))),
+        other => {
+            Err(Failure::input(format!("{place} has {} coordinates: a point needs two finite numbers", other.len())))
+        }
     }
 }
 

@@ -15,9 +15,7 @@ use crate::points::PointTable;
 /// `type` that GeoJSON wants, is read as GeoJSON.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let object: Option<Value> = serde_json::from_slice(crate::text::without_mark(bytes)?).ok();
-    let own = object
-        .as_ref()
-        .filter(|object| object.get("type").is_none());
+    let own = object.as_ref().filter(|object| object.get("type").is_none());
     let Some(list) = own.and_then(|object| object.get("points")?.as_array()) else {
         drop(object);
         return geojson::read_points(bytes);
@@ -30,9 +28,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
         };
         let Some((x, y)) = point else {
             let shown = quoted(value.to_string().as_bytes());
-            return Err(Failure::input(format!(
-                "points[{index}] is {shown}, not two numbers"
-            )));
+            return Err(Failure::input(format!("points[{index}] is {shown}, not two numbers")));
         };
         // JSON has no NaN or infinity, and its parser refuses numbers too large for a double.
         table.push([x, y], 0);
@@ -43,37 +39,24 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
 /// Reads `triangles`; all else in the object is left out.
 pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
     let bytes = crate::text::without_mark(bytes)?;
-    let object: Value = serde_json::from_slice(bytes)
-        .map_err(|error| Failure::input(format!("not JSON: {error}")))?;
+    let object: Value = serde_json::from_slice(bytes).map_err(|error| Failure::input(format!("not JSON: {error}")))?;
     let Some(list) = object.get("triangles").and_then(Value::as_array) else {
         return Err(Failure::input("the object has no list 'triangles'"));
     };
-    let triangles = list
-        .iter()
-        .enumerate()
-        .map(|(index, value)| read_triangle(value, index));
+    let triangles = list.iter().enumerate().map(|(index, value)| read_triangle(value, index));
     triangles.collect()
 }
 
 fn read_triangle(value: &Value, index: usize) -> Result<[u32; 3], Failure> {
     let corners = value.as_array().map(Vec::as_slice).unwrap_or_default();
-    let read = |corner: &Value| {
-        corner
-            .as_u64()
-            .and_then(|number| u32::try_from(number).ok())
-    };
+    let read = |corner: &Value| corner.as_u64().and_then(|number| u32::try_from(number).ok());
     match corners {
-        [a, b, c] => read(a)
-            .zip(read(b))
-            .zip(read(c))
-            .map(|((a, b), c)| [a, b, c]),
+        [a, b, c] => read(a).zip(read(b)).zip(read(c)).map(|((a, b), c)| [a, b, c]),
         _ => None,
     }
     .ok_or_else(|| {
         let shown = quoted(value.to_string().as_bytes());
-        Failure::input(format!(
-            "triangles[{index}] is {shown}, not three point indices"
-        ))
+        Failure::input(format!("triangles[{index}] is {shown}, not three point indices"))
     })
 }
 
@@ -82,19 +65,11 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "{{\"points\":")?;
     write_list(out, mesh.points.iter().map(|[x, y]| format!("[{x},{y}]")))?;
     write!(out, ",\n\"triangles\":")?;
-    write_list(
-        out,
-        mesh.triangles
-            .iter()
-            .map(|[a, b, c]| format!("[{a},{b},{c}]")),
-    )?;
+    write_list(out, mesh.triangles.iter().map(|[a, b, c]| format!("[{a},{b},{c}]")))?;
     write!(out, ",\n\"hull\":")?;
     write_list(out, mesh.hull.iter().map(u32::to_string))?;
     write!(out, ",\n\"duplicates\":")?;
-    write_list(
-        out,
-        mesh.duplicates.iter().map(|[i, of]| format!("[{i},{of}]")),
-    )?;
+    write_list(out, mesh.duplicates.iter().map(|[i, of]| format!("[{i},{of}]")))?;
     writeln!(out, "}}")
 }
 

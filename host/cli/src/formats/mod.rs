@@ -149,16 +149,11 @@ pub struct MeshView<'a> {
 impl MeshView<'_> {
     /// The coordinates of a vertex. Vertices that do not exist (there are none in a mesh of the library) are the origin.
     pub fn position(&self, vertex: u32) -> [f64; 2] {
-        self.points
-            .get(vertex as usize)
-            .copied()
-            .unwrap_or_default()
+        self.points.get(vertex as usize).copied().unwrap_or_default()
     }
 }
 
 /// The extension of a path; empty if there is none.
 pub fn extension(path: &std::path::Path) -> &str {
-    path.extension()
-        .and_then(|extension| extension.to_str())
-        .unwrap_or_default()
+    path.extension().and_then(|extension| extension.to_str()).unwrap_or_default()
 }

@@ -11,12 +11,8 @@ use crate::formats::triangle;
 use crate::points::{Place, PointTable};
 use crate::text;
 
-const HEADER: triangle::Header = triangle::Header {
-    name: ".node",
-    row: "N 2 attributes markers",
-    items: "points",
-    second: ("dimension", "2"),
-};
+const HEADER: triangle::Header =
+    triangle::Header { name: ".node", row: "N 2 attributes markers", items: "points", second: ("dimension", "2") };
 
 /// Values of a row before its attributes: the id and two coordinates.
 const FIXED: usize = 3;
@@ -42,9 +38,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     }
     let found = table.points.len();
     if found as u64 != u64::from(promised) {
-        return Err(Failure::input(format!(
-            "the first row promises {promised} points, the file holds {found}"
-        )));
+        return Err(Failure::input(format!("the first row promises {promised} points, the file holds {found}")));
     }
     Ok(table)
 }
@@ -55,11 +49,7 @@ fn check_id(id: u32, base: u32, count: usize, row: usize) -> Result<(), Failure>
     if base <= 1 && u64::from(id) == expected {
         return Ok(());
     }
-    let wanted = if count == 0 {
-        "0 or 1".to_owned()
-    } else {
-        expected.to_string()
-    };
+    let wanted = if count == 0 { "0 or 1".to_owned() } else { expected.to_string() };
     Err(Failure::input(format!(
         "row {row}, column 1: the id is {id}, not {wanted}: ids count from 0 or 1 and rise by one"
     )))
@@ -73,9 +63,7 @@ fn read_point(content: &[u8], row: usize) -> Result<(u32, [f64; 2]), Failure> {
         count += 1;
     }
     if count < FIXED {
-        return Err(Failure::input(format!(
-            "row {row} has {count} values: a point is a row 'id x y'"
-        )));
+        return Err(Failure::input(format!("row {row} has {count} values: a point is a row 'id x y'")));
     }
     let cell = |column| Place::Cell { row, column };
     let id = text::whole(values[0], "an id", cell(1))?;

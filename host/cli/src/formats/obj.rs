@@ -16,10 +16,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     for (row, mut values) in statements(bytes, b"v")? {
         let mut point = [0.0; 2];
         for (axis, coordinate) in point.iter_mut().enumerate() {
-            let place = Place::Cell {
-                row,
-                column: axis + 2,
-            };
+            let place = Place::Cell { row, column: axis + 2 };
             *coordinate = text::coordinate(values.next().unwrap_or_default(), place)?;
         }
         table.push(point, row);
@@ -40,9 +37,7 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
             count += 1;
         }
         if count != 3 {
-            return Err(Failure::input(format!(
-                "row {row}: the face has {count} corners, not 3"
-            )));
+            return Err(Failure::input(format!("row {row}: the face has {count} corners, not 3")));
         }
         triangles.push(triangle);
     }
@@ -65,17 +60,11 @@ fn statements<'a>(
 fn read_corner(value: &[u8], row: usize, column: usize) -> Result<u32, Failure> {
     let vertex = value.split(|&byte| byte == b'/').next().unwrap_or_default();
     let place = Place::Cell { row, column };
-    let number = std::str::from_utf8(vertex)
-        .ok()
-        .and_then(|text| text.parse::<u32>().ok());
-    number
-        .and_then(|number| number.checked_sub(1))
-        .ok_or_else(|| {
-            let shown = quoted(value);
-            Failure::input(format!(
-                "{place}: {shown} is not a vertex, which are counted from 1"
-            ))
-        })
+    let number = std::str::from_utf8(vertex).ok().and_then(|text| text.parse::<u32>().ok());
+    number.and_then(|number| number.checked_sub(1)).ok_or_else(|| {
+        let shown = quoted(value);
+        Failure::input(format!("{place}: {shown} is not a vertex, which are counted from 1"))
+    })
 }
 
 /// Writes all input points and the triangles.

@@ -8,9 +8,7 @@ use std::io::{self, Write};
 
 use incircle::Shown;
 use ply_rs_bw::parser::{Parser, Reader};
-use ply_rs_bw::ply::{
-    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
-};
+use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 
 use crate::failure::{one_line, quoted, Failure};
 use crate::formats::MeshView;
@@ -43,17 +41,12 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
         let number = index + 1;
         let Ok(corners) = <[f64; 3]>::try_from(item.corners.as_slice()) else {
             let count = item.corners.len();
-            return Err(Failure::input(format!(
-                "face {number} has {count} corners, not 3"
-            )));
+            return Err(Failure::input(format!("face {number} has {count} corners, not 3")));
         };
         let mut triangle = [0; 3];
         for (vertex, corner) in triangle.iter_mut().zip(corners) {
             if !(corner >= 0.0 && corner <= f64::from(u32::MAX) && corner.fract() == 0.0) {
-                return Err(Failure::input(format!(
-                    "face {number}: {} is not a point index",
-                    Shown(corner)
-                )));
+                return Err(Failure::input(format!("face {number}: {} is not a point index", Shown(corner))));
             }
             *vertex = corner as u32;
         }
@@ -83,10 +76,7 @@ impl Item {
 
 impl PropertyAccess for Item {
     fn new() -> Self {
-        Self {
-            point: [None; 2],
-            corners: Vec::new(),
-        }
+        Self { point: [None; 2], corners: Vec::new() }
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
@@ -130,16 +120,10 @@ fn read_element(
 ) -> Result<(), Failure> {
     let mut reader = Reader::new(bytes);
     let header = Parser::<Item>::new().read_header(&mut reader);
-    let header = header.map_err(|error| {
-        Failure::input(format!(
-            "not a PLY header: {}",
-            one_line(&error.to_string())
-        ))
-    })?;
+    let header =
+        header.map_err(|error| Failure::input(format!("not a PLY header: {}", one_line(&error.to_string()))))?;
     if !header.elements.contains_key(wanted) {
-        return Err(Failure::input(format!(
-            "the header has no element '{wanted}'"
-        )));
+        return Err(Failure::input(format!("the header has no element '{wanted}'")));
     }
     let mut rest: &[u8] = reader.into_inner();
     for (name, element) in &header.elements {
@@ -175,15 +159,11 @@ fn refuse_remainder(header: &Header, rest: &[u8]) -> Result<(), Failure> {
 fn refuse_false_count(element: &ElementDef, header: &Header, rest: &[u8]) -> Result<(), Failure> {
     let name = &element.name;
     if element.properties.is_empty() {
-        return Err(Failure::input(format!(
-            "element '{name}' has no properties"
-        )));
+        return Err(Failure::input(format!("element '{name}' has no properties")));
     }
     let room = match header.encoding {
         Encoding::Ascii => text::rows(rest).count(),
-        Encoding::BinaryBigEndian | Encoding::BinaryLittleEndian => {
-            rest.len() / element.properties.len()
-        }
+        Encoding::BinaryBigEndian | Encoding::BinaryLittleEndian => rest.len() / element.properties.len(),
     };
     if element.count > room {
         return Err(Failure::input(format!(
@@ -194,26 +174,13 @@ fn refuse_false_count(element: &ElementDef, header: &Header, rest: &[u8]) -> Res
     Ok(())
 }
 
-fn read_items(
-    element: &ElementDef,
-    header: &Header,
-    rest: &mut &[u8],
-    take: Take<'_>,
-) -> Result<(), Failure> {
+fn read_items(element: &ElementDef, header: &Header, rest: &mut &[u8], take: Take<'_>) -> Result<(), Failure> {
     let parser = Parser::<Item>::new();
     for index in 0..element.count {
         let item = match header.encoding {
             Encoding::Ascii => read_row(element, rest, index)?,
-            Encoding::BinaryBigEndian => binary(
-                parser.read_big_endian_element(rest, element),
-                element,
-                index,
-            )?,
-            Encoding::BinaryLittleEndian => binary(
-                parser.read_little_endian_element(rest, element),
-                element,
-                index,
-            )?,
+            Encoding::BinaryBigEndian => binary(parser.read_big_endian_element(rest, element), element, index)?,
+            Encoding::BinaryLittleEndian => binary(parser.read_little_endian_element(rest, element), element, index)?,
         };
         take(item, index)?;
     }
@@ -232,34 +199,21 @@ fn binary(
             element.name,
             index + 1
         )),
-        _ => Failure::input(format!(
-            "{} {}: {}",
-            element.name,
-            index + 1,
-            one_line(&error.to_string())
-        )),
+        _ => Failure::input(format!("{} {}: {}", element.name, index + 1, one_line(&error.to_string()))),
     })
 }
 
 /// Takes the next text row off `rest` and reads it as an item.
 fn read_row(element: &ElementDef, rest: &mut &[u8], index: usize) -> Result<Item, Failure> {
-    let end = rest
-        .iter()
-        .position(|&byte| byte == b'\n')
-        .unwrap_or(rest.len());
+    let end = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
     let (row, after) = rest.split_at(end);
     *rest = after.strip_prefix(b"\n").unwrap_or(after);
     let mut words = text::words(row);
     let place = |name: &str| format!("{} {}, {name}", element.name, index + 1);
     let number = |word: Option<&[u8]>, name: &str| -> Result<f64, Failure> {
-        let word =
-            word.ok_or_else(|| Failure::input(format!("{}: the value is missing", place(name))))?;
-        let parsed = std::str::from_utf8(word)
-            .ok()
-            .and_then(|text| text.parse::<f64>().ok());
-        parsed.ok_or_else(|| {
-            Failure::input(format!("{}: {} is not a number", place(name), quoted(word)))
-        })
+        let word = word.ok_or_else(|| Failure::input(format!("{}: the value is missing", place(name))))?;
+        let parsed = std::str::from_utf8(word).ok().and_then(|text| text.parse::<f64>().ok());
+        parsed.ok_or_else(|| Failure::input(format!("{}: {} is not a number", place(name), quoted(word))))
     };
     let mut item = Item::new();
     for (name, property) in &element.properties {
@@ -275,26 +229,16 @@ fn read_row(element: &ElementDef, rest: &mut &[u8], index: usize) -> Result<Item
         item.keep(name, values);
     }
     if words.next().is_some() {
-        return Err(Failure::input(format!(
-            "{} {} has more values than the header promises",
-            element.name,
-            index + 1
-        )));
+        return Err(Failure::input(format!("{} {} has more values than the header promises", element.name, index + 1)));
     }
     Ok(item)
 }
 
 /// Writes all input points and the triangles.
 pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "ply\nformat ascii 1.0\ncomment Delaunay triangulation by incircle"
-    )?;
+    writeln!(out, "ply\nformat ascii 1.0\ncomment Delaunay triangulation by incircle")?;
     writeln!(out, "element vertex {}", mesh.points.len())?;
-    writeln!(
-        out,
-        "property double x\nproperty double y\nproperty double z"
-    )?;
+    writeln!(out, "property double x\nproperty double y\nproperty double z")?;
     writeln!(out, "element face {}", mesh.triangles.len())?;
     writeln!(out, "property list uchar int vertex_indices\nend_header")?;
     for [x, y] in mesh.points {

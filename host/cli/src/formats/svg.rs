@@ -39,14 +39,8 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{PIXELS}\" height=\"{shown:.0}\">"
     )?;
     let (points, triangles) = (mesh.points.len(), mesh.triangles.len());
-    writeln!(
-        out,
-        "<title>Delaunay triangulation: {points} points, {triangles} triangles</title>"
-    )?;
-    writeln!(
-        out,
-        "<rect width=\"100%\" height=\"100%\" fill=\"#fdfcf9\"/>"
-    )?;
+    writeln!(out, "<title>Delaunay triangulation: {points} points, {triangles} triangles</title>")?;
+    writeln!(out, "<rect width=\"100%\" height=\"100%\" fill=\"#fdfcf9\"/>")?;
     write_triangles(mesh, &canvas, out)?;
     write_hull(mesh, &canvas, out)?;
     write_dots(mesh, &canvas, out)?;
@@ -63,10 +57,7 @@ struct Canvas {
 
 impl Canvas {
     fn around(points: &[[f64; 2]]) -> Self {
-        let largest = points
-            .iter()
-            .flatten()
-            .fold(0.0, |most: f64, value| most.max(value.abs()));
+        let largest = points.iter().flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
         // Differences of huge doubles would overflow.
         let shrink = if largest > 1e150 { 1e-200 } else { 1.0 };
         let bound = |axis: usize, pick: fn(f64, f64) -> f64| {
@@ -80,18 +71,12 @@ impl Canvas {
         let scale = Some(CANVAS / longer).filter(|scale| scale.is_finite());
         let scale = scale.unwrap_or(0.0);
         let size = extent.map(|side| (side * scale).round() + 2.0 * MARGIN);
-        Self {
-            low,
-            scale,
-            shrink,
-            size,
-        }
+        Self { low, scale, shrink, size }
     }
 
     /// The place on the canvas, y down as SVG wants it.
     fn place(&self, point: [f64; 2]) -> [i64; 2] {
-        let unit =
-            |axis: usize| ((point[axis] * self.shrink - self.low[axis]) * self.scale).round();
+        let unit = |axis: usize| ((point[axis] * self.shrink - self.low[axis]) * self.scale).round();
         let x = MARGIN + unit(0);
         let y = self.size[1] - MARGIN - unit(1);
         [x as i64, y as i64]
@@ -142,38 +127,24 @@ impl Classes {
 }
 
 fn write_triangles(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::Result<()> {
-    let sides = mesh
-        .triangles
-        .iter()
-        .map(|&triangle| side(canvas.corners(mesh, triangle)));
+    let sides = mesh.triangles.iter().map(|&triangle| side(canvas.corners(mesh, triangle)));
     let classes = Classes::of(sides.collect());
     let mut members = vec![Vec::new(); CLASSES];
     for &triangle in mesh.triangles {
         let corners = canvas.corners(mesh, triangle);
         members[classes.class(side(corners))].push(corners);
     }
-    writeln!(
-        out,
-        "<g stroke=\"#12304a\" stroke-opacity=\".45\" stroke-linejoin=\"round\">"
-    )?;
+    writeln!(out, "<g stroke=\"#12304a\" stroke-opacity=\".45\" stroke-linejoin=\"round\">")?;
     // The largest first: thin lines of small triangles stay above thick ones.
     for (class, triangles) in members.iter().enumerate().rev() {
         if triangles.is_empty() {
             continue;
         }
         let width = (classes.side(class) * 0.05).clamp(1.0, 30.0);
-        write!(
-            out,
-            "<path fill=\"{}\" stroke-width=\"{width:.1}\" d=\"",
-            colour(class)
-        )?;
+        write!(out, "<path fill=\"{}\" stroke-width=\"{width:.1}\" d=\"", colour(class))?;
         for [a, b, c] in triangles {
             let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
-            write!(
-                out,
-                "M{} {}l{} {} {} {}z",
-                a[0], a[1], u[0], u[1], v[0], v[1]
-            )?;
+            write!(out, "M{} {}l{} {} {} {}z", a[0], a[1], u[0], u[1], v[0], v[1])?;
         }
         writeln!(out, "\"/>")?;
     }
@@ -185,10 +156,7 @@ fn colour(class: usize) -> String {
     let below = (along as usize).min(RAMP.len() - 2);
     let share = along - below as f64;
     let mix = |channel: usize| {
-        let (from, to) = (
-            f64::from(RAMP[below][channel]),
-            f64::from(RAMP[below + 1][channel]),
-        );
+        let (from, to) = (f64::from(RAMP[below][channel]), f64::from(RAMP[below + 1][channel]));
         (from + (to - from) * share).round() as u8
     };
     format!("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2))
@@ -218,10 +186,7 @@ fn write_dots(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::
         return Ok(());
     }
     let width = (CANVAS * 0.15 / (count as f64).sqrt()).clamp(60.0, 280.0);
-    write!(
-        out,
-        "<path fill=\"none\" stroke=\"#1d2b53\" stroke-width=\"{width:.0}\" stroke-linecap=\"round\" d=\""
-    )?;
+    write!(out, "<path fill=\"none\" stroke=\"#1d2b53\" stroke-width=\"{width:.0}\" stroke-linecap=\"round\" d=\"")?;
     for &point in mesh.points {
         let [x, y] = canvas.place(point);
         write!(out, "M{x} {y}h0")?;

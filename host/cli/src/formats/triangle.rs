@@ -17,19 +17,13 @@ pub struct Header {
 }
 
 /// The number of items that the header promises, and the rows after it: numbered, without comments and blank rows.
-pub fn open<'a>(
-    bytes: &'a [u8],
-    format: &Header,
-) -> Result<(u32, impl Iterator<Item = (usize, &'a [u8])>), Failure> {
+pub fn open<'a>(bytes: &'a [u8], format: &Header) -> Result<(u32, impl Iterator<Item = (usize, &'a [u8])>), Failure> {
     let bytes = text::without_mark(bytes)?;
     let mut rows = text::rows(bytes)
         .map(|(row, content)| (row, text::without_comment(content)))
         .filter(|(_, content)| text::words(content).next().is_some());
     let Some((row, header)) = rows.next() else {
-        return Err(Failure::input(format!(
-            "the file is empty: {} starts with a row '{}'",
-            format.name, format.row
-        )));
+        return Err(Failure::input(format!("the file is empty: {} starts with a row '{}'", format.name, format.row)));
     };
     let mut values = text::words(header);
     let cell = |column| Place::Cell { row, column };
@@ -37,11 +31,9 @@ pub fn open<'a>(
     let promised = text::whole(values.next().unwrap_or_default(), &what, cell(1))?;
     let (meaning, wanted) = format.second;
     match values.next() {
-        Some(other) if other != wanted.as_bytes() => Err(Failure::input(format!(
-            "{}: the {meaning} is {}, not {wanted}",
-            cell(2),
-            quoted(other)
-        ))),
+        Some(other) if other != wanted.as_bytes() => {
+            Err(Failure::input(format!("{}: the {meaning} is {}, not {wanted}", cell(2), quoted(other))))
+        }
         _ => Ok((promised, rows)),
     }
 }

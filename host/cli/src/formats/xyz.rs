@@ -28,9 +28,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
         }
         if count < 2 {
             let shown = quoted(content.trim_ascii());
-            return Err(Failure::input(format!(
-                "row {row} has 1 value, {shown}: a point is a row 'x y'"
-            )));
+            return Err(Failure::input(format!("row {row} has 1 value, {shown}: a point is a row 'x y'")));
         }
         if count != width {
             return Err(Failure::input(format!(
@@ -39,10 +37,7 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
         }
         let mut point = [0.0; 2];
         for (axis, (coordinate, value)) in point.iter_mut().zip(text::words(content)).enumerate() {
-            let place = Place::Cell {
-                row,
-                column: axis + 1,
-            };
+            let place = Place::Cell { row, column: axis + 1 };
             *coordinate = text::coordinate(value, place)?;
         }
         table.push(point, row);

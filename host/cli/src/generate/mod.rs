@@ -53,13 +53,7 @@ impl Distribution {
     }
 
     /// The five distributions of the literature.
-    pub const LITERATURE: [Self; 5] = [
-        Self::Uniform,
-        Self::Normal,
-        Self::Kuzmin,
-        Self::Line,
-        Self::Checkers,
-    ];
+    pub const LITERATURE: [Self; 5] = [Self::Uniform, Self::Normal, Self::Kuzmin, Self::Line, Self::Checkers];
 }
 
 impl fmt::Display for Distribution {
@@ -87,10 +81,7 @@ impl fmt::Display for GenerateError {
             Self::Bits(bits) => {
                 write!(f, "{bits} coordinate bits are not possible: choose 1 to 31")
             }
-            Self::Memory(n) => write!(
-                f,
-                "there is no memory for {n} points of {POINT_BYTES} bytes: choose fewer"
-            ),
+            Self::Memory(n) => write!(f, "there is no memory for {n} points of {POINT_BYTES} bytes: choose fewer"),
         }
     }
 }
@@ -116,12 +107,7 @@ fn room(n: usize) -> Points {
 ///
 /// # Errors
 /// `bits` outside [`BITS`], or no memory for `n` points.
-pub fn generate(
-    distribution: Distribution,
-    n: usize,
-    bits: u32,
-    seed: u64,
-) -> Result<Vec<[u32; 2]>, GenerateError> {
+pub fn generate(distribution: Distribution, n: usize, bits: u32, seed: u64) -> Result<Vec<[u32; 2]>, GenerateError> {
     if !BITS.contains(&bits) {
         return Err(GenerateError::Bits(bits));
     }
@@ -166,10 +152,7 @@ impl Grid {
     /// The nearest grid point of the closed grid square.
     fn nearest(self, x: f64, y: f64) -> [u32; 2] {
         let last = (self.size - 1) as f64;
-        [
-            libm::rint(x).clamp(0.0, last) as u32,
-            libm::rint(y).clamp(0.0, last) as u32,
-        ]
+        [libm::rint(x).clamp(0.0, last) as u32, libm::rint(y).clamp(0.0, last) as u32]
     }
 }
 
@@ -179,34 +162,17 @@ mod tests {
 
     /// FNV-1a over the coordinates: a change in any bit of any point shows.
     fn fingerprint(points: &[[u32; 2]]) -> u64 {
-        let bytes = points
-            .iter()
-            .flatten()
-            .flat_map(|value| value.to_le_bytes());
-        bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-        })
+        let bytes = points.iter().flatten().flat_map(|value| value.to_le_bytes());
+        bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
     }
 
     #[test]
     fn every_set_has_exactly_n_points_of_the_grid() {
         for &distribution in Distribution::all() {
-            for (n, bits) in [
-                (0, 8),
-                (1, 1),
-                (2, 31),
-                (3, 4),
-                (100, 3),
-                (1000, 16),
-                (1000, 31),
-                (5000, 1),
-            ] {
+            for (n, bits) in [(0, 8), (1, 1), (2, 31), (3, 4), (100, 3), (1000, 16), (1000, 31), (5000, 1)] {
                 let points = generate(distribution, n, bits, 7).expect("the bits are possible");
                 assert_eq!(points.len(), n, "{distribution} {n} {bits}");
-                let inside = points
-                    .iter()
-                    .flatten()
-                    .all(|&value| u64::from(value) < 1 << bits);
+                let inside = points.iter().flatten().all(|&value| u64::from(value) < 1 << bits);
                 assert!(inside, "{distribution} {n} {bits}");
             }
         }
@@ -214,14 +180,8 @@ mod tests {
 
     #[test]
     fn impossible_bits_are_refused() {
-        assert_eq!(
-            generate(Distribution::Uniform, 1, 0, 0),
-            Err(GenerateError::Bits(0))
-        );
-        assert_eq!(
-            generate(Distribution::Uniform, 1, 32, 0),
-            Err(GenerateError::Bits(32))
-        );
+        assert_eq!(generate(Distribution::Uniform, 1, 0, 0), Err(GenerateError::Bits(0)));
+        assert_eq!(generate(Distribution::Uniform, 1, 32, 0), Err(GenerateError::Bits(32)));
     }
 
     #[test]
@@ -277,16 +237,8 @@ mod tests {
             let mut points = generate(distribution, 1000, 16, 1).expect("the bits are possible");
             points.sort_unstable();
             points.dedup();
-            let expected = if distribution == Distribution::Box {
-                225..=256
-            } else {
-                950..=1000
-            };
-            assert!(
-                expected.contains(&points.len()),
-                "{distribution}: {}",
-                points.len()
-            );
+            let expected = if distribution == Distribution::Box { 225..=256 } else { 950..=1000 };
+            assert!(expected.contains(&points.len()), "{distribution}: {}", points.len());
         }
     }
 }

@@ -44,10 +44,7 @@ pub fn kuzmin(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
         let outside = 1.0 - random.unit();
         let radius = unit * libm::sqrt(1.0 / (outside * outside) - 1.0);
         let angle = std::f64::consts::TAU * random.unit();
-        grid.cell(
-            grid.half() + radius * libm::cos(angle),
-            grid.half() + radius * libm::sin(angle),
-        )
+        grid.cell(grid.half() + radius * libm::cos(angle), grid.half() + radius * libm::sin(angle))
     })
 }
 
@@ -72,10 +69,7 @@ pub fn checkers(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
         let white = random.below(8) == 0;
         let row = random.below(squares);
         let column = 2 * random.below(squares / 2) + (row + u64::from(white)) % 2;
-        let [x, y] = [
-            column * side + random.below(side),
-            row * side + random.below(side),
-        ];
+        let [x, y] = [column * side + random.below(side), row * side + random.below(side)];
         [x as u32, y as u32]
     };
     repeat(n, || Some(one(random)))
@@ -87,10 +81,7 @@ pub fn circle(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let centre = grid.half() - 0.5;
     let one = |random: &mut SplitMix64| {
         let angle = std::f64::consts::TAU * random.unit();
-        grid.nearest(
-            centre + centre * libm::cos(angle),
-            centre + centre * libm::sin(angle),
-        )
+        grid.nearest(centre + centre * libm::cos(angle), centre + centre * libm::sin(angle))
     };
     repeat(n, || Some(one(random)))
 }
@@ -104,18 +95,12 @@ pub fn clusters(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     repeat(n, || {
         let [x, y] = centres[random.below(count as u64) as usize];
         let [dx, dy] = random.normal_pair();
-        grid.cell(
-            f64::from(x) + 0.5 + dx * deviation,
-            f64::from(y) + 0.5 + dy * deviation,
-        )
+        grid.cell(f64::from(x) + 0.5 + dx * deviation, f64::from(y) + 0.5 + dy * deviation)
     })
 }
 
 fn anywhere(grid: Grid, random: &mut SplitMix64) -> [u32; 2] {
-    [
-        random.below(grid.size) as u32,
-        random.below(grid.size) as u32,
-    ]
+    [random.below(grid.size) as u32, random.below(grid.size) as u32]
 }
 
 /// Draws until `n` points lie inside. Every distribution here has at least a quarter of its mass inside, so it ends.

@@ -70,10 +70,7 @@ pub fn spiral(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let place = |index: u64| {
         let angle = angle(index as f64);
         let radius = angle * scale;
-        let [x, y] = grid.nearest(
-            centre + radius * libm::cos(angle),
-            centre + radius * libm::sin(angle),
-        );
+        let [x, y] = grid.nearest(centre + radius * libm::cos(angle), centre + radius * libm::sin(angle));
         [x.into(), y.into()]
     };
     shuffled(n, place, random)

@@ -40,9 +40,7 @@ impl Scratch {
     pub fn files(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.folder).expect("the scratch folder can be read");
         let names = entries.map(|entry| entry.expect("an entry").file_name());
-        let mut names: Vec<String> = names
-            .map(|name| name.to_string_lossy().into_owned())
-            .collect();
+        let mut names: Vec<String> = names.map(|name| name.to_string_lossy().into_owned()).collect();
         names.sort();
         names
     }
@@ -50,10 +48,7 @@ impl Scratch {
     /// The command, to be run in this folder.
     pub fn command<S: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = S>) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_incircle"));
-        command
-            .args(arguments)
-            .current_dir(&self.folder)
-            .stdin(Stdio::null());
+        command.args(arguments).current_dir(&self.folder).stdin(Stdio::null());
         command
     }
 
@@ -66,10 +61,7 @@ impl Scratch {
     /// Runs the command and hands it this standard input.
     pub fn run_with_input(&self, arguments: &str, input: &[u8]) -> Run {
         let mut command = self.command(arguments.split_whitespace());
-        command
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("the command starts");
         let mut stdin = child.stdin.take().expect("the input is a pipe");
         stdin.write_all(input).expect("the command reads its input");
@@ -141,9 +133,5 @@ pub fn accept(name: &str, content: impl AsRef<[u8]>, triangles: usize) {
     scratch.write(name, content);
     scratch.run(&format!("triangulate {name} -o m.ele")).ok();
     let mesh = scratch.read("m.ele");
-    assert_eq!(
-        mesh.lines().next(),
-        Some(format!("{triangles} 3 0").as_str()),
-        "{name}"
-    );
+    assert_eq!(mesh.lines().next(), Some(format!("{triangles} 3 0").as_str()), "{name}");
 }

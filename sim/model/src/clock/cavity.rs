@@ -23,26 +23,11 @@ impl Cavity {
     pub(super) fn split(&self, done: &Completion) -> Bundle {
         let y = self.count as usize;
         let [_, n1, n2] = done.record.n;
-        let first = Token {
-            next: y,
-            f_entry: y,
-            f: done.token.u,
-            u: n1,
-            ..done.token
-        };
-        Bundle {
-            first,
-            second: Some((n2, y, done.token.next)),
-        }
+        let first = Token { next: y, f_entry: y, f: done.token.u, u: n1, ..done.token };
+        Bundle { first, second: Some((n2, y, done.token.next)) }
     }
 
-    pub(super) fn clock(
-        &mut self,
-        was: &Registers,
-        wires: &Wires,
-        memory: &mut Memory,
-        config: Config,
-    ) {
+    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory, config: Config) {
         let phase = was.context.phase;
         let completes = matches!(phase, Phase::Cavity | Phase::Drain) && wires.done.is_some();
         let pushed = match phase {
@@ -55,26 +40,12 @@ impl Cavity {
             self.half_open = 0;
             self.inner_count = 0;
         }
-        let Some(done) = wires
-            .done
-            .filter(|done| phase == Phase::Cavity && done.token.rotates)
-        else {
+        let Some(done) = wires.done.filter(|done| phase == Phase::Cavity && done.token.rotates) else {
             return;
         };
         if !done.conflict {
-            let Completion {
-                token,
-                record,
-                slot,
-                ..
-            } = done;
-            memory.entries[token.x] = Entry {
-                a: record.v[2],
-                u: token.u,
-                slot,
-                f: token.f,
-                next: token.next,
-            };
+            let Completion { token, record, slot, .. } = done;
+            memory.entries[token.x] = Entry { a: record.v[2], u: token.u, slot, f: token.f, next: token.next };
         } else if was.cavity.count < config.ring {
             self.count += 1;
             if self.passes_last_edge(done.token.f_entry) {

@@ -74,11 +74,7 @@ impl CommandPort {
                 self.count = word;
                 let inserts = self.opcode == Opcode::Insert as u8;
                 self.reading |= !inserts;
-                self.state = if inserts {
-                    State::Points
-                } else {
-                    State::Answer
-                };
+                self.state = if inserts { State::Points } else { State::Answer };
             }
             (State::Points, Some(word)) => self.take_point(word, was, config),
             (State::Points, None) if self.count == 0 => self.state = State::Settle,

@@ -76,11 +76,7 @@ impl Commit {
             State::Record => self.step(was, memory, fetched),
             State::Link => {
                 self.write = self.link;
-                self.state = if self.closes {
-                    State::Close
-                } else {
-                    State::Record
-                };
+                self.state = if self.closes { State::Close } else { State::Record };
             }
             State::Close => {
                 let v = [was.context.id, self.first.a, self.second_a];

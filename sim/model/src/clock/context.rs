@@ -115,11 +115,7 @@ impl Context {
 
     /// Looks which way the first three points turn, then writes the triangle and its ghosts.
     fn seed(&mut self, was: &Registers, wires: &Wires) {
-        let (b, c) = if was.context.turns_left {
-            (1, 2)
-        } else {
-            (2, 1)
-        };
+        let (b, c) = if was.context.turns_left { (1, 2) } else { (2, 1) };
         let inf = wires.infinite;
         match (was.context.step, wires.done) {
             (0, None) => return,
@@ -163,32 +159,11 @@ impl Context {
             return;
         }
         let (id, n) = (was.context.root_id, was.context.root.n);
-        let test = |x, u| Token {
-            rotates: true,
-            locks: true,
-            x,
-            next: (x + 1) % 3,
-            f_entry: 0,
-            f: id,
-            u,
-        };
+        let test = |x, u| Token { rotates: true, locks: true, x, next: (x + 1) % 3, f_entry: 0, f: id, u };
         self.push = Some(match was.context.step {
-            0 => Bundle {
-                first: Token {
-                    locks: true,
-                    u: id,
-                    ..Token::default()
-                },
-                second: None,
-            },
-            1 => Bundle {
-                first: test(0, n[0]),
-                second: Some((n[1], 1, 2)),
-            },
-            _ => Bundle {
-                first: test(2, n[2]),
-                second: None,
-            },
+            0 => Bundle { first: Token { locks: true, u: id, ..Token::default() }, second: None },
+            1 => Bundle { first: test(0, n[0]), second: Some((n[1], 1, 2)) },
+            _ => Bundle { first: test(2, n[2]), second: None },
         });
         self.step += 1;
         if was.context.step == 2 {

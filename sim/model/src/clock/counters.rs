@@ -23,23 +23,15 @@ pub(super) struct Counters {
 impl Counters {
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires) {
         let phase = was.context.phase;
-        let awaits_point =
-            was.command.state == CommandState::Points && was.command.count != 0 && wires.is_quiet;
+        let awaits_point = was.command.state == CommandState::Points && was.command.count != 0 && wires.is_quiet;
         let walked = wires.done.filter(|_| phase == Phase::Walk);
-        let tests = wires
-            .done
-            .is_some_and(|done| done.token.rotates && done.token.locks);
+        let tests = wires.done.is_some_and(|done| done.token.rotates && done.token.locks);
         let seeds = phase == Phase::Seed && was.context.seeds();
         self.insert_cycles += u64::from(was.command.inserting);
         self.wait_cycles += u64::from(was.command.inserting && awaits_point);
         self.read_cycles += u64::from(was.command.reading);
-        self.insertions += if seeds {
-            3
-        } else {
-            u32::from(wires.commit_ends || wires.solo_ends)
-        };
-        self.duplicates +=
-            u32::from(walked.is_some_and(|done| done.located && done.falls_onto_corner));
+        self.insertions += if seeds { 3 } else { u32::from(wires.commit_ends || wires.solo_ends) };
+        self.duplicates += u32::from(walked.is_some_and(|done| done.located && done.falls_onto_corner));
         self.walk_visits += u32::from(walked.is_some());
         self.tests += u32::from(tests || was.solo.tests(wires.done));
         if wires.commit_ends {

@@ -24,29 +24,14 @@ pub struct Write {
 impl Write {
     /// A whole record.
     pub(super) fn record(id: u32, v: [u32; 3], n: [u32; 3]) -> Self {
-        Self {
-            valid: true,
-            id,
-            vertices: true,
-            links: [true; 3],
-            record: Record { v, n },
-        }
+        Self { valid: true, id, vertices: true, links: [true; 3], record: Record { v, n } }
     }
 
     /// One link; its value stands in all three columns, the other columns' data are zero.
     pub(super) fn link(id: u32, slot: usize, value: u32) -> Self {
         let mut links = [false; 3];
         links[slot] = true;
-        Self {
-            valid: true,
-            id,
-            vertices: false,
-            links,
-            record: Record {
-                v: [0; 3],
-                n: [value; 3],
-            },
-        }
+        Self { valid: true, id, vertices: false, links, record: Record { v: [0; 3], n: [value; 3] } }
     }
 
     /// Takes the request of whichever block makes one; holds its data while none does.
@@ -109,11 +94,7 @@ impl Memory {
 
     pub(super) fn record_words(&self, id: u32) -> [u32; 3] {
         let record = self.record(id);
-        let words = self.layout.record_to_words(
-            record.v,
-            record.n,
-            self.locks[id as usize % self.locks.len()],
-        );
+        let words = self.layout.record_to_words(record.v, record.n, self.locks[id as usize % self.locks.len()]);
         [words[0], words[1], words[2]]
     }
 

@@ -41,13 +41,7 @@ pub(super) struct Bundle {
 impl Bundle {
     /// A plain look at a record.
     pub(super) fn look(u: u32) -> Self {
-        Self {
-            first: Token {
-                u,
-                ..Token::default()
-            },
-            second: None,
-        }
+        Self { first: Token { u, ..Token::default() }, second: None }
     }
 
     /// The number of visits.
@@ -57,12 +51,7 @@ impl Bundle {
 
     fn second_token(&self) -> Token {
         let (u, x, next) = self.second.unwrap_or_default();
-        Token {
-            u,
-            x,
-            next,
-            ..self.first
-        }
+        Token { u, x, next, ..self.first }
     }
 }
 
@@ -115,20 +104,14 @@ impl Pipeline {
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory) {
         self.expect_no_collision(was);
-        let visited = self
-            .issued
-            .map(|token| visit(token, was.context.position, memory));
+        let visited = self.issued.map(|token| visit(token, was.context.position, memory));
         self.stages[self.head] = visited;
         self.head = (self.head + 1) % STAGES;
         self.reads = [wires.read, self.reads[0], self.reads[1]];
         self.queue.extend(was.context.push);
         self.issued = None;
         if let Some(&bundle) = self.queue.front() {
-            self.issued = Some(if self.issues_second {
-                bundle.second_token()
-            } else {
-                bundle.first
-            });
+            self.issued = Some(if self.issues_second { bundle.second_token() } else { bundle.first });
             let more = bundle.second.is_some() && !self.issues_second;
             self.issues_second = more;
             if !more {
@@ -157,45 +140,19 @@ fn visit(token: Token, p: Point, memory: &mut Memory) -> Completion {
     let place = token.u as usize % memory.locks.len();
     let was_set = memory.locks[place];
     memory.locks[place] |= token.locks;
-    let slot = if token.rotates {
-        stored.slot_of(token.f)
-    } else {
-        0
-    };
+    let slot = if token.rotates { stored.slot_of(token.f) } else { 0 };
     let record = stored.rotated(slot);
     let infinite = record.v.map(|v| v == memory.infinite);
     let r = record.v.map(|v| memory.vertex(v));
-    let sides = [
-        orient2d(r[1], r[2], p),
-        orient2d(r[2], r[0], p),
-        orient2d(r[0], r[1], p),
-    ];
+    let sides = [orient2d(r[1], r[2], p), orient2d(r[2], r[0], p), orient2d(r[0], r[1], p)];
     let first_two = usize::from(sides[1] < sides[0]);
-    let lowest = if sides[2] < sides[first_two] {
-        2
-    } else {
-        first_two
-    };
+    let lowest = if sides[2] < sides[first_two] { 2 } else { first_two };
     let ghost = infinite.iter().position(|&is| is);
     let (conflict, located, walk_next) = match ghost {
-        Some(g) => (
-            ghost_conflict(r[(g + 1) % 3], r[(g + 2) % 3], p),
-            sides[g] > 0,
-            record.n[g],
-        ),
+        Some(g) => (ghost_conflict(r[(g + 1) % 3], r[(g + 2) % 3], p), sides[g] > 0, record.n[g]),
         None => (finite_conflict(r, p), sides[lowest] >= 0, record.n[lowest]),
     };
     let falls_onto_corner = ghost.is_none() && r.contains(&p);
     let turn = sides[2].signum() as i32;
-    Completion {
-        token,
-        record,
-        slot,
-        was_set,
-        conflict,
-        located,
-        falls_onto_corner,
-        walk_next,
-        turn,
-    }
+    Completion { token, record, slot, was_set, conflict, located, falls_onto_corner, walk_next, turn }
 }

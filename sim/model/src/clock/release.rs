@@ -21,28 +21,16 @@ pub(super) struct Release {
 
 impl Release {
     pub(super) fn reset(&mut self) {
-        *self = Self {
-            sweeps: true,
-            ..Self::default()
-        };
+        *self = Self { sweeps: true, ..Self::default() };
     }
 
-    pub(super) fn clock(
-        &mut self,
-        was: &Registers,
-        wires: &Wires,
-        memory: &mut Memory,
-        config: Config,
-    ) {
+    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory, config: Config) {
         if let Some(id) = self.clear {
             memory.locks[id as usize] = false;
         }
         self.clear = None;
         let takes_locks = matches!(was.context.phase, Phase::Cavity | Phase::Drain);
-        if let Some(done) = wires
-            .done
-            .filter(|done| takes_locks && done.token.locks && !done.was_set)
-        {
+        if let Some(done) = wires.done.filter(|done| takes_locks && done.token.locks && !done.was_set) {
             memory.lock_log[self.count as usize] = done.token.u;
             self.count += 1;
         }

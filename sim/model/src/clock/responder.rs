@@ -102,11 +102,7 @@ impl Responder {
                 self.column = 0;
                 self.record_id = was.command.first;
                 let reads = was.command.opcode == Opcode::Read as u8;
-                self.state = if reads {
-                    State::Records
-                } else {
-                    State::Payload
-                };
+                self.state = if reads { State::Records } else { State::Payload };
                 Some(length)
             }
             State::Payload => {

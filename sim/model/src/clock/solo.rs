@@ -51,19 +51,9 @@ impl Solo {
         if self.awaits {
             return None;
         }
-        let turned = |f, u| Bundle {
-            first: Token {
-                rotates: true,
-                f,
-                u,
-                ..Token::default()
-            },
-            second: None,
-        };
+        let turned = |f, u| Bundle { first: Token { rotates: true, f, u, ..Token::default() }, second: None };
         match self.state {
-            State::Mend if self.step == 0 => {
-                Some(turned(was.context.root_id, was.context.root.n[1]))
-            }
+            State::Mend if self.step == 0 => Some(turned(was.context.root_id, was.context.root.n[1])),
             State::Mend => Some(turned(was.context.root_id, was.context.root.n[2])),
             State::Fetch => Some(Bundle::look(self.id)),
             State::Test => Some(turned(self.back, self.outer)),
@@ -156,27 +146,15 @@ impl Solo {
             self.write = Write::link(was.solo.outer, done.slot, was.solo.id);
         }
         self.id = was.solo.after;
-        self.state = if wires.solo_ends {
-            State::Idle
-        } else {
-            State::Fetch
-        };
+        self.state = if wires.solo_ends { State::Idle } else { State::Fetch };
     }
 
     fn flip(&mut self, was: &Registers) {
         let solo = &was.solo;
         let p = was.context.id;
         self.write = match solo.step {
-            0 => Write::record(
-                solo.id,
-                [p, solo.a, solo.apex],
-                [solo.apex_after_a, solo.outer, solo.before],
-            ),
-            1 => Write::record(
-                solo.outer,
-                [p, solo.apex, solo.b],
-                [solo.apex_before_b, solo.after, solo.id],
-            ),
+            0 => Write::record(solo.id, [p, solo.a, solo.apex], [solo.apex_after_a, solo.outer, solo.before]),
+            1 => Write::record(solo.outer, [p, solo.apex, solo.b], [solo.apex_before_b, solo.after, solo.id]),
             _ => Write::link(solo.after, 2, solo.outer),
         };
         self.step += 1;

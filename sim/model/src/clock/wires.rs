@@ -45,23 +45,15 @@ pub(super) struct Wires {
 }
 
 impl Wires {
-    pub(super) fn of(
-        was: &Registers,
-        pipeline: &Pipeline,
-        memory: &Memory,
-        inputs: Inputs,
-        config: Config,
-    ) -> Self {
-        let word =
-            (inputs.command_valid && was.command.is_ready(was)).then_some(inputs.command_data);
+    pub(super) fn of(was: &Registers, pipeline: &Pipeline, memory: &Memory, inputs: Inputs, config: Config) -> Self {
+        let word = (inputs.command_valid && was.command.is_ready(was)).then_some(inputs.command_data);
         let done = pipeline.completion();
         let in_cavity = was.context.phase == Phase::Cavity;
         let conflict = done.filter(|done| in_cavity && done.token.rotates && done.conflict);
         let is_full = was.cavity.count == config.ring;
         let is_idle = was.context.phase == Phase::Idle;
         let takes_point = is_idle && was.command.point_valid;
-        let stored =
-            was.command.state == CommandState::Points && was.command.stores_points(was, config);
+        let stored = was.command.state == CommandState::Points && was.command.stores_points(was, config);
         Self {
             word,
             response_ready: inputs.response_ready,
@@ -72,12 +64,8 @@ impl Wires {
             answer_ends: was.responder.ends(was, inputs.response_ready),
             is_quiet: is_idle && !was.command.point_valid && !was.release.is_busy,
             takes_point,
-            new_vertex: word
-                .filter(|_| stored)
-                .map(|word| (was.command.arrived, point(word))),
-            split: conflict
-                .filter(|_| !is_full)
-                .map(|done| was.cavity.split(&done)),
+            new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
+            split: conflict.filter(|_| !is_full).map(|done| was.cavity.split(&done)),
             overflows: conflict.is_some() && is_full,
             solo_push: was.solo.push_request(was),
             commit_ends: was.commit.ends(),
@@ -89,8 +77,5 @@ impl Wires {
 
 /// A point from its word.
 pub(super) fn point(word: u32) -> Point {
-    Point {
-        x: word & 0xffff,
-        y: word >> 16,
-    }
+    Point { x: word & 0xffff, y: word >> 16 }
 }

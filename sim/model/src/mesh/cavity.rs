@@ -71,13 +71,7 @@ impl Cavity {
         self.half_open = 0;
         self.count = 3;
         for x in 0..3u8 {
-            self.queue.push(Test {
-                x,
-                next: (x + 1) % 3,
-                f_entry: 0,
-                f: root,
-                u: n[usize::from(x)],
-            });
+            self.queue.push(Test { x, next: (x + 1) % 3, f_entry: 0, f: root, u: n[usize::from(x)] });
         }
     }
 
@@ -91,20 +85,8 @@ impl Cavity {
         }
         let y = self.count;
         self.count += 1;
-        self.queue.push(Test {
-            x: test.x,
-            next: y,
-            f_entry: y,
-            f: test.u,
-            u: u.n[1],
-        });
-        self.queue.push(Test {
-            x: y,
-            next: test.next,
-            f_entry: y,
-            f: test.u,
-            u: u.n[2],
-        });
+        self.queue.push(Test { x: test.x, next: y, f_entry: y, f: test.u, u: u.n[1] });
+        self.queue.push(Test { x: y, next: test.next, f_entry: y, f: test.u, u: u.n[2] });
         true
     }
 
@@ -138,13 +120,8 @@ impl Mesh {
             if self.in_conflict(&u, p) {
                 fits = cavity.split(test, &u);
             } else {
-                cavity.entries[usize::from(test.x)] = Entry {
-                    a: u.v[2],
-                    u: test.u,
-                    slot: slot as u8,
-                    f: test.f,
-                    next: test.next,
-                };
+                cavity.entries[usize::from(test.x)] =
+                    Entry { a: u.v[2], u: test.u, slot: slot as u8, f: test.f, next: test.next };
             }
         }
         // Tests already under way when the list overflows run out, and are counted.
@@ -178,11 +155,7 @@ impl Mesh {
         let mut is_last = first.next == 0;
         let mut pending = None::<(Entry, u32, u32)>;
         while !is_last {
-            id = if entry.f == before_f || entry.f == first.f {
-                fresh(&mut self.records)
-            } else {
-                entry.f
-            };
+            id = if entry.f == before_f || entry.f == first.f { fresh(&mut self.records) } else { entry.f };
             if at_second {
                 second_id = id;
                 at_second = false;
@@ -204,10 +177,7 @@ impl Mesh {
 
     /// Writes the record of one entry, and the link of the triangle outside unless it is right already.
     fn write_star(&mut self, p: u32, entry: Entry, id: u32, b: u32, after: u32, before: u32) {
-        self.records[id as usize] = Record {
-            v: [p, entry.a, b],
-            n: [entry.u, after, before],
-        };
+        self.records[id as usize] = Record { v: [p, entry.a, b], n: [entry.u, after, before] };
         if id != entry.f {
             self.records[entry.u as usize].n[usize::from(entry.slot)] = id;
         }

@@ -46,18 +46,9 @@ impl Mesh {
         let second = self.records.len() as u32;
         let third = second + 1;
         let [v0, v1, v2] = old.v;
-        self.records[root as usize] = Record {
-            v: [p, v1, v2],
-            n: [old.n[0], second, third],
-        };
-        self.records.push(Record {
-            v: [p, v2, v0],
-            n: [old.n[1], third, root],
-        });
-        self.records.push(Record {
-            v: [p, v0, v1],
-            n: [old.n[2], root, second],
-        });
+        self.records[root as usize] = Record { v: [p, v1, v2], n: [old.n[0], second, third] };
+        self.records.push(Record { v: [p, v2, v0], n: [old.n[1], third, root] });
+        self.records.push(Record { v: [p, v0, v1], n: [old.n[2], root, second] });
         for (outer, id) in [(old.n[1], second), (old.n[2], third)] {
             let slot = self.records[outer as usize].slot_of(root);
             self.records[outer as usize].n[slot] = id;
@@ -66,15 +57,7 @@ impl Mesh {
 
     fn star_at(&self, id: u32) -> Star {
         let Record { v, n } = self.records[id as usize];
-        Star {
-            id,
-            a: v[1],
-            b: v[2],
-            outer: n[0],
-            after: n[1],
-            before: n[2],
-            back: id,
-        }
+        Star { id, a: v[1], b: v[2], outer: n[0], after: n[1], before: n[2], back: id }
     }
 
     /// Flips the edge between the star triangle and `u` (rotated: apex first): `u` becomes the next star triangle.
@@ -82,14 +65,8 @@ impl Mesh {
         self.counts.flips += 1;
         let apex = u.v[0];
         let flipped = star.outer;
-        self.records[star.id as usize] = Record {
-            v: [p, star.a, apex],
-            n: [u.n[1], flipped, star.before],
-        };
-        self.records[flipped as usize] = Record {
-            v: [p, apex, star.b],
-            n: [u.n[2], star.after, star.id],
-        };
+        self.records[star.id as usize] = Record { v: [p, star.a, apex], n: [u.n[1], flipped, star.before] };
+        self.records[flipped as usize] = Record { v: [p, apex, star.b], n: [u.n[2], star.after, star.id] };
         self.records[star.after as usize].n[2] = flipped;
         (star.b, star.outer, star.after, star.back) = (apex, u.n[1], flipped, flipped);
     }

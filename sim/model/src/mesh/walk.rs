@@ -33,11 +33,7 @@ impl Mesh {
             orient2d(corners[0], corners[1], p),
         ];
         let first_two = usize::from(sides[1] < sides[0]);
-        let lowest = if sides[2] < sides[first_two] {
-            2
-        } else {
-            first_two
-        };
+        let lowest = if sides[2] < sides[first_two] { 2 } else { first_two };
         (sides[lowest] < 0).then(|| record.n[lowest])
     }
 }

@@ -24,20 +24,14 @@ pub(super) fn objects_of(
             return Ok(objects);
         }
     }
-    let failed = |source| BuildError::File {
-        path: folder.to_path_buf(),
-        source,
-    };
+    let failed = |source| BuildError::File { path: folder.to_path_buf(), source };
     if folder.exists() {
         fs::remove_dir_all(folder).map_err(failed)?;
     }
     fs::create_dir_all(folder).map_err(failed)?;
     verilator.translate(model, &class, folder)?;
     let objects = compile(model, verilator, &class, folder)?;
-    let list: Vec<_> = objects
-        .iter()
-        .map(|object| object.to_string_lossy())
-        .collect();
+    let list: Vec<_> = objects.iter().map(|object| object.to_string_lossy()).collect();
     write(&list_file, &list.join("\n"))?;
     // Last, so that a build that was cut short is not taken for a whole one.
     write(&key_file, &key)?;
@@ -48,23 +42,11 @@ pub(super) fn objects_of(
 fn key(model: &ModelSource, verilator: &Verilator, class: &str) -> String {
     let arguments = verilator::arguments(model, class).join(" ");
     let optimisation = format!("{:?}", model.optimisation);
-    [
-        verilator.version(),
-        &arguments,
-        &optimisation,
-        shim::HEADER,
-        &model.verilog,
-    ]
-    .join("\n")
+    [verilator.version(), &arguments, &optimisation, shim::HEADER, &model.verilog].join("\n")
 }
 
 /// Compiles the C++ of the model and its shim, in as few units as makes sense: most of a unit's time goes into headers.
-fn compile(
-    model: &ModelSource,
-    verilator: &Verilator,
-    class: &str,
-    folder: &Path,
-) -> Result<Vec<PathBuf>, BuildError> {
+fn compile(model: &ModelSource, verilator: &Verilator, class: &str, folder: &Path) -> Result<Vec<PathBuf>, BuildError> {
     let cpp = folder.join("cpp");
     let path = cpp.join(format!("{class}.h"));
     let header = fs::read_to_string(&path).map_err(|source| BuildError::File { path, source })?;
@@ -72,12 +54,7 @@ fn compile(
     write(&folder.join("shim.hpp"), shim::HEADER)?;
     let trace = if model.trace { "1" } else { "0" };
     let mut compiler = runtime::compiler(verilator);
-    compiler
-        .define("VM_TRACE", trace)
-        .define("VM_TRACE_VCD", trace)
-        .include(folder)
-        .include(&cpp)
-        .out_dir(folder);
+    compiler.define("VM_TRACE", trace).define("VM_TRACE_VCD", trace).include(folder).include(&cpp).out_dir(folder);
     let files = cpp_files(&cpp)?;
     let unit = |name: &str, level: u32, files: &[&String], shim: &str| {
         let include = |file: &&String| format!("#include \"cpp/{file}\"\n");
@@ -101,17 +78,12 @@ fn compile(
 
 /// Whether the file holds what runs once or while tracing only: construction, symbols, traces. It is most of the code.
 fn is_seldom(file: &str) -> bool {
-    ["Slow", "__Trace__", "__Syms"]
-        .iter()
-        .any(|part| file.contains(part))
+    ["Slow", "__Trace__", "__Syms"].iter().any(|part| file.contains(part))
 }
 
 /// The C++ files in the folder, by name.
 fn cpp_files(folder: &Path) -> Result<Vec<String>, BuildError> {
-    let failed = |source| BuildError::File {
-        path: folder.to_path_buf(),
-        source,
-    };
+    let failed = |source| BuildError::File { path: folder.to_path_buf(), source };
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(failed)? {
         let name = entry.map_err(failed)?.file_name();

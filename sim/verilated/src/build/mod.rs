@@ -55,10 +55,8 @@ impl ModelSource {
     pub fn file(name: &str, top: &str, path: impl AsRef<Path>) -> Result<Self, BuildError> {
         let path = path.as_ref();
         println!("cargo:rerun-if-changed={}", path.display());
-        let verilog = std::fs::read_to_string(path).map_err(|source| BuildError::File {
-            path: path.to_path_buf(),
-            source,
-        })?;
+        let verilog =
+            std::fs::read_to_string(path).map_err(|source| BuildError::File { path: path.to_path_buf(), source })?;
         Ok(Self::new(name, top, verilog))
     }
 
@@ -83,15 +81,10 @@ impl ModelSource {
 
     fn check_name(&self) -> Result<(), BuildError> {
         let valid = self.name.starts_with(|c: char| c.is_ascii_lowercase())
-            && self
-                .name
-                .chars()
-                .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+            && self.name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
             && !self.name.contains("__")
             && self.name != "find";
-        valid.then_some(()).ok_or_else(|| BuildError::Name {
-            name: self.name.clone(),
-        })
+        valid.then_some(()).ok_or_else(|| BuildError::Name { name: self.name.clone() })
     }
 }
 
@@ -133,9 +126,7 @@ impl Builder {
             model.check_name()?;
             let mut earlier = self.models.iter().take(position);
             if earlier.any(|other| other.name == model.name) {
-                return Err(BuildError::NameTwice {
-                    name: model.name.clone(),
-                });
+                return Err(BuildError::NameTwice { name: model.name.clone() });
             }
         }
         println!("cargo:rerun-if-changed=build.rs");
@@ -186,9 +177,7 @@ fn build_all(
             });
         }
     });
-    let mut results = results
-        .into_inner()
-        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    let mut results = results.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
     results.sort_by_key(|(position, _)| *position);
     let mut objects = Vec::new();
     for (_, built) in results {
@@ -202,8 +191,5 @@ fn cargo_variable(name: &'static str) -> Result<String, BuildError> {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), BuildError> {
-    std::fs::write(path, text).map_err(|source| BuildError::File {
-        path: path.to_path_buf(),
-        source,
-    })
+    std::fs::write(path, text).map_err(|source| BuildError::File { path: path.to_path_buf(), source })
 }

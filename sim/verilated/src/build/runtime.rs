@@ -26,15 +26,8 @@ pub(super) fn compiler(verilator: &Verilator) -> cc::Build {
 /// The compiler is missing or refuses the files.
 pub fn compile_runtime(verilator: &Verilator) -> Result<(), BuildError> {
     let mut build = compiler(verilator);
-    build
-        .opt_level(2)
-        .define("VM_TRACE", "1")
-        .define("VM_TRACE_VCD", "1");
-    for file in [
-        "verilated.cpp",
-        "verilated_threads.cpp",
-        "verilated_vcd_c.cpp",
-    ] {
+    build.opt_level(2).define("VM_TRACE", "1").define("VM_TRACE_VCD", "1");
+    for file in ["verilated.cpp", "verilated_threads.cpp", "verilated_vcd_c.cpp"] {
         build.file(verilator.include().join(file));
     }
     build.try_compile("verilated_runtime")?;

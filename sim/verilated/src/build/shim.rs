@@ -31,10 +31,7 @@ pub(super) fn ports(model: &str, header: &str) -> Result<Vec<DeclaredPort>, Buil
         .map(str::trim)
         .filter(|line| line.starts_with("VL_IN") || line.starts_with("VL_OUT"))
         .map(|line| {
-            port(line).ok_or_else(|| BuildError::Port {
-                model: model.to_string(),
-                declaration: line.to_string(),
-            })
+            port(line).ok_or_else(|| BuildError::Port { model: model.to_string(), declaration: line.to_string() })
         })
         .collect::<Result<_, _>>()?;
     ports.sort_by(|a, b| a.name.cmp(&b.name));
@@ -54,12 +51,7 @@ fn port(line: &str) -> Option<DeclaredPort> {
     let high: u32 = fields.next()?.parse().ok()?;
     let low: u32 = fields.next()?.parse().ok()?;
     let width = high.checked_sub(low)?.checked_add(1)?;
-    Some(DeclaredPort {
-        name: verilog_name(&member),
-        member,
-        width,
-        direction,
-    })
+    Some(DeclaredPort { name: verilog_name(&member), member, width, direction })
 }
 
 fn is_size(size: &str) -> bool {
@@ -90,10 +82,7 @@ pub(super) fn cpp_unit(class: &str, name: &str, ports: &[DeclaredPort]) -> Strin
     let mut table = String::new();
     let mut addresses = String::new();
     for (position, port) in ports.iter().enumerate() {
-        table += &format!(
-            "    {{\"{}\", {}, {}}},\n",
-            port.name, port.width, port.direction
-        );
+        table += &format!("    {{\"{}\", {}, {}}},\n", port.name, port.width, port.direction);
         addresses += &format!("    out[{position}] = &model.{};\n", port.member);
     }
     format!(
@@ -144,19 +133,8 @@ mod tests {
     fn reads_ports_of_every_size() {
         let header = "  VL_IN8(&clock,0,0);\n VL_INW(&wide_a,99,0,4);\n VL_OUT64(&count,39,0);\n VL_OUT(&a__024b,31,0);\n int x;";
         let ports = ports("m", header).unwrap();
-        let found: Vec<_> = ports
-            .iter()
-            .map(|p| (p.name.as_str(), p.width, p.direction))
-            .collect();
-        assert_eq!(
-            found,
-            [
-                ("a$b", 32, 1),
-                ("clock", 1, 0),
-                ("count", 40, 1),
-                ("wide_a", 100, 0)
-            ]
-        );
+        let found: Vec<_> = ports.iter().map(|p| (p.name.as_str(), p.width, p.direction)).collect();
+        assert_eq!(found, [("a$b", 32, 1), ("clock", 1, 0), ("count", 40, 1), ("wide_a", 100, 0)]);
     }
 
     #[test]

@@ -45,7 +45,9 @@ pub enum BuildError {
         declaration: String,
     },
     /// A name that cannot become a function.
-    #[error("model name {name:?}: use lower-case letters, digits and single underscores, first a letter, and not `find`")]
+    #[error(
+        "model name {name:?}: use lower-case letters, digits and single underscores, first a letter, and not `find`"
+    )]
     Name {
         /// The name given.
         name: String,
@@ -84,10 +86,7 @@ impl Verilator {
         }
         let root = run(&["--getenv", "VERILATOR_ROOT"], Path::new("."))?;
         let include = Path::new(root.trim()).join("include");
-        println!(
-            "cargo:rerun-if-changed={}",
-            include.join("verilated.h").display()
-        );
+        println!("cargo:rerun-if-changed={}", include.join("verilated.h").display());
         Ok(Self { version, include })
     }
 
@@ -102,12 +101,7 @@ impl Verilator {
     }
 
     /// Translates the model into C++ in `folder/cpp`, class `class`.
-    pub(super) fn translate(
-        &self,
-        model: &ModelSource,
-        class: &str,
-        folder: &Path,
-    ) -> Result<(), BuildError> {
+    pub(super) fn translate(&self, model: &ModelSource, class: &str, folder: &Path) -> Result<(), BuildError> {
         super::write(&folder.join("model.v"), &model.verilog)?;
         run(&arguments(model, class), folder).map(|_| ())
     }
@@ -148,11 +142,7 @@ fn is_too_old(version: &str) -> bool {
 }
 
 fn run(arguments: &[&str], folder: &Path) -> Result<String, BuildError> {
-    let output = Command::new("verilator")
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .map_err(BuildError::Missing)?;
+    let output = Command::new("verilator").args(arguments).current_dir(folder).output().map_err(BuildError::Missing)?;
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
     if output.status.success() {
         return Ok(printed);
