@@ -102,6 +102,12 @@ fn node_counts_and_ids() {
 fn obj_of_wrong_form() {
     refuse("p.obj", "v 1\n", &["row 1, column 3", "missing"]);
     refuse("p.obj", "v 1 inf 0\n", &["row 1, column 3", "finite"]);
+    // What is no OBJ must not pass for one without points.
+    refuse("p.obj", "hello world\n", &["row 1", "'hello'", "no statement of OBJ"]);
+    refuse("p.obj", "v 0 0 0\n\nV 1 0 0\n", &["row 3", "'V'"]);
+    refuse("p.obj", b"v 0 0 0\nv 1 0 0\n\x8f\x01\xfe\n", &["row 3", "UTF-8"]);
+    refuse("p.obj", b"# \0\n", &["row 1", "UTF-8"]);
+    accept("p.obj", "# a\nmtllib a.mtl\no a\nv 0 0 0\nv 5 0 0\n\tv 0 5 0\nparm u 0 \\\n 1 2\ns off\nend\n", 1);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Wavefront OBJ: `v x y z` and `f a b c`, indices from 1.
 //!
-//! Points are the vertices' x and y; all other statements are left out. Meshes hold every input point as a vertex at
+//! Points are the vertices' x and y; all other statements are left out. Rows that start with no word of the format are
+//! refused: a file that is something else must not pass for an empty one. Meshes hold every input point as a vertex at
 //! height 0, so indices stay those of the input.
 
 use std::io::{self, Write};
@@ -9,6 +10,53 @@ use crate::failure::{quoted, Failure};
 use crate::formats::MeshView;
 use crate::points::{Place, PointTable};
 use crate::text;
+
+/// The words that a statement can start with, those of older versions included.
+/// Source: Wavefront, Advanced Visualizer Manual, appendix B1.
+const KEYWORDS: [&str; 42] = [
+    "v",
+    "vt",
+    "vn",
+    "vp",
+    "f",
+    "fo",
+    "l",
+    "p",
+    "o",
+    "g",
+    "s",
+    "mg",
+    "mtllib",
+    "maplib",
+    "usemtl",
+    "usemap",
+    "cstype",
+    "deg",
+    "bmat",
+    "step",
+    "curv",
+    "curv2",
+    "surf",
+    "parm",
+    "trim",
+    "hole",
+    "scrv",
+    "sp",
+    "end",
+    "con",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "shadow_obj",
+    "trace_obj",
+    "ctech",
+    "stech",
+    "call",
+    "csh",
+    "bsp",
+    "bzp",
+];
 
 /// Reads the vertices.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
@@ -50,10 +98,29 @@ fn statements<'a>(
     keyword: &'static [u8],
 ) -> Result<impl Iterator<Item = (usize, impl Iterator<Item = &'a [u8]>)>, Failure> {
     let bytes = text::without_mark(bytes)?;
+    refuse_foreign_rows(bytes)?;
     Ok(text::rows(bytes).filter_map(move |(row, content)| {
         let mut words = text::words(text::without_comment(content));
         (words.next() == Some(keyword)).then_some((row, words))
     }))
+}
+
+/// Refuses rows that are no text or start with no word of the format. A row after a backslash goes on with its statement.
+fn refuse_foreign_rows(bytes: &[u8]) -> Result<(), Failure> {
+    let mut goes_on = false;
+    for (row, content) in text::rows(bytes) {
+        if std::str::from_utf8(content).is_err() || content.contains(&0) {
+            return Err(Failure::input(format!("row {row} is not UTF-8 text: an OBJ file is text")));
+        }
+        let first = text::words(text::without_comment(content)).next();
+        let foreign = first.filter(|&word| !goes_on && !KEYWORDS.iter().any(|known| known.as_bytes() == word));
+        if let Some(word) = foreign {
+            let shown = quoted(word);
+            return Err(Failure::input(format!("row {row}: {shown} starts no statement of OBJ, such as 'v' or 'f'")));
+        }
+        goes_on = content.trim_ascii_end().ends_with(b"\\");
+    }
+    Ok(())
 }
 
 /// A corner `vertex[/texture[/normal]]`, counted from 1; back to 0.
