@@ -1,8 +1,9 @@
-//! Interrupts: a run that is stopped leaves no file and ends with exit code 130.
+//! Interrupts: a run that is stopped leaves no file and ends with exit code 130 and a sentence.
 //!
-//! The handler raises a flag, which jobs and outputs look at, and gives the run a moment to end by itself; then it removes
-//! the unfinished outputs and ends the process.
+//! The handler ends the process at once, except while a job runs: that one is asked to end by itself, which tidies up
+//! the device, and gets a moment for it. A second interrupt does not wait for the moment to pass.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -11,28 +12,67 @@ use std::time::Duration;
 use crate::failure::{Exit, Failure};
 
 static RAISED: AtomicBool = AtomicBool::new(false);
+/// Whether a job runs that looks at [`raised`].
+static WORKING: AtomicBool = AtomicBool::new(false);
+/// Whether the run has done all it was asked for; changed only under the lock of [`UNFINISHED`].
+static DONE: AtomicBool = AtomicBool::new(false);
+/// Whether the reason for the end of the run was told.
+static TOLD: Mutex<bool> = Mutex::new(false);
 /// The unfinished outputs of the run, to be removed if it is stopped.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-/// Time for the run to end by itself: a chunk of a simulated job takes less.
+/// Time for a job to end by itself: a chunk of a simulated job takes less.
 const GRACE: Duration = Duration::from_millis(1500);
 
 /// Watches for interrupts and for requests to terminate.
 pub fn watch() -> Result<(), Failure> {
-    let handler = || {
-        RAISED.store(true, Ordering::SeqCst);
-        std::thread::sleep(GRACE);
-        // Kept locked to the end: no output can be finished any more.
-        let unfinished = unfinished();
-        for path in unfinished.iter() {
-            let _ = std::fs::remove_file(path);
-        }
-        std::process::exit(Exit::Interrupted as i32);
-    };
-    match ctrlc::set_handler(handler) {
+    DONE.store(false, Ordering::SeqCst);
+    match ctrlc::set_handler(on_signal) {
         // Set by an earlier run in this process.
         Ok(()) | Err(ctrlc::Error::MultipleHandlers) => Ok(()),
         Err(error) => Err(Failure::new(Exit::Device, format!("interrupts cannot be watched: {error}"))),
     }
+}
+
+/// Takes a signal. It must return while a job has its moment, or the next signal would wait too.
+fn on_signal() {
+    let again = RAISED.swap(true, Ordering::SeqCst);
+    if again || !WORKING.load(Ordering::SeqCst) {
+        return stop();
+    }
+    let patient = std::thread::Builder::new().spawn(|| {
+        std::thread::sleep(GRACE);
+        stop();
+    });
+    if patient.is_err() {
+        stop();
+    }
+}
+
+/// Ends the process, unless the run is done already.
+fn stop() {
+    // Kept locked to the end: no output can be finished any more.
+    let unfinished = unfinished();
+    if DONE.load(Ordering::SeqCst) {
+        return;
+    }
+    for path in unfinished.iter() {
+        let _ = std::fs::remove_file(path);
+    }
+    tell(&interrupted());
+    std::process::exit(Exit::Interrupted as i32);
+}
+
+/// Prints why the run ends, once, whoever comes first.
+pub fn tell(failure: &Failure) {
+    let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);
+    if !std::mem::replace(&mut *told, true) {
+        // Nobody is left to tell if standard error is closed.
+        let _ = writeln!(std::io::stderr(), "incircle: {failure}");
+    }
+}
+
+fn interrupted() -> Failure {
+    Failure::new(Exit::Interrupted, "interrupted: no file was written")
 }
 
 /// Whether the run was interrupted.
@@ -43,9 +83,28 @@ pub fn raised() -> bool {
 /// Ends an interrupted run.
 pub fn check() -> Result<(), Failure> {
     if raised() {
-        return Err(Failure::new(Exit::Interrupted, "interrupted: nothing was written"));
+        return Err(interrupted());
     }
     Ok(())
+}
+
+/// Says that the run has done all it was asked for, unless it was interrupted before: from here on an interrupt comes
+/// too late.
+pub fn done() -> Result<(), Failure> {
+    let _unfinished = unfinished();
+    if !DONE.load(Ordering::SeqCst) {
+        check()?;
+        DONE.store(true, Ordering::SeqCst);
+    }
+    Ok(())
+}
+
+/// Does work that looks at [`raised`] and ends by itself when it is.
+pub fn working<T>(work: impl FnOnce() -> T) -> T {
+    WORKING.store(true, Ordering::SeqCst);
+    let result = work();
+    WORKING.store(false, Ordering::SeqCst);
+    result
 }
 
 /// The unfinished outputs, locked: while the lock is held no interrupt ends the process.

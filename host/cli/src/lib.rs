@@ -22,7 +22,6 @@ mod source;
 mod text;
 
 use std::ffi::OsString;
-use std::io::Write;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -49,11 +48,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Info(arguments) => commands::info::run(arguments),
         Command::Completions(arguments) => commands::completions::run(arguments),
     });
-    match result {
+    match result.and_then(|()| interrupt::done()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            // Nobody is left to tell if standard error is closed.
-            let _ = writeln!(std::io::stderr(), "incircle: {failure}");
+            // An interrupt may show as any failure.
+            let failure = interrupt::check().err().unwrap_or(failure);
+            interrupt::tell(&failure);
             ExitCode::from(failure.exit as u8)
         }
     }

@@ -136,7 +136,8 @@ impl Written {
         interrupt::check()?;
         keep_permissions(part, path);
         fs::rename(part, path).map_err(|error| cannot_write(&self.name, &error))?;
-        unfinished.retain(|kept| kept != part);
+        // An interrupt takes it away again, until the run is done.
+        unfinished.iter_mut().filter(|kept| *kept == part).for_each(|kept| kept.clone_from(path));
         drop(unfinished);
         Ok(self.renaming.take().map(|(_, path)| path))
     }
@@ -162,13 +163,16 @@ pub fn finish(
         for written in outputs {
             placed.extend(written.place()?);
         }
-        last()
+        last()?;
+        interrupt::done()
     };
     let result = place_all();
-    if result.is_err() {
-        for path in placed {
-            let _ = fs::remove_file(path);
+    let mut unfinished = interrupt::unfinished();
+    for path in placed {
+        if result.is_err() {
+            let _ = fs::remove_file(&path);
         }
+        unfinished.retain(|kept| *kept != path);
     }
     result
 }

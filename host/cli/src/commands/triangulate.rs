@@ -114,10 +114,13 @@ fn triangulate(
         progress: Some(&listener),
         insert_chunk: backend.insert_chunk,
     };
-    let session = backend.device.session();
-    let mesh = session.and_then(|mut session| session.triangulate_with(points, &options));
-    // An interrupt may show as any error.
-    mesh.map_err(|error| interrupt::check().err().unwrap_or_else(|| failure_of(&error)))
+    let mesh = interrupt::working(|| {
+        let session = backend.device.session();
+        session.and_then(|mut session| session.triangulate_with(points, &options))
+    });
+    // Comes first, because an interrupt may show as any error.
+    interrupt::check()?;
+    mesh.map_err(|error| failure_of(&error))
 }
 
 /// The mesh goes out with the coordinates that came in, not with those of the grid.
