@@ -26,7 +26,10 @@ permission, 5 link error, 6 device error or timeout, 7 capacity, 130 interrupted
 pub enum Command {
     /// Triangulate a file of points
     Triangulate(TriangulateArguments),
-    /// Check that a mesh is the canonical Delaunay triangulation of its points
+    /// Check that the triangles of a mesh are the canonical Delaunay triangulation of its points
+    ///
+    /// Only the triangles are checked, as indices into POINTS: whatever else the mesh file holds (vertices of OBJ and PLY;
+    /// points, hull and duplicates of JSON) is not compared.
     Verify(VerifyArguments),
     /// Make a set of points
     Generate(GenerateArguments),
@@ -64,7 +67,7 @@ pub struct BackendArguments {
 pub struct TriangulateArguments {
     /// Points: csv, xyz, node, obj, ply, geojson or json; '-' is CSV from standard input
     pub points: PathBuf,
-    /// The mesh: ele, obj, ply, vtk, geojson, json, csv or svg; '-' is standard output
+    /// The mesh: ele, obj, ply, vtk, geojson, json, csv or svg; '-' is standard output and needs --format
     #[arg(short, long, value_name = "MESH")]
     pub output: PathBuf,
     /// Format of the mesh (default: by extension)
@@ -100,15 +103,15 @@ pub struct TriangulateArguments {
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// The points
+    /// The points; '-' is CSV from standard input
     pub points: PathBuf,
-    /// The mesh: ele, obj, ply, json or csv
+    /// The mesh: ele, obj, ply, json or csv; '-' is standard input and needs --format
     pub mesh: PathBuf,
     /// Format of the points (default: by extension)
     #[arg(long, value_enum)]
     pub from: Option<PointFormat>,
     /// Format of the mesh (default: by extension)
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = readable_format_parser())]
     pub format: Option<MeshFormat>,
     #[command(flatten)]
     pub grid: GridArguments,
@@ -195,6 +198,14 @@ fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
     let names = PossibleValuesParser::new(Order::ALL.map(Order::name));
     // Only names of orders come through, so the default is never taken.
     names.map(|name| Order::named(&name).unwrap_or_default())
+}
+
+/// The formats that a mesh can be read back from.
+fn readable_format_parser() -> impl clap::builder::TypedValueParser<Value = MeshFormat> {
+    use clap::builder::{PossibleValuesParser, TypedValueParser};
+    let readable = MeshFormat::value_variants().iter().filter(|format| format.is_readable());
+    let names = PossibleValuesParser::new(readable.filter_map(MeshFormat::to_possible_value));
+    names.try_map(|name| MeshFormat::from_str(&name, false))
 }
 
 fn quantize_from(text: &str) -> Result<Quantize, String> {

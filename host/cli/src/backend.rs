@@ -102,16 +102,18 @@ fn config_for(
     }
     let distinct = count_distinct(points);
     let holds = |config: &incircle_protocol::Config| config.points as usize >= distinct;
-    let config = match choice.config {
-        Some(name) => Some(name.config()),
-        None => NAMED.into_iter().find(holds),
-    };
+    let smallest = NAMED.into_iter().find(holds);
+    let config = choice.config.map_or(smallest, |name| Some(name.config()));
     config.filter(holds).ok_or_else(|| {
         let all = NAMED.map(|config| format!("{} {}", config.name, config.points)).join(", ");
         let asked = choice.config.map_or("any core", |name| name.config().name);
+        let advice = match smallest {
+            Some(config) => format!("--config {} or --backend model", config.name),
+            None => "--backend model".to_owned(),
+        };
         Failure::new(
             crate::failure::Exit::Capacity,
-            format!("{distinct} distinct points are more than {asked} holds ({all}): use --backend model"),
+            format!("{distinct} distinct points are more than {asked} holds ({all}): use {advice}"),
         )
     })
 }

@@ -81,6 +81,27 @@ pub fn quoted(value: &[u8]) -> String {
     }
 }
 
+/// A count and what is counted, in the plural where it is not one.
+pub fn counted(count: usize, what: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
+}
+
+/// Text that may hold anything, such as a file name, as messages say it: on one line, and without power over the
+/// terminal. Control characters, line ends and marks of writing direction are escaped.
+pub fn printable(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for character in text.chars() {
+        let marks = matches!(character, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        if character.is_control() || marks {
+            shown.extend(character.escape_debug());
+        } else {
+            shown.push(character);
+        }
+    }
+    shown
+}
+
 /// Longest text of a library's own message, in characters.
 const LONGEST: usize = 200;
 
@@ -97,6 +118,17 @@ pub fn one_line(message: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_stay_as_they_are_but_for_what_moves_the_cursor() {
+        assert_eq!(printable("Höhe 'a\\b'\u{301}.csv"), "Höhe 'a\\b'\u{301}.csv");
+        assert_eq!(printable("a\n\u{1b}[2J\u{9b}\u{202e}b"), "a\\n\\u{1b}[2J\\u{9b}\\u{202e}b");
+    }
+
+    #[test]
+    fn one_is_not_many() {
+        assert_eq!([0, 1, 2].map(|count| counted(count, "point")), ["0 points", "1 point", "2 points"]);
+    }
 
     #[test]
     fn long_values_are_cut() {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::source::is_standard;
+use crate::source::{self, is_standard};
 
 /// Where output goes.
 #[derive(Debug)]
@@ -43,7 +43,7 @@ impl Output {
         if is_standard(path) {
             return Ok(Self { target: Target::Standard, name: "standard output".to_owned() });
         }
-        let name = path.display().to_string();
+        let name = source::name(path);
         if input.is_some_and(|input| is_same(input, path)) {
             return Err(Failure::usage(format!("{name} is both the input and the output: choose another output")));
         }

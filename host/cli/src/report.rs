@@ -6,6 +6,7 @@ use incircle::{Counters, Quantization, Report, Shown};
 use serde_json::{json, Map, Value};
 
 use crate::backend::Backend;
+use crate::failure::counted;
 
 /// Everything that is reported of one triangulation.
 pub struct RunReport<'a> {
@@ -67,9 +68,9 @@ impl<'a> RunReport<'a> {
         let job = self.job;
         let mut lines = Vec::new();
         if let Some(q) = self.quantization {
-            let ([x, y], merged) = (q.offset, q.merged);
+            let ([x, y], merged) = (q.offset, counted(q.merged, "point"));
             lines.push(format!(
-                "quantised to {} bits: scale {}, offset ({}, {}), largest error {:.3e}, {merged} points fell together",
+                "quantised to {} bits: scale {}, offset ({}, {}), largest error {:.3e}, {merged} fell together",
                 q.coord_bits,
                 Shown(q.scale),
                 Shown(x),
@@ -98,10 +99,10 @@ impl<'a> RunReport<'a> {
             count => format!(" ({count} of them on the place of an earlier one)"),
         };
         format!(
-            "{} points{duplicates}, {} triangles, {} points on the hull; {}, {:.3} s",
-            job.points,
-            job.triangles,
-            job.hull,
+            "{}{duplicates}, {}, {} on the hull; {}, {:.3} s",
+            counted(job.points, "point"),
+            counted(job.triangles, "triangle"),
+            counted(job.hull, "point"),
             job.backend,
             total.as_secs_f64()
         )

@@ -7,7 +7,7 @@ use incircle::{Device, Transport, TransportError};
 use incircle_protocol::Config;
 use incircle_sim::{SimDevice, SimError};
 
-use crate::failure::{Exit, Failure};
+use crate::failure::{printable, Exit, Failure};
 use crate::interrupt;
 
 /// Clocks simulated between two looks at the deadline: about a tenth of a second.
@@ -18,7 +18,7 @@ const SLICE: u64 = 100_000;
 pub fn open(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
     let mut device = SimDevice::new(config).map_err(|error| Failure::new(Exit::NoDevice, error.to_string()))?;
     if let Some(path) = trace {
-        device.trace_to(path).map_err(|error| Failure::input(error.to_string()))?;
+        device.trace_to(path).map_err(|error| Failure::input(printable(&error.to_string())))?;
     }
     Ok(Device::from_transport(Box::new(SimTransport { device, name: config.name })))
 }

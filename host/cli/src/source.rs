@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::Path;
 
-use crate::failure::Failure;
+use crate::failure::{printable, Failure};
 use crate::formats::{extension, MeshFormat, PointFormat};
 use crate::points::PointTable;
 
@@ -18,7 +18,7 @@ pub fn read_points(path: &Path, from: Option<PointFormat>) -> Result<PointTable,
         Some(format) => format,
         None if is_standard(path) => PointFormat::Csv,
         None => PointFormat::of_extension(extension(path)).ok_or_else(|| {
-            let name = path.display();
+            let name = name(path);
             Failure::usage(format!(
                 "{name}: the extension names no format of points: add --from csv, xyz, node, obj, ply, geojson or json"
             ))
@@ -32,13 +32,20 @@ pub fn read_points(path: &Path, from: Option<PointFormat>) -> Result<PointTable,
 pub fn read_mesh(path: &Path, format: Option<MeshFormat>) -> Result<Vec<[u32; 3]>, Failure> {
     let format = format.or_else(|| MeshFormat::of_extension(extension(path)));
     let format = format.ok_or_else(|| {
-        let name = name(path);
-        Failure::usage(format!(
-            "{name}: the extension names no format of meshes: add --format ele, obj, ply, json or csv"
-        ))
+        let (name, why) = (name(path), no_format(path));
+        Failure::usage(format!("{name}: {why}: add --format ele, obj, ply, json or csv"))
     })?;
     let bytes = read_bytes(path)?;
     format.read(&bytes).map_err(|failure| failure.in_file(name(path)))
+}
+
+/// Why a mesh of this name needs `--format`.
+pub fn no_format(path: &Path) -> &'static str {
+    if is_standard(path) {
+        "a mesh that has no file name needs a format"
+    } else {
+        "the extension names no format of meshes"
+    }
 }
 
 /// The name of a file as messages say it.
@@ -46,7 +53,7 @@ pub fn name(path: &Path) -> String {
     if is_standard(path) {
         "standard input".to_owned()
     } else {
-        path.display().to_string()
+        printable(&path.display().to_string())
     }
 }
 

@@ -86,7 +86,8 @@ fn xyz_of_wrong_form() {
 
 #[test]
 fn node_counts_and_ids() {
-    refuse("p.node", "3 2 0 0\n0 0 0\n1 1 1\n", &["promises 3", "holds 2"]);
+    refuse("p.node", "3 2 0 0\n0 0 0\n1 1 1\n", &["promises 3 points", "holds 2"]);
+    refuse("p.node", "1 2 0 0\n", &["promises 1 point,", "holds 0"]);
     refuse("p.node", "1 2 0 0\n0 0 0\n1 1 1\n", &["row 3", "one point more", "promises"]);
     refuse("p.node", "4294967295 2 0 0\n0 0 0\n", &["promises 4294967295", "holds 1"]);
     refuse("p.node", "2 3 0 0\n0 0 0\n1 1 1\n", &["row 1, column 2", "'3'"]);

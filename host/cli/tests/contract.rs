@@ -126,6 +126,9 @@ fn verification_tells_right_from_wrong() {
     scratch.write("right.ele", FIVE_ELE);
     let run = scratch.run("verify p.csv right.ele").ok();
     assert_eq!(run.stderr, "");
+    let counts = "5 points, 4 triangles, 4 points on the hull, 0 ties\n";
+    let sentence = "the triangles of right.ele are the canonical Delaunay triangulation of p.csv: ";
+    assert_eq!(run.stdout, format!("{sentence}{counts}"));
     let run = scratch.run("verify p.csv right.ele --json").ok();
     assert_eq!(report(&run.stdout)["valid"], true);
 
@@ -164,6 +167,7 @@ fn wrong_use_ends_with_two() {
         "triangulate p.csv -o m.ele --timeout 0",
         "triangulate p.csv -o m.ele --order random",
         "triangulate p.csv -o m.ele --backend abacus",
+        "verify p.csv m.svg --format svg",
         "generate uniform -n 5 --bits 32 -o x.csv",
         "generate uniform -n -5 -o x.csv",
     ] {
@@ -173,6 +177,8 @@ fn wrong_use_ends_with_two() {
     let one_sentence = [
         ("triangulate p.csv -o m.xls", "m.xls"),
         ("triangulate p.csv -o m", "--format"),
+        ("triangulate p.csv -o -", "standard output: a mesh that has no file name needs a format: add --format"),
+        ("verify p.csv -", "standard input: a mesh that has no file name needs a format: add --format ele"),
         ("triangulate p.csv -o - --format ele --json", "--json"),
         ("triangulate p.csv -o m.ele --config tiny", "--backend sim"),
         ("triangulate p.csv -o m.ele --trace t.vcd", "--backend sim"),
@@ -201,6 +207,12 @@ fn help_version_and_completions_go_to_standard_output() {
     for arguments in ["--help", "triangulate --help", "--version"] {
         let run = scratch.run(arguments).ok();
         assert!(run.stdout.contains("incircle") && run.stderr.is_empty(), "{run:?}");
+    }
+    // It offers what it can do, and says what it does not.
+    let help = scratch.run("verify --help").ok().stdout;
+    for (part, there) in [("- ele:", true), ("- vtk:", false), ("svg", false), ("Only the triangles are checked", true)]
+    {
+        assert_eq!(help.contains(part), there, "{part}: {help}");
     }
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let run = scratch.run(&format!("completions {shell}")).ok();
@@ -239,6 +251,31 @@ fn quiet_is_quiet_and_verbose_says_more() {
     assert!(plain.stderr.starts_with("quantised to 16 bits"), "{plain:?}");
     let verbose = scratch.run("triangulate p.csv -o m.ele -v").ok();
     assert!(verbose.stderr.contains("walk_visits"), "{verbose:?}");
+}
+
+#[test]
+fn one_is_told_in_the_singular() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n1,0\n0,1\n");
+    let run = scratch.run("triangulate p.csv -o m.ele").ok();
+    assert!(run.stderr.starts_with("3 points, 1 triangle, 3 points on the hull; "), "{run:?}");
+    scratch.write("p.csv", "7,7\n");
+    let run = scratch.run("triangulate p.csv -o m.ele").ok();
+    assert!(run.stderr.starts_with("1 point, 0 triangles, 1 point on the hull; "), "{run:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn file_names_have_no_power_over_the_terminal() {
+    let scratch = Scratch::new();
+    let name = "a\n\u{1b}[2Jb.csv";
+    scratch.write(name, "0,0\nx,1\n");
+    let run = |arguments: &[&str]| common::Run::of(scratch.command(arguments).output().expect("it runs"));
+    let shown = r"a\n\u{1b}[2Jb.csv";
+    run(&["triangulate", name, "-o", "m.ele"]).fails(3, &[shown, "row 2"]);
+    run(&["triangulate", name, "-o", name]).fails(2, &[shown, "both the input"]);
+    run(&["triangulate", "p.csv", "-o", "a\tb"]).fails(2, &[r"a\tb"]);
+    run(&["generate", "uniform", "-n", "3", "-o", "a\tb.obj"]).fails(2, &[r"a\tb.obj"]);
 }
 
 #[test]

@@ -71,10 +71,10 @@ fn what_no_core_holds_ends_with_seven() {
     let scratch = Scratch::new();
     scratch.run("generate parabola -n 16385 -o p.csv").ok();
     let all = "tiny 8, small 1024, full 8192, large 16384";
-    scratch.run("triangulate p.csv -o m.ele --backend sim").fails(7, &["16385", all, "--backend model"]);
+    scratch.run("triangulate p.csv -o m.ele --backend sim").fails(7, &["16385", all, "use --backend model"]);
     scratch.run("generate parabola -n 9 -o p.csv").ok();
     let run = scratch.run("triangulate p.csv -o m.ele --backend sim --config tiny");
-    run.fails(7, &["9 distinct points", "tiny", all]);
+    run.fails(7, &["9 distinct points", "tiny", all, "use --config small or --backend model"]);
     scratch.run("triangulate p.csv -o m.ele --backend sim --coord-bits 17").fails(7, &["16 bits", "17"]);
     assert_eq!(scratch.files(), ["p.csv"]);
 }

@@ -7,6 +7,7 @@ use crate::failure::{Exit, Failure};
 use crate::formats::{csv, extension, node, xyz, PointFormat};
 use crate::generate::{generate, GenerateError};
 use crate::output::{self, Output};
+use crate::source;
 
 /// Runs the subcommand.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
@@ -21,7 +22,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         Some(PointFormat::Xyz) => xyz::write_points,
         Some(PointFormat::Node) => node::write_points,
         _ => {
-            return Err(Failure::usage(format!("{}: points are written as .csv, .xyz or .node", path.display())));
+            return Err(Failure::usage(format!("{}: points are written as .csv, .xyz or .node", source::name(path))));
         }
     };
     let n = arguments.n as usize;

@@ -73,7 +73,7 @@ fn prepare_trace(arguments: &TriangulateArguments, mesh: &Output) -> Result<Opti
     if trace.is_same(mesh) {
         return Err(Failure::usage(format!(
             "{} is both the mesh and the waveform: choose another file for one",
-            path.display()
+            source::name(path)
         )));
     }
     Ok(Some(trace))
@@ -94,10 +94,9 @@ fn format_of(arguments: &TriangulateArguments) -> Result<MeshFormat, Failure> {
     let path: &Path = &arguments.output;
     let format = arguments.format.or_else(|| MeshFormat::of_extension(extension(path)));
     format.ok_or_else(|| {
-        Failure::usage(format!(
-            "{}: the extension names no format of meshes: add --format ele, obj, ply, vtk, geojson, json, csv or svg",
-            path.display()
-        ))
+        let name = if source::is_standard(path) { "standard output".to_owned() } else { source::name(path) };
+        let why = source::no_format(path);
+        Failure::usage(format!("{name}: {why}: add --format ele, obj, ply, vtk, geojson, json, csv or svg"))
     })
 }
 

@@ -4,7 +4,7 @@ use incircle::{Quantization, VerifySummary};
 use serde_json::{json, Value};
 
 use crate::arguments::VerifyArguments;
-use crate::failure::{Exit, Failure};
+use crate::failure::{counted, Exit, Failure};
 use crate::report::quantization_json;
 use crate::{grid, output, source};
 
@@ -18,7 +18,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
         incircle::verify(&laid.points, &triangles).map_err(|error| {
             Failure::new(
                 Exit::Rejected,
-                format!("{mesh_name} is not the canonical Delaunay triangulation of {points_name}: {error}"),
+                format!("the triangles of {mesh_name} are not the canonical Delaunay triangulation of {points_name}: {error}"),
             )
         })
     });
@@ -37,12 +37,12 @@ pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
         Ok(())
     } else {
         output::print(&format!(
-            "{mesh_name} is the canonical Delaunay triangulation of {points_name}: {} points, {} triangles, \
-             {} points on the hull, {} ties\n",
-            summary.points,
-            summary.triangles,
-            summary.hull.len(),
-            summary.ties
+            "the triangles of {mesh_name} are the canonical Delaunay triangulation of {points_name}: {}, {}, {} on the \
+             hull, {}\n",
+            counted(summary.points, "point"),
+            counted(summary.triangles, "triangle"),
+            counted(summary.hull.len(), "point"),
+            counted(summary.ties, "tie")
         ))
     }
 }

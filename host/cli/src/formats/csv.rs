@@ -9,7 +9,7 @@ use std::io::{self, Write};
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
 
-use crate::failure::Failure;
+use crate::failure::{counted, Failure};
 use crate::formats::MeshView;
 use crate::points::{Place, PointTable};
 use crate::text;
@@ -64,8 +64,8 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
         }
         if record.len() != 3 {
             return Err(Failure::input(format!(
-                "row {row} has {} columns: a triangle is a row of three point indices",
-                record.len()
+                "row {row} has {}: a triangle is a row of three point indices",
+                counted(record.len(), "column")
             )));
         }
         let mut triangle = [0; 3];
@@ -167,7 +167,7 @@ fn refuse_other_width(record: &ByteRecord, width: usize, row: usize) -> Result<(
         return Ok(());
     }
     Err(Failure::input(format!(
-        "row {row} has {} columns, the first row has {width}: all rows need the same",
-        record.len()
+        "row {row} has {}, the first row has {width}: all rows need the same",
+        counted(record.len(), "column")
     )))
 }

@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use crate::failure::{Exit, Failure};
+use crate::failure::{counted, Exit, Failure};
 use crate::formats::{triangle, MeshView};
 use crate::points::Place;
 use crate::text;
@@ -26,11 +26,8 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
         triangles.push([a, b, c]);
     }
     if triangles.len() as u64 != u64::from(promised) {
-        let found = triangles.len();
-        return Err(Failure::new(
-            Exit::Rejected,
-            format!("the first row promises {promised} triangles, the file holds {found}"),
-        ));
+        let (found, promised) = (triangles.len(), counted(promised as usize, "triangle"));
+        return Err(Failure::new(Exit::Rejected, format!("the first row promises {promised}, the file holds {found}")));
     }
     if first_id == 1 && triangles.iter().flatten().all(|&vertex| vertex > 0) {
         triangles.iter_mut().flatten().for_each(|vertex| *vertex -= 1);
@@ -43,7 +40,10 @@ fn read_row(content: &[u8], row: usize) -> Result<[u32; 4], Failure> {
     let mut words = text::words(content);
     for (index, value) in values.iter_mut().enumerate() {
         let Some(word) = words.next() else {
-            return Err(Failure::input(format!("row {row} has {index} values: a triangle is a row 'id a b c'")));
+            return Err(Failure::input(format!(
+                "row {row} has {}: a triangle is a row 'id a b c'",
+                counted(index, "value")
+            )));
         };
         let what = if index == 0 { "an id" } else { "a point index" };
         let place = Place::Cell { row, column: index + 1 };

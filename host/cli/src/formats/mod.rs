@@ -104,6 +104,11 @@ impl MeshFormat {
         })
     }
 
+    /// Whether a mesh can be read back from it.
+    pub fn is_readable(self) -> bool {
+        !matches!(self, Self::Vtk | Self::Geojson | Self::Svg)
+    }
+
     /// Writes the mesh.
     pub fn write(self, mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
         match self {

@@ -6,7 +6,7 @@
 
 use std::io::{self, Write};
 
-use crate::failure::Failure;
+use crate::failure::{counted, Failure};
 use crate::formats::triangle;
 use crate::points::{Place, PointTable};
 use crate::text;
@@ -38,7 +38,8 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     }
     let found = table.points.len();
     if found as u64 != u64::from(promised) {
-        return Err(Failure::input(format!("the first row promises {promised} points, the file holds {found}")));
+        let promised = counted(promised as usize, "point");
+        return Err(Failure::input(format!("the first row promises {promised}, the file holds {found}")));
     }
     Ok(table)
 }
@@ -63,7 +64,7 @@ fn read_point(content: &[u8], row: usize) -> Result<(u32, [f64; 2]), Failure> {
         count += 1;
     }
     if count < FIXED {
-        return Err(Failure::input(format!("row {row} has {count} values: a point is a row 'id x y'")));
+        return Err(Failure::input(format!("row {row} has {}: a point is a row 'id x y'", counted(count, "value"))));
     }
     let cell = |column| Place::Cell { row, column };
     let id = text::whole(values[0], "an id", cell(1))?;

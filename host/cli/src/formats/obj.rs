@@ -6,7 +6,7 @@
 
 use std::io::{self, Write};
 
-use crate::failure::{quoted, Failure};
+use crate::failure::{counted, quoted, Failure};
 use crate::formats::MeshView;
 use crate::points::{Place, PointTable};
 use crate::text;
@@ -85,7 +85,8 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
             count += 1;
         }
         if count != 3 {
-            return Err(Failure::input(format!("row {row}: the face has {count} corners, not 3")));
+            let corners = counted(count, "corner");
+            return Err(Failure::input(format!("row {row}: the face has {corners}, not 3")));
         }
         triangles.push(triangle);
     }

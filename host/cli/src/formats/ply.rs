@@ -10,7 +10,7 @@ use incircle::Shown;
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 
-use crate::failure::{one_line, quoted, Failure};
+use crate::failure::{counted, one_line, quoted, Failure};
 use crate::formats::MeshView;
 use crate::points::PointTable;
 use crate::text;
@@ -40,8 +40,8 @@ pub fn read_mesh(bytes: &[u8]) -> Result<Vec<[u32; 3]>, Failure> {
     read_element(bytes, "face", |item, index| {
         let number = index + 1;
         let Ok(corners) = <[f64; 3]>::try_from(item.corners.as_slice()) else {
-            let count = item.corners.len();
-            return Err(Failure::input(format!("face {number} has {count} corners, not 3")));
+            let corners = counted(item.corners.len(), "corner");
+            return Err(Failure::input(format!("face {number} has {corners}, not 3")));
         };
         let mut triangle = [0; 3];
         for (vertex, corner) in triangle.iter_mut().zip(corners) {
@@ -147,9 +147,9 @@ fn refuse_remainder(header: &Header, rest: &[u8]) -> Result<(), Failure> {
         Encoding::BinaryBigEndian | Encoding::BinaryLittleEndian => (rest.len(), "byte"),
     };
     if left > 0 {
-        let plural = if left == 1 { "" } else { "s" };
+        let left = counted(left, unit);
         return Err(Failure::input(format!(
-            "the file holds more than its header promises: {left} {unit}{plural} after the last element"
+            "the file holds more than its header promises: {left} after the last element"
         )));
     }
     Ok(())

@@ -7,6 +7,7 @@
 
 use std::io::{self, Write};
 
+use crate::failure::counted;
 use crate::formats::MeshView;
 
 /// Canvas units along the longer side of the points' bounding box.
@@ -38,8 +39,8 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{PIXELS}\" height=\"{shown:.0}\">"
     )?;
-    let (points, triangles) = (mesh.points.len(), mesh.triangles.len());
-    writeln!(out, "<title>Delaunay triangulation: {points} points, {triangles} triangles</title>")?;
+    let (points, triangles) = (counted(mesh.points.len(), "point"), counted(mesh.triangles.len(), "triangle"));
+    writeln!(out, "<title>Delaunay triangulation: {points}, {triangles}</title>")?;
     writeln!(out, "<rect width=\"100%\" height=\"100%\" fill=\"#fdfcf9\"/>")?;
     write_triangles(mesh, &canvas, out)?;
     write_hull(mesh, &canvas, out)?;

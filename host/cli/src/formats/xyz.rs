@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use crate::failure::{quoted, Failure};
+use crate::failure::{counted, quoted, Failure};
 use crate::points::{Place, PointTable};
 use crate::text;
 
@@ -32,7 +32,8 @@ pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
         }
         if count != width {
             return Err(Failure::input(format!(
-                "row {row} has {count} values, the first row has {width}: all rows need the same"
+                "row {row} has {}, the first row has {width}: all rows need the same",
+                counted(count, "value")
             )));
         }
         let mut point = [0.0; 2];
