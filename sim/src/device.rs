@@ -106,7 +106,7 @@ impl SimDevice {
         if self.left.is_none() {
             self.offer(None);
         }
-        Ok(())
+        self.keep_waveform()
     }
 
     /// Fills `words` with the next words of the core, within `max_clocks` clocks.
@@ -126,7 +126,7 @@ impl SimDevice {
         }
         // There are enough, so every place is filled.
         words.fill_with(|| self.answers.pop_front().unwrap_or(0));
-        Ok(())
+        self.keep_waveform()
     }
 
     /// Clocks since the device was made, reset included.
@@ -138,9 +138,14 @@ impl SimDevice {
     /// simulation manyfold.
     ///
     /// # Errors
-    /// [`SimError::Trace`]: the file cannot be made.
+    /// [`SimError::Trace`]: the file cannot be made. When the disk fills later, `send` and `receive` say so.
     pub fn trace_to(&mut self, path: impl AsRef<Path>) -> Result<(), SimError> {
         Ok(self.model.trace_to(path)?)
+    }
+
+    /// Holds that the waveform, if one is written, is complete so far.
+    fn keep_waveform(&mut self) -> Result<(), SimError> {
+        Ok(self.model.trace_flush()?)
     }
 
     /// Offers a word to the core, or none.

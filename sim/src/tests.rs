@@ -136,6 +136,14 @@ fn a_waveform_is_written() {
 }
 
 #[test]
+fn a_full_disk_ends_a_waveform_with_an_error() {
+    let mut device = echo();
+    device.trace_to("/dev/full").unwrap();
+    let error = device.send(&[1, 2, 3], 100).unwrap_err();
+    assert!(matches!(error, SimError::Trace(_)) && error.to_string().contains("make room on the disk"), "{error}");
+}
+
+#[test]
 fn every_named_configuration_says_who_it_is() {
     for config in NAMED {
         let mut device = SimDevice::new(config).unwrap();

@@ -80,7 +80,7 @@ pub struct ModelDescription {
     pub(crate) eval: unsafe extern "C" fn(*mut c_void),
     pub(crate) trace_open: Option<unsafe extern "C" fn(*mut c_void, *const c_char) -> i32>,
     pub(crate) trace_dump: Option<unsafe extern "C" fn(*mut c_void, u64)>,
-    pub(crate) trace_flush: Option<unsafe extern "C" fn(*mut c_void)>,
+    pub(crate) trace_flush: Option<unsafe extern "C" fn(*mut c_void) -> i32>,
     pub(crate) trace_close: Option<unsafe extern "C" fn(*mut c_void)>,
 }
 

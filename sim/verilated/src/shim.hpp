@@ -1,6 +1,7 @@
 // What stands between one Verilated class and Rust: a plain C table of functions and ports.
 // The layout of Port and Description is repeated in src/description.rs.
 #pragma once
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include "verilated.h"
@@ -27,9 +28,25 @@ struct Description {
     // Null in a model without tracing.
     int32_t (*trace_open)(void*, const char* path);
     void (*trace_dump)(void*, uint64_t time);
-    void (*trace_flush)(void*);
+    // 0 if something since the trace began could not be written.
+    int32_t (*trace_flush)(void*);
     void (*trace_close)(void*);
 };
+
+#if VM_TRACE
+// A file that remembers a failed write and goes on. The runtime would end the program, from within a lock that its own exit
+// handlers wait for: on a full disk it hangs.
+class File final : public VerilatedVcdFile {
+public:
+    bool lost = false;
+    ssize_t write(const char* data, ssize_t length) override {
+        const ssize_t written = VerilatedVcdFile::write(data, length);
+        if (written >= 0 || errno == EAGAIN || errno == EINTR) return written;
+        lost = true;
+        return length;
+    }
+};
+#endif
 
 // One instance: its own context, so instances share no time, seed or thread.
 template <class Verilated_, void (*addresses)(Verilated_&, void**)>
@@ -37,6 +54,7 @@ struct Instance {
     VerilatedContext context;
     Verilated_* model = nullptr;
 #if VM_TRACE
+    File* file = nullptr;
     VerilatedVcdC* trace = nullptr;
 #endif
 
@@ -77,21 +95,28 @@ struct Instance {
         if (!trace) return;
         trace->close();
         delete trace;
+        delete file;
         trace = nullptr;
+        file = nullptr;
     }
 
     static int32_t trace_open(void* self, const char* path) noexcept {
         Instance& instance = enter(self);
         // A trace object refuses to go back to a time it has written, so each file gets its own.
         instance.end_trace();
-        instance.trace = new VerilatedVcdC;
+        instance.file = new File;
+        instance.trace = new VerilatedVcdC(instance.file);
         instance.model->trace(instance.trace, 99);
         instance.trace->open(path);
         return instance.trace->isOpen() ? 1 : 0;
     }
 
     static void trace_dump(void* self, uint64_t time) noexcept { enter(self).trace->dump(time); }
-    static void trace_flush(void* self) noexcept { enter(self).trace->flush(); }
+    static int32_t trace_flush(void* self) noexcept {
+        Instance& instance = enter(self);
+        instance.trace->flush();
+        return instance.file->lost ? 0 : 1;
+    }
     static void trace_close(void* self) noexcept { enter(self).end_trace(); }
 #endif
 

@@ -21,6 +21,9 @@ pub enum TraceError {
         /// The file.
         path: PathBuf,
     },
+    /// Something could not be written.
+    #[error("the waveform could not be written to its end: make room on the disk, or run a smaller job")]
+    Lost,
 }
 
 impl Model {
@@ -48,11 +51,17 @@ impl Model {
     }
 
     /// Puts what was traced so far into the file. Dropping the model does the same.
-    pub fn trace_flush(&mut self) {
+    ///
+    /// # Errors
+    /// Something since the trace began could not be written; the file is not to be trusted.
+    pub fn trace_flush(&mut self) -> Result<(), TraceError> {
         if let (true, Some(flush)) = (self.tracing, self.description().trace_flush) {
             // SAFETY: a live instance whose trace is open.
-            unsafe { flush(self.handle()) }
+            if unsafe { flush(self.handle()) } == 0 {
+                return Err(TraceError::Lost);
+            }
         }
+        Ok(())
     }
 
     /// Ends the waveform.

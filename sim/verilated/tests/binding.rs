@@ -122,7 +122,7 @@ fn writes_a_waveform() {
     set(&mut model, "points$valid", 1);
     set(&mut model, "step", 0xa5);
     model.clock();
-    model.trace_flush();
+    model.trace_flush().unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     for part in ["points$valid", "#10\n", "#11\n", "#15\n", "#20\n", "b10100101 "] {
         assert!(text.contains(part), "no {part:?} in\n{text}");
@@ -147,6 +147,17 @@ fn says_why_no_waveform_is_written() {
     assert_eq!(error, TraceError::File { path: missing });
     assert!(!model.is_tracing());
     model.clock();
+}
+
+#[test]
+fn says_when_the_disk_is_full() {
+    let mut model = Model::new(models::counter());
+    model.trace_to("/dev/full").unwrap();
+    model.clock();
+    assert_eq!(model.trace_flush(), Err(TraceError::Lost));
+    model.trace_close();
+    model.clock();
+    assert_eq!(model.trace_flush(), Ok(()));
 }
 
 #[test]
