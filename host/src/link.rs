@@ -163,6 +163,7 @@ const fn opcode_name(opcode: Opcode) -> &'static str {
         Opcode::Insert => "the insertion",
         Opcode::Read => "the read-out",
         Opcode::Counters => "the reading of counters",
+        Opcode::Latencies => "the reading of latencies",
     }
 }
 
@@ -174,5 +175,7 @@ const fn status_meaning(status: Status) -> &'static str {
         Status::BadRange => "the range passes the last record",
         Status::Collinear => "the first three points lie on one line",
         Status::Full => "the memory is full",
+        Status::BadContexts => "it has fewer contexts",
+        Status::Stuck => "no insertion ends any more: reset it",
     }
 }

@@ -23,7 +23,61 @@ const ALPHA_SHIFT: u32 = 2;
 /// coordinates: the same set always gives the same order, however the input was arranged. Equal points stay together, in
 /// input order. O(n), about 20 ns per point; twice that where a coordinate has more than 16 bits.
 pub fn brio_hilbert(points: &[Point]) -> Vec<u32> {
-    rounds(&along_curve(points))
+    rounds(&along_curve(points)).order
+}
+
+/// The points in rounds, and how a device with several contexts gets them.
+#[derive(Debug)]
+pub(crate) struct Rounds {
+    /// First round first.
+    pub(crate) order: Vec<u32>,
+    /// Where each round begins; the first begins at 0.
+    pub(crate) starts: Vec<usize>,
+}
+
+impl Rounds {
+    /// One round of points in this order.
+    pub(crate) fn single(order: Vec<u32>) -> Self {
+        Self { order, starts: vec![0] }
+    }
+
+    /// Deals each round to the contexts of a device, so that every context runs along a stretch of the curve of its own and they
+    /// work far apart.
+    ///
+    /// Context 0 takes the points before [`FIRST_ROUND`], and place `j` from there on belongs to context
+    /// `(j - FIRST_ROUND) mod contexts`. The places of a round that belong to context `c` get the `c`-th stretch of the round.
+    pub(crate) fn deal(self, contexts: u32) -> Vec<u32> {
+        let Self { mut order, starts } = self;
+        let ends = starts.iter().skip(1).copied().chain([order.len()]);
+        for (start, end) in starts.iter().copied().zip(ends) {
+            let alone = (incircle_protocol::FIRST_ROUND as usize).clamp(start, end);
+            deal_round(&mut order[alone..end], alone, contexts as usize);
+        }
+        order
+    }
+}
+
+/// Deals a round that begins at place `first`.
+fn deal_round(round: &mut [u32], first: usize, contexts: usize) {
+    if contexts < 2 || round.is_empty() {
+        return;
+    }
+    let along_curve = round.to_vec();
+    let mut next = 0;
+    for context in 0..contexts {
+        let place = (first - incircle_protocol::FIRST_ROUND as usize) % contexts;
+        let offset = (context + contexts - place) % contexts;
+        for slot in round.iter_mut().skip(offset).step_by(contexts) {
+            *slot = along_curve[next];
+            next += 1;
+        }
+    }
+}
+
+/// The order in which a device with this many contexts gets the points: [`brio_hilbert`], each round cut into as many stretches,
+/// dealt out in turn.
+pub fn brio_hilbert_dealt(points: &[Point], contexts: u32) -> Vec<u32> {
+    rounds(&along_curve(points)).deal(contexts)
 }
 
 /// One pass along the Hilbert curve: a permutation of `0..points.len()`. Equal points stay together, in input order.
@@ -72,15 +126,15 @@ pub(crate) fn along_curve(points: &[Point]) -> Curve {
 }
 
 /// Deals points that are sorted along the curve into rounds.
-pub(crate) fn rounds(curve: &Curve) -> Vec<u32> {
+pub(crate) fn rounds(curve: &Curve) -> Rounds {
     match curve {
-        Curve::Narrow(entries) => deal(entries),
-        Curve::Wide(entries) => deal(entries),
+        Curve::Narrow(entries) => sort_into_rounds(entries),
+        Curve::Wide(entries) => sort_into_rounds(entries),
     }
 }
 
 /// Counting sort by round, first round first; the curve's order stays inside a round.
-fn deal<E: Entry>(entries: &[E]) -> Vec<u32> {
+fn sort_into_rounds<E: Entry>(entries: &[E]) -> Rounds {
     let last = last_level(entries.len());
     let mut starts = [0usize; LEVELS];
     for entry in entries {
@@ -96,7 +150,10 @@ fn deal<E: Entry>(entries: &[E]) -> Vec<u32> {
         order[*slot] = entry.value();
         *slot += 1;
     }
-    order
+    // By now each slot is the end of its level, which is where the round after it begins.
+    let mut rounds = vec![0];
+    rounds.extend((1..=last).rev().map(|level| starts[level]));
+    Rounds { order, starts: rounds }
 }
 
 /// Levels there can be: the trailing zeros of a 64-bit hash in steps of `ALPHA_SHIFT`, and all of them zero.

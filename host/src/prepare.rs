@@ -28,7 +28,7 @@ pub(crate) fn prepare(points: &[Point], order: Order) -> Prepared {
     };
     duplicates.sort_unstable();
     let mut order = match order {
-        Order::BrioHilbert => rounds(&curve),
+        Order::BrioHilbert => rounds(&curve).order,
         Order::Hilbert => curve.into_indices(),
         Order::Input => {
             let mut indices = curve.into_indices();

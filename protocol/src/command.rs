@@ -1,12 +1,13 @@
 //! Commands and the headers of their answers.
 
-/// What the host can ask. The opcode stands in the top byte of a command word; the rest is zero.
+/// What the host can ask. The opcode stands in the top byte of a command word; the rest is zero but where said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Opcode {
     /// Who are you? No arguments; answered with an [`Identity`](crate::Identity).
     Hello = 1,
-    /// Forget all points, triangles and counters. No arguments, no payload. O(1).
+    /// Forget all points, triangles and counters. The low byte of the command word is the number of contexts that work from now on,
+    /// 0 for all; see [`clear_word`]. No arguments, no payload. O(1).
     Clear = 2,
     /// Insert points: a word with their number, then the points. Answered, when the last point is in, with
     /// an [`InsertReport`](crate::InsertReport).
@@ -16,6 +17,8 @@ pub enum Opcode {
     Read = 4,
     /// Read the counters. No arguments; answered with [`COUNTER_WORDS`](crate::COUNTER_WORDS) words.
     Counters = 5,
+    /// Read the histogram of insertion latencies. No arguments; answered with [`LATENCY_BUCKETS`](crate::LATENCY_BUCKETS) words.
+    Latencies = 6,
 }
 
 impl Opcode {
@@ -27,6 +30,7 @@ impl Opcode {
             3 => Self::Insert,
             4 => Self::Read,
             5 => Self::Counters,
+            6 => Self::Latencies,
             _ => return None,
         })
     }
@@ -35,6 +39,18 @@ impl Opcode {
 /// The word that starts a command.
 pub const fn command_word(opcode: Opcode) -> u32 {
     (opcode as u32) << 24
+}
+
+/// The word of a [`Clear`](Opcode::Clear) for this many contexts; 0 is all the device has.
+///
+/// At most 255 contexts can be named; more are named as 255, which every device refuses.
+pub const fn clear_word(contexts: u32) -> u32 {
+    command_word(Opcode::Clear) | if contexts > 255 { 255 } else { contexts }
+}
+
+/// The contexts that a `Clear` names.
+pub const fn command_contexts(word: u32) -> u32 {
+    word & 0xff
 }
 
 /// The opcode byte of a command word.

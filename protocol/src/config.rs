@@ -14,13 +14,13 @@ pub struct Config {
 }
 
 /// For tests and drawings: a wave fits a page, and boundary lists overflow often.
-pub const TINY: Config = Config { name: "tiny", points: 8, ring: 6, contexts: 1 };
+pub const TINY: Config = Config { name: "tiny", points: 8, ring: 6, contexts: 2 };
 /// For a small board.
-pub const SMALL: Config = Config { name: "small", points: 1024, ring: 32, contexts: 1 };
+pub const SMALL: Config = Config { name: "small", points: 1024, ring: 32, contexts: 4 };
 /// For an ECP5-85F.
-pub const FULL: Config = Config { name: "full", points: 8192, ring: 32, contexts: 1 };
+pub const FULL: Config = Config { name: "full", points: 8192, ring: 32, contexts: 16 };
 /// The largest that ids of 15 bits allow; for simulation.
-pub const LARGE: Config = Config { name: "large", points: 16384, ring: 32, contexts: 1 };
+pub const LARGE: Config = Config { name: "large", points: 16384, ring: 32, contexts: 24 };
 /// All named configurations, smallest first.
 pub const NAMED: [Config; 4] = [TINY, SMALL, FULL, LARGE];
 
@@ -35,6 +35,22 @@ pub const MAX_RING: u32 = 64;
 /// Fewest boundary edges: the three of the located triangle.
 pub const MIN_RING: u32 = 3;
 
+/// Most contexts: more of them stand in each other's way on any mesh that fits.
+pub const MAX_CONTEXTS: u32 = 24;
+/// Fewest contexts.
+pub const MIN_CONTEXTS: u32 = 1;
+/// Points that context 0 inserts alone, the first three included: a smaller mesh has no room for many insertions at once. Point
+/// `j` from here on belongs to context `(j - FIRST_ROUND) mod contexts`.
+pub const FIRST_ROUND: u32 = 16;
+
+/// Clocks without a finished point after which a core of this capacity calls itself stuck.
+///
+/// The longest insertion is one done alone that flips every triangle: three visits of under 24 clocks for each of `points` flips,
+/// and as much again for walks and whatever else was in flight.
+pub const fn patience(points: u32) -> u32 {
+    160 * points + 65_536
+}
+
 /// A parameter that no core can be built with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConfigError {
@@ -42,7 +58,7 @@ pub enum ConfigError {
     Points(u32),
     /// Outside `MIN_RING..=MAX_RING`.
     Ring(u32),
-    /// Not one.
+    /// Outside `MIN_CONTEXTS..=MAX_CONTEXTS`.
     Contexts(u32),
 }
 
@@ -56,7 +72,9 @@ impl core::fmt::Display for ConfigError {
             Self::Ring(given) => {
                 write!(f, "a boundary list holds {MIN_RING} to {MAX_RING} edges, not {given}: choose a number between them")
             }
-            Self::Contexts(given) => write!(f, "this core is built with 1 context, not {given}"),
+            Self::Contexts(given) => {
+                write!(f, "a core has {MIN_CONTEXTS} to {MAX_CONTEXTS} contexts, not {given}: choose a number between them")
+            }
         }
     }
 }
@@ -77,7 +95,7 @@ impl Config {
         if self.ring < MIN_RING || self.ring > MAX_RING {
             return Err(ConfigError::Ring(self.ring));
         }
-        if self.contexts != 1 {
+        if self.contexts < MIN_CONTEXTS || self.contexts > MAX_CONTEXTS {
             return Err(ConfigError::Contexts(self.contexts));
         }
         Ok(self)

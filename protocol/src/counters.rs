@@ -29,7 +29,54 @@ pub enum Counter {
     Overflows = 12,
     /// Flips of insertions done alone.
     Flips = 13,
+    /// Visits that lock the located triangle and look at it again.
+    RootVisits = 14,
+    /// Visits made once more: a record being written, a lock waited for, the own commit not finished.
+    Revisits = 15,
+    /// Attempts given up because another context held a lock.
+    Aborts = 16,
+    /// Located triangles that no longer held the point when they were locked.
+    RootRetries = 17,
+    /// Times a context took the waiting token.
+    WaitingTokens = 18,
+    /// Clocks in which a visit was issued: the read port of the triangle memory.
+    IssueCycles = 19,
+    /// Clocks in which a record or a link was written: the write port.
+    WriteCycles = 20,
+    /// Clocks in which a commit was at work.
+    CommitCycles = 21,
+    /// Clocks in which a lock was released.
+    ReleaseCycles = 22,
+    /// Fewest and most clocks from a point taken by its context to its last record written. Points inserted alone and the first
+    /// three are left out; 0 if there is no other.
+    LatencyMin = 23,
+    /// See `LatencyMin`.
+    LatencyMax = 24,
 }
 
 /// Words in the answer to `Counters`.
-pub const COUNTER_WORDS: usize = 14;
+pub const COUNTER_WORDS: usize = 25;
+
+/// Bits of a latency: it counts modulo 2^22, more than [`patience`](crate::patience) allows.
+pub const LATENCY_BITS: u32 = 22;
+/// Buckets of the histogram of latencies.
+pub const LATENCY_BUCKETS: usize = 128;
+
+/// The bucket of a latency in clocks: eight to an octave from 16 clocks on, one of all below, one of all from 2^20 - 2^17 on.
+pub const fn latency_bucket(clocks: u32) -> usize {
+    if clocks < 16 {
+        return 0;
+    }
+    let octave = u32::BITS - 1 - clocks.leading_zeros();
+    let bucket = (octave - 4) * 8 + (clocks >> (octave - 3) & 7);
+    if bucket as usize >= LATENCY_BUCKETS {
+        LATENCY_BUCKETS - 1
+    } else {
+        bucket as usize
+    }
+}
+
+/// The fewest clocks of a bucket.
+pub const fn latency_of_bucket(bucket: usize) -> u32 {
+    (8 + (bucket as u32 & 7)) << (bucket as u32 / 8 + 1)
+}

@@ -13,18 +13,21 @@ mod counters;
 mod layout;
 mod status;
 
-pub use command::{answer_header, answer_opcode, answer_status, command_opcode, command_word, Opcode};
-pub use config::{
-    Config, ConfigError, FULL, LARGE, MAX_MODEL_POINTS, MAX_POINTS, MAX_RING, MIN_POINTS, MIN_RING, NAMED, SMALL, TINY,
+pub use command::{
+    answer_header, answer_opcode, answer_status, clear_word, command_contexts, command_opcode, command_word, Opcode,
 };
-pub use counters::{Counter, COUNTER_WORDS};
+pub use config::{
+    patience, Config, ConfigError, FIRST_ROUND, FULL, LARGE, MAX_CONTEXTS, MAX_MODEL_POINTS, MAX_POINTS, MAX_RING,
+    MIN_CONTEXTS, MIN_POINTS, MIN_RING, NAMED, SMALL, TINY,
+};
+pub use counters::{latency_bucket, latency_of_bucket, Counter, COUNTER_WORDS, LATENCY_BITS, LATENCY_BUCKETS};
 pub use layout::{Identity, InsertReport, Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS};
 pub use status::Status;
 
 /// First word of the identity: the letters `inCi`.
 pub const MAGIC: u32 = 0x696e_4369;
 /// Version of the protocol, `major << 16 | minor`. A host refuses a device of another major version.
-pub const PROTOCOL_VERSION: u32 = 1 << 16;
+pub const PROTOCOL_VERSION: u32 = 1 << 16 | 1;
 /// Bits of one coordinate in the standard core.
 pub const CORE_COORD_BITS: u32 = 16;
 /// Largest coordinate width that any implementation (the software model) takes.
@@ -55,4 +58,4 @@ pub const fn infinite_vertex(points: u32) -> u32 {
 }
 
 /// Version of the core and of the model that predicts it, `major << 16 | minor << 8 | patch`.
-pub const CORE_VERSION: u32 = 1 << 8;
+pub const CORE_VERSION: u32 = 2 << 8;

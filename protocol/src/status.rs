@@ -15,6 +15,10 @@ pub enum Status {
     Collinear = 3,
     /// The memory is full: the points past the capacity were refused, all others are in and the mesh is valid.
     Full = 4,
+    /// A [`Clear`](crate::Opcode::Clear) asked for more contexts than the core has; nothing was cleared.
+    BadContexts = 5,
+    /// No point was finished for longer than any insertion takes: a fault in the device. It must be reset.
+    Stuck = 6,
 }
 
 impl Status {
@@ -26,6 +30,8 @@ impl Status {
             2 => Self::BadRange,
             3 => Self::Collinear,
             4 => Self::Full,
+            5 => Self::BadContexts,
+            6 => Self::Stuck,
             _ => return None,
         })
     }

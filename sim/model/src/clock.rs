@@ -6,31 +6,40 @@
 //! there (memories, predicates) is computed at the clock its record is read and handed over when the hardware is done.
 //! Nothing is shared with the hardware but the protocol.
 
-mod cavity;
+mod attempts;
 mod command_port;
 mod commit;
-mod context;
+mod contexts;
 mod counters;
+mod defect;
 mod memory;
 mod pipeline;
 mod release;
 mod responder;
+mod ring;
+mod seeder;
 mod solo;
+mod starter;
+mod watchdog;
 mod wires;
 
-use cavity::Cavity;
+use attempts::Tables;
 use command_port::CommandPort;
 use commit::Commit;
-use context::Context;
-use counters::Counters;
+use contexts::Contexts;
+use counters::{Counters, Latencies};
 use incircle_protocol::{Config, ConfigError};
 use memory::Memory;
-use pipeline::Pipeline;
+use pipeline::{Bundle, Pipeline};
 use release::Release;
 use responder::Responder;
+use ring::RingReader;
+use seeder::Seeder;
 use solo::Solo;
-use wires::Wires;
+use starter::Starter;
+use watchdog::Watchdog;
 
+pub use defect::Defect;
 pub use memory::Write;
 
 /// What drives the core before a clock edge.
@@ -59,18 +68,30 @@ pub struct Outputs {
     pub write: Write,
 }
 
-/// All registers of the core but those of the visit pipeline.
+/// The registers of the core, but those of the visit pipeline, the ring reader and the lock release.
 #[derive(Clone, Copy, Debug, Default)]
 struct Registers {
     command: CommandPort,
     responder: Responder,
-    context: Context,
-    cavity: Cavity,
+    contexts: Contexts,
+    starter: Starter,
+    seeder: Seeder,
     commit: Commit,
     solo: Solo,
-    release: Release,
+    watchdog: Watchdog,
     counters: Counters,
+    /// The bundle that enters the queue in this clock.
+    push: Option<Bundle>,
     write: Write,
+}
+
+impl Registers {
+    fn after_reset(config: Config) -> Self {
+        let mut registers = Self::default();
+        registers.command.contexts = config.contexts;
+        registers.contexts.reset(config.contexts);
+        registers
+    }
 }
 
 /// The core at a clock.
@@ -79,7 +100,12 @@ pub struct ClockModel {
     config: Config,
     registers: Registers,
     pipeline: Pipeline,
+    ring: RingReader,
+    release: Release,
+    tables: Tables,
     memory: Memory,
+    latencies: Latencies,
+    defect: Option<Defect>,
 }
 
 impl ClockModel {
@@ -89,20 +115,41 @@ impl ClockModel {
     /// A parameter that no core can be built with.
     pub fn new(config: Config) -> Result<Self, ConfigError> {
         let config = config.check()?;
-        let mut registers = Registers::default();
-        registers.release.reset();
-        Ok(Self { config, registers, pipeline: Pipeline::default(), memory: Memory::new(config) })
+        let mut release = Release::default();
+        release.reset();
+        Ok(Self {
+            config,
+            registers: Registers::after_reset(config),
+            pipeline: Pipeline::default(),
+            ring: RingReader::default(),
+            release,
+            tables: Tables::new(config.contexts),
+            memory: Memory::new(config),
+            latencies: Latencies::new(),
+            defect: None,
+        })
+    }
+
+    /// The same core without one of its rules, to show what that leads to.
+    pub fn with_defect(mut self, defect: Defect) -> Self {
+        self.defect = Some(defect);
+        self
     }
 
     /// The outputs as they stand.
     pub fn outputs(&self) -> Outputs {
         let now = &self.registers;
         Outputs {
-            command_ready: now.command.is_ready(now),
+            command_ready: now.command.is_ready(now, self.sweeps()),
             response_valid: now.responder.valid,
             response_data: now.responder.data,
             write: now.write,
         }
+    }
+
+    /// Memories are being cleared.
+    fn sweeps(&self) -> bool {
+        self.release.sweeps() || self.latencies.sweeps()
     }
 
     /// The record with this id as it stands in the memory, as words of a `Read` answer.
@@ -114,12 +161,15 @@ impl ClockModel {
     pub fn describe(&self) -> String {
         let now = &self.registers;
         format!(
-            "phase {:?}, point {} at {:?}, {} tokens out, ring {}, commit {:?}, solo {:?}, command {:?}",
-            now.context.phase,
-            now.context.id,
-            now.context.position,
-            now.cavity.outstanding,
-            now.cavity.count,
+            "asleep {:x}, keeping {:x}, busy {:x}, waiter {:?}, alone {:?}, {} of {} points finished, commit {:?}, \
+             solo {:?}, command {:?}",
+            now.contexts.asleep,
+            now.contexts.keeps,
+            now.contexts.busy,
+            now.contexts.waiter,
+            now.contexts.solo,
+            now.contexts.finished,
+            now.command.arrived,
             now.commit.state,
             now.solo.state,
             now.command.state,
@@ -132,24 +182,33 @@ impl ClockModel {
     /// If a memory is read and written in a way that is undefined in silicon, which would be a fault in the design.
     pub fn clock(&mut self, inputs: Inputs) {
         if inputs.reset {
-            self.registers = Registers::default();
-            self.registers.release.reset();
+            self.registers = Registers::after_reset(self.config);
+            self.release.reset();
             self.pipeline.reset();
+            self.ring.reset();
+            self.latencies.reset();
             return;
         }
         let was = self.registers;
-        let wires = Wires::of(&was, &self.pipeline, &self.memory, inputs, self.config);
+        let wires = self.wires(inputs);
         let now = &mut self.registers;
         now.command.clock(&was, &wires, self.config);
-        now.responder.clock(&was, &wires, self.config);
-        now.context.clock(&was, &wires);
-        now.cavity.clock(&was, &wires, &mut self.memory, self.config);
-        now.commit.clock(&was, &self.memory);
-        now.solo.clock(&was, &wires);
-        now.counters.clock(&was, &wires);
-        self.pipeline.clock(&was, &wires, &mut self.memory);
+        now.responder.clock(&was, &wires, &self.latencies, self.config);
+        now.contexts.clock(&was, &wires, self.config.contexts, self.defect);
+        now.seeder.clock(&was, &wires);
+        now.solo.clock(&was, &wires, &self.tables, &self.memory);
+        now.watchdog.clock(&was, &wires, self.config);
+        now.counters.clock(&was, &wires, &self.pipeline);
+        now.push =
+            wires.outcome.and_then(|outcome| outcome.push).or(wires.solo_push).or(wires.start.map(|start| start.push));
+        self.latencies.clock(&was, &wires);
+        self.pipeline.clock(&was, &wires, &mut self.memory, self.defect);
+        now.starter.clock(&was, &wires, &mut self.memory);
+        self.ring.clock(wires.head_is_taken, wires.outcome.as_ref(), &self.memory);
+        now.commit.clock(&was, wires.head, &mut self.memory, wires.solo_inserts, wires.seeds);
+        self.tables.clock(&wires, &mut self.memory);
         self.memory.clock(&was, &wires);
-        now.release.clock(&was, &wires, &mut self.memory, self.config);
+        self.release.clock(&wires, &mut self.memory, self.config, self.defect);
         now.write.clock(&was);
     }
 }

@@ -192,6 +192,8 @@ impl CommandModel {
                 let words = self.counter_words();
                 self.answer(opcode, Status::Ok, &words);
             }
+            // The model by commands takes no time.
+            Some(Opcode::Latencies) => self.answer(opcode, Status::Ok, &[0; protocol::LATENCY_BUCKETS]),
             None => self.answer(opcode, Status::UnknownOpcode, &[]),
         }
     }

@@ -12,6 +12,6 @@ mod command;
 mod mesh;
 pub mod predicate;
 
-pub use clock::{ClockModel, Inputs, Outputs, Write};
+pub use clock::{ClockModel, Defect, Inputs, Outputs, Write};
 pub use command::{CommandModel, ModelError};
 pub use mesh::{Counts, Insertion, Mesh, Record};

@@ -1,9 +1,8 @@
 //! Takes command words: opcodes, arguments, and points one at a time.
 
-use super::wires::{point, Wires};
+use super::wires::Wires;
 use super::Registers;
-use crate::predicate::Point;
-use incircle_protocol::{command_opcode, Config, Opcode};
+use incircle_protocol::{command_contexts, command_opcode, Config, Opcode};
 
 /// What the next word means, or what is awaited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,9 +26,13 @@ pub(super) struct CommandPort {
     pub count: u32,
     pub arrived: u32,
     pub refused: u32,
-    pub point_valid: bool,
-    pub point_id: u32,
-    pub point: Point,
+    /// A point has come at the edge before, and is being stored.
+    pub came: bool,
+    pub came_id: u32,
+    /// Contexts that work.
+    pub contexts: u32,
+    /// A `Clear` asks for more contexts than there are.
+    pub is_refused: bool,
     /// The mesh is forgotten at the next edge.
     pub clears: bool,
     /// Between a job's first point and its last lock released.
@@ -39,33 +42,31 @@ pub(super) struct CommandPort {
 }
 
 impl CommandPort {
-    pub(super) fn is_ready(&self, was: &Registers) -> bool {
+    pub(super) fn is_ready(&self, was: &Registers, sweeps: bool) -> bool {
         // The fourth point waits until the first three are known to span a triangle.
-        let start_is_open = self.arrived == 3 && !was.context.seeded && !was.context.collinear;
+        let start_is_open = self.arrived == 3 && !was.seeder.seeded && !was.seeder.collinear;
         match self.state {
-            State::Command => !was.release.sweeps,
+            State::Command => !sweeps,
             State::First | State::Count => true,
-            State::Points => self.count != 0 && !self.point_valid && !start_is_open,
+            State::Points => self.count != 0 && !self.came && (!start_is_open || was.watchdog.stuck),
             State::Settle | State::Answer => false,
         }
     }
 
     /// Points are taken in, not refused.
     pub(super) fn stores_points(&self, was: &Registers, config: Config) -> bool {
-        !was.context.collinear && self.arrived < config.points
+        !was.seeder.collinear && !was.watchdog.stuck && self.arrived < config.points
     }
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, config: Config) {
         self.clears = false;
-        if wires.takes_point {
-            self.point_valid = false;
-        }
+        self.came = false;
         let answer_taken = !was.responder.valid || wires.response_ready;
         if self.state != State::Answer && was.responder.is_idle() && answer_taken {
             self.reading = false;
         }
         match (self.state, wires.word) {
-            (State::Command, Some(word)) => self.take_command(command_opcode(word)),
+            (State::Command, Some(word)) => self.take_command(word, config),
             (State::First, Some(word)) => {
                 self.first = word;
                 self.state = State::Count;
@@ -76,9 +77,9 @@ impl CommandPort {
                 self.reading |= !inserts;
                 self.state = if inserts { State::Points } else { State::Answer };
             }
-            (State::Points, Some(word)) => self.take_point(word, was, config),
+            (State::Points, Some(_)) => self.take_point(was, config),
             (State::Points, None) if self.count == 0 => self.state = State::Settle,
-            (State::Settle, _) if wires.is_quiet => {
+            (State::Settle, _) if wires.is_quiet || was.watchdog.stuck => {
                 self.inserting = false;
                 self.state = State::Answer;
             }
@@ -91,9 +92,15 @@ impl CommandPort {
         }
     }
 
-    fn take_command(&mut self, opcode: u8) {
+    fn take_command(&mut self, word: u32, config: Config) {
+        let opcode = command_opcode(word);
+        let contexts = command_contexts(word);
         self.opcode = opcode;
-        self.clears = opcode == Opcode::Clear as u8;
+        self.is_refused = opcode == Opcode::Clear as u8 && contexts > config.contexts;
+        self.clears = opcode == Opcode::Clear as u8 && !self.is_refused;
+        if self.clears {
+            self.contexts = if contexts == 0 { config.contexts } else { contexts };
+        }
         self.state = match Opcode::from_u8(opcode) {
             Some(Opcode::Insert) => State::Count,
             Some(Opcode::Read) => State::First,
@@ -101,13 +108,12 @@ impl CommandPort {
         };
     }
 
-    fn take_point(&mut self, word: u32, was: &Registers, config: Config) {
+    fn take_point(&mut self, was: &Registers, config: Config) {
         self.count -= 1;
         self.inserting = true;
         if self.stores_points(was, config) {
-            self.point_valid = true;
-            self.point_id = self.arrived;
-            self.point = point(word);
+            self.came = true;
+            self.came_id = self.arrived;
             self.arrived += 1;
         } else {
             self.refused += 1;

@@ -1,15 +1,13 @@
-//! The commit: one pass over the finished ring writes the star of the new point.
+//! The commit: one pass over a finished ring writes the star of the new point.
 
-use super::context::Phase;
 use super::memory::{Entry, Memory, Write};
+use super::ring::{CommitJob, Link};
 use super::Registers;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum State {
     #[default]
     Idle,
-    /// The first entry is there; the second is fetched.
-    Load,
     /// The record of the current entry is written.
     Record,
     /// The link of the triangle outside it is written.
@@ -18,114 +16,167 @@ pub(super) enum State {
     Close,
 }
 
+/// Clocks from the place of an inner triangle to its id.
+const INNER_LATENCY: u32 = 2;
+
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Commit {
     pub state: State,
-    pointer: usize,
+    job: CommitJob,
     first: Entry,
     current: Entry,
     current_id: u32,
-    /// The entry after the current one, and whether the ring has closed there.
-    ahead: Entry,
-    ahead_is_first: bool,
+    current_is_last: bool,
     /// The current entry is the first, before the last one's id is known.
     opens: bool,
     before_id: u32,
     second_a: u32,
     second_id: u32,
     inner_index: u32,
+    /// Clocks that the place of the next inner triangle has stood, up to `INNER_LATENCY`.
+    inner_age: u32,
     link: Write,
     closes: bool,
     pub write: Write,
+    /// The next new id.
+    pub fresh: u32,
+    /// New ids up to here are written two, one and no clock from now.
+    written: [Option<u32>; 2],
+    /// Records of the mesh: ids from here on are not written yet.
+    pub records: u32,
+}
+
+/// What a step does.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    ahead: Entry,
+    ahead_id: u32,
+    is_inner: bool,
+    is_fresh: bool,
 }
 
 impl Commit {
-    pub(super) fn ends(&self) -> bool {
-        self.state == State::Close
+    /// The ring whose last record is written at this edge.
+    pub(super) fn ends(&self) -> Option<CommitJob> {
+        (self.state == State::Close).then_some(self.job)
     }
 
-    /// The entry ahead shares its cavity triangle with the one before or with the first: its record takes another id.
-    fn shares(&self) -> bool {
-        !self.ahead_is_first && (self.ahead.f == self.current.f || self.ahead.f == self.first.f)
-    }
-
-    /// A new id is taken at this edge: the inner triangles' ids have been given back.
-    pub(super) fn takes_fresh(&self, was: &Registers) -> bool {
-        self.state == State::Record && self.shares() && self.inner_index == was.cavity.inner_count
-    }
-
-    pub(super) fn clock(&mut self, was: &Registers, memory: &Memory) {
-        let fetched = memory.entries[self.pointer];
-        self.write.valid = false;
+    /// The head of the ring reader is taken at this edge.
+    pub(super) fn takes(&self, head: Option<(Link, Entry)>, memory: &Memory) -> bool {
         match self.state {
-            State::Idle if was.context.phase == Phase::Commit => {
-                self.ahead = fetched;
-                self.pointer = fetched.next;
-                self.inner_index = 0;
-                self.state = State::Load;
+            State::Idle | State::Close => head.is_some(),
+            State::Record => !self.current_is_last && self.step(head, memory).is_some(),
+            State::Link => false,
+        }
+    }
+
+    fn step(&self, head: Option<(Link, Entry)>, memory: &Memory) -> Option<Step> {
+        if self.current_is_last {
+            return Some(Step { ahead: self.first, ahead_id: self.first.f, is_inner: false, is_fresh: false });
+        }
+        let (_, ahead) = head?;
+        let shares = ahead.f == self.current.f || ahead.f == self.first.f;
+        let is_inner = shares && self.inner_index != self.job.inners;
+        let is_fresh = shares && !is_inner;
+        let ahead_id = match (is_inner, is_fresh) {
+            (true, _) if self.inner_age < INNER_LATENCY => return None,
+            (true, _) => memory.inner[self.job.context][self.inner_index as usize],
+            (_, true) => self.fresh,
+            _ => ahead.f,
+        };
+        Some(Step { ahead, ahead_id, is_inner, is_fresh })
+    }
+
+    pub(super) fn clock(
+        &mut self,
+        was: &Registers,
+        head: Option<(Link, Entry)>,
+        memory: &mut Memory,
+        solo_ends: bool,
+        seeds: bool,
+    ) {
+        self.write.valid = false;
+        self.inner_age = (self.inner_age + 1).min(INNER_LATENCY);
+        self.records = self.written[1].unwrap_or(self.records);
+        self.written = [None, self.written[0]];
+        match self.state {
+            State::Idle => self.load(head),
+            State::Record => {
+                if let Some(step) = was.commit.step(head, memory) {
+                    self.advance(&step, head);
+                }
             }
-            State::Idle => {}
-            State::Load => {
-                self.first = self.ahead;
-                self.current = self.ahead;
-                self.current_id = self.ahead.f;
-                self.opens = true;
-                self.fetch(fetched);
-                self.state = State::Record;
-            }
-            State::Record => self.step(was, memory, fetched),
             State::Link => {
                 self.write = self.link;
                 self.state = if self.closes { State::Close } else { State::Record };
             }
             State::Close => {
-                let v = [was.context.id, self.first.a, self.second_a];
+                let v = [self.job.p, self.first.a, self.second_a];
                 let n = [self.first.u, self.second_id, self.before_id];
                 self.write = Write::record(self.current_id, v, n);
-                self.pointer = 0;
+                self.written[0] = Some(self.fresh);
+                memory.hint[self.job.context] = self.first.f;
                 self.state = State::Idle;
+                self.load(head);
             }
+        }
+        if solo_ends {
+            self.records += 2;
+            self.fresh += 2;
+        }
+        if seeds {
+            self.records = 4;
+            self.fresh = 4;
+        }
+        if was.command.clears {
+            self.records = 0;
+            self.fresh = 0;
+        }
+    }
+
+    fn load(&mut self, head: Option<(Link, Entry)>) {
+        if let Some((link, entry)) = head {
+            self.job = link.job;
+            self.first = entry;
+            self.current = entry;
+            self.current_id = entry.f;
+            self.current_is_last = false;
+            self.opens = true;
+            self.inner_index = 0;
+            self.inner_age = 0;
+            self.state = State::Record;
         }
     }
 
     /// Writes the current entry's record, now that the id of the one ahead is decided, and moves on.
-    fn step(&mut self, was: &Registers, memory: &Memory, fetched: Entry) {
-        let ahead_id = match (self.ahead_is_first, self.shares()) {
-            (true, _) => self.first.f,
-            (false, false) => self.ahead.f,
-            (false, true) if self.takes_fresh(was) => was.context.records,
-            (false, true) => {
-                self.inner_index += 1;
-                memory.inner[was.commit.inner_index as usize]
-            }
-        };
+    fn advance(&mut self, step: &Step, head: Option<(Link, Entry)>) {
+        let Step { ahead, ahead_id, is_inner, is_fresh } = *step;
+        if is_inner {
+            self.inner_index += 1;
+            self.inner_age = 0;
+        }
+        self.fresh += u32::from(is_fresh);
         let current = self.current;
         let mut links = false;
         if self.opens {
-            self.second_a = self.ahead.a;
+            self.second_a = ahead.a;
             self.second_id = ahead_id;
         } else {
-            let v = [was.context.id, current.a, self.ahead.a];
+            let v = [self.job.p, current.a, ahead.a];
             self.write = Write::record(self.current_id, v, [current.u, ahead_id, self.before_id]);
             self.link = Write::link(current.u, current.slot, self.current_id);
             links = self.current_id != current.f;
         }
         self.opens = false;
-        self.closes = self.ahead_is_first;
+        self.closes = self.current_is_last;
         self.before_id = self.current_id;
-        self.current = self.ahead;
+        self.current = ahead;
         self.current_id = ahead_id;
-        self.fetch(fetched);
+        self.current_is_last = !self.closes && head.is_some_and(|(link, _)| link.is_last);
         self.state = match (links, self.closes) {
             (true, _) => State::Link,
             (false, true) => State::Close,
             (false, false) => State::Record,
         };
-    }
-
-    fn fetch(&mut self, fetched: Entry) {
-        self.ahead = fetched;
-        self.ahead_is_first = self.pointer == 0;
-        self.pointer = fetched.next;
     }
 }

@@ -1,7 +1,7 @@
 //! The memories, and the registered write port of the triangle memory.
 
 use super::wires::Wires;
-use super::Registers;
+use super::{Defect, Registers};
 use crate::mesh::Record;
 use crate::predicate::Point;
 use incircle_protocol::{infinite_vertex, triangle_capacity, Config, Layout};
@@ -36,7 +36,7 @@ impl Write {
 
     /// Takes the request of whichever block makes one; holds its data while none does.
     pub(super) fn clock(&mut self, was: &Registers) {
-        let sources = [was.commit.write, was.solo.write, was.context.write];
+        let sources = [was.commit.write, was.solo.write, was.seeder.write];
         match sources.into_iter().find(|write| write.valid) {
             Some(write) => *self = write,
             None => self.valid = false,
@@ -62,24 +62,61 @@ pub(super) struct Memory {
     records: Vec<Record>,
     vertices: Vec<Point>,
     pub locks: Vec<bool>,
-    pub entries: Vec<Entry>,
-    pub inner: Vec<u32>,
-    pub lock_log: Vec<u32>,
+    /// The context that took the lock last.
+    owners: Vec<usize>,
+    /// Boundary entries, inner triangles and locks of each context.
+    pub entries: Vec<Vec<Entry>>,
+    pub inner: Vec<Vec<u32>>,
+    pub lock_log: Vec<Vec<u32>>,
+    /// The point at hand of each context, and when it was taken.
+    pub point_id: Vec<u32>,
+    pub position: Vec<Point>,
+    pub since: Vec<u32>,
+    /// Where each context's next walk starts.
+    pub hint: Vec<u32>,
 }
 
 impl Memory {
     pub(super) fn new(config: Config) -> Self {
         let records = triangle_capacity(config.points) as usize;
+        let (contexts, ring) = (config.contexts as usize, config.ring as usize);
         Self {
             infinite: infinite_vertex(config.points),
             layout: Layout::of(incircle_protocol::CORE_COORD_BITS, config.points),
             records: vec![Record::default(); records],
             vertices: vec![Point::default(); config.points as usize],
             locks: vec![false; records],
-            entries: vec![Entry::default(); config.ring as usize],
-            inner: vec![0; config.ring as usize],
-            lock_log: vec![0; 2 * config.ring as usize],
+            owners: vec![0; records],
+            entries: vec![vec![Entry::default(); ring]; contexts],
+            inner: vec![vec![0; ring]; contexts],
+            lock_log: vec![vec![0; 2 * ring]; contexts],
+            point_id: vec![0; contexts],
+            position: vec![Point::default(); contexts],
+            since: vec![0; contexts],
+            hint: vec![0; contexts],
         }
+    }
+
+    /// Takes a lock for a context; tells whether it took it and whether another context holds it. A lock that is cleared at this
+    /// edge counts as held.
+    pub(super) fn take_lock(
+        &mut self,
+        id: u32,
+        context: usize,
+        cleared: Option<u32>,
+        defect: Option<Defect>,
+    ) -> (bool, bool) {
+        let place = id as usize % self.locks.len();
+        if cleared == Some(place as u32) {
+            return (false, true);
+        }
+        if self.locks[place] {
+            let is_own = self.owners[place] == context && defect != Some(Defect::TakesOwnForForeign);
+            return (false, !is_own);
+        }
+        self.locks[place] = true;
+        self.owners[place] = context;
+        (true, false)
     }
 
     /// A record as it stands; ids wrap at the depth of the memory, as address bits above it are ignored.

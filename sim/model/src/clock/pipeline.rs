@@ -2,14 +2,14 @@
 
 use super::memory::Memory;
 use super::wires::Wires;
-use super::Registers;
+use super::{Defect, Registers};
 use crate::mesh::Record;
-use crate::predicate::{finite_conflict, ghost_conflict, orient2d, Point};
+use crate::predicate::{finite_conflict, ghost_conflict, orient2d};
 use std::collections::VecDeque;
 
 /// Clocks from the issue register, which addresses the triangle memory, to the completion register:
 /// record 2, slot and rotation 2, vertices in between, corner registers 1, predicates 9, verdict 1.
-const STAGES: usize = 15;
+const STAGES: usize = 16;
 
 /// Clocks from the issue register to the record.
 const RECORD_STAGES: usize = 2;
@@ -17,9 +17,10 @@ const RECORD_STAGES: usize = 2;
 /// One visit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Token {
+    pub context: usize,
     /// The record is turned so that its link to `f` comes first.
     pub rotates: bool,
-    /// The record's lock bit is set.
+    /// The record's lock is taken.
     pub locks: bool,
     /// Ring entry, the entry after it, and the entry that names `f`.
     pub x: usize,
@@ -30,28 +31,62 @@ pub(super) struct Token {
     pub u: u32,
 }
 
-/// One or two visits that one completion asks for.
+/// One to three visits that one completion asks for.
+///
+/// The second is from the entry after the first one's, the third from the entry after that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Bundle {
     pub first: Token,
-    /// The second visits this record, from entry `y`; its entry comes after the first one's.
-    pub second: Option<(u32, usize, usize)>,
+    /// Visits.
+    pub count: u32,
+    /// The entry after the second visit's.
+    second_next: usize,
+    second_u: u32,
+    third_u: u32,
 }
 
 impl Bundle {
+    pub(super) fn one(first: Token) -> Self {
+        Self { first, count: 1, ..Self::default() }
+    }
+
     /// A plain look at a record.
-    pub(super) fn look(u: u32) -> Self {
-        Self { first: Token { u, ..Token::default() }, second: None }
+    pub(super) fn look(context: usize, u: u32) -> Self {
+        Self::one(Token { context, u, ..Token::default() })
     }
 
-    /// The number of visits.
-    pub(super) fn len(&self) -> u32 {
-        1 + u32::from(self.second.is_some())
+    /// The visit that locks a root.
+    pub(super) fn root(context: usize, u: u32) -> Self {
+        Self::one(Token { context, u, locks: true, ..Token::default() })
     }
 
-    fn second_token(&self) -> Token {
-        let (u, x, next) = self.second.unwrap_or_default();
-        Token { u, x, next, ..self.first }
+    /// A visit without a lock, turned to the link to `f`.
+    pub(super) fn turned(context: usize, f: u32, u: u32) -> Self {
+        Self::one(Token { context, rotates: true, f, u, ..Token::default() })
+    }
+
+    /// The tests of the three neighbours of a root.
+    pub(super) fn tests(root: &Completion) -> Self {
+        let Token { context, u, .. } = root.token;
+        let n = root.record.n;
+        let first = Token { context, rotates: true, locks: true, x: 0, next: 1, f_entry: 0, f: u, u: n[0] };
+        Self { first, count: 3, second_next: 2, second_u: n[1], third_u: n[2] }
+    }
+
+    /// The bundle of a conflict: both halves of the edge go on to the triangles behind, the second as the new entry `y`.
+    pub(super) fn split(done: &Completion, y: usize) -> Self {
+        let [_, n1, n2] = done.record.n;
+        let first = Token { next: y, f_entry: y, f: done.token.u, u: n1, ..done.token };
+        Self { first, count: 2, second_next: done.token.next, second_u: n2, third_u: 0 }
+    }
+
+    /// The visit with this place in the bundle.
+    fn token(&self, place: u32) -> Token {
+        match place {
+            0 => self.first,
+            1 => Token { x: self.first.next, next: self.second_next, u: self.second_u, ..self.first },
+            _ => Token { x: self.second_next, next: 0, u: self.third_u, ..self.first },
+        }
     }
 }
 
@@ -63,8 +98,12 @@ pub(super) struct Completion {
     pub record: Record,
     /// How far it was turned.
     pub slot: usize,
-    /// Its lock bit had been set.
-    pub was_set: bool,
+    /// It took the lock.
+    pub took: bool,
+    /// Another context holds the lock.
+    pub foreign: bool,
+    /// The record was not written yet, or being written: a walk looks again.
+    pub again: bool,
     /// It goes when the context's point comes.
     pub conflict: bool,
     /// The point lies here, or falls onto a corner.
@@ -79,8 +118,8 @@ pub(super) struct Completion {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pipeline {
     queue: VecDeque<Bundle>,
-    /// The first visit of the bundle at the head has been issued.
-    issues_second: bool,
+    /// Visits of the bundle at the head that have been issued.
+    place: u32,
     issued: Option<Token>,
     stages: [Option<Completion>; STAGES],
     /// Place of the completion register in `stages`, which turns round.
@@ -97,49 +136,54 @@ impl Pipeline {
         self.stages[self.head]
     }
 
+    /// A visit reads the memories in this clock.
+    pub(super) fn reads(&self) -> bool {
+        self.issued.is_some()
+    }
+
     /// The record id whose words a read-out gets at this edge.
     pub(super) fn record_read(&self) -> Option<u32> {
         self.reads[RECORD_STAGES]
     }
 
-    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory) {
+    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) {
         self.expect_no_collision(was);
-        let visited = self.issued.map(|token| visit(token, was.context.position, memory));
+        let visited = self.issued.map(|token| visit(token, was, wires, memory, defect));
         self.stages[self.head] = visited;
         self.head = (self.head + 1) % STAGES;
         self.reads = [wires.read, self.reads[0], self.reads[1]];
-        self.queue.extend(was.context.push);
+        self.queue.extend(was.push);
         self.issued = None;
         if let Some(&bundle) = self.queue.front() {
-            self.issued = Some(if self.issues_second { bundle.second_token() } else { bundle.first });
-            let more = bundle.second.is_some() && !self.issues_second;
-            self.issues_second = more;
-            if !more {
+            self.issued = Some(bundle.token(self.place));
+            self.place += 1;
+            if self.place == bundle.count {
+                self.place = 0;
                 self.queue.pop_front();
             }
         }
     }
 
-    /// Holds what the memories demand: in silicon a record that is written while it is read, and a lock that is set while it is
-    /// cleared, are undefined. Verilator and this model have an order for both, so they must never happen.
+    /// A read-out meets no write: it comes when nothing is at work.
     fn expect_no_collision(&self, was: &Registers) {
-        let read = self.issued.map(|token| token.u).or(self.reads[0]);
-        if let Some(id) = read.filter(|&id| was.write.valid && was.write.id == id) {
-            panic!("record {id} is read and written at one edge");
-        }
-        let locked = self.issued.filter(|token| token.locks);
-        if let Some(token) = locked.filter(|token| was.release.clear == Some(token.u)) {
-            panic!("lock {} is set and cleared at one edge", token.u);
+        if let Some(id) = self.reads[0].filter(|&id| was.write.valid && was.write.id == id) {
+            panic!("record {id} is read out and written at one edge");
         }
     }
 }
 
-/// Reads a record, sets its lock if asked to, and evaluates the predicates.
-fn visit(token: Token, p: Point, memory: &mut Memory) -> Completion {
-    let stored = memory.record(token.u);
-    let place = token.u as usize % memory.locks.len();
-    let was_set = memory.locks[place];
-    memory.locks[place] |= token.locks;
+/// Reads a record, takes its lock if asked to, and evaluates the predicates.
+fn visit(token: Token, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
+    // A record that is written while it is read comes out torn.
+    let is_torn = was.write.valid && was.write.id == token.u;
+    let is_written =
+        token.u < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);
+    let stored = if is_torn { Record::default() } else { memory.record(token.u) };
+    let (took, foreign) = match token.locks {
+        true => memory.take_lock(token.u, token.context, wires.clear, defect),
+        false => (false, false),
+    };
+    let p = memory.position[token.context];
     let slot = if token.rotates { stored.slot_of(token.f) } else { 0 };
     let record = stored.rotated(slot);
     let infinite = record.v.map(|v| v == memory.infinite);
@@ -154,5 +198,6 @@ fn visit(token: Token, p: Point, memory: &mut Memory) -> Completion {
     };
     let falls_onto_corner = ghost.is_none() && r.contains(&p);
     let turn = sides[2].signum() as i32;
-    Completion { token, record, slot, was_set, conflict, located, falls_onto_corner, walk_next, turn }
+    let again = is_torn && defect != Some(Defect::ReadsTheTorn) || !is_written;
+    Completion { token, record, slot, took, foreign, again, conflict, located, falls_onto_corner, walk_next, turn }
 }

@@ -1,56 +1,88 @@
-//! The lock log: every lock that the insertion set, and their release. After reset it clears the whole lock memory.
+//! Releases the locks of finished and failed attempts, one a clock. After reset it clears the whole lock memory.
 
-use super::context::Phase;
 use super::memory::Memory;
 use super::wires::Wires;
-use super::Registers;
+use super::Defect;
 use incircle_protocol::{triangle_capacity, Config};
+use std::collections::VecDeque;
 
-#[derive(Clone, Copy, Debug, Default)]
+/// The locks of an attempt, to be released.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ReleaseJob {
+    pub context: usize,
+    /// Locks in the log; at least one.
+    pub locks: u32,
+}
+
+/// A lock on its way from the log.
+#[derive(Clone, Copy, Debug)]
+struct Fetch {
+    context: usize,
+    id: u32,
+    is_last: bool,
+}
+
+#[derive(Clone, Debug, Default)]
 pub(super) struct Release {
-    pub is_busy: bool,
-    /// The lock memory is being cleared after reset.
-    pub sweeps: bool,
-    /// Log entry to be released, or lock to be cleared by the sweep.
-    index: u32,
-    /// Locks in the log.
-    count: u32,
-    /// The lock cleared in this clock.
-    pub clear: Option<u32>,
+    /// Locks of commits, which go first, and of failed attempts.
+    after_commit: VecDeque<ReleaseJob>,
+    after_failure: VecDeque<ReleaseJob>,
+    /// The job at work and its next place in the log.
+    at_work: Option<(ReleaseJob, u32)>,
+    /// Log memory and its output register.
+    fetched: [Option<Fetch>; 2],
+    clear: Option<Fetch>,
+    /// Next lock of the sweep after reset.
+    sweep: Option<u32>,
+    /// The lock cleared by the sweep in this clock.
+    swept: Option<u32>,
 }
 
 impl Release {
     pub(super) fn reset(&mut self) {
-        *self = Self { sweeps: true, ..Self::default() };
+        *self = Self { sweep: Some(0), ..Self::default() };
     }
 
-    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory, config: Config) {
-        if let Some(id) = self.clear {
+    /// The lock memory is being cleared after reset.
+    pub(super) fn sweeps(&self) -> bool {
+        self.sweep.is_some()
+    }
+
+    /// The lock cleared in this clock.
+    pub(super) fn clear(&self) -> Option<u32> {
+        self.clear.map(|fetch| fetch.id).or(self.swept)
+    }
+
+    /// The context whose last lock is cleared in this clock.
+    pub(super) fn released(&self) -> Option<usize> {
+        self.clear.filter(|fetch| fetch.is_last).map(|fetch| fetch.context)
+    }
+
+    pub(super) fn clock(&mut self, wires: &Wires, memory: &mut Memory, config: Config, defect: Option<Defect>) {
+        if let Some(id) = self.clear() {
             memory.locks[id as usize] = false;
         }
-        self.clear = None;
-        let takes_locks = matches!(was.context.phase, Phase::Cavity | Phase::Drain);
-        if let Some(done) = wires.done.filter(|done| takes_locks && done.token.locks && !done.was_set) {
-            memory.lock_log[self.count as usize] = done.token.u;
-            self.count += 1;
+        self.clear = self.fetched[1];
+        self.fetched = [self.fetch(memory), self.fetched[0]];
+        if self.at_work.is_none() {
+            let next = self.after_commit.pop_front().or_else(|| self.after_failure.pop_front());
+            self.at_work = next.map(|job| (job, 0));
         }
-        if self.sweeps {
-            self.clear = Some(self.index);
-            self.index += 1;
-            if self.index == triangle_capacity(config.points) {
-                self.sweeps = false;
-                self.index = 0;
-            }
-        } else if self.is_busy {
-            self.clear = Some(memory.lock_log[self.index as usize]);
-            self.index += 1;
-            if self.index == self.count {
-                self.is_busy = false;
-                self.index = 0;
-                self.count = 0;
-            }
+        self.swept = self.sweep;
+        self.sweep = self.sweep.map(|id| id + 1).filter(|&id| id < triangle_capacity(config.points));
+        let committed = if defect == Some(Defect::ReleasesBeforeWritten) {
+            wires.outcome.and_then(|outcome| outcome.commit)
         } else {
-            self.is_busy = wires.commit_ends || wires.drained;
-        }
+            wires.committed
+        };
+        self.after_commit.extend(committed.map(|job| ReleaseJob { context: job.context, locks: job.locks }));
+        self.after_failure.extend(wires.outcome.and_then(|outcome| outcome.release));
+    }
+
+    fn fetch(&mut self, memory: &Memory) -> Option<Fetch> {
+        let (job, index) = self.at_work?;
+        let is_last = index + 1 == job.locks;
+        self.at_work = (!is_last).then_some((job, index + 1));
+        Some(Fetch { context: job.context, id: memory.lock_log[job.context][index as usize], is_last })
     }
 }

@@ -1,6 +1,7 @@
 //! Sends answers: header, length, payload; records are read from the triangle memory one at a time.
 
 use super::command_port::State as CommandState;
+use super::counters::Latencies;
 use super::wires::Wires;
 use super::Registers;
 use incircle_protocol as protocol;
@@ -59,7 +60,7 @@ impl Responder {
             }
     }
 
-    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, config: Config) {
+    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, latencies: &Latencies, config: Config) {
         if self.read_request().is_some() {
             self.fetching = true;
         }
@@ -69,13 +70,17 @@ impl Responder {
             self.buffer_valid = true;
             self.record_id += 1;
         }
-        if was.responder.state == State::Idle && was.command.state == CommandState::Answer {
+        if was.responder.state == State::Idle
+            && was.command.state == CommandState::Answer
+            && !latencies.sweeps()
+            && !was.command.clears
+        {
             self.state = State::Header;
         }
         if !was.responder.loads(wires.response_ready) {
             return;
         }
-        match self.next_word(was, config) {
+        match self.next_word(was, latencies, config) {
             Some(word) => {
                 self.valid = true;
                 self.data = word;
@@ -88,7 +93,7 @@ impl Responder {
     }
 
     /// The word loaded at this edge, if any, and the step to the one after it.
-    fn next_word(&mut self, was: &Registers, config: Config) -> Option<u32> {
+    fn next_word(&mut self, was: &Registers, latencies: &Latencies, config: Config) -> Option<u32> {
         match was.responder.state {
             State::Idle => None,
             State::Header => {
@@ -108,7 +113,7 @@ impl Responder {
             State::Payload => {
                 self.left -= 1;
                 self.index += 1;
-                Some(payload(was, config, was.responder.index))
+                Some(payload(was, latencies, config, was.responder.index))
             }
             State::Records if !was.responder.buffer_valid => None,
             State::Records => {
@@ -126,10 +131,13 @@ fn answer(was: &Registers) -> (Status, u32) {
     let command = &was.command;
     match Opcode::from_u8(command.opcode) {
         Some(Opcode::Hello) => (Status::Ok, protocol::IDENTITY_WORDS as u32),
+        Some(Opcode::Clear) if command.is_refused => (Status::BadContexts, 0),
         Some(Opcode::Clear) => (Status::Ok, 0),
         Some(Opcode::Counters) => (Status::Ok, protocol::COUNTER_WORDS as u32),
+        Some(Opcode::Latencies) => (Status::Ok, protocol::LATENCY_BUCKETS as u32),
         Some(Opcode::Insert) => {
-            let status = match (was.context.collinear, command.refused) {
+            let status = match (was.seeder.collinear, command.refused) {
+                _ if was.watchdog.stuck => Status::Stuck,
                 (true, _) => Status::Collinear,
                 (false, 0) => Status::Ok,
                 (false, _) => Status::Full,
@@ -138,7 +146,7 @@ fn answer(was: &Registers) -> (Status, u32) {
         }
         Some(Opcode::Read) => {
             let end = u64::from(command.first) + u64::from(command.count);
-            if end <= u64::from(was.context.records) {
+            if end <= u64::from(was.commit.records) {
                 (Status::Ok, 3 * command.count)
             } else {
                 (Status::BadRange, 0)
@@ -149,7 +157,7 @@ fn answer(was: &Registers) -> (Status, u32) {
 }
 
 /// A word of a payload that is no record.
-fn payload(was: &Registers, config: Config, index: usize) -> u32 {
+fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize) -> u32 {
     match Opcode::from_u8(was.command.opcode) {
         Some(Opcode::Hello) => Identity {
             magic: protocol::MAGIC,
@@ -166,9 +174,10 @@ fn payload(was: &Registers, config: Config, index: usize) -> u32 {
             inserted: was.counters.insertions,
             duplicates: was.counters.duplicates,
             refused: was.command.refused,
-            records: was.context.records,
+            records: was.commit.records,
         }
         .to_words()[index],
+        Some(Opcode::Latencies) => latencies.buckets[index],
         _ => was.counters.words(was.command.refused)[index],
     }
 }

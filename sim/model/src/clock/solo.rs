@@ -1,15 +1,18 @@
 //! Insertion alone, in constant state: splits the located triangle and flips once round the star.
 
-use super::context::Phase;
-use super::memory::Write;
-use super::pipeline::{Bundle, Completion, Token};
+use super::attempts::Tables;
+use super::memory::{Memory, Write};
+use super::pipeline::{Bundle, Completion};
 use super::wires::Wires;
 use super::Registers;
+use crate::mesh::Record;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum State {
     #[default]
     Idle,
+    /// The point is located: the mesh has changed since its attempt.
+    Locate,
     /// Three records replace the located one.
     Split,
     /// The outer neighbours of the second and third learn of them.
@@ -29,6 +32,11 @@ pub(super) struct Solo {
     step: u32,
     /// A visit is out.
     awaits: bool,
+    context: usize,
+    p: u32,
+    /// The located triangle.
+    root_id: u32,
+    root: Record,
     /// The star triangle: `v = (p, a, b)`, `n = (outer, after, before)`.
     id: u32,
     a: u32,
@@ -51,20 +59,31 @@ impl Solo {
         if self.awaits {
             return None;
         }
-        let turned = |f, u| Bundle { first: Token { rotates: true, f, u, ..Token::default() }, second: None };
+        let (context, root_id, root) = (self.context, self.root_id, was.solo.root);
         match self.state {
-            State::Mend if self.step == 0 => Some(turned(was.context.root_id, was.context.root.n[1])),
-            State::Mend => Some(turned(was.context.root_id, was.context.root.n[2])),
-            State::Fetch => Some(Bundle::look(self.id)),
-            State::Test => Some(turned(self.back, self.outer)),
+            State::Locate => Some(Bundle::look(context, root_id)),
+            State::Mend if self.step == 0 => Some(Bundle::turned(context, root_id, root.n[1])),
+            State::Mend => Some(Bundle::turned(context, root_id, root.n[2])),
+            State::Fetch => Some(Bundle::look(context, self.id)),
+            State::Test => Some(Bundle::turned(context, self.back, self.outer)),
             State::Idle | State::Split | State::Flip => None,
         }
     }
 
     /// A test finds no conflict at the last edge of the star.
-    pub(super) fn ends(&self, was: &Registers, done: Option<Completion>) -> bool {
+    pub(super) fn ends(&self, done: Option<Completion>) -> bool {
         let rests = done.is_some_and(|done| !done.conflict);
-        self.state == State::Test && rests && self.b == was.context.root.v[1]
+        self.state == State::Test && rests && self.b == self.root.v[1]
+    }
+
+    /// The point turns out to be a duplicate.
+    pub(super) fn finds_duplicate(&self, done: Option<Completion>) -> bool {
+        self.state == State::Locate && done.is_some_and(|done| done.located && done.falls_onto_corner)
+    }
+
+    /// The visits that complete are its own.
+    pub(super) fn is_at_work(&self) -> bool {
+        self.state != State::Idle
     }
 
     /// A flip is finished at this edge.
@@ -77,28 +96,44 @@ impl Solo {
         self.state == State::Test && done.is_some()
     }
 
-    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires) {
+    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, tables: &Tables, memory: &Memory) {
         self.write.valid = false;
         self.awaits |= wires.solo_push.is_some();
         match (was.solo.state, wires.done) {
             (State::Idle, _) => {
-                if was.context.phase == Phase::Solo && !was.release.is_busy {
-                    self.state = State::Split;
-                    self.step = 0;
+                if let Some(context) = wires.solo_starts {
+                    self.context = context;
+                    self.p = memory.point_id[context];
+                    self.root_id = tables.root[context];
+                    self.state = State::Locate;
                 }
             }
             (State::Split, _) => self.split(was),
             (State::Flip, _) => self.flip(was),
+            (State::Locate, Some(done)) => self.locate(wires, &done),
             (State::Mend, Some(done)) => self.mend(was, &done),
             (State::Fetch, Some(done)) => self.take_star(&done),
             (State::Test, Some(done)) => self.take_test(was, wires, &done),
-            (State::Mend | State::Fetch | State::Test, None) => {}
+            (State::Locate | State::Mend | State::Fetch | State::Test, None) => {}
+        }
+    }
+
+    fn locate(&mut self, wires: &Wires, done: &Completion) {
+        self.awaits = false;
+        self.step = 0;
+        self.root = done.record;
+        if !done.located {
+            self.root_id = done.walk_next;
+        } else if wires.solo_ends {
+            self.state = State::Idle;
+        } else {
+            self.state = State::Split;
         }
     }
 
     fn split(&mut self, was: &Registers) {
-        let (id, root) = (was.context.root_id, was.context.root);
-        let (p, second) = (was.context.id, was.context.records);
+        let (id, root) = (was.solo.root_id, was.solo.root);
+        let (p, second) = (was.solo.p, was.commit.records);
         let third = second + 1;
         let [v0, v1, v2] = root.v;
         self.write = match was.solo.step {
@@ -115,10 +150,10 @@ impl Solo {
 
     fn mend(&mut self, was: &Registers, done: &Completion) {
         self.awaits = false;
-        self.write = Write::link(done.token.u, done.slot, was.context.records + was.solo.step);
+        self.write = Write::link(done.token.u, done.slot, was.commit.records + was.solo.step);
         self.step = 1;
         if was.solo.step == 1 {
-            self.id = was.context.root_id;
+            self.id = was.solo.root_id;
             self.state = State::Fetch;
         }
     }
@@ -151,7 +186,7 @@ impl Solo {
 
     fn flip(&mut self, was: &Registers) {
         let solo = &was.solo;
-        let p = was.context.id;
+        let p = was.solo.p;
         self.write = match solo.step {
             0 => Write::record(solo.id, [p, solo.a, solo.apex], [solo.apex_after_a, solo.outer, solo.before]),
             1 => Write::record(solo.outer, [p, solo.apex, solo.b], [solo.apex_before_b, solo.after, solo.id]),

@@ -1,12 +1,13 @@
 //! What blocks show each other within a clock: functions of registers and inputs.
 
+use super::attempts::{Around, Outcome};
 use super::command_port::State as CommandState;
-use super::context::Phase;
-use super::memory::Memory;
-use super::pipeline::{Bundle, Completion, Pipeline};
-use super::{Inputs, Registers};
+use super::memory::Entry;
+use super::pipeline::{Bundle, Completion};
+use super::ring::{CommitJob, Link};
+use super::starter::Start;
+use super::{ClockModel, Inputs};
 use crate::predicate::Point;
-use incircle_protocol::Config;
 
 /// The wires of one clock.
 #[derive(Clone, Copy, Debug)]
@@ -18,64 +19,97 @@ pub(super) struct Wires {
     pub infinite: u32,
     /// The visit that completes.
     pub done: Option<Completion>,
+    /// What it leads to, unless it belongs to an insertion alone.
+    pub outcome: Option<Outcome>,
     /// The record that a read-out asked for three clocks ago, as answer words.
     pub record_read: Option<[u32; 3]>,
     /// A read-out asks for this record.
     pub read: Option<u32>,
     /// The responder loads its last word.
     pub answer_ends: bool,
-    /// No point waits, the context is idle, no lock is held.
+    /// Every point that has come is in the mesh, and no lock is held.
     pub is_quiet: bool,
-    /// The context takes the waiting point.
-    pub takes_point: bool,
     /// The point accepted at this edge.
     pub new_vertex: Option<(u32, Point)>,
-    /// The bundle that a completing test asks for: it passes through its edge.
-    pub split: Option<Bundle>,
-    /// A completing test is in conflict, and the list is full.
-    pub overflows: bool,
+    /// A context starts to walk.
+    pub start: Option<Start>,
+    /// A context would, but the queue takes another bundle.
+    pub start_is_blocked: bool,
+    /// The last record of the first triangle is written.
+    pub seeds: bool,
+    /// The entry at the head of the ring reader, and whether the commit takes it.
+    pub head: Option<(Link, Entry)>,
+    pub head_is_taken: bool,
+    /// The ring whose last record is written.
+    pub committed: Option<CommitJob>,
+    /// The lock being cleared, and the context whose last one it is.
+    pub clear: Option<u32>,
+    pub released: Option<usize>,
     /// The bundle that an insertion alone asks for.
     pub solo_push: Option<Bundle>,
-    /// The commit writes its last record.
-    pub commit_ends: bool,
-    /// The insertion alone has gone round.
+    /// The context that is alone now.
+    pub solo_starts: Option<usize>,
+    /// The insertion alone is over; it has inserted its point, or found it to be a duplicate.
     pub solo_ends: bool,
-    /// An overflowed attempt has no token out any more.
-    pub drained: bool,
+    pub solo_inserts: bool,
 }
 
-impl Wires {
-    pub(super) fn of(was: &Registers, pipeline: &Pipeline, memory: &Memory, inputs: Inputs, config: Config) -> Self {
-        let word = (inputs.command_valid && was.command.is_ready(was)).then_some(inputs.command_data);
-        let done = pipeline.completion();
-        let in_cavity = was.context.phase == Phase::Cavity;
-        let conflict = done.filter(|done| in_cavity && done.token.rotates && done.conflict);
-        let is_full = was.cavity.count == config.ring;
-        let is_idle = was.context.phase == Phase::Idle;
-        let takes_point = is_idle && was.command.point_valid;
+impl ClockModel {
+    pub(super) fn wires(&self, inputs: Inputs) -> Wires {
+        let was = &self.registers;
+        let config = self.config;
+        let ready = was.command.is_ready(was, self.sweeps());
+        let word = (inputs.command_valid && ready).then_some(inputs.command_data);
+        let done = self.pipeline.completion();
+        let outcome = done.filter(|_| !was.solo.is_at_work()).map(|done| {
+            let context = done.token.context;
+            let around = Around {
+                was,
+                attempt: self.tables.attempts[context],
+                p: self.memory.point_id[context],
+                since: self.memory.since[context],
+                config,
+                defect: self.defect,
+            };
+            Outcome::of(&done, &around)
+        });
+        let solo_push = was.solo.push_request(was);
+        let wanted = was.starter.wants(was, &self.tables, &self.memory, self.defect);
+        let start_is_blocked = wanted.is_some() && outcome.is_some_and(|outcome| outcome.push.is_some());
         let stored = was.command.state == CommandState::Points && was.command.stores_points(was, config);
-        Self {
+        let head = self.ring.head(&self.memory);
+        let rests = was.contexts.all_rest(config.contexts);
+        let solo_inserts = was.solo.ends(done);
+        let all_finished = was.contexts.finished == was.command.arrived
+            || (was.command.arrived < 3 || was.seeder.collinear) && was.seeder.step == 0;
+        Wires {
             word,
             response_ready: inputs.response_ready,
-            infinite: memory.infinite,
+            infinite: self.memory.infinite,
             done,
-            record_read: pipeline.record_read().map(|id| memory.record_words(id)),
+            outcome,
+            record_read: self.pipeline.record_read().map(|id| self.memory.record_words(id)),
             read: was.responder.read_request(),
             answer_ends: was.responder.ends(was, inputs.response_ready),
-            is_quiet: is_idle && !was.command.point_valid && !was.release.is_busy,
-            takes_point,
+            is_quiet: all_finished && rests,
             new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
-            split: conflict.filter(|_| !is_full).map(|done| was.cavity.split(&done)),
-            overflows: conflict.is_some() && is_full,
-            solo_push: was.solo.push_request(was),
-            commit_ends: was.commit.ends(),
-            solo_ends: was.solo.ends(was, done),
-            drained: was.context.phase == Phase::Drain && was.cavity.outstanding == 0,
+            start: wanted.filter(|_| !start_is_blocked),
+            start_is_blocked,
+            seeds: was.seeder.seeds(),
+            head,
+            head_is_taken: was.commit.takes(head, &self.memory),
+            committed: was.commit.ends(),
+            clear: self.release.clear(),
+            released: self.release.released(),
+            solo_push,
+            solo_starts: was.contexts.solo.filter(|_| rests && !was.solo.is_at_work()),
+            solo_ends: solo_inserts || was.solo.finds_duplicate(done),
+            solo_inserts,
         }
     }
 }
 
 /// A point from its word.
-pub(super) fn point(word: u32) -> Point {
+fn point(word: u32) -> Point {
     Point { x: word & 0xffff, y: word >> 16 }
 }

@@ -1,0 +1,279 @@
+//! The completion of visits: what each asks for next, and the attempt of every context.
+//!
+//! A visit that completes belongs to one context, and the state of that context's attempt is read, changed and written back in the
+//! same clock. Nothing else changes it, so no two visits ever meet at it.
+
+use super::memory::{Entry, Memory};
+use super::pipeline::{Bundle, Completion};
+use super::release::ReleaseJob;
+use super::ring::CommitJob;
+use super::wires::Wires;
+use super::{Defect, Registers};
+use incircle_protocol::Config;
+
+/// One insertion's cavity, from the visit that locks its root.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Attempt {
+    /// Visits pushed and not completed.
+    pub outstanding: u32,
+    /// Ring entries.
+    pub count: u32,
+    /// Cavity triangles without a boundary edge.
+    pub inners: u32,
+    /// Locks in the log.
+    pub logged: u32,
+    /// Bit `y`: one of the two edges that entry `y`'s cavity triangle brought has been passed; the root uses bits 0 and 1.
+    pub half_open: u64,
+    /// It has failed: its visits run out.
+    pub drains: bool,
+}
+
+/// What becomes of the context whose visit completes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Outcome {
+    pub context: usize,
+    /// Visits to make.
+    pub push: Option<Bundle>,
+    /// No visit of the context is out any more.
+    pub sleeps: bool,
+    /// It tries its point again when it wakes.
+    pub keeps: bool,
+    /// Where it then starts to walk.
+    pub root: Option<u32>,
+    /// The attempt as it stands afterwards.
+    pub attempt: Option<Attempt>,
+    /// A final edge of the boundary.
+    pub entry: Option<(usize, Entry)>,
+    /// An inner triangle, with its place in the list.
+    pub inner: Option<(u32, u32)>,
+    /// A lock that was set, with its place in the log.
+    pub lock: Option<(u32, u32)>,
+    pub commit: Option<CommitJob>,
+    pub release: Option<ReleaseJob>,
+    /// It takes the waiting token, if that is free.
+    pub asks_to_wait: bool,
+    /// It gives the waiting token back, if it holds it.
+    pub stops_waiting: bool,
+    /// Its list has overflowed: it asks to be alone.
+    pub overflows: bool,
+    pub aborts: bool,
+    pub retries_root: bool,
+    /// The same visit is made again.
+    pub is_again: bool,
+    pub duplicate: bool,
+    /// The look at the first three points.
+    pub looks: bool,
+}
+
+/// What a completion sees of the machine around it.
+pub(super) struct Around<'a> {
+    pub was: &'a Registers,
+    pub attempt: Attempt,
+    pub p: u32,
+    pub since: u32,
+    pub config: Config,
+    pub defect: Option<Defect>,
+}
+
+impl Around<'_> {
+    fn is_busy(&self, context: usize) -> bool {
+        self.was.contexts.busy & 1 << context != 0 && self.defect != Some(Defect::OpensWhileBusy)
+    }
+
+    fn waits(&self, context: usize) -> bool {
+        self.was.contexts.waiter == Some(context)
+    }
+}
+
+impl Outcome {
+    pub(super) fn of(done: &Completion, around: &Around) -> Self {
+        let out = Self { context: done.token.context, ..Self::default() };
+        match (done.token.rotates, done.token.locks) {
+            (false, false) => out.walk(done, around),
+            (false, true) => out.root(done, around),
+            _ => out.test(done, around),
+        }
+    }
+
+    /// The same visit again.
+    fn again(mut self, done: &Completion) -> Self {
+        self.push = Some(Bundle::one(done.token));
+        self.is_again = true;
+        self
+    }
+
+    /// The context sleeps, and tries again later from this triangle.
+    fn back_off(mut self, root: u32) -> Self {
+        self.sleeps = true;
+        self.keeps = true;
+        self.root = Some(root);
+        self
+    }
+
+    fn walk(mut self, done: &Completion, around: &Around) -> Self {
+        let context = done.token.context;
+        if !around.was.seeder.seeded {
+            self.looks = true;
+            self.sleeps = true;
+            return self;
+        }
+        if done.again {
+            return self.again(done);
+        }
+        if !done.located {
+            self.push = Some(Bundle::look(context, done.walk_next));
+        } else if done.falls_onto_corner {
+            self.duplicate = true;
+            self.stops_waiting = true;
+            self.sleeps = true;
+        } else if around.is_busy(context) {
+            return self.again(done);
+        } else {
+            self.push = Some(Bundle::root(context, done.token.u));
+        }
+        self
+    }
+
+    fn root(mut self, done: &Completion, around: &Around) -> Self {
+        let u = done.token.u;
+        let trusts = around.defect == Some(Defect::TrustsTheWalk);
+        let (located, on_corner) = (done.located || trusts, done.falls_onto_corner && !trusts);
+        if done.foreign {
+            if around.waits(self.context) {
+                return self.again(done);
+            }
+            self.aborts = true;
+            self.asks_to_wait = true;
+            return self.back_off(u);
+        }
+        self.lock = Some((0, u));
+        if located && !on_corner {
+            self.push = Some(Bundle::tests(done));
+            self.attempt = Some(Attempt { outstanding: 3, count: 3, logged: 1, ..Attempt::default() });
+            self.root = Some(u);
+            return self;
+        }
+        self.release = Some(ReleaseJob { context: self.context, locks: 1 });
+        if located {
+            self.duplicate = true;
+            self.stops_waiting = true;
+            self.sleeps = true;
+            self.root = Some(u);
+            return self;
+        }
+        self.retries_root = true;
+        self.back_off(done.walk_next)
+    }
+
+    fn test(mut self, done: &Completion, around: &Around) -> Self {
+        let mut state = around.attempt;
+        let foreign = done.foreign && around.defect != Some(Defect::IgnoresForeignLocks);
+        if done.took {
+            self.lock = Some((state.logged, done.token.u));
+            state.logged += 1;
+        }
+        state.outstanding -= 1;
+        if state.drains {
+        } else if foreign && around.waits(self.context) {
+            self = self.again(done);
+            state.outstanding += 1;
+        } else if foreign {
+            state.drains = true;
+            self.aborts = true;
+            self.asks_to_wait = true;
+        } else if !done.conflict {
+            let Completion { token, record, slot, .. } = *done;
+            self.entry = Some((token.x, Entry { a: record.v[2], u: token.u, slot, f: token.f, next: token.next }));
+        } else if state.count == around.config.ring {
+            state.drains = true;
+            self.overflows = true;
+        } else {
+            self.split(done, &mut state);
+        }
+        let ends = match around.defect {
+            Some(Defect::ReleasesBeforeDrained) => state.outstanding == 0 && !around.attempt.drains || self.aborts,
+            _ => state.outstanding == 0,
+        };
+        if ends {
+            self.end(&state, around);
+        }
+        self.attempt = Some(state);
+        self
+    }
+
+    fn split(&mut self, done: &Completion, state: &mut Attempt) {
+        let y = state.count as usize;
+        self.push = Some(Bundle::split(done, y));
+        state.count += 1;
+        state.outstanding += 2;
+        if state.passes_last_edge(done.token.f_entry) {
+            self.inner = Some((state.inners, done.token.f));
+            state.inners += 1;
+        }
+    }
+
+    /// The last visit of an attempt has completed.
+    fn end(&mut self, state: &Attempt, around: &Around) {
+        self.sleeps = true;
+        if state.drains {
+            self.keeps = true;
+            self.release = Some(ReleaseJob { context: self.context, locks: state.logged });
+        } else {
+            self.stops_waiting = true;
+            self.commit = Some(CommitJob {
+                context: self.context,
+                p: around.p,
+                inners: state.inners,
+                locks: state.logged,
+                since: around.since,
+            });
+        }
+    }
+}
+
+impl Attempt {
+    fn passes_last_edge(&mut self, f_entry: usize) -> bool {
+        let bit = 1 << f_entry;
+        let half = self.half_open & bit != 0;
+        let root_half = f_entry == 0 && half && self.half_open & 2 == 0;
+        self.half_open |= bit | u64::from(root_half) << 1;
+        half && !root_half
+    }
+}
+
+/// What every context is at; each field is a small memory with a word per context.
+#[derive(Clone, Debug)]
+pub(super) struct Tables {
+    pub attempts: Vec<Attempt>,
+    /// Where a context goes on when it tries its point again.
+    pub root: Vec<u32>,
+}
+
+impl Tables {
+    pub(super) fn new(contexts: u32) -> Self {
+        let contexts = contexts as usize;
+        Self { attempts: vec![Attempt::default(); contexts], root: vec![0; contexts] }
+    }
+
+    pub(super) fn clock(&mut self, wires: &Wires, memory: &mut Memory) {
+        let Some(outcome) = &wires.outcome else {
+            return;
+        };
+        let context = outcome.context;
+        if let Some(attempt) = outcome.attempt {
+            self.attempts[context] = attempt;
+        }
+        if let Some(root) = outcome.root {
+            self.root[context] = root;
+        }
+        if let Some((x, entry)) = outcome.entry {
+            memory.entries[context][x] = entry;
+        }
+        if let Some((place, id)) = outcome.inner {
+            memory.inner[context][place as usize] = id;
+        }
+        if let Some((place, id)) = outcome.lock {
+            memory.lock_log[context][place as usize] = id;
+        }
+    }
+}
