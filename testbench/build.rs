@@ -17,7 +17,8 @@ fn main() {
     for (name, verilog) in incircle_hdl::export::blocks().into_iter().filter(|(name, _)| is_wanted(name)) {
         builder = builder.model(ModelSource::new(&name, &name, verilog).trace(true).random_initial_state(true));
     }
-    for (name, verilog) in cores::all().into_iter().filter(|(name, _)| is_wanted(name)) {
+    let cores = if only.is_empty() || only.contains("core") { cores::all() } else { Vec::new() };
+    for (name, verilog) in cores.into_iter().filter(|(name, _)| is_wanted(name)) {
         builder = builder.model(
             ModelSource::new(name, incircle_hdl::top::CORE_NAME, verilog)
                 .trace(true)

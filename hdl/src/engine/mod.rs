@@ -1,15 +1,6 @@
 //! The insertion engine: visits, cavity, commit, and the phases of an insertion.
 
-mod cavity;
-mod commit;
-mod context;
 mod counters;
-mod insertion_engine;
-mod issue;
-mod phase_machine;
-mod push_choice;
-mod release;
-mod root_bundle;
 mod seed_writes;
 mod seeder;
 mod solo;
@@ -18,21 +9,10 @@ mod solo_writes;
 mod star_id;
 mod types;
 mod verdict_logic;
-mod visit_pipeline;
-mod visit_reader;
 mod write_port;
 mod write_request;
 
-pub use cavity::Cavity;
-pub use commit::{Commit, CommitState};
-pub use context::Context;
 pub use counters::{Counters, WideCounter};
-pub use insertion_engine::InsertionEngine;
-pub use issue::Issue;
-pub use phase_machine::{Phase, PhaseMachine};
-pub use push_choice::PushChoice;
-pub use release::Release;
-pub use root_bundle::RootBundle;
 pub use seed_writes::SeedWrites;
 pub use seeder::Seeder;
 pub use solo::{Solo, SoloState};
@@ -41,7 +21,5 @@ pub use solo_writes::SoloWrites;
 pub use star_id::StarId;
 pub use types::*;
 pub use verdict_logic::VerdictLogic;
-pub use visit_pipeline::VisitPipeline;
-pub use visit_reader::VisitReader;
 pub use write_port::WritePort;
 pub use write_request::{LinkWrite, RecordWrite};

@@ -39,6 +39,8 @@ impl Logic for SoloVisit {
     #[hdl_gen]
     fn update(&mut self) {
         self.bundle.next.is_pair = false;
+        self.bundle.next.is_triple = false;
+        self.bundle.next.owner = 0.into();
         self.bundle.next.rotates = !self.is_fetch.val();
         self.bundle.next.locks = false;
         self.bundle.next.x = 0.into();
@@ -46,9 +48,9 @@ impl Logic for SoloVisit {
         self.bundle.next.f_entry = 0.into();
         self.bundle.next.f = self.back.val();
         self.bundle.next.u = self.outer.val();
-        self.bundle.next.second_x = 0.into();
         self.bundle.next.second_after = 0.into();
         self.bundle.next.second_u = 0.into();
+        self.bundle.next.third_u = 0.into();
         if self.is_fetch.val() {
             self.bundle.next.f = 0.into();
             self.bundle.next.u = self.id.val();

@@ -3,6 +3,7 @@
 //! Widths are those of the largest core: ids of 15 bits, ring entries of 6. Memories of smaller configurations store fewer bits
 //! and return zeros above them, so synthesis removes the rest.
 
+use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
 /// Bits of a triangle id: `2 * 16384` records.
@@ -16,6 +17,15 @@ pub const COUNT_BITS: usize = 7;
 /// Bits of a count of locks: an insertion sets at most `2 * 64 - 2`.
 pub const LOG_BITS: usize = 7;
 
+/// Bits of a context number: 24 contexts.
+pub const CONTEXT_BITS: usize = 5;
+/// Bits of a latency, a clock count that wraps.
+pub const LATENCY_BITS: usize = incircle_protocol::LATENCY_BITS as usize;
+/// Bits of the address of a memory with a word for each ring entry of each context.
+pub const RING_ADDRESS_BITS: usize = CONTEXT_BITS + ENTRY_BITS;
+/// Bits of the address of a memory with a word for each lock of each context.
+pub const LOG_ADDRESS_BITS: usize = CONTEXT_BITS + LOG_BITS;
+
 /// Bits of [`Token`].
 pub const TOKEN_BITS: usize = Token::BITS;
 /// Bits of [`Bundle`].
@@ -24,13 +34,36 @@ pub const BUNDLE_BITS: usize = Bundle::BITS;
 pub const TURNED_BITS: usize = Turned::BITS;
 /// Bits of [`Entry`].
 pub const ENTRY_WORD_BITS: usize = Entry::BITS;
+/// Bits of [`Attempt`].
+pub const ATTEMPT_BITS: usize = Attempt::BITS;
+/// Bits of [`CommitJob`].
+pub const COMMIT_JOB_BITS: usize = CommitJob::BITS;
+/// Bits of [`ReleaseJob`].
+pub const RELEASE_JOB_BITS: usize = ReleaseJob::BITS;
+
+/// Address bits that number the contexts of a configuration.
+pub fn context_bits(config: Config) -> usize {
+    bits_to_number(config.contexts)
+}
+
+/// Address bits that number the ring entries of a configuration.
+pub fn ring_bits(config: Config) -> usize {
+    bits_to_number(config.ring)
+}
+
+/// Bits that number `things`; at least one.
+fn bits_to_number(things: u32) -> usize {
+    (u32::BITS - (things.max(2) - 1).leading_zeros()) as usize
+}
 
 crate::packed! {
     /// One visit of a record.
     pub struct Token {
+        /// The context it belongs to.
+        pub owner: Bits<5>,
         /// The record is turned so that its link to `f` comes first.
         pub rotates: bool,
-        /// The record's lock bit is set.
+        /// The record's lock is taken.
         pub locks: bool,
         /// Ring entry whose edge is tested.
         pub x: Bits<6>,
@@ -44,10 +77,15 @@ crate::packed! {
         pub u: Bits<15>,
     }
 
-    /// One or two visits that one completion asks for; the second differs from the first in three fields.
+    /// One to three visits that one completion asks for. The second visit has `x = after` of the first and the third `x =
+    /// second_after` and `after = 0`; all other fields are those of the first.
     pub struct Bundle {
         /// There is a second visit.
         pub is_pair: bool,
+        /// There are a second and a third visit; `is_pair` is set too.
+        pub is_triple: bool,
+        /// See [`Token`].
+        pub owner: Bits<5>,
         /// See [`Token`].
         pub rotates: bool,
         /// See [`Token`].
@@ -62,12 +100,12 @@ crate::packed! {
         pub f: Bits<15>,
         /// See [`Token`].
         pub u: Bits<15>,
-        /// `x` of the second visit.
-        pub second_x: Bits<6>,
         /// `after` of the second visit.
         pub second_after: Bits<6>,
         /// `u` of the second visit.
         pub second_u: Bits<15>,
+        /// `u` of the third visit.
+        pub third_u: Bits<15>,
     }
 
     /// A record that has been read and turned.
@@ -86,14 +124,58 @@ crate::packed! {
         pub n2: Bits<15>,
         /// The stored slot that now comes first.
         pub slot: Bits<2>,
-        /// The lock bit before the visit.
-        pub was_set: bool,
+        /// The visit took the record's lock.
+        pub took: bool,
+        /// It would have, but another context holds it, or it was being cleared.
+        pub foreign: bool,
+        /// The record was not written yet, or being written: a walk must look again.
+        pub again: bool,
         /// `v0` is the infinite vertex.
         pub infinite0: bool,
         /// `v1` is.
         pub infinite1: bool,
         /// `v2` is.
         pub infinite2: bool,
+    }
+
+    /// The state of a context's cavity, from the visit that locks its root. `half_open` comes last: a memory keeps as many of its
+    /// bits as a ring has entries.
+    pub struct Attempt {
+        /// It has failed: its visits run out.
+        pub drains: bool,
+        /// Visits pushed and not completed.
+        pub outstanding: Bits<7>,
+        /// Ring entries.
+        pub count: Bits<7>,
+        /// Cavity triangles without a boundary edge.
+        pub inners: Bits<7>,
+        /// Locks in the log.
+        pub logged: Bits<7>,
+        /// Bit `y`: one of the two edges that entry `y`'s cavity triangle brought has been passed. The root brought three and uses
+        /// bits 0 and 1.
+        pub half_open: Bits<64>,
+    }
+
+    /// A finished ring, to be committed.
+    pub struct CommitJob {
+        /// Its context.
+        pub owner: Bits<5>,
+        /// The new vertex.
+        pub p: Bits<15>,
+        /// Inner triangles.
+        pub inners: Bits<7>,
+        /// Locks in the log.
+        pub locks: Bits<7>,
+        /// When the point was taken.
+        pub since: Bits<22>,
+    }
+
+    /// The locks of an attempt, to be released.
+    pub struct ReleaseJob {
+        /// Its context.
+        pub owner: Bits<5>,
+        /// Locks in the log, at least one.
+        pub locks: Bits<7>,
     }
 
     /// What a visit found out. Fields that a visit does not need hold what came out all the same.

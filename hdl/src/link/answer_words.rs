@@ -88,10 +88,10 @@ const _: () = assert!(
         && Status::Full as u8 == 4
         && IDENTITY_WORDS == 7
         && INSERT_REPORT_WORDS == 5
-        && COUNTER_WORDS == 14
+        && COUNTER_WORDS == 25
         && MAGIC == 0x696e_4369
-        && PROTOCOL_VERSION == 0x0001_0000
-        && CORE_VERSION == 0x0000_0100
+        && PROTOCOL_VERSION == 0x0001_0001
+        && CORE_VERSION == 0x0000_0200
         && CORE_COORD_BITS == 16,
     "the words of this block follow the protocol"
 );
@@ -115,11 +115,11 @@ impl Logic for AnswerWords {
                 self.report.next = bit_cast::<32, 15>(self.arrived.val());
             }
             1 => {
-                self.identity.next = 0x0001_0000.into();
+                self.identity.next = 0x0001_0001.into();
                 self.report.next = self.insertions.val();
             }
             2 => {
-                self.identity.next = 0x0000_0100.into();
+                self.identity.next = 0x0000_0200.into();
                 self.report.next = self.duplicates.val();
             }
             3 => {
@@ -171,7 +171,7 @@ impl Logic for AnswerWords {
                 }
             }
             5 => {
-                self.length.next = 14.into();
+                self.length.next = 25.into();
             }
             _ => {
                 self.status.next = 1.into();

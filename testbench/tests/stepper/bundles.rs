@@ -33,6 +33,7 @@ pub fn link_write(id: u64, slot: u64, value: u64) -> u128 {
 /// A visit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visit {
+    pub owner: u64,
     pub rotates: bool,
     pub locks: bool,
     pub x: u64,
@@ -48,8 +49,9 @@ impl Visit {
         Self { u, ..Self::default() }
     }
 
-    fn fields(self) -> [(u64, u32); 7] {
+    fn fields(self) -> [(u64, u32); 8] {
         [
+            (self.owner, 5),
             (self.rotates.into(), 1),
             (self.locks.into(), 1),
             (self.x, 6),
@@ -65,10 +67,11 @@ impl Visit {
         pack(&self.fields())
     }
 
-    /// As a `Bundle`; a second visit is `x`, `after`, `u`, and what stands there if there is none does not matter.
-    pub fn bundle(self, is_pair: bool, second: [u64; 3]) -> u128 {
-        let head = [(u64::from(is_pair), 1)];
-        let tail = [(second[0], 6), (second[1], 6), (second[2], ID_BITS)];
+    /// As a `Bundle` of `visits` visits: this one, the second with the entry after it and its record, and the third's record. What
+    /// stands there for visits that are not made does not matter.
+    pub fn bundle(self, visits: u64, second_after: u64, second_u: u64, third_u: u64) -> u128 {
+        let head = [(u64::from(visits > 1), 1), (u64::from(visits > 2), 1)];
+        let tail = [(second_after, 6), (second_u, ID_BITS), (third_u, ID_BITS)];
         pack(&[&head[..], &self.fields(), &tail].concat())
     }
 
@@ -76,22 +79,48 @@ impl Visit {
     pub fn of_bundle(bundle: u128) -> Self {
         let field = |place: u32, bits: u32| (bundle >> place) as u64 & ((1 << bits) - 1);
         Self {
-            rotates: field(1, 1) == 1,
-            locks: field(2, 1) == 1,
-            x: field(3, 6),
-            after: field(9, 6),
-            f_entry: field(15, 6),
-            f: field(21, ID_BITS),
-            u: field(36, ID_BITS),
+            owner: field(2, 5),
+            rotates: field(7, 1) == 1,
+            locks: field(8, 1) == 1,
+            x: field(9, 6),
+            after: field(15, 6),
+            f_entry: field(21, 6),
+            f: field(27, ID_BITS),
+            u: field(42, ID_BITS),
         }
     }
 }
 
-/// A `Turned`: vertices, links, slot, lock bit, which vertices are infinite.
-pub fn turned(v: [u64; 3], n: [u64; 3], slot: u64, was_set: bool, infinite: [bool; 3]) -> u128 {
-    let tail =
-        [(slot, 2), (was_set.into(), 1), (infinite[0].into(), 1), (infinite[1].into(), 1), (infinite[2].into(), 1)];
+/// What a visit found at the lock of its record.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LockFinding {
+    pub took: bool,
+    pub foreign: bool,
+    pub again: bool,
+}
+
+/// A `Turned`: vertices, links, slot, what was found at the lock, which vertices are infinite.
+pub fn turned(v: [u64; 3], n: [u64; 3], slot: u64, lock: LockFinding, infinite: [bool; 3]) -> u128 {
+    let tail = [
+        (slot, 2),
+        (lock.took.into(), 1),
+        (lock.foreign.into(), 1),
+        (lock.again.into(), 1),
+        (infinite[0].into(), 1),
+        (infinite[1].into(), 1),
+        (infinite[2].into(), 1),
+    ];
     pack(&[&ids(&v), &ids(&n), &tail[..]].concat())
+}
+
+/// A `CommitJob`.
+pub fn commit_job(owner: u64, p: u64, inners: u64, locks: u64, since: u64) -> u128 {
+    pack(&[(owner, 5), (p, ID_BITS), (inners, 7), (locks, 7), (since, 22)])
+}
+
+/// A `ReleaseJob`.
+pub fn release_job(owner: u64, locks: u64) -> u128 {
+    pack(&[(owner, 5), (locks, 7)])
 }
 
 /// What a visit found out.
