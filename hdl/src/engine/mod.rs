@@ -1,25 +1,41 @@
 //! The insertion engine: visits, cavity, commit, and the phases of an insertion.
 
+mod attempt_step;
+mod attempts;
+mod context_flags;
 mod counters;
+mod next_point;
+mod next_visits;
+mod progress;
 mod seed_writes;
 mod seeder;
 mod solo;
 mod solo_visit;
 mod solo_writes;
 mod star_id;
+mod starter;
 mod types;
 mod verdict_logic;
+mod visit_case;
 mod write_port;
 mod write_request;
 
+pub use attempt_step::AttemptStep;
+pub use attempts::Attempts;
+pub use context_flags::ContextFlags;
 pub use counters::{Counters, WideCounter};
+pub use next_point::NextPoint;
+pub use next_visits::NextVisits;
+pub use progress::Progress;
 pub use seed_writes::SeedWrites;
 pub use seeder::Seeder;
 pub use solo::{Solo, SoloState};
 pub use solo_visit::SoloVisit;
 pub use solo_writes::SoloWrites;
 pub use star_id::StarId;
+pub use starter::Starter;
 pub use types::*;
 pub use verdict_logic::VerdictLogic;
+pub use visit_case::VisitCase;
 pub use write_port::WritePort;
 pub use write_request::{LinkWrite, RecordWrite};

@@ -1,0 +1,121 @@
+//! The state of an attempt after one of its visits.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `attempt` | in | Attempt | the state before |
+//! | `f_entry` | in | 6 | the entry that names the cavity triangle the test came from |
+//! | `took` | in | 1 | the visit took a lock |
+//! | `is_test`, `opens`, `splits`, `repeats`, `gives_up`, `overflows` | in | 1 | from `VisitCase` |
+//! | `after` | out | Attempt | the state afterwards |
+//! | `is_over` | out | 1 | no visit of the attempt is out any more |
+//! | `succeeds` | out | 1 | and it has not failed: the ring is finished |
+//! | `finds_inner` | out | 1 | the cavity triangle behind the edge has no boundary edge left |
+//!
+//! 1. An attempt begins with the three tests of the root's neighbours and its one lock.
+//! 2. A test is one visit less; if it passes through its edge, two more and one more entry.
+//! 3. A cavity triangle brings two open edges, the root three; when the last is passed it is an inner one.
+//!
+//! Latency: none (combinational).
+
+use super::Attempt;
+use rust_hdl_core::prelude::*;
+
+/// The step of an attempt; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct AttemptStep {
+    /// The state before.
+    pub attempt: Signal<In, Attempt>,
+    /// Entry of the cavity triangle.
+    pub f_entry: Signal<In, Bits<6>>,
+    /// A lock was taken.
+    pub took: Signal<In, Bit>,
+    /// A test completes.
+    pub is_test: Signal<In, Bit>,
+    /// An attempt begins.
+    pub opens: Signal<In, Bit>,
+    /// The test passes.
+    pub splits: Signal<In, Bit>,
+    /// It is made again.
+    pub repeats: Signal<In, Bit>,
+    /// The attempt fails.
+    pub gives_up: Signal<In, Bit>,
+    /// It fails.
+    pub overflows: Signal<In, Bit>,
+    /// The state afterwards.
+    pub after: Signal<Out, Attempt>,
+    /// No visit is out.
+    pub is_over: Signal<Out, Bit>,
+    /// The ring is finished.
+    pub succeeds: Signal<Out, Bit>,
+    /// An inner triangle.
+    pub finds_inner: Signal<Out, Bit>,
+    fails: Signal<Local, Bit>,
+    is_last: Signal<Local, Bit>,
+    ends_here: Signal<Local, Bit>,
+    edge_was_passed: Signal<Local, Bit>,
+    root_keeps_an_edge: Signal<Local, Bit>,
+    passes_last_edge: Signal<Local, Bit>,
+    half_open: Signal<Local, Bits<64>>,
+    entry: Signal<Local, Bits<6>>,
+    root_entry: Signal<Local, Bits<6>>,
+    outstanding: Signal<Local, Bits<7>>,
+    count: Signal<Local, Bits<7>>,
+    inners: Signal<Local, Bits<7>>,
+    logged: Signal<Local, Bits<7>>,
+    one: Signal<Local, Bits<7>>,
+}
+
+impl Logic for AttemptStep {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.one.next = 1.into();
+        self.root_entry.next = 0.into();
+        self.outstanding.next = self.attempt.val().outstanding;
+        self.count.next = self.attempt.val().count;
+        self.inners.next = self.attempt.val().inners;
+        self.logged.next = self.attempt.val().logged;
+        self.half_open.next = self.attempt.val().half_open;
+        self.entry.next = self.f_entry.val();
+
+        self.fails.next = self.attempt.val().drains | self.gives_up.val() | self.overflows.val();
+        self.is_last.next = self.outstanding.val() == self.one.val();
+        self.ends_here.next = self.is_test.val() & self.is_last.val() & (!self.splits.val()) & (!self.repeats.val());
+        self.is_over.next = self.ends_here.val();
+        self.succeeds.next = self.ends_here.val() & (!self.fails.val());
+
+        // Does the cavity triangle behind the edge keep another one?
+        self.edge_was_passed.next = self.half_open.val().get_bit(self.entry.val().index());
+        self.root_keeps_an_edge.next = (self.entry.val() == self.root_entry.val()) & (!self.half_open.val().get_bit(1));
+        self.passes_last_edge.next = self.splits.val() & self.edge_was_passed.val() & (!self.root_keeps_an_edge.val());
+        self.finds_inner.next = self.passes_last_edge.val();
+
+        self.after.next = self.attempt.val();
+        self.after.next.drains = self.fails.val();
+        self.after.next.outstanding = self.outstanding.val() - self.one.val();
+        if self.repeats.val() {
+            self.after.next.outstanding = self.outstanding.val();
+        }
+        if self.took.val() {
+            self.after.next.logged = self.logged.val() + self.one.val();
+        }
+        if self.splits.val() {
+            self.after.next.outstanding = self.outstanding.val() + self.one.val();
+            self.after.next.count = self.count.val() + self.one.val();
+            self.after.next.half_open = self.half_open.val().replace_bit(self.entry.val().index(), true);
+            if self.edge_was_passed.val() & self.root_keeps_an_edge.val() {
+                self.after.next.half_open = self.half_open.val().replace_bit(1, true);
+            }
+        }
+        if self.passes_last_edge.val() {
+            self.after.next.inners = self.inners.val() + self.one.val();
+        }
+        if self.opens.val() {
+            self.after.next.drains = false;
+            self.after.next.outstanding = 3.into();
+            self.after.next.count = 3.into();
+            self.after.next.inners = 0.into();
+            self.after.next.logged = 1.into();
+            self.after.next.half_open = 0.into();
+        }
+    }
+}

@@ -1,0 +1,291 @@
+//! Takes each visit that completes to the next step of its context: the heart of the engine.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `ring` | in | 7 | entries a boundary list holds, a constant |
+//! | `done`, `token`, `turned`, `verdict` | in | | a visit completes that is no insertion alone's |
+//! | `seeded` | in | 1 | the first triangle stands |
+//! | `busy`, `waiter_valid`, `waiter` | in | 24, 1, 5 | contexts with a commit or release due; who holds the waiting token |
+//! | `takes`, `taker`, `taken_id`, `now` | in | 1, 5, 15, 22 | a context takes a point at this edge; the time |
+//! | `push`, `bundle` | out | 1, Bundle | visits to make |
+//! | `owner` | out | 5 | the context of all outputs below |
+//! | `sleeps`, `keeps` | out | 1 | none of its visits is out any more; it will try its point again |
+//! | `root_enable`, `root` | out | 1, 15 | where it will then start to walk |
+//! | `entry_enable`, `entry_place`, `entry` | out | 1, 6, Entry | a final edge of the boundary |
+//! | `inner_enable`, `inner_place`, `inner_id` | out | 1, 6, 15 | an inner triangle |
+//! | `lock_enable`, `lock_place`, `lock_id` | out | 1, 7, 15 | a lock for the log |
+//! | `commit_enable`, `commit_job` | out | 1, CommitJob | a ring is finished |
+//! | `release_enable`, `release_job` | out | 1, ReleaseJob | locks are to be released |
+//! | `asks_to_wait`, `stops_waiting` | out | 1 | it wants the waiting token, or needs it no more |
+//! | `overflows`, `duplicate`, `looks` | out | 1 | its list overflows; its point is one already; the look at the first three points |
+//! | `walk_visit`, `root_visit`, `test`, `revisit`, `gives_up`, `retries` | out | 1 | events for the counters |
+//! | `cavity_triangles` | out | 7 | triangles of the ring that is finished |
+//!
+//! 1. A visit changes the state of its own context only, which is read, changed and written back in one clock; so visits of all
+//!    contexts complete in any order, one a clock.
+//! 2. A failed attempt drains: its visits run out, locks that they take are logged, and then all its locks are released.
+//! 3. All outputs belong to the visit of this clock.
+//!
+//! Latency: none from `done` to the outputs; the state is there for the visit of the next clock.
+//!
+//! Source: Bowyer and Watson's cavity; the ring that is split in place is ours.
+
+use super::{
+    context_bits, ring_bits, Attempt, AttemptStep, Bundle, CommitJob, Entry, NextVisits, ReleaseJob, Token, Turned,
+    Verdict, VisitCase, ATTEMPT_BITS,
+};
+use crate::leaf::{LutMemory, Unpack};
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+
+/// The completion of visits; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Attempts {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Entries a list holds.
+    pub ring: Signal<In, Bits<7>>,
+    /// A visit completes.
+    pub done: Signal<In, Bit>,
+    /// The visit.
+    pub token: Signal<In, Token>,
+    /// Its record.
+    pub turned: Signal<In, Turned>,
+    /// What it found out.
+    pub verdict: Signal<In, Verdict>,
+    /// The first triangle stands.
+    pub seeded: Signal<In, Bit>,
+    /// Contexts with a commit or release due.
+    pub busy: Signal<In, Bits<24>>,
+    /// Somebody holds the waiting token.
+    pub waiter_valid: Signal<In, Bit>,
+    /// Who.
+    pub waiter: Signal<In, Bits<5>>,
+    /// A context takes a point.
+    pub takes: Signal<In, Bit>,
+    /// Which context.
+    pub taker: Signal<In, Bits<5>>,
+    /// The vertex it takes.
+    pub taken_id: Signal<In, Bits<15>>,
+    /// The time.
+    pub now: Signal<In, Bits<22>>,
+    /// Visits to make.
+    pub push: Signal<Out, Bit>,
+    /// The visits.
+    pub bundle: Signal<Out, Bundle>,
+    /// The context at work.
+    pub owner: Signal<Out, Bits<5>>,
+    /// No visit of it is out.
+    pub sleeps: Signal<Out, Bit>,
+    /// It tries again.
+    pub keeps: Signal<Out, Bit>,
+    /// Its goal is known.
+    pub root_enable: Signal<Out, Bit>,
+    /// The goal.
+    pub root: Signal<Out, Bits<15>>,
+    /// An edge is final.
+    pub entry_enable: Signal<Out, Bit>,
+    /// Its place.
+    pub entry_place: Signal<Out, Bits<6>>,
+    /// The edge.
+    pub entry: Signal<Out, Entry>,
+    /// An inner triangle.
+    pub inner_enable: Signal<Out, Bit>,
+    /// Its place.
+    pub inner_place: Signal<Out, Bits<6>>,
+    /// Its id.
+    pub inner_id: Signal<Out, Bits<15>>,
+    /// A lock was taken.
+    pub lock_enable: Signal<Out, Bit>,
+    /// Its place in the log.
+    pub lock_place: Signal<Out, Bits<7>>,
+    /// The record.
+    pub lock_id: Signal<Out, Bits<15>>,
+    /// A ring is finished.
+    pub commit_enable: Signal<Out, Bit>,
+    /// The ring.
+    pub commit_job: Signal<Out, CommitJob>,
+    /// Locks are to be released.
+    pub release_enable: Signal<Out, Bit>,
+    /// The locks.
+    pub release_job: Signal<Out, ReleaseJob>,
+    /// It wants the waiting token.
+    pub asks_to_wait: Signal<Out, Bit>,
+    /// It needs it no more.
+    pub stops_waiting: Signal<Out, Bit>,
+    /// Its list overflows.
+    pub overflows: Signal<Out, Bit>,
+    /// Its point is a duplicate.
+    pub duplicate: Signal<Out, Bit>,
+    /// The look at the first three points.
+    pub looks: Signal<Out, Bit>,
+    /// Event: a walk's visit.
+    pub walk_visit: Signal<Out, Bit>,
+    /// Event: a root's visit.
+    pub root_visit: Signal<Out, Bit>,
+    /// Event: a test.
+    pub test: Signal<Out, Bit>,
+    /// Event: a visit is made again.
+    pub revisit: Signal<Out, Bit>,
+    /// Event: an attempt is given up for a foreign lock.
+    pub gives_up: Signal<Out, Bit>,
+    /// Event: a root had changed.
+    pub retries: Signal<Out, Bit>,
+    /// Triangles of a finished ring.
+    pub cavity_triangles: Signal<Out, Bits<7>>,
+    states: LutMemory<5, ATTEMPT_BITS>,
+    state: Unpack<Attempt, ATTEMPT_BITS>,
+    points: LutMemory<5, 15>,
+    times: LutMemory<5, 22>,
+    meaning: VisitCase,
+    step: AttemptStep,
+    visits: NextVisits,
+    after_bits: Signal<Local, Bits<ATTEMPT_BITS>>,
+    context_index: Signal<Local, Bits<5>>,
+    fails: Signal<Local, Bit>,
+    stops_at_root: Signal<Local, Bit>,
+    count: Signal<Local, Bits<7>>,
+    inners: Signal<Local, Bits<7>>,
+    two: Signal<Local, Bits<7>>,
+}
+
+impl Attempts {
+    /// The attempts of a configuration.
+    pub fn new(config: Config) -> Self {
+        let bits = context_bits(config);
+        let kept = ATTEMPT_BITS - (1 << 6) + (1 << ring_bits(config));
+        Self {
+            states: LutMemory::new(bits, kept),
+            points: LutMemory::new(bits, 15),
+            times: LutMemory::new(bits, 22),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for Attempts {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, states, points, times);
+        self.two.next = 2.into();
+        self.context_index.next = self.token.val().owner;
+        self.owner.next = self.token.val().owner;
+
+        // The context's state.
+        self.states.read_address.next = self.token.val().owner;
+        self.state.bits.next = self.states.read_data.val();
+        self.count.next = self.state.value.val().count;
+        self.inners.next = self.state.value.val().inners;
+        self.points.read_address.next = self.token.val().owner;
+        self.times.read_address.next = self.token.val().owner;
+        self.points.write_address.next = self.taker.val();
+        self.points.write_data.next = self.taken_id.val();
+        self.points.write_enable.next = self.takes.val();
+        self.times.write_address.next = self.taker.val();
+        self.times.write_data.next = self.now.val();
+        self.times.write_enable.next = self.takes.val();
+
+        // What the visit means.
+        self.meaning.done.next = self.done.val();
+        self.meaning.token.next = self.token.val();
+        self.meaning.turned.next = self.turned.val();
+        self.meaning.verdict.next = self.verdict.val();
+        self.meaning.seeded.next = self.seeded.val();
+        self.meaning.is_busy.next = self.busy.val().get_bit(self.context_index.val().index());
+        self.meaning.is_waiter.next = self.waiter_valid.val() & (self.waiter.val() == self.token.val().owner);
+        self.meaning.drains.next = self.state.value.val().drains;
+        self.meaning.is_full.next = self.count.val() == self.ring.val();
+
+        // The state afterwards.
+        self.step.attempt.next = self.state.value.val();
+        self.step.f_entry.next = self.token.val().f_entry;
+        self.step.took.next = self.turned.val().took;
+        self.step.is_test.next = self.meaning.is_test.val();
+        self.step.opens.next = self.meaning.opens.val();
+        self.step.splits.next = self.meaning.splits.val();
+        self.step.repeats.next = self.meaning.repeats.val();
+        self.step.gives_up.next = self.meaning.gives_up.val();
+        self.step.overflows.next = self.meaning.overflows.val();
+        self.after_bits.next = self.step.after.val().into();
+        self.states.write_address.next = self.token.val().owner;
+        self.states.write_data.next = self.after_bits.val();
+        self.states.write_enable.next = self.meaning.opens.val() | self.meaning.is_test.val();
+
+        // The visits that follow.
+        self.visits.token.next = self.token.val();
+        self.visits.turned.next = self.turned.val();
+        self.visits.walk_next.next = self.verdict.val().walk_next;
+        self.visits.entry.next = self.count.val().get_bits::<6>(0);
+        self.visits.walks_on.next = self.meaning.walks_on.val();
+        self.visits.locates.next = self.meaning.locates.val();
+        self.visits.opens.next = self.meaning.opens.val();
+        self.visits.splits.next = self.meaning.splits.val();
+        self.bundle.next = self.visits.bundle.val();
+        self.push.next = self.meaning.repeats.val()
+            | self.meaning.walks_on.val()
+            | self.meaning.locates.val()
+            | self.meaning.opens.val()
+            | self.meaning.splits.val();
+
+        // What becomes of the context.
+        self.fails.next = self.step.is_over.val() & (!self.step.succeeds.val());
+        self.stops_at_root.next = self.meaning.root_duplicate.val() | self.meaning.retries.val();
+        self.sleeps.next = self.meaning.looks.val()
+            | self.meaning.walk_duplicate.val()
+            | self.meaning.gives_up_root.val()
+            | self.stops_at_root.val()
+            | self.step.is_over.val();
+        self.keeps.next = self.meaning.gives_up_root.val() | self.meaning.retries.val() | self.fails.val();
+        self.root_enable.next = self.meaning.is_root.val();
+        self.root.next = self.token.val().u;
+        if self.meaning.retries.val() {
+            self.root.next = self.verdict.val().walk_next;
+        }
+        self.asks_to_wait.next = self.meaning.gives_up_root.val() | self.meaning.gives_up.val();
+        self.stops_waiting.next =
+            self.meaning.walk_duplicate.val() | self.meaning.root_duplicate.val() | self.step.succeeds.val();
+        self.overflows.next = self.meaning.overflows.val();
+        self.duplicate.next = self.meaning.walk_duplicate.val() | self.meaning.root_duplicate.val();
+        self.looks.next = self.meaning.looks.val();
+
+        // What the lists take.
+        self.entry_enable.next = self.meaning.settles.val();
+        self.entry_place.next = self.token.val().x;
+        self.entry.next.a = self.turned.val().v2;
+        self.entry.next.u = self.token.val().u;
+        self.entry.next.slot = self.turned.val().slot;
+        self.entry.next.f = self.token.val().f;
+        self.entry.next.after = self.token.val().after;
+        self.inner_enable.next = self.step.finds_inner.val();
+        self.inner_place.next = self.inners.val().get_bits::<6>(0);
+        self.inner_id.next = self.token.val().f;
+        self.lock_enable.next = self.done.val() & self.turned.val().took;
+        self.lock_place.next = self.state.value.val().logged;
+        self.lock_id.next = self.token.val().u;
+        if self.meaning.is_root.val() {
+            self.lock_place.next = 0.into();
+        }
+        self.commit_enable.next = self.step.succeeds.val();
+        self.commit_job.next.owner = self.token.val().owner;
+        self.commit_job.next.p = self.points.read_data.val();
+        self.commit_job.next.inners = self.inners.val();
+        self.commit_job.next.locks = self.step.after.val().logged;
+        self.commit_job.next.since = self.times.read_data.val();
+        self.release_enable.next = self.fails.val() | self.stops_at_root.val();
+        self.release_job.next.owner = self.token.val().owner;
+        self.release_job.next.locks = self.step.after.val().logged;
+        if self.stops_at_root.val() {
+            self.release_job.next.locks = 1.into();
+        }
+
+        // For the counters.
+        self.walk_visit.next = self.meaning.is_walk.val();
+        self.root_visit.next = self.meaning.is_root.val();
+        self.test.next = self.meaning.is_test.val();
+        self.revisit.next = self.meaning.repeats.val();
+        self.gives_up.next = self.meaning.gives_up_root.val() | self.meaning.gives_up.val();
+        self.retries.next = self.meaning.retries.val();
+        self.cavity_triangles.next = self.count.val() - self.two.val();
+    }
+}

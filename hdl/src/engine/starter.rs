@@ -1,0 +1,231 @@
+//! Wakes sleeping contexts: a pointer goes round them, one a clock, and starts a walk where one is due.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset`, `clears` | in | 1 | reset and clear start at context 0 |
+//! | `contexts` | in | 5 | contexts that work |
+//! | `arrived` | in | 15 | points that have come |
+//! | `came` | in | 1 | one is being stored: the vertex memory's port is taken |
+//! | `seeded` | in | 1 | the first triangle stands |
+//! | `asleep`, `keeping`, `busy`, `began`, `hinted` | in | 24 | see `ContextFlags` |
+//! | `solo_valid` | in | 1 | somebody wants to be alone: nobody starts |
+//! | `is_blocked` | in | 1 | the queue takes another bundle at this edge |
+//! | `root_enable`, `root_owner`, `root` | in | 1, 5, 15 | where a context goes on when it tries again |
+//! | `hint_enable`, `hint_owner`, `hint` | in | 1, 5, 15 | where its next walk starts |
+//! | `starts`, `owner`, `u` | out | 1, 5, 15 | this context starts to walk at this record |
+//! | `takes`, `taken_id` | out | 1, 15 | with this new point |
+//! | `position_enable`, `position_owner` | out | 1, 5 | the point's coordinates stand on the vertex memory's port |
+//!
+//! 1. A context starts if it sleeps and has a point to try again, no commit or release is due, and it has rested: contexts that try again
+//!    start in every fourth round of the pointer only, which spreads them.
+//! 2. Or if it sleeps and its next point has come. Until context 0 has taken vertex 16, no other context works.
+//! 3. The walk of a new point starts at the star of the context's last commit, record 0 if there is none.
+//!
+//! Latency: 2 clocks from the pointer to `starts`; `position_enable` comes 2 clocks after `takes`.
+//!
+//! Source: points dealt to contexts lie in the vertex memory, which is their queue.
+
+use super::{context_bits, NextPoint};
+use crate::leaf::LutMemory;
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Starts walks; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Starter {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Starts at context 0.
+    pub reset: Signal<In, Bit>,
+    /// Starts at context 0.
+    pub clears: Signal<In, Bit>,
+    /// Contexts that work.
+    pub contexts: Signal<In, Bits<5>>,
+    /// Points that have come.
+    pub arrived: Signal<In, Bits<15>>,
+    /// A point is being stored.
+    pub came: Signal<In, Bit>,
+    /// The first triangle stands.
+    pub seeded: Signal<In, Bit>,
+    /// Contexts without a visit.
+    pub asleep: Signal<In, Bits<24>>,
+    /// Contexts that try again.
+    pub keeping: Signal<In, Bits<24>>,
+    /// Contexts with a commit or release due.
+    pub busy: Signal<In, Bits<24>>,
+    /// Contexts that have had a point.
+    pub began: Signal<In, Bits<24>>,
+    /// Contexts that have had a commit.
+    pub hinted: Signal<In, Bits<24>>,
+    /// Nobody starts.
+    pub solo_valid: Signal<In, Bit>,
+    /// The queue takes another bundle.
+    pub is_blocked: Signal<In, Bit>,
+    /// A root to go on from.
+    pub root_enable: Signal<In, Bit>,
+    /// Whose.
+    pub root_owner: Signal<In, Bits<5>>,
+    /// The root.
+    pub root: Signal<In, Bits<15>>,
+    /// A hint.
+    pub hint_enable: Signal<In, Bit>,
+    /// Whose.
+    pub hint_owner: Signal<In, Bits<5>>,
+    /// The hint.
+    pub hint: Signal<In, Bits<15>>,
+    /// A context starts.
+    pub starts: Signal<Out, Bit>,
+    /// Which.
+    pub owner: Signal<Out, Bits<5>>,
+    /// Where.
+    pub u: Signal<Out, Bits<15>>,
+    /// It takes a new point.
+    pub takes: Signal<Out, Bit>,
+    /// Which.
+    pub taken_id: Signal<Out, Bits<15>>,
+    /// The point's coordinates have come.
+    pub position_enable: Signal<Out, Bit>,
+    /// Whose.
+    pub position_owner: Signal<Out, Bits<5>>,
+    turn: DFF<Bits<5>>,
+    round: DFF<Bits<2>>,
+    candidate: DFF<Bits<5>>,
+    candidate_id: DFF<Bits<15>>,
+    candidate_is_there: DFF<Bit>,
+    all_work: DFF<Bit>,
+    owner1: DFF<Bits<5>>,
+    owner2: DFF<Bits<5>>,
+    taken1: DFF<Bit>,
+    taken2: DFF<Bit>,
+    points: LutMemory<5, 15>,
+    roots: LutMemory<5, 15>,
+    hints: LutMemory<5, 15>,
+    following: NextPoint,
+    turn_index: Signal<Local, Bits<5>>,
+    index: Signal<Local, Bits<5>>,
+    is_asleep: Signal<Local, Bit>,
+    tries_again: Signal<Local, Bit>,
+    is_rested: Signal<Local, Bit>,
+    may_work: Signal<Local, Bit>,
+    is_first: Signal<Local, Bit>,
+    wants_again: Signal<Local, Bit>,
+    wants_new: Signal<Local, Bit>,
+    moves: Signal<Local, Bit>,
+    is_taken: Signal<Local, Bit>,
+    after_turn: Signal<Local, Bits<5>>,
+    one_turn: Signal<Local, Bits<5>>,
+    first_context: Signal<Local, Bits<5>>,
+    one_round: Signal<Local, Bits<2>>,
+    resting_round: Signal<Local, Bits<2>>,
+    first_round: Signal<Local, Bits<15>>,
+}
+
+impl Starter {
+    /// The starter of a configuration.
+    pub fn new(config: Config) -> Self {
+        let bits = context_bits(config);
+        let table = || LutMemory::new(bits, 15);
+        Self { points: table(), roots: table(), hints: table(), ..Self::default() }
+    }
+}
+
+impl Logic for Starter {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, turn, round, candidate, candidate_id, candidate_is_there, all_work);
+        dff_setup!(self, clock, owner1, owner2, taken1, taken2);
+        clock!(self, clock, points, roots, hints);
+        self.one_turn.next = 1.into();
+        self.one_round.next = 1.into();
+        self.resting_round.next = 0.into();
+        self.first_context.next = 0.into();
+        self.first_round.next = 16.into();
+
+        // The context under the pointer: which vertex it would take, and whether that has come.
+        self.turn_index.next = self.turn.q.val();
+        self.points.read_address.next = self.turn.q.val();
+        self.following.turn.next = self.turn.q.val();
+        self.following.has_begun.next = self.began.val().get_bit(self.turn_index.val().index());
+        self.following.id.next = self.points.read_data.val();
+        self.following.contexts.next = self.contexts.val();
+
+        // The one before: does it start?
+        self.index.next = self.candidate.q.val();
+        self.is_first.next = self.candidate.q.val() == self.first_context.val();
+        self.is_asleep.next = self.asleep.val().get_bit(self.index.val().index()) & (!self.solo_valid.val());
+        self.tries_again.next = self.keeping.val().get_bit(self.index.val().index());
+        self.is_rested.next =
+            (!self.busy.val().get_bit(self.index.val().index())) & (self.round.q.val() == self.resting_round.val());
+        self.may_work.next = self.all_work.q.val();
+        if self.is_first.val() {
+            self.may_work.next = self.seeded.val() | (!self.began.val().get_bit(0));
+        }
+        self.wants_again.next = self.is_asleep.val() & self.tries_again.val() & self.is_rested.val();
+        self.wants_new.next = self.is_asleep.val()
+            & (!self.tries_again.val())
+            & self.candidate_is_there.q.val()
+            & self.may_work.val()
+            & (!self.came.val());
+        self.moves.next = !(self.is_blocked.val() & (self.wants_again.val() | self.wants_new.val()));
+        self.starts.next = (self.wants_again.val() | self.wants_new.val()) & (!self.is_blocked.val());
+        self.is_taken.next = self.wants_new.val() & (!self.is_blocked.val());
+        self.takes.next = self.is_taken.val();
+        self.owner.next = self.candidate.q.val();
+        self.taken_id.next = self.candidate_id.q.val();
+        self.roots.read_address.next = self.candidate.q.val();
+        self.hints.read_address.next = self.candidate.q.val();
+        self.u.next = 0.into();
+        if self.hinted.val().get_bit(self.index.val().index()) {
+            self.u.next = self.hints.read_data.val();
+        }
+        if self.tries_again.val() {
+            self.u.next = self.roots.read_data.val();
+        }
+
+        // The tables.
+        self.points.write_address.next = self.candidate.q.val();
+        self.points.write_data.next = self.candidate_id.q.val();
+        self.points.write_enable.next = self.is_taken.val();
+        self.roots.write_address.next = self.root_owner.val();
+        self.roots.write_data.next = self.root.val();
+        self.roots.write_enable.next = self.root_enable.val();
+        self.hints.write_address.next = self.hint_owner.val();
+        self.hints.write_data.next = self.hint.val();
+        self.hints.write_enable.next = self.hint_enable.val();
+
+        // The coordinates of a point that is taken come 2 clocks later.
+        self.taken1.d.next = self.is_taken.val();
+        self.taken2.d.next = self.taken1.q.val();
+        self.owner1.d.next = self.candidate.q.val();
+        self.owner2.d.next = self.owner1.q.val();
+        self.position_enable.next = self.taken2.q.val();
+        self.position_owner.next = self.owner2.q.val();
+
+        if self.is_taken.val() & self.is_first.val() & (self.candidate_id.q.val() >= self.first_round.val()) {
+            self.all_work.d.next = true;
+        }
+        self.after_turn.next = self.turn.q.val() + self.one_turn.val();
+        if self.moves.val() {
+            self.candidate.d.next = self.turn.q.val();
+            self.candidate_id.d.next = self.following.next_id.val();
+            self.candidate_is_there.d.next = self.following.next_id.val() < self.arrived.val();
+            self.turn.d.next = self.after_turn.val();
+            if self.after_turn.val() == self.contexts.val() {
+                self.turn.d.next = 0.into();
+                self.round.d.next = self.round.q.val() + self.one_round.val();
+            }
+        }
+        if self.reset.val() | self.clears.val() {
+            self.turn.d.next = 0.into();
+            self.round.d.next = 0.into();
+            self.candidate.d.next = 0.into();
+            self.candidate_is_there.d.next = false;
+            self.all_work.d.next = false;
+        }
+        if self.reset.val() {
+            self.taken1.d.next = false;
+            self.taken2.d.next = false;
+        }
+    }
+}
