@@ -17,7 +17,7 @@
 //! | `lock_enable`, `lock_place`, `lock_id` | out | 1, 7, 15 | a lock for the log |
 //! | `commit_enable`, `commit_job` | out | 1, CommitJob | a ring is finished |
 //! | `release_enable`, `release_job` | out | 1, ReleaseJob | locks are to be released |
-//! | `asks_to_wait`, `stops_waiting` | out | 1 | it wants the waiting token, or needs it no more |
+//! | `asks_to_wait`, `waits`, `stops_waiting` | out | 1 | it wants the waiting token, meets a foreign lock with it, needs it no more |
 //! | `overflows`, `duplicate`, `looks` | out | 1 | its list overflows; its point is one already; the look at the first three points |
 //! | `walk_visit`, `root_visit`, `test`, `revisit`, `gives_up`, `retries` | out | 1 | events for the counters |
 //! | `cavity_triangles` | out | 7 | triangles of the ring that is finished |
@@ -112,6 +112,8 @@ pub struct Attempts {
     pub release_job: Signal<Out, ReleaseJob>,
     /// It wants the waiting token.
     pub asks_to_wait: Signal<Out, Bit>,
+    /// It meets a foreign lock with it.
+    pub waits: Signal<Out, Bit>,
     /// It needs it no more.
     pub stops_waiting: Signal<Out, Bit>,
     /// Its list overflows.
@@ -243,6 +245,7 @@ impl Logic for Attempts {
             self.root.next = self.verdict.val().walk_next;
         }
         self.asks_to_wait.next = self.meaning.gives_up_root.val() | self.meaning.gives_up.val();
+        self.waits.next = self.meaning.waits.val();
         self.stops_waiting.next =
             self.meaning.walk_duplicate.val() | self.meaning.root_duplicate.val() | self.step.succeeds.val();
         self.overflows.next = self.meaning.overflows.val();

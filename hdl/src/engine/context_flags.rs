@@ -4,10 +4,10 @@
 //! |---|---|---|---|
 //! | `clock`, `reset`, `clears` | in | 1 | reset and clear put all contexts to sleep, without a point |
 //! | `all` | in | 24 | the contexts that are built, a constant |
-//! | `owner` | in | 5 | the context that the next seven are about |
+//! | `owner` | in | 5 | the context that the next eight are about |
 //! | `sleeps`, `keeps` | in | 1 | no visit of it is out any more; it will try its point again |
 //! | `hands_over` | in | 1 | a commit or a release of it is due |
-//! | `asks_to_wait`, `stops_waiting` | in | 1 | it wants the waiting token; it needs it no more |
+//! | `asks_to_wait`, `waits`, `stops_waiting` | in | 1 | it wants the waiting token; meets a foreign lock with it; needs it no more |
 //! | `overflows` | in | 1 | its list has overflowed |
 //! | `starts`, `starter` | in | 1, 5 | a context starts to walk at this edge |
 //! | `released`, `released_owner` | in | 1, 5 | the last lock of a context is released |
@@ -15,12 +15,15 @@
 //! | `solo_ends` | in | 1 | the insertion alone is over |
 //! | `asleep`, `keeping`, `busy`, `began`, `hinted` | out | 24 | no visit out; trying again; commit or release due; has had a point; has had a commit |
 //! | `waiter_valid`, `waiter` | out | 1, 5 | who waits at foreign locks instead of giving up |
+//! | `is_urgent` | out | 1 | it has waited for long: nobody else may try again |
 //! | `solo_valid`, `solo_owner` | out | 1, 5 | who wants to be alone: nobody starts |
 //! | `all_rest` | out | 1 | no visit is out and no lock held |
 //! | `takes_token` | out | 1 | event: the waiting token is taken |
 //!
 //! 1. One waiting token: whoever gives up while it is free takes it, and keeps it until its point is in. Nobody else ever waits while
-//!    it holds locks, so the holder always goes on in the end.
+//!    it holds locks. But others that fail again and again could keep it from its locks for ever, in step with it: when it has met
+//!    8 foreign locks, nobody else tries again until its point is in. New points may start: they finish, or fail and then rest, so
+//!    something is always finished in the end.
 //! 2. The first to overflow is alone first; another that overflows meanwhile tries again later.
 //!
 //! Latency: 1 clock.
@@ -64,6 +67,8 @@ pub struct ContextFlags {
     pub hands_over: Signal<In, Bit>,
     /// It wants the waiting token.
     pub asks_to_wait: Signal<In, Bit>,
+    /// It meets a foreign lock with it.
+    pub waits: Signal<In, Bit>,
     /// It needs it no more.
     pub stops_waiting: Signal<In, Bit>,
     /// Its list has overflowed.
@@ -96,6 +101,8 @@ pub struct ContextFlags {
     pub waiter_valid: Signal<Out, Bit>,
     /// Who.
     pub waiter: Signal<Out, Bits<5>>,
+    /// Nobody else may try again.
+    pub is_urgent: Signal<Out, Bit>,
     /// Somebody wants to be alone.
     pub solo_valid: Signal<Out, Bit>,
     /// Who.
@@ -111,6 +118,7 @@ pub struct ContextFlags {
     had_commit: DFF<Bits<24>>,
     token_is_held: DFF<Bit>,
     token_holder: DFF<Bits<5>>,
+    waited: DFF<Bits<4>>,
     wants_alone: DFF<Bit>,
     alone: DFF<Bits<5>>,
     owner_bit: Signal<Local, Bits<24>>,
@@ -132,6 +140,8 @@ pub struct ContextFlags {
     alone_ended: Signal<Local, Bits<24>>,
     takes: Signal<Local, Bit>,
     is_holder: Signal<Local, Bit>,
+    has_waited_long: Signal<Local, Bit>,
+    one_wait: Signal<Local, Bits<4>>,
     one: Signal<Local, Bits<24>>,
     none: Signal<Local, Bits<24>>,
 }
@@ -140,9 +150,10 @@ impl Logic for ContextFlags {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, sleeping, trying, due, had_point, had_commit);
-        dff_setup!(self, clock, token_is_held, token_holder, wants_alone, alone);
+        dff_setup!(self, clock, token_is_held, token_holder, waited, wants_alone, alone);
         self.one.next = 1.into();
         self.none.next = 0.into();
+        self.one_wait.next = 1.into();
         self.asleep.next = self.sleeping.q.val();
         self.keeping.next = self.trying.q.val();
         self.busy.next = self.due.q.val();
@@ -208,6 +219,14 @@ impl Logic for ContextFlags {
         if self.takes.val() {
             self.token_is_held.d.next = true;
             self.token_holder.d.next = self.owner.val();
+        }
+        self.has_waited_long.next = self.waited.q.val().get_bit(3);
+        self.is_urgent.next = self.token_is_held.q.val() & self.has_waited_long.val();
+        if self.waits.val() & (!self.has_waited_long.val()) {
+            self.waited.d.next = self.waited.q.val() + self.one_wait.val();
+        }
+        if self.takes.val() {
+            self.waited.d.next = 0.into();
         }
         if self.is_holder.val() {
             self.token_is_held.d.next = false;

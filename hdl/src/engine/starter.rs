@@ -9,17 +9,22 @@
 //! | `seeded` | in | 1 | the first triangle stands |
 //! | `asleep`, `keeping`, `busy`, `began`, `hinted` | in | 24 | see `ContextFlags` |
 //! | `solo_valid` | in | 1 | somebody wants to be alone: nobody starts |
+//! | `is_urgent`, `waiter` | in | 1, 5 | nobody but this context may try again |
 //! | `is_blocked` | in | 1 | the queue takes another bundle at this edge |
 //! | `root_enable`, `root_owner`, `root` | in | 1, 5, 15 | where a context goes on when it tries again |
 //! | `hint_enable`, `hint_owner`, `hint` | in | 1, 5, 15 | where its next walk starts |
 //! | `starts`, `owner`, `u` | out | 1, 5, 15 | this context starts to walk at this record |
 //! | `takes`, `taken_id` | out | 1, 15 | with this new point |
+//! | `all_rest`, `solo_owner`, `solo_is_at_work` | in | 1, 5, 1 | no visit is out and no lock held; who wants to be alone, and is |
+//! | `solo_starts`, `solo_p` | out | 1, 15 | it inserts its point alone, from `u` on |
 //! | `position_enable`, `position_owner` | out | 1, 5 | the point's coordinates stand on the vertex memory's port |
 //!
 //! 1. A context starts if it sleeps and has a point to try again, no commit or release is due, and it has rested: contexts that try again
 //!    start in every fourth round of the pointer only, which spreads them.
 //! 2. Or if it sleeps and its next point has come. Until context 0 has taken vertex 16, no other context works.
+//!    A start that finds the queue or the vertex memory's port taken is made in the next clock; the pointer waits.
 //! 3. The walk of a new point starts at the star of the context's last commit, record 0 if there is none.
+//! 4. Who wants to be alone starts when everybody rests and the pointer passes it.
 //!
 //! Latency: 2 clocks from the pointer to `starts`; `position_enable` comes 2 clocks after `takes`.
 //!
@@ -60,6 +65,16 @@ pub struct Starter {
     pub hinted: Signal<In, Bits<24>>,
     /// Nobody starts.
     pub solo_valid: Signal<In, Bit>,
+    /// Only the one that waits may try again.
+    pub is_urgent: Signal<In, Bit>,
+    /// It.
+    pub waiter: Signal<In, Bits<5>>,
+    /// Who wants to be alone.
+    pub solo_owner: Signal<In, Bits<5>>,
+    /// It is.
+    pub solo_is_at_work: Signal<In, Bit>,
+    /// No visit is out, no lock held.
+    pub all_rest: Signal<In, Bit>,
     /// The queue takes another bundle.
     pub is_blocked: Signal<In, Bit>,
     /// A root to go on from.
@@ -84,6 +99,10 @@ pub struct Starter {
     pub takes: Signal<Out, Bit>,
     /// Which.
     pub taken_id: Signal<Out, Bits<15>>,
+    /// A context inserts its point alone.
+    pub solo_starts: Signal<Out, Bit>,
+    /// The point.
+    pub solo_p: Signal<Out, Bits<15>>,
     /// The point's coordinates have come.
     pub position_enable: Signal<Out, Bit>,
     /// Whose.
@@ -93,6 +112,7 @@ pub struct Starter {
     candidate: DFF<Bits<5>>,
     candidate_id: DFF<Bits<15>>,
     candidate_is_there: DFF<Bit>,
+    candidate_point: DFF<Bits<15>>,
     all_work: DFF<Bit>,
     owner1: DFF<Bits<5>>,
     owner2: DFF<Bits<5>>,
@@ -107,10 +127,12 @@ pub struct Starter {
     is_asleep: Signal<Local, Bit>,
     tries_again: Signal<Local, Bit>,
     is_rested: Signal<Local, Bit>,
+    may_try: Signal<Local, Bit>,
     may_work: Signal<Local, Bit>,
     is_first: Signal<Local, Bit>,
     wants_again: Signal<Local, Bit>,
     wants_new: Signal<Local, Bit>,
+    is_held: Signal<Local, Bit>,
     moves: Signal<Local, Bit>,
     is_taken: Signal<Local, Bit>,
     after_turn: Signal<Local, Bits<5>>,
@@ -134,6 +156,7 @@ impl Logic for Starter {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, turn, round, candidate, candidate_id, candidate_is_there, all_work);
+        dff_setup!(self, clock, candidate_point);
         dff_setup!(self, clock, owner1, owner2, taken1, taken2);
         clock!(self, clock, points, roots, hints);
         self.one_turn.next = 1.into();
@@ -161,15 +184,15 @@ impl Logic for Starter {
         if self.is_first.val() {
             self.may_work.next = self.seeded.val() | (!self.began.val().get_bit(0));
         }
-        self.wants_again.next = self.is_asleep.val() & self.tries_again.val() & self.is_rested.val();
-        self.wants_new.next = self.is_asleep.val()
-            & (!self.tries_again.val())
-            & self.candidate_is_there.q.val()
-            & self.may_work.val()
-            & (!self.came.val());
-        self.moves.next = !(self.is_blocked.val() & (self.wants_again.val() | self.wants_new.val()));
-        self.starts.next = (self.wants_again.val() | self.wants_new.val()) & (!self.is_blocked.val());
-        self.is_taken.next = self.wants_new.val() & (!self.is_blocked.val());
+        self.may_try.next = (!self.is_urgent.val()) | (self.candidate.q.val() == self.waiter.val());
+        self.wants_again.next =
+            self.is_asleep.val() & self.tries_again.val() & self.is_rested.val() & self.may_try.val();
+        self.wants_new.next =
+            self.is_asleep.val() & (!self.tries_again.val()) & self.candidate_is_there.q.val() & self.may_work.val();
+        self.is_held.next = self.is_blocked.val() | (self.wants_new.val() & self.came.val());
+        self.moves.next = !(self.is_held.val() & (self.wants_again.val() | self.wants_new.val()));
+        self.starts.next = (self.wants_again.val() | self.wants_new.val()) & (!self.is_held.val());
+        self.is_taken.next = self.wants_new.val() & (!self.is_held.val());
         self.takes.next = self.is_taken.val();
         self.owner.next = self.candidate.q.val();
         self.taken_id.next = self.candidate_id.q.val();
@@ -182,6 +205,11 @@ impl Logic for Starter {
         if self.tries_again.val() {
             self.u.next = self.roots.read_data.val();
         }
+        self.solo_p.next = self.candidate_point.q.val();
+        self.solo_starts.next = self.solo_valid.val()
+            & self.all_rest.val()
+            & (!self.solo_is_at_work.val())
+            & (self.candidate.q.val() == self.solo_owner.val());
 
         // The tables.
         self.points.write_address.next = self.candidate.q.val();
@@ -208,6 +236,7 @@ impl Logic for Starter {
         self.after_turn.next = self.turn.q.val() + self.one_turn.val();
         if self.moves.val() {
             self.candidate.d.next = self.turn.q.val();
+            self.candidate_point.d.next = self.points.read_data.val();
             self.candidate_id.d.next = self.following.next_id.val();
             self.candidate_is_there.d.next = self.following.next_id.val() < self.arrived.val();
             self.turn.d.next = self.after_turn.val();

@@ -208,6 +208,54 @@ crate::packed! {
         pub after: Bits<6>,
     }
 
+    /// What happens in the engine at an edge, for the counters.
+    pub struct Events {
+        /// The first triangle is finished.
+        pub seeds: bool,
+        /// A commit is finished.
+        pub commit_ends: bool,
+        /// When its point was taken.
+        pub since: Bits<22>,
+        /// An insertion alone is finished.
+        pub solo_inserts: bool,
+        /// An insertion alone finds a duplicate.
+        pub solo_duplicate: bool,
+        /// It makes a test.
+        pub solo_test: bool,
+        /// It makes a flip.
+        pub flip: bool,
+        /// A duplicate is found.
+        pub duplicate: bool,
+        /// A visit of a walk.
+        pub walk_visit: bool,
+        /// The visit of a root.
+        pub root_visit: bool,
+        /// A test.
+        pub test: bool,
+        /// A visit is made again.
+        pub revisit: bool,
+        /// A list overflows.
+        pub overflow: bool,
+        /// An attempt is given up for a foreign lock.
+        pub gives_up: bool,
+        /// A root had changed.
+        pub root_retry: bool,
+        /// The waiting token is taken.
+        pub takes_token: bool,
+        /// A ring is finished.
+        pub cavity_ends: bool,
+        /// Its cavity's triangles.
+        pub cavity_triangles: Bits<7>,
+        /// A visit is issued.
+        pub is_issuing: bool,
+        /// A record or a link is written.
+        pub is_writing: bool,
+        /// A commit is at work.
+        pub is_committing: bool,
+        /// A lock is released.
+        pub is_releasing: bool,
+    }
+
     /// A write into the triangle memory: a record, or one link.
     pub struct Write {
         /// There is a write.

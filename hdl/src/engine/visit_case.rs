@@ -9,7 +9,7 @@
 //! | `drains`, `is_full` | in | 1 | its attempt has failed; its list is full |
 //! | `is_walk`, `is_root`, `is_test` | out | 1 | which kind of visit it is |
 //! | `looks` | out | 1 | the look at the first three points |
-//! | `repeats` | out | 1 | the same visit is made again |
+//! | `repeats`, `waits` | out | 1 | the same visit is made again; because another context holds the lock |
 //! | `walks_on`, `locates` | out | 1 | the walk goes on; it has found the point's triangle |
 //! | `opens` | out | 1 | the root is locked and holds the point: its neighbours are tested |
 //! | `retries` | out | 1 | the root no longer holds the point |
@@ -60,6 +60,8 @@ pub struct VisitCase {
     pub looks: Signal<Out, Bit>,
     /// The same visit again.
     pub repeats: Signal<Out, Bit>,
+    /// For a foreign lock.
+    pub waits: Signal<Out, Bit>,
     /// The walk goes on.
     pub walks_on: Signal<Out, Bit>,
     /// The walk has found the triangle.
@@ -93,6 +95,7 @@ pub struct VisitCase {
     is_live: Signal<Local, Bit>,
     is_tested: Signal<Local, Bit>,
     looks_again: Signal<Local, Bit>,
+    asks_again: Signal<Local, Bit>,
 }
 
 impl Logic for VisitCase {
@@ -132,7 +135,9 @@ impl Logic for VisitCase {
         self.overflows.next = self.is_tested.val() & self.verdict.val().conflict & self.is_full.val();
         self.splits.next = self.is_tested.val() & self.verdict.val().conflict & (!self.is_full.val());
 
-        self.repeats.next = self.looks_again.val()
-            | (self.turned.val().foreign & self.is_waiter.val() & (self.visits_root.val() | self.is_live.val()));
+        self.asks_again.next =
+            self.turned.val().foreign & self.is_waiter.val() & (self.visits_root.val() | self.is_live.val());
+        self.waits.next = self.asks_again.val();
+        self.repeats.next = self.looks_again.val() | self.asks_again.val();
     }
 }

@@ -58,8 +58,9 @@ pub(super) struct Outcome {
     pub overflows: bool,
     pub aborts: bool,
     pub retries_root: bool,
-    /// The same visit is made again.
+    /// The same visit is made again, or the same because of a lock that the context waits for.
     pub is_again: bool,
+    pub waits: bool,
     pub duplicate: bool,
     /// The look at the first three points.
     pub looks: bool,
@@ -140,6 +141,7 @@ impl Outcome {
         let (located, on_corner) = (done.located || trusts, done.falls_onto_corner && !trusts);
         if done.foreign {
             if around.waits(self.context) {
+                self.waits = true;
                 return self.again(done);
             }
             self.aborts = true;
@@ -176,6 +178,7 @@ impl Outcome {
         if state.drains {
         } else if foreign && around.waits(self.context) {
             self = self.again(done);
+            self.waits = true;
             state.outstanding += 1;
         } else if foreign {
             state.drains = true;

@@ -21,11 +21,16 @@ pub(super) struct Contexts {
     pub hinted: Set,
     /// The context that waits at foreign locks instead of giving up.
     pub waiter: Option<usize>,
+    /// How often it has met a foreign lock since it took the token, up to `URGENT`.
+    waits: u32,
     /// The context whose list has overflowed; nobody starts until it has inserted its point alone.
     pub solo: Option<usize>,
     /// Points that are in the mesh or known to be duplicates.
     pub finished: u32,
 }
+
+/// Foreign locks that the waiting context meets until the others stop to try again.
+const URGENT: u32 = 8;
 
 impl Contexts {
     /// Contexts that fit a set.
@@ -33,6 +38,12 @@ impl Contexts {
 
     pub(super) fn reset(&mut self, contexts: u32) {
         *self = Self { asleep: Set::MAX >> (Self::BITS - contexts), ..Self::default() };
+    }
+
+    /// Whether a context may try its point again. Contexts that fail again and again could keep the one that waits from its locks for
+    /// ever, in step with it: when it has waited for long, only it tries again, and new points.
+    pub(super) fn may_try_again(&self, context: usize) -> bool {
+        self.waits < URGENT || self.waiter.is_none_or(|waiter| waiter == context)
     }
 
     /// Nothing is in flight and no lock is held.
@@ -90,6 +101,10 @@ impl Contexts {
         }
         if outcome.asks_to_wait && was.contexts.waiter.is_none() && defect != Some(Defect::NobodyWaits) {
             self.waiter = Some(context);
+            self.waits = 0;
+        }
+        if outcome.waits {
+            self.waits = (self.waits + 1).min(URGENT);
         }
         if outcome.overflows && was.contexts.solo.is_none() {
             self.solo = Some(context);

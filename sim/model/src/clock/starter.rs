@@ -39,7 +39,12 @@ pub(super) struct Starter {
 }
 
 impl Starter {
-    /// The walk that starts at this edge, if the queue has room for it.
+    /// The pointer has just passed this context: its root and its point are at hand.
+    pub(super) fn is_at(&self, context: usize) -> bool {
+        self.candidate.context == context
+    }
+
+    /// The walk that starts at this edge, if nothing stands in its way.
     pub(super) fn wants(
         &self,
         was: &Registers,
@@ -55,15 +60,15 @@ impl Starter {
         }
         if flags.keeps & bit != 0 {
             let rested = self.round % BACK_OFF_ROUNDS == 0 || defect == Some(Defect::NeverBacksOff);
-            let ready = flags.busy & bit == 0 && rested;
+            let may = flags.may_try_again(context) || defect == Some(Defect::NobodyYields);
+            let ready = flags.busy & bit == 0 && rested && may;
             return ready.then(|| Start { context, id: None, push: Bundle::look(context, tables.root[context]) });
         }
         let works = match context {
             0 => was.seeder.seeded || flags.began & 1 == 0,
             _ => self.all_work || (defect == Some(Defect::AllFromTheStart) && was.seeder.seeded),
         };
-        // The vertex memory has one port for points that arrive and points that are taken.
-        let ready = is_there && works && !was.command.came;
+        let ready = is_there && works;
         let start = if flags.hinted & bit != 0 { memory.hint[context] } else { 0 };
         ready.then(|| Start { context, id: Some(id), push: Bundle::look(context, start) })
     }

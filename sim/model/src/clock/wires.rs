@@ -33,7 +33,7 @@ pub(super) struct Wires {
     pub new_vertex: Option<(u32, Point)>,
     /// A context starts to walk.
     pub start: Option<Start>,
-    /// A context would, but the queue takes another bundle.
+    /// A context would, but the queue takes another bundle, or the vertex memory a point: it comes first in the next clock.
     pub start_is_blocked: bool,
     /// The last record of the first triangle is written.
     pub seeds: bool,
@@ -75,7 +75,9 @@ impl ClockModel {
         });
         let solo_push = was.solo.push_request(was);
         let wanted = was.starter.wants(was, &self.tables, &self.memory, self.defect);
-        let start_is_blocked = wanted.is_some() && outcome.is_some_and(|outcome| outcome.push.is_some());
+        // The queue takes one bundle, and the vertex memory has one port for points that arrive and points that are taken.
+        let start_is_blocked = wanted.is_some_and(|start| start.id.is_some() && was.command.came)
+            || wanted.is_some() && outcome.is_some_and(|outcome| outcome.push.is_some());
         let stored = was.command.state == CommandState::Points && was.command.stores_points(was, config);
         let head = self.ring.head(&self.memory);
         let rests = was.contexts.all_rest(config.contexts);
@@ -102,7 +104,10 @@ impl ClockModel {
             clear: self.release.clear(),
             released: self.release.released(),
             solo_push,
-            solo_starts: was.contexts.solo.filter(|_| rests && !was.solo.is_at_work()),
+            solo_starts: was
+                .contexts
+                .solo
+                .filter(|&context| rests && !was.solo.is_at_work() && was.starter.is_at(context)),
             solo_ends: solo_inserts || was.solo.finds_duplicate(done),
             solo_inserts,
         }
