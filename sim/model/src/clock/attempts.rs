@@ -54,6 +54,8 @@ pub(super) struct Outcome {
     pub asks_to_wait: bool,
     /// It gives the waiting token back, if it holds it.
     pub stops_waiting: bool,
+    /// It holds the waiting token and has met a foreign lock.
+    pub is_held_up: bool,
     /// Its list has overflowed: it asks to be alone.
     pub overflows: bool,
     pub aborts: bool,
@@ -140,6 +142,7 @@ impl Outcome {
         let (located, on_corner) = (done.located || trusts, done.falls_onto_corner && !trusts);
         if done.foreign {
             if around.waits(self.context) {
+                self.is_held_up = true;
                 return self.again(done);
             }
             self.aborts = true;
@@ -176,6 +179,7 @@ impl Outcome {
         if state.drains {
         } else if foreign && around.waits(self.context) {
             self = self.again(done);
+            self.is_held_up = true;
             state.outstanding += 1;
         } else if foreign {
             state.drains = true;

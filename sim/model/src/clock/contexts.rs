@@ -21,6 +21,8 @@ pub(super) struct Contexts {
     pub hinted: Set,
     /// The context that waits at foreign locks instead of giving up.
     pub waiter: Option<usize>,
+    /// It has met one, and others that gave up do not start again before it sleeps: they could take the same lock in turns for ever.
+    pub held_up: bool,
     /// The context whose list has overflowed; nobody starts until it has inserted its point alone.
     pub solo: Option<usize>,
     /// Points that are in the mesh or known to be duplicates.
@@ -90,6 +92,11 @@ impl Contexts {
         }
         if outcome.asks_to_wait && was.contexts.waiter.is_none() && defect != Some(Defect::NobodyWaits) {
             self.waiter = Some(context);
+        }
+        if outcome.is_held_up {
+            self.held_up = defect != Some(Defect::NobodyYields);
+        } else if outcome.sleeps && was.contexts.waiter == Some(context) {
+            self.held_up = false;
         }
         if outcome.overflows && was.contexts.solo.is_none() {
             self.solo = Some(context);

@@ -8,6 +8,7 @@ pub enum Defect {
     ReleasesBeforeDrained,
     NeverBacksOff,
     NobodyWaits,
+    NobodyYields,
     ReleasesBeforeWritten,
     TrustsTheWalk,
     OpensWhileBusy,

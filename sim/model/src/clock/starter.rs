@@ -55,7 +55,7 @@ impl Starter {
         }
         if flags.keeps & bit != 0 {
             let rested = self.round % BACK_OFF_ROUNDS == 0 || defect == Some(Defect::NeverBacksOff);
-            let ready = flags.busy & bit == 0 && rested;
+            let ready = flags.busy & bit == 0 && rested && !flags.held_up;
             return ready.then(|| Start { context, id: None, push: Bundle::look(context, tables.root[context]) });
         }
         let works = match context {
