@@ -1,6 +1,10 @@
-//! What several tests share: a small generator of numbers.
+//! What several tests share: a small generator of numbers, a core that is driven by command words, and the check of a mesh.
 
 #![allow(dead_code)] // Every test that includes this uses a part of it.
+
+pub mod bench;
+pub mod mesh_check;
+pub mod sets;
 
 /// A small generator of our own, so that every run is the same (SplitMix64, Steele, Lea, Flood 2014).
 pub struct Random(pub u64);
@@ -12,6 +16,11 @@ impl Random {
         z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ z >> 31) % u64::from(bound)) as u32
+    }
+
+    /// One of these.
+    pub fn pick<T: Copy>(&mut self, items: &[T]) -> T {
+        items[self.below(items.len() as u32) as usize]
     }
 
     pub fn shuffle<T>(&mut self, items: &mut [T]) {

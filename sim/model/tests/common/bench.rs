@@ -1,0 +1,178 @@
+//! The model clock by clock, driven by command words over both channels.
+
+use super::Random;
+use incircle_model::{ClockModel, Defect, Inputs};
+use incircle_protocol::{
+    answer_opcode, answer_status, clear_word, command_word, Config, Counter, InsertReport, Opcode, Status,
+};
+
+/// Clocks that a job of `points` points may take: a hundred times what one context needs.
+pub fn limit(points: usize) -> u64 {
+    100 * (2000 + 40 * points as u64)
+}
+
+/// How the two channels are held up.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stalls {
+    /// No word is offered in one of so many clocks; 0: never.
+    pub idle: u32,
+    /// No answer is taken in one of so many clocks; 0: never.
+    pub full: u32,
+}
+
+/// One answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answer {
+    pub opcode: u8,
+    pub status: u8,
+    pub payload: Vec<u32>,
+}
+
+impl Answer {
+    pub fn is(&self, status: Status) -> bool {
+        self.status == status as u8
+    }
+
+    /// The payload of an answer to `Insert`.
+    pub fn report(&self) -> InsertReport {
+        InsertReport::from_words(self.payload[..].try_into().expect("an insert report"))
+    }
+
+    /// One value of an answer to `Counters`.
+    pub fn counter(&self, counter: Counter) -> u64 {
+        let high = match counter {
+            Counter::InsertCycles | Counter::WaitCycles | Counter::ReadCycles => self.payload[counter as usize + 1],
+            _ => 0,
+        };
+        u64::from(self.payload[counter as usize]) | u64::from(high) << 32
+    }
+}
+
+/// Clocks ran out.
+#[derive(Clone, Debug)]
+pub struct Hang(pub String);
+
+/// Puts answers together from their words.
+#[derive(Debug, Default)]
+pub struct Answers {
+    pub whole: Vec<Answer>,
+    header: Option<u32>,
+    /// Words of the payload still to come.
+    left: Option<u32>,
+    payload: Vec<u32>,
+}
+
+impl Answers {
+    pub fn take(&mut self, word: u32) {
+        match (self.header, self.left) {
+            (None, _) => self.header = Some(word),
+            (Some(_), None) => self.left = Some(word),
+            (Some(_), Some(left)) => {
+                self.payload.push(word);
+                self.left = Some(left - 1);
+            }
+        }
+        if let (Some(header), Some(0)) = (self.header, self.left) {
+            let payload = std::mem::take(&mut self.payload);
+            self.whole.push(Answer { opcode: answer_opcode(header), status: answer_status(header), payload });
+            (self.header, self.left) = (None, None);
+        }
+    }
+
+    /// Nothing of another answer has come.
+    pub fn are_whole(&self) -> bool {
+        self.header.is_none()
+    }
+}
+
+/// A core, and the clocks it has run.
+pub struct Bench {
+    pub core: ClockModel,
+    pub config: Config,
+    pub clocks: u64,
+}
+
+impl Bench {
+    pub fn new(config: Config) -> Self {
+        Self { core: ClockModel::new(config).expect("a core that can be built"), config, clocks: 0 }
+    }
+
+    pub fn with_defect(config: Config, defect: Option<Defect>) -> Self {
+        let mut bench = Self::new(config);
+        if let Some(defect) = defect {
+            bench.core = bench.core.with_defect(defect);
+        }
+        bench
+    }
+
+    pub fn reset(&mut self) {
+        self.core.clock(Inputs { reset: true, ..Inputs::default() });
+    }
+
+    /// Sends words and takes this many answers.
+    ///
+    /// # Errors
+    /// The clocks run out.
+    pub fn run(
+        &mut self,
+        words: &[u32],
+        count: usize,
+        stalls: Stalls,
+        limit: u64,
+        random: &mut Random,
+    ) -> Result<Vec<Answer>, Hang> {
+        let mut answers = Answers::default();
+        let mut rest = words;
+        let last = self.clocks + limit;
+        while answers.whole.len() < count || !rest.is_empty() {
+            let outputs = self.core.outputs();
+            let idle = stalls.idle != 0 && random.below(stalls.idle) == 0;
+            let full = stalls.full != 0 && random.below(stalls.full) == 0;
+            let inputs = Inputs {
+                reset: false,
+                command_valid: !rest.is_empty() && !idle,
+                command_data: rest.first().copied().unwrap_or(0xdead_beef),
+                response_ready: !full,
+            };
+            if inputs.command_valid && outputs.command_ready {
+                rest = &rest[1..];
+            }
+            if inputs.response_ready && outputs.response_valid {
+                answers.take(outputs.response_data);
+            }
+            self.core.clock(inputs);
+            self.clocks += 1;
+            if self.clocks > last {
+                return Err(Hang(self.core.describe()));
+            }
+        }
+        assert!(answers.are_whole(), "words after the last answer");
+        Ok(answers.whole)
+    }
+
+    /// Clears the core for `contexts` contexts, 0 for all, and inserts points with one command.
+    ///
+    /// # Errors
+    /// The clocks run out.
+    pub fn insert(&mut self, contexts: u32, points: &[u32]) -> Result<Answer, Hang> {
+        let mut words = vec![clear_word(contexts), command_word(Opcode::Insert), points.len() as u32];
+        words.extend(points);
+        let mut answers = self.run(&words, 2, Stalls::default(), limit(points.len()), &mut Random(0))?;
+        Ok(answers.swap_remove(1))
+    }
+
+    /// The counters as they stand.
+    ///
+    /// # Errors
+    /// The clocks run out.
+    pub fn counters(&mut self) -> Result<Answer, Hang> {
+        let words = [command_word(Opcode::Counters)];
+        let mut answers = self.run(&words, 1, Stalls::default(), 1000, &mut Random(0))?;
+        Ok(answers.swap_remove(0))
+    }
+
+    /// The first records, as they stand in the memory.
+    pub fn records(&self, count: u32) -> Vec<[u32; 3]> {
+        (0..count).map(|id| self.core.record_words(id)).collect()
+    }
+}

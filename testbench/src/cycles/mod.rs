@@ -1,0 +1,157 @@
+//! Cycles of the core, counted on the model by clock: they are exact, and the same on every machine.
+//!
+//! [`measure`] runs one job the way the host does: duplicates removed, points in rounds along the curve, dealt to the contexts.
+//! [`document`] sets many of them into the tables of `cycles.md`.
+
+mod airports;
+mod table;
+
+pub use airports::thinned_airports;
+pub use table::{block, document, earlier, row, BLOCKS, COLUMNS, ROWS};
+
+
+
+use incircle::order::brio_hilbert_dealt;
+use incircle::Point;
+use incircle_cli::generate::{generate, Distribution, GenerateError};
+use incircle_model::{ClockModel, Inputs};
+use incircle_protocol::{
+    clear_word, command_word, Config, ConfigError, Counter, Opcode, COUNTER_WORDS, MIN_POINTS,
+};
+
+/// Bits of a coordinate.
+const BITS: u32 = 16;
+/// The seed of every set.
+const SEED: u64 = 1;
+/// Boundary edges that a context holds.
+const RING: u32 = 32;
+/// Clocks of one insertion past which something is wrong.
+const PATIENCE: u64 = 4000;
+
+/// Why there is no figure.
+#[derive(Debug, thiserror::Error)]
+pub enum MeasureError {
+    /// The set cannot be made.
+    #[error("{0}")]
+    Generate(#[from] GenerateError),
+    /// The core cannot be built.
+    #[error("{0}")]
+    Config(#[from] ConfigError),
+    /// The points do not fit the grid.
+    #[error("{0}")]
+    Quantize(#[from] incircle::Error),
+    /// A line of the file of airports has no two numbers in front.
+    #[error("line {0} of the airports is no place")]
+    Airport(usize),
+    /// All points on one line make no mesh.
+    #[error("all points lie on one line")]
+    Collinear,
+    /// The job does not end.
+    #[error("the job does not end: {0}")]
+    Hang(String),
+    /// Fewer points came into the mesh than were sent.
+    #[error("{inserted} of {sent} points are in the mesh")]
+    Lost {
+        /// Points in the mesh.
+        inserted: u32,
+        /// Points sent.
+        sent: usize,
+    },
+}
+
+/// The counters of a job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counters([u32; COUNTER_WORDS]);
+
+impl Counters {
+    /// One of them; of a counter of two words, both.
+    pub fn of(&self, counter: Counter) -> u64 {
+        let place = counter as usize;
+        let high = match counter {
+            Counter::InsertCycles | Counter::WaitCycles | Counter::ReadCycles => self.0[place + 1],
+            _ => 0,
+        };
+        u64::from(self.0[place]) | u64::from(high) << 32
+    }
+
+    /// This counter per point inserted.
+    pub fn per_insertion(&self, counter: Counter) -> f64 {
+        self.of(counter) as f64 / self.of(Counter::Insertions) as f64
+    }
+}
+
+/// Counters after a job of `n` points of a distribution, duplicates removed, on a core of `contexts` contexts.
+///
+/// The core holds the next power of two of points, with boundary lists of 32 edges.
+///
+/// # Errors
+/// No core of that size, or a fault of the model.
+pub fn measure(distribution: Distribution, n: usize, contexts: u32) -> Result<Counters, MeasureError> {
+    let points = generate(distribution, n, BITS, SEED)?;
+    measure_points(&points.into_iter().map(|[x, y]| Point::new(x, y)).collect::<Vec<_>>(), contexts)
+}
+
+/// As [`measure`], for points at hand.
+///
+/// # Errors
+/// As there.
+pub fn measure_points(points: &[Point], contexts: u32) -> Result<Counters, MeasureError> {
+    let points = in_order(points, contexts)?;
+    let capacity = (points.len() as u32).next_power_of_two().max(MIN_POINTS);
+    let core = ClockModel::new(Config { name: "measured", points: capacity, ring: RING, contexts })?;
+    let mut words = vec![clear_word(contexts), command_word(Opcode::Insert), points.len() as u32];
+    words.extend(points.iter().map(|point| point.x | point.y << BITS));
+    words.push(command_word(Opcode::Counters));
+    let counters = Counters(run(core, &words, PATIENCE * (points.len() as u64 + 100))?);
+    match counters.of(Counter::Insertions) as u32 {
+        inserted if inserted as usize == points.len() => Ok(counters),
+        inserted => Err(MeasureError::Lost { inserted, sent: points.len() }),
+    }
+}
+
+/// The distinct points as the host sends them: dealt in rounds, and the first three span a triangle.
+fn in_order(points: &[Point], contexts: u32) -> Result<Vec<Point>, MeasureError> {
+    let mut distinct = points.to_vec();
+    distinct.sort_unstable();
+    distinct.dedup();
+    let mut points: Vec<Point> =
+        brio_hilbert_dealt(&distinct, contexts).into_iter().map(|index| distinct[index as usize]).collect();
+    let [a, b, rest @ ..] = &points[..] else {
+        return Err(MeasureError::Collinear);
+    };
+    let off_the_line = |c: &Point| {
+        let minus = |one: u32, other: u32| i64::from(one) - i64::from(other);
+        minus(b.x, a.x) * minus(c.y, a.y) != minus(b.y, a.y) * minus(c.x, a.x)
+    };
+    let third = rest.iter().position(off_the_line).ok_or(MeasureError::Collinear)?;
+    points[2..third + 3].rotate_right(1);
+    Ok(points)
+}
+
+/// Sends all words, takes every answer at once, and returns the payload of the last, which are counters.
+fn run(mut core: ClockModel, words: &[u32], limit: u64) -> Result<[u32; COUNTER_WORDS], MeasureError> {
+    // `Clear` answers two words, `Insert` seven; then come two and the counters.
+    const BEFORE: usize = 2 + 7 + 2;
+    let mut rest = words;
+    let mut answers = Vec::with_capacity(BEFORE + COUNTER_WORDS);
+    for _ in 0..limit {
+        let outputs = core.outputs();
+        let offered = rest.first().copied();
+        core.clock(Inputs {
+            reset: false,
+            command_valid: offered.is_some(),
+            command_data: offered.unwrap_or_default(),
+            response_ready: true,
+        });
+        if outputs.command_ready && offered.is_some() {
+            rest = &rest[1..];
+        }
+        if outputs.response_valid {
+            answers.push(outputs.response_data);
+        }
+        if let Some(Ok(counters)) = answers.get(BEFORE..).map(TryInto::try_into) {
+            return Ok(counters);
+        }
+    }
+    Err(MeasureError::Hang(core.describe()))
+}
