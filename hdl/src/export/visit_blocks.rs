@@ -2,13 +2,15 @@
 
 use super::block;
 use crate::engine::{LinkWrite, RecordWrite, SeedWrites, VerdictLogic, WritePort};
-use crate::mesh::{TriangleStore, VertexStore};
+use crate::mesh::{LockStore, TriangleStore, VertexStore};
 
 /// The name of each root module, and its Verilog.
 pub(super) fn visit_blocks() -> Vec<(String, String)> {
     vec![
-        block(TriangleStore::new(5, 4), "triangle_store_5_4"),
-        block(TriangleStore::new(15, 15), "triangle_store_15"),
+        block(LockStore::new(4, 2), "lock_store_4_2"),
+        block(LockStore::new(15, 5), "lock_store_15_5"),
+        block(TriangleStore::new(5, 4, 1), "triangle_store_5_4_1"),
+        block(TriangleStore::new(15, 15, 5), "triangle_store_15_15_5"),
         block(VertexStore::new(3), "vertex_store_3"),
         block(VertexStore::new(14), "vertex_store_14"),
         block(VerdictLogic::default(), "verdict_logic"),

@@ -10,6 +10,7 @@ mod flag_delay;
 mod lock_memory;
 mod lut_memory;
 mod multiplier;
+mod shared_memory;
 mod unpack;
 
 pub use block_memory::BlockMemory;
@@ -19,6 +20,7 @@ pub use flag_delay::FlagDelay;
 pub use lock_memory::LockMemory;
 pub use lut_memory::LutMemory;
 pub use multiplier::Multiplier;
+pub use shared_memory::SharedMemory;
 pub use unpack::{Field, Unpack, Unpacked};
 
 /// Widest address a memory leaf takes; keeps the number of words far from any overflow.
