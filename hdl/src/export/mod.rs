@@ -124,7 +124,7 @@ pub fn blocks() -> Vec<(String, String)> {
         block(CrossProduct::default(), "cross_product"),
         block(DotProduct::default(), "dot_product"),
         block(WideProduct::default(), "wide_product"),
-        block(EdgeSigns::new(3), "edge_signs"),
+        block(EdgeSigns::new(2), "edge_signs"),
         block(VertexOrder::new(1), "vertex_order"),
         block(VisitPredicates::default(), "visit_predicates"),
     ];
