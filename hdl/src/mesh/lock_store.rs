@@ -176,8 +176,7 @@ impl Logic for LockStore {
         self.is_owner_second_before.d.next = self.owner1.q.val() == self.owner3.q.val();
 
         // Clock 2: the holder is the latest visit that took the lock; the memory does not know yet of the two before this one.
-        self.takes_free_lock.next =
-            self.takes2.q.val() & (!self.met_clear2.q.val()) & (!self.locks.was_set.val());
+        self.takes_free_lock.next = self.takes2.q.val() & (!self.met_clear2.q.val()) & (!self.locks.was_set.val());
         self.holder_is_owner.next = self.owners.read_data.val() == self.owner2.q.val();
         if self.is_lock_second_before.q.val() & self.took4.q.val() {
             self.holder_is_owner.next = self.is_owner_second_before.q.val();
