@@ -26,7 +26,7 @@
 //! ```
 
 use super::{Bundle, Token, BUNDLE_BITS, RING_ADDRESS_BITS};
-use crate::leaf::{Fifo, Unpack};
+use crate::leaf::{DeepFifo, Unpack};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -51,7 +51,7 @@ pub struct Issue {
     pub token: Signal<Out, Token>,
     /// A read-out is issued.
     pub read_valid: Signal<Out, Bit>,
-    queue: Fifo<RING_ADDRESS_BITS, BUNDLE_BITS>,
+    queue: DeepFifo<RING_ADDRESS_BITS, BUNDLE_BITS>,
     head: Unpack<Bundle, BUNDLE_BITS>,
     bundle_bits: Signal<Local, Bits<BUNDLE_BITS>>,
     issued: DFF<Token>,
@@ -65,12 +65,15 @@ pub struct Issue {
 }
 
 impl Issue {
-    /// A queue of `2^address_bits` bundles.
+    /// Fewest address bits of the queue.
+    const MIN_ADDRESS_BITS: usize = 5;
+
+    /// A queue of `2^address_bits` bundles, 32 at least.
     ///
     /// # Panics
-    /// If `address_bits` is not in `1..=RING_ADDRESS_BITS`.
+    /// If `address_bits` is above `RING_ADDRESS_BITS`.
     pub fn new(address_bits: usize) -> Self {
-        Self { queue: Fifo::new(address_bits, BUNDLE_BITS), ..Self::default() }
+        Self { queue: DeepFifo::new(address_bits.max(Self::MIN_ADDRESS_BITS), BUNDLE_BITS), ..Self::default() }
     }
 }
 

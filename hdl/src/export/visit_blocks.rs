@@ -17,7 +17,7 @@ pub(super) fn visit_blocks() -> Vec<(String, String)> {
         block(TriangleStore::new(15, 15, 5), "triangle_store_15_15_5"),
         block(VertexStore::new(3), "vertex_store_3"),
         block(VertexStore::new(14), "vertex_store_14"),
-        block(Issue::new(3), "issue_3"),
+        block(Issue::new(5), "issue_5"),
         block(VisitReader::default(), "visit_reader"),
         block(VerdictLogic::default(), "verdict_logic"),
         block(VisitJudge::default(), "visit_judge"),
