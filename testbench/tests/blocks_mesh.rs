@@ -3,16 +3,24 @@
 mod block_ports;
 mod cosimulation;
 mod structures;
+mod visit_model;
 
 use cosimulation::{named_ports, Cosimulation, Delay, Expected, NamedPorts, Numbers};
 use incircle_hdl::engine::{LinkWrite, RecordWrite, SeedWrites, WritePort};
-use incircle_hdl::mesh::{TriangleStore, VertexStore};
+use incircle_hdl::leaf::SharedMemory;
+use incircle_hdl::mesh::{LockStore, TriangleStore, VertexStore};
+use incircle_testbench::gate::{cell_count, Cells};
+use rust_hdl_core::prelude::*;
 use structures::{pack, random, unpack, WRITE};
+use visit_model::Locks;
 
-named_ports!([] TriangleStore, [write, read_id, read_locks, clear_id, clear_enable],
-    [v0, v1, v2, n0, n1, n2, was_set], clock);
-named_ports!([] VertexStore, [write_id, write_position, write_enable, id0, id1, id2],
-    [position0, position1, position2], clock);
+named_ports!([const A: usize, const D: usize] SharedMemory<A, D>,
+    [read_address, shared_address, write_data, write_enable], [read_data, shared_data], clock);
+named_ports!([] LockStore, [id, owner, takes, clear_id, clear_enable], [took, foreign, was_set], clock);
+named_ports!([] TriangleStore, [write, read_id, read_locks, owner, clear_id, clear_enable],
+    [v0, v1, v2, n0, n1, n2, took, foreign, was_set], clock);
+named_ports!([] VertexStore, [write_id, write_position, write_enable, id0, id1, id2, fetch_id],
+    [position0, position1, position2, fetched], clock);
 named_ports!([] SeedWrites, [step, turns_left, infinite], [write]);
 named_ports!([] WritePort, [reset, commit, solo, seed], [write], clock);
 named_ports!([] RecordWrite, [id, v0, v1, v2, n0, n1, n2], [write]);
@@ -32,33 +40,203 @@ fn id(numbers: &mut Numbers, stored_bits: u32) -> u64 {
     }
 }
 
-/// Reads, writes and locks in any mixture; only setting and clearing one lock at one edge is left out, which has no meaning.
+/// What the exported block of this name takes in an ECP5.
+fn cells(name: &str) -> Cells {
+    let blocks = incircle_hdl::export::blocks();
+    let (_, verilog) = blocks.iter().find(|block| block.0 == name).expect("a block of this name");
+    cell_count(verilog, name).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn shared_memory<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
+    let mut numbers = Numbers::new(25);
+    let stimuli: Vec<Vec<u64>> = (0..CYCLES)
+        .map(|_| {
+            let [read, shared] = [(); 2].map(|()| numbers.bits(A as u32));
+            vec![read, shared, numbers.bits(D as u32), numbers.bits(1)]
+        })
+        .collect();
+    let last = (1 << address_bits) - 1;
+    let mut words: Vec<Expected> = vec![None; last + 1];
+    let mut delay = Delay::new(SharedMemory::<A, D>::LATENCY);
+    Cosimulation {
+        name,
+        rust: SharedMemory::<A, D>::new(address_bits, stored_bits),
+        inputs: &["read_address", "shared_address", "write_data", "write_enable"],
+        outputs: &["read_data", "shared_data"],
+    }
+    .run(stimuli, |values| {
+        let [read, shared] = [values[0], values[1]].map(|address| address as usize & last);
+        let mut seen = vec![words[read], words[shared]];
+        if values[3] == 1 {
+            seen[1] = None;
+            if read == shared {
+                seen[0] = None;
+            }
+            words[shared] = Some(u128::from(values[2]) & ((1 << stored_bits) - 1));
+        }
+        delay.pass(seen).unwrap_or(vec![None; 2])
+    });
+}
+
+#[test]
+fn shared_memory_reads_twice_or_reads_and_writes() {
+    shared_memory::<8, 12>("shared_memory_8x12", 8, 12);
+}
+
+#[test]
+fn shared_memory_ignores_what_is_above_its_shape() {
+    shared_memory::<10, 36>("shared_memory_6x33", 6, 33);
+}
+
+#[test]
+fn shared_memory_poisons_what_silicon_leaves_open() {
+    let mut memory = SharedMemory::<8, 12>::new(8, 12);
+    memory.connect_all();
+    for (enable, expected) in [(1, None), (0, None), (0, Some(0x555)), (0, Some(0xfff))] {
+        if let Some(word) = expected {
+            assert_eq!((memory.get("read_data"), memory.get("shared_data")), (word, word));
+        }
+        for (port, value) in
+            [("read_address", 7), ("shared_address", 7), ("write_data", 0xfff), ("write_enable", enable)]
+        {
+            memory.set(port, value as u64);
+        }
+        for high in [false, true] {
+            memory.set_clock(high);
+            assert!(simulate(&mut memory, 10), "the memory settles");
+        }
+    }
+}
+
+#[test]
+fn shared_memory_is_block_ram_without_bypass_logic() {
+    let cells = cells("shared_memory_8x12");
+    assert_eq!((cells.block_ram, cells.lut4, cells.flip_flops), (1, 0, 2 * 12));
+}
+
+/// What happened at the locks, so that a test can say that it all did.
+#[derive(Debug, Default)]
+struct LockEvents {
+    took: usize,
+    foreign: usize,
+    own: usize,
+    met_clear: usize,
+    /// The holder took the lock one clock before the visit, or two.
+    before: usize,
+    second_before: usize,
+}
+
+/// Locks as a list of holders: what a visit finds, and then the clear of the same edge.
+struct LockReference {
+    locks: Locks,
+    last: usize,
+    last_context: u64,
+    /// The lock that the visit before took, and the one before that.
+    taken: [Option<usize>; 2],
+    events: LockEvents,
+}
+
+impl LockReference {
+    fn new(id_bits: u32, context_bits: u32) -> Self {
+        let last = (1 << id_bits) - 1;
+        let last_context = (1 << context_bits) - 1;
+        Self { locks: Locks::new(last + 1), last, last_context, taken: [None; 2], events: LockEvents::default() }
+    }
+
+    /// took, foreign, `was_set`.
+    fn edge(&mut self, id: u64, owner: u64, takes: bool, clear: Option<u64>) -> [Expected; 3] {
+        let id = id as usize & self.last;
+        let owner = owner & self.last_context;
+        let cleared = clear.map(|id| id as usize & self.last);
+        let meets = cleared == Some(id);
+        let was_set = self.locks.holder(id).is_some();
+        let (took, foreign) = if takes { self.locks.take(id, owner, meets) } else { (false, false) };
+        if let Some(cleared) = cleared {
+            self.locks.clear(cleared);
+        }
+        let events = &mut self.events;
+        events.took += usize::from(took);
+        events.foreign += usize::from(foreign && !meets);
+        events.own += usize::from(takes && !took && !foreign);
+        events.met_clear += usize::from(takes && meets);
+        let finds = takes && was_set && !meets;
+        events.before += usize::from(finds && self.taken[0] == Some(id));
+        events.second_before += usize::from(finds && self.taken[1] == Some(id));
+        self.taken = [took.then_some(id), self.taken[0]];
+        let was_set = (!meets).then_some(was_set.into());
+        [Some(took.into()), Some(foreign.into()), was_set]
+    }
+
+    fn assert_all_happened(&self) {
+        let LockEvents { took, foreign, own, met_clear, before, second_before } = self.events;
+        let counts = [took, foreign, own, met_clear, before, second_before];
+        assert!(counts.iter().all(|count| *count > CYCLES / 100), "{:?}", self.events);
+    }
+}
+
+fn lock_store(name: &str, id_bits: u32, context_bits: u32) {
+    let mut numbers = Numbers::new(26);
+    let stimuli: Vec<Vec<u64>> = (0..CYCLES)
+        .map(|cycle| {
+            // In turn: visits at every clock, with gaps, with clears at every clock.
+            let (gaps, clears) = [(9, 3), (2, 3), (9, 1)][cycle / 100 % 3];
+            let owner = 2 * numbers.bits(1) | numbers.bits(5) >> context_bits << context_bits;
+            let takes = u64::from(!numbers.once_in(gaps));
+            let clears = u64::from(numbers.once_in(clears));
+            vec![id(&mut numbers, id_bits), owner, takes, id(&mut numbers, id_bits), clears]
+        })
+        .collect();
+    let mut reference = LockReference::new(id_bits, context_bits);
+    let mut delay = Delay::new(LockStore::LATENCY);
+    Cosimulation {
+        name,
+        rust: LockStore::new(id_bits as usize, context_bits as usize),
+        inputs: &["id", "owner", "takes", "clear_id", "clear_enable"],
+        outputs: &["took", "foreign", "was_set"],
+    }
+    .run(stimuli, |values| {
+        let found = reference.edge(values[0], values[1], values[2] == 1, (values[4] == 1).then_some(values[3]));
+        delay.pass(found.to_vec()).unwrap_or(vec![None; 3])
+    });
+    reference.assert_all_happened();
+}
+
+#[test]
+fn lock_store_knows_the_holder_at_every_clock() {
+    lock_store("lock_store_15_5", 15, 5);
+}
+
+#[test]
+fn lock_store_ignores_what_is_above_its_shape() {
+    lock_store("lock_store_4_2", 4, 2);
+}
+
+/// Reads, writes and locks in any mixture.
 fn triangle_stimuli(stored_bits: u32) -> Vec<Vec<u128>> {
     let mut numbers = Numbers::new(21);
-    let same = |a: u64, b: u64| (a ^ b) & ((1 << stored_bits) - 1) == 0;
     (0..CYCLES)
         .map(|_| {
             let mut write = random(WRITE, |bits| numbers.bits(bits));
             write[1] = id(&mut numbers, stored_bits);
             let (read, clear) = (id(&mut numbers, stored_bits), id(&mut numbers, stored_bits));
-            let (locks, clears) = (numbers.bits(1), numbers.bits(1));
-            let locks = if same(read, clear) { locks & !clears } else { locks };
-            let numbers = [read, locks, clear, clears].map(u128::from);
+            let numbers = [read, numbers.bits(1), numbers.bits(5), clear, numbers.bits(1)].map(u128::from);
             [&[pack(WRITE, write)], &numbers[..]].concat()
         })
         .collect()
 }
 
 /// Columns and lock of the record read; nothing where the same edge changes it.
-fn triangle_reference(id_bits: u32, vertex_bits: u32) -> impl FnMut(&[u128]) -> Vec<Expected> {
+fn triangle_reference(
+    id_bits: u32,
+    vertex_bits: u32,
+    mut locks: LockReference,
+) -> impl FnMut(&[u128]) -> Vec<Expected> {
     let last = (1 << id_bits) - 1;
     let mut columns = vec![[None; 6]; last + 1];
-    let mut locks = vec![false; last + 1];
     move |values| {
         let write = unpack(WRITE, values[0]);
-        let [read, written, cleared] = [values[1], write[1].into(), values[3]].map(|id| id as usize & last);
+        let [read, written] = [values[1], write[1].into()].map(|id| id as usize & last);
         let mut seen = columns[read];
-        let mut was_set = Some(u128::from(locks[read]));
         for column in 0..6 {
             let enable = write[[2, 2, 2, 3, 4, 5][column]] & write[0];
             if enable == 1 {
@@ -69,47 +247,42 @@ fn triangle_reference(id_bits: u32, vertex_bits: u32) -> impl FnMut(&[u128]) -> 
                 }
             }
         }
-        locks[read] |= values[2] == 1;
-        if values[4] == 1 {
-            locks[cleared] = false;
-            if cleared == read {
-                was_set = None;
-            }
-        }
-        [&seen[..], &[was_set]].concat()
+        let [id, takes, owner, cleared, clears] = [1, 2, 3, 4, 5].map(|input| values[input] as u64);
+        let lock = locks.edge(id, owner, takes == 1, (clears == 1).then_some(cleared));
+        [&seen[..], &lock].concat()
     }
 }
 
-fn triangle_store(name: &str, id_bits: u32, vertex_bits: u32) {
-    let mut reference = triangle_reference(id_bits, vertex_bits);
+fn triangle_store(name: &str, id_bits: u32, vertex_bits: u32, context_bits: u32) {
+    let locks = LockReference::new(id_bits, context_bits);
+    let mut reference = triangle_reference(id_bits, vertex_bits, locks);
     let mut delay = Delay::new(TriangleStore::LATENCY);
     Cosimulation {
         name,
-        rust: TriangleStore::new(id_bits as usize, vertex_bits as usize),
-        inputs: &["write", "read_id", "read_locks", "clear_id", "clear_enable"],
-        outputs: &["v0", "v1", "v2", "n0", "n1", "n2", "was_set"],
+        rust: TriangleStore::new(id_bits as usize, vertex_bits as usize, context_bits as usize),
+        inputs: &["write", "read_id", "read_locks", "owner", "clear_id", "clear_enable"],
+        outputs: &["v0", "v1", "v2", "n0", "n1", "n2", "took", "foreign", "was_set"],
     }
-    .run(triangle_stimuli(id_bits), |values| delay.pass(reference(values)).unwrap_or(vec![None; 7]));
+    .run(triangle_stimuli(id_bits), |values| delay.pass(reference(values)).unwrap_or(vec![None; 9]));
 }
 
 #[test]
 fn triangle_store_writes_records_and_single_links() {
-    triangle_store("triangle_store_15", 15, 15);
+    triangle_store("triangle_store_15_15_5", 15, 15, 5);
 }
 
 #[test]
 fn triangle_store_ignores_what_is_above_its_shape() {
-    triangle_store("triangle_store_5_4", 5, 4);
+    triangle_store("triangle_store_5_4_1", 5, 4, 1);
 }
 
 fn vertex_store(name: &str, id_bits: u32) {
     let mut numbers = Numbers::new(22);
     let stimuli: Vec<Vec<u64>> = (0..CYCLES)
         .map(|_| {
-            let mut ids = [(); 4].map(|()| id(&mut numbers, id_bits));
-            ids[1..].rotate_left(1);
+            let ids = [(); 5].map(|()| id(&mut numbers, id_bits));
             let (position, enable) = (numbers.bits(32), numbers.bits(1));
-            vec![ids[0], position, enable, ids[1], ids[2], ids[3]]
+            vec![ids[0], position, enable, ids[1], ids[2], ids[3], ids[4]]
         })
         .collect();
     let last = (1 << id_bits) - 1;
@@ -118,30 +291,37 @@ fn vertex_store(name: &str, id_bits: u32) {
     Cosimulation {
         name,
         rust: VertexStore::new(id_bits as usize),
-        inputs: &["write_id", "write_position", "write_enable", "id0", "id1", "id2"],
-        outputs: &["position0", "position1", "position2"],
+        inputs: &["write_id", "write_position", "write_enable", "id0", "id1", "id2", "fetch_id"],
+        outputs: &["position0", "position1", "position2", "fetched"],
     }
     .run(stimuli, |values| {
         let written = (values[2] == 1).then_some(values[0] as usize & last);
-        let seen = [3, 4, 5].map(|port| {
+        let mut seen = [3, 4, 5, 6].map(|port| {
             let read = values[port] as usize & last;
             positions[read].filter(|_| written != Some(read))
         });
         if let Some(written) = written {
             positions[written] = Some(values[1].into());
+            seen[3] = None;
         }
-        delay.pass(seen.to_vec()).unwrap_or(vec![None; 3])
+        delay.pass(seen.to_vec()).unwrap_or(vec![None; 4])
     });
 }
 
 #[test]
-fn vertex_store_reads_three_vertices_at_once() {
+fn vertex_store_reads_three_vertices_and_fetches_a_fourth() {
     vertex_store("vertex_store_14", 14);
 }
 
 #[test]
 fn vertex_store_ignores_what_is_above_its_shape() {
     vertex_store("vertex_store_3", 3);
+}
+
+#[test]
+fn vertex_store_is_three_copies_in_block_ram() {
+    // 16384 words of 32 bits: 32 blocks of 16384 x 1 for each copy, with the fetch port as without.
+    assert_eq!(cells("vertex_store_14").block_ram, 3 * 32);
 }
 
 #[test]

@@ -8,24 +8,25 @@
 //! | `token_valid`, `token` | out | 1, Token | the visit issued; in a read-out `token.u` alone counts |
 //! | `read_valid` | out | 1 | the issue register holds a read-out |
 //!
-//! 1. A bundle of two visits takes two clocks, the first visit first.
-//! 2. The queue is as deep as the ring: there are never more visits out than entries, so it never overflows.
+//! 1. A bundle takes a clock for each of its one to three visits, the first visit first; see `Bundle` for what tells them apart.
+//! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring has entries,
+//!    so it never overflows.
 //!
 //! Latency: 1 clock from `push` to `token` when the queue is empty.
 //!
-//! A bundle of two visits and one of one, then a read-out:
+//! A bundle of three visits and one of one, then a read-out:
 //! ```text
-//! push            ___/^^^^^\______________
-//! bundle.x          .  1  3  .  .  .  .  .
-//! token_valid     ______/^^^^^^^^\________
-//! token.x           .  .  1  2  3  .  .  .
-//! read            _______________/^^\_____
-//! read_valid      __________________/^^\__
-//! token.u           .  .  .  .  .  .  9  .
+//! push            ___/^^^^^\_________________
+//! bundle.x          .  1  4  .  .  .  .  .  .
+//! token_valid     ______/^^^^^^^^^^^\________
+//! token.x           .  .  1  2  3  4  .  .  .
+//! read            __________________/^^\_____
+//! read_valid      _____________________/^^\__
+//! token.u           .  .  .  .  .  .  .  9  .
 //! ```
 
-use super::{Bundle, Token, BUNDLE_BITS};
-use crate::leaf::{Fifo, Unpack};
+use super::{Bundle, Token, BUNDLE_BITS, RING_ADDRESS_BITS};
+use crate::leaf::{DeepFifo, Unpack};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -50,27 +51,36 @@ pub struct Issue {
     pub token: Signal<Out, Token>,
     /// A read-out is issued.
     pub read_valid: Signal<Out, Bit>,
-    queue: Fifo<6, BUNDLE_BITS>,
+    queue: DeepFifo<RING_ADDRESS_BITS, BUNDLE_BITS>,
     head: Unpack<Bundle, BUNDLE_BITS>,
     bundle_bits: Signal<Local, Bits<BUNDLE_BITS>>,
     issued: DFF<Token>,
     issued_valid: DFF<Bit>,
     issued_read: DFF<Bit>,
     second_is_due: DFF<Bit>,
-    waits_for_second: Signal<Local, Bit>,
+    third_is_due: DFF<Bit>,
+    is_at_first: Signal<Local, Bit>,
+    second_follows: Signal<Local, Bit>,
+    third_follows: Signal<Local, Bit>,
 }
 
 impl Issue {
-    /// A queue of `2^entry_bits` bundles.
-    pub fn new(entry_bits: usize) -> Self {
-        Self { queue: Fifo::new(entry_bits, BUNDLE_BITS), ..Self::default() }
+    /// Fewest address bits of the queue.
+    const MIN_ADDRESS_BITS: usize = 5;
+
+    /// A queue of `2^address_bits` bundles, 32 at least.
+    ///
+    /// # Panics
+    /// If `address_bits` is above `RING_ADDRESS_BITS`.
+    pub fn new(address_bits: usize) -> Self {
+        Self { queue: DeepFifo::new(address_bits.max(Self::MIN_ADDRESS_BITS), BUNDLE_BITS), ..Self::default() }
     }
 }
 
 impl Logic for Issue {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, issued, issued_valid, issued_read, second_is_due);
+        dff_setup!(self, clock, issued, issued_valid, issued_read, second_is_due, third_is_due);
         clock!(self, clock, queue);
         self.queue.reset.next = self.reset.val();
         self.queue.push.next = self.push.val();
@@ -81,12 +91,16 @@ impl Logic for Issue {
         self.token_valid.next = self.issued_valid.q.val();
         self.read_valid.next = self.issued_read.q.val();
 
-        self.waits_for_second.next = self.head.value.val().is_pair & (!self.second_is_due.q.val());
-        self.queue.pop.next = self.queue.valid.val() & (!self.waits_for_second.val());
-        self.second_is_due.d.next = self.queue.valid.val() & self.waits_for_second.val();
+        self.is_at_first.next = (!self.second_is_due.q.val()) & (!self.third_is_due.q.val());
+        self.second_follows.next = self.head.value.val().is_pair & self.is_at_first.val();
+        self.third_follows.next = self.head.value.val().is_triple & self.second_is_due.q.val();
+        self.queue.pop.next = self.queue.valid.val() & (!self.second_follows.val()) & (!self.third_follows.val());
+        self.second_is_due.d.next = self.queue.valid.val() & self.second_follows.val();
+        self.third_is_due.d.next = self.queue.valid.val() & self.third_follows.val();
 
         self.issued_valid.d.next = self.queue.valid.val();
         self.issued_read.d.next = self.read.val();
+        self.issued.d.next.owner = self.head.value.val().owner;
         self.issued.d.next.rotates = self.head.value.val().rotates;
         self.issued.d.next.locks = self.head.value.val().locks;
         self.issued.d.next.f_entry = self.head.value.val().f_entry;
@@ -95,9 +109,14 @@ impl Logic for Issue {
         self.issued.d.next.after = self.head.value.val().after;
         self.issued.d.next.u = self.head.value.val().u;
         if self.second_is_due.q.val() {
-            self.issued.d.next.x = self.head.value.val().second_x;
+            self.issued.d.next.x = self.head.value.val().after;
             self.issued.d.next.after = self.head.value.val().second_after;
             self.issued.d.next.u = self.head.value.val().second_u;
+        }
+        if self.third_is_due.q.val() {
+            self.issued.d.next.x = self.head.value.val().second_after;
+            self.issued.d.next.after = 0.into();
+            self.issued.d.next.u = self.head.value.val().third_u;
         }
         if self.read.val() {
             self.issued.d.next.u = self.read_id.val();
@@ -106,6 +125,7 @@ impl Logic for Issue {
             self.issued_valid.d.next = false;
             self.issued_read.d.next = false;
             self.second_is_due.d.next = false;
+            self.third_is_due.d.next = false;
         }
     }
 }

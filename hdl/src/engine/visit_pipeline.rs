@@ -1,38 +1,50 @@
-//! Everything a visit passes: queue, triangle memory, slot and rotation, vertex memory, predicates, verdict.
+//! Everything a visit passes: queue, triangle memory and locks, slot and rotation, vertex memory, predicates, verdict.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | reset forgets all visits; memories keep their contents |
 //! | `infinite` | in | 15 | the id of the infinite vertex, a constant |
+//! | `records` | in | 15 | records from this id on are not written yet |
 //! | `push`, `bundle` | in | 1, Bundle | visits to make |
-//! | `p` | in | 32 | the context's point, steady while one of its visits is out |
+//! | `position_owner`, `position`, `position_enable` | in | 5, 32, 1 | the point that a context inserts from now on |
+//! | `is_issuing` | out | 1 | a visit reads its record in this clock |
 //! | `done` | out | 1 | a visit completes in this clock |
 //! | `token`, `turned`, `verdict` | out | | the visit, its record and what it found out |
 //! | `read`, `read_id` | in | 1, 15 | a read-out wants a record; only while no visit is out |
 //! | `read_done` | out | 1 | the record stands on `v0..n2` and `was_set` |
 //! | `write` | in | Write | a write into the triangle memory |
 //! | `vertex_id`, `vertex_position`, `vertex_enable` | in | 15, 32, 1 | a write into the vertex memory |
+//! | `fetch_id`, `fetched` | in, out | 15, 32 | a vertex read, 2 clocks later; only at an edge without such a write |
 //! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear |
 //!
 //! 1. Every visit takes the same time, so visits complete in the order of their issue, at most one a clock.
+//! 2. A visit whose record is written in the clock in which it is issued, or is not written yet, completes with `turned.again`. Then
+//!    vertices, links and slot of `turned` and the whole `verdict` are arbitrary; `took` and `foreign` hold all the same.
+//! 3. A visit is judged against the point that its context has 4 clocks after its issue. The user changes that point only while none
+//!    of the context's visits is out.
+//! 4. A read-out never meets a write of its record at one edge: the user reads only while nothing is at work.
 //!
-//! Latency: `STAGES` = 15 clocks from the issue register to `done`, 16 from `push`. The record is there after 2, the corners after
-//! 5, the signs after 14. A read-out takes 3 clocks from `read` to `read_done`.
+//! Latency: `STAGES` = 16 clocks from the issue register to `done`, 17 from `push`, and 18 round the loop with the register that
+//! drives `push`. The record is there after 2, the corners after 5, the signs after 15. A read-out takes 3 clocks from `read` to
+//! `read_done`.
 //!
-//! A bundle of two visits, then a read-out:
+//! A bundle of two visits of context 3, then a read-out:
 //! ```text
-//! push            /^^\_________________________________________________________________
-//! bundle.x          1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
-//! done            ________________________________________________/^^^^^\______________
-//! token.x           .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  2  .  .  .  .  .
-//! read            ______________________________________________________/^^\___________
-//! read_done       _______________________________________________________________/^^\__
+//! push            /^^\____________________________________________________________________
+//! bundle.owner      3  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! bundle.x          1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! is_issuing      ___/^^^^^\______________________________________________________________
+//! done            ___________________________________________________/^^^^^\______________
+//! token.owner       .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  3  3  .  .  .  .  .
+//! token.x           .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  2  .  .  .  .  .
+//! read            _________________________________________________________/^^\___________
+//! read_done       __________________________________________________________________/^^\__
 //! ```
 
-use super::{Bundle, Issue, Token, Turned, Verdict, VerdictLogic, VisitReader, Write, TOKEN_BITS, TURNED_BITS};
-use crate::leaf::{DelayLine, Unpack};
+use super::{context_bits, ring_bits, Bundle, Issue, Token, Turned, Verdict, VisitJudge, VisitReader, Write};
+use super::{CONTEXT_BITS, TOKEN_BITS, TURNED_BITS};
+use crate::leaf::{DelayLine, LutMemory, Unpack};
 use crate::mesh::{TriangleStore, VertexStore};
-use crate::predicate::VisitPredicates;
 use incircle_protocol::{triangle_id_bits, vertex_id_bits, Config};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -50,8 +62,16 @@ pub struct VisitPipeline {
     pub push: Signal<In, Bit>,
     /// The bundle.
     pub bundle: Signal<In, Bundle>,
+    /// Records from this id on are not written yet.
+    pub records: Signal<In, Bits<15>>,
+    /// The context that takes a point.
+    pub position_owner: Signal<In, Bits<5>>,
     /// The point.
-    pub p: Signal<In, Bits<32>>,
+    pub position: Signal<In, Bits<32>>,
+    /// It takes it at this edge.
+    pub position_enable: Signal<In, Bit>,
+    /// A visit reads its record.
+    pub is_issuing: Signal<Out, Bit>,
     /// A visit completes.
     pub done: Signal<Out, Bit>,
     /// The visit.
@@ -88,6 +108,10 @@ pub struct VisitPipeline {
     pub vertex_position: Signal<In, Bits<32>>,
     /// Write it.
     pub vertex_enable: Signal<In, Bit>,
+    /// Vertex to read.
+    pub fetch_id: Signal<In, Bits<15>>,
+    /// Its coordinates.
+    pub fetched: Signal<Out, Bits<32>>,
     /// Lock to clear.
     pub clear_id: Signal<In, Bits<15>>,
     /// Clear it.
@@ -96,8 +120,16 @@ pub struct VisitPipeline {
     triangles: TriangleStore,
     vertices: VertexStore,
     reader: VisitReader,
-    predicates: VisitPredicates,
-    verdict_logic: VerdictLogic,
+    judge: VisitJudge,
+    positions: LutMemory<CONTEXT_BITS, 32>,
+    is_written: Signal<Local, Bit>,
+    is_torn: Signal<Local, Bit>,
+    /// The visit in clocks 1 and 2 must look again.
+    again1: DFF<Bit>,
+    again2: DFF<Bit>,
+    /// The context of the visit in clocks 3 and 4.
+    owner3: DFF<Bits<5>>,
+    owner4: DFF<Bits<5>>,
     token_bits: Signal<Local, Bits<TOKEN_BITS>>,
     turned_bits: Signal<Local, Bits<TURNED_BITS>>,
     token_delay: DelayLine<TOKEN_BITS>,
@@ -106,33 +138,35 @@ pub struct VisitPipeline {
     delayed_turned: Unpack<Turned, TURNED_BITS>,
     point: DFF<Bits<32>>,
     /// Bit `k`: the visit issued `k + 1` clocks ago is valid.
-    valid: DFF<Bits<15>>,
+    valid: DFF<Bits<16>>,
     read_valid1: DFF<Bit>,
     read_valid2: DFF<Bit>,
     token_register: DFF<Token>,
     turned_register: DFF<Turned>,
     verdict_register: DFF<Verdict>,
-    shifted: Signal<Local, Bits<15>>,
-    one: Signal<Local, Bits<15>>,
+    shifted: Signal<Local, Bits<16>>,
+    one: Signal<Local, Bits<16>>,
 }
 
 impl VisitPipeline {
     /// Clocks from the issue register to `done`: corners, signs, verdict.
-    pub const STAGES: usize = VisitReader::LATENCY + VisitPredicates::LATENCY + 1;
+    pub const STAGES: usize = VisitReader::LATENCY + VisitJudge::LATENCY + 1;
 
     /// The pipeline of a configuration.
     ///
     /// # Panics
     /// If the stages do not add up to the width of the valid register, which is a fault in this source.
     pub fn new(config: Config) -> Self {
-        assert_eq!(Self::STAGES, 15, "the valid register has 15 bits");
-        let signs = VisitReader::LATENCY + VisitPredicates::LATENCY;
+        assert_eq!(Self::STAGES, 16, "the valid register has 16 bits");
+        let signs = VisitReader::LATENCY + VisitJudge::LATENCY;
         Self {
-            issue: Issue::new(ring_bits(config)),
+            issue: Issue::new(context_bits(config) + ring_bits(config)),
             triangles: TriangleStore::new(
                 triangle_id_bits(config.points) as usize,
                 vertex_id_bits(config.points) as usize,
+                context_bits(config),
             ),
+            positions: LutMemory::new(context_bits(config), 32),
             vertices: VertexStore::new(vertex_id_bits(config.points) as usize - 1),
             token_delay: DelayLine::new(signs - TriangleStore::LATENCY),
             turned_delay: DelayLine::new(signs - VisitReader::TURNED_LATENCY),
@@ -141,17 +175,16 @@ impl VisitPipeline {
     }
 }
 
-/// Address bits of a memory with a word per ring entry.
-pub(super) fn ring_bits(config: Config) -> usize {
-    (u32::BITS - (config.ring - 1).leading_zeros()) as usize
-}
-
 impl Logic for VisitPipeline {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(
             self,
             clock,
+            again1,
+            again2,
+            owner3,
+            owner4,
             point,
             valid,
             read_valid1,
@@ -160,7 +193,7 @@ impl Logic for VisitPipeline {
             turned_register,
             verdict_register
         );
-        clock!(self, clock, issue, triangles, vertices, reader, predicates, token_delay, turned_delay);
+        clock!(self, clock, issue, triangles, vertices, reader, positions, judge, token_delay, turned_delay);
         self.one.next = 1.into();
         self.reader.infinite.next = self.infinite.val();
         self.issue.reset.next = self.reset.val();
@@ -168,10 +201,18 @@ impl Logic for VisitPipeline {
         self.issue.bundle.next = self.bundle.val();
         self.issue.read.next = self.read.val();
         self.issue.read_id.next = self.read_id.val();
+        self.is_issuing.next = self.issue.token_valid.val();
+
+        // Clock 0: does the record count?
+        self.is_written.next = self.issue.token.val().u < self.records.val();
+        self.is_torn.next = self.write.val().valid & (self.write.val().id == self.issue.token.val().u);
+        self.again1.d.next = self.is_torn.val() | (!self.is_written.val());
+        self.again2.d.next = self.again1.q.val();
 
         // Clocks 0 to 2: the record.
         self.triangles.read_id.next = self.issue.token.val().u;
         self.triangles.read_locks.next = self.issue.token_valid.val() & self.issue.token.val().locks;
+        self.triangles.owner.next = self.issue.token.val().owner;
         self.triangles.write.next = self.write.val();
         self.triangles.clear_id.next = self.clear_id.val();
         self.triangles.clear_enable.next = self.clear_enable.val();
@@ -182,7 +223,9 @@ impl Logic for VisitPipeline {
         self.reader.n0.next = self.triangles.n0.val();
         self.reader.n1.next = self.triangles.n1.val();
         self.reader.n2.next = self.triangles.n2.val();
-        self.reader.was_set.next = self.triangles.was_set.val();
+        self.reader.took.next = self.triangles.took.val();
+        self.reader.foreign.next = self.triangles.foreign.val();
+        self.reader.again.next = self.again2.q.val();
         self.v0.next = self.triangles.v0.val();
         self.v1.next = self.triangles.v1.val();
         self.v2.next = self.triangles.v2.val();
@@ -194,7 +237,7 @@ impl Logic for VisitPipeline {
         self.read_valid2.d.next = self.read_valid1.q.val();
         self.read_done.next = self.read_valid2.q.val();
 
-        // Clocks 2 to 5: the corners.
+        // Clocks 2 to 5: the corners, and the point.
         self.vertices.id0.next = self.triangles.v0.val();
         self.vertices.id1.next = self.triangles.v1.val();
         self.vertices.id2.next = self.triangles.v2.val();
@@ -204,13 +247,21 @@ impl Logic for VisitPipeline {
         self.reader.position0.next = self.vertices.position0.val();
         self.reader.position1.next = self.vertices.position1.val();
         self.reader.position2.next = self.vertices.position2.val();
-        self.point.d.next = self.p.val();
+        self.vertices.fetch_id.next = self.fetch_id.val();
+        self.fetched.next = self.vertices.fetched.val();
+        self.owner3.d.next = self.reader.token_at_record.val().owner;
+        self.owner4.d.next = self.owner3.q.val();
+        self.positions.write_address.next = self.position_owner.val();
+        self.positions.write_data.next = self.position.val();
+        self.positions.write_enable.next = self.position_enable.val();
+        self.positions.read_address.next = self.owner4.q.val();
+        self.point.d.next = self.positions.read_data.val();
 
-        // Clocks 5 to 14: the signs, and beside them the visit and its record.
-        self.predicates.r0.next = self.reader.r0.val();
-        self.predicates.r1.next = self.reader.r1.val();
-        self.predicates.r2.next = self.reader.r2.val();
-        self.predicates.p.next = self.point.q.val();
+        // Clocks 5 to 15: the signs, and beside them the visit and its record.
+        self.judge.r0.next = self.reader.r0.val();
+        self.judge.r1.next = self.reader.r1.val();
+        self.judge.r2.next = self.reader.r2.val();
+        self.judge.p.next = self.point.q.val();
         self.token_bits.next = self.reader.token_at_record.val().into();
         self.token_delay.data_in.next = self.token_bits.val();
         self.delayed_token.bits.next = self.token_delay.data_out.val();
@@ -218,30 +269,11 @@ impl Logic for VisitPipeline {
         self.turned_delay.data_in.next = self.turned_bits.val();
         self.delayed_turned.bits.next = self.turned_delay.data_out.val();
 
-        // Clock 14: the verdict.
-        self.verdict_logic.turned.next = self.delayed_turned.value.val();
-        self.verdict_logic.e0_negative.next = self.predicates.e0_negative.val();
-        self.verdict_logic.e1_negative.next = self.predicates.e1_negative.val();
-        self.verdict_logic.e2_negative.next = self.predicates.e2_negative.val();
-        self.verdict_logic.e0_zero.next = self.predicates.e0_zero.val();
-        self.verdict_logic.e1_zero.next = self.predicates.e1_zero.val();
-        self.verdict_logic.e2_zero.next = self.predicates.e2_zero.val();
-        self.verdict_logic.e1_below_e0.next = self.predicates.e1_below_e0.val();
-        self.verdict_logic.e2_below_e0.next = self.predicates.e2_below_e0.val();
-        self.verdict_logic.e2_below_e1.next = self.predicates.e2_below_e1.val();
-        self.verdict_logic.incircle_positive.next = self.predicates.incircle_positive.val();
-        self.verdict_logic.incircle_zero.next = self.predicates.incircle_zero.val();
-        self.verdict_logic.p_before_r0.next = self.predicates.p_before_r0.val();
-        self.verdict_logic.p_before_r1.next = self.predicates.p_before_r1.val();
-        self.verdict_logic.p_before_r2.next = self.predicates.p_before_r2.val();
-        self.verdict_logic.p_equals_r0.next = self.predicates.p_equals_r0.val();
-        self.verdict_logic.p_equals_r1.next = self.predicates.p_equals_r1.val();
-        self.verdict_logic.p_equals_r2.next = self.predicates.p_equals_r2.val();
-        self.verdict_logic.r0_before_r1.next = self.predicates.r0_before_r1.val();
-        self.verdict_logic.r0_before_r2.next = self.predicates.r0_before_r2.val();
+        // Clock 15: the verdict.
+        self.judge.turned.next = self.delayed_turned.value.val();
         self.token_register.d.next = self.delayed_token.value.val();
         self.turned_register.d.next = self.delayed_turned.value.val();
-        self.verdict_register.d.next = self.verdict_logic.verdict.val();
+        self.verdict_register.d.next = self.judge.verdict.val();
         self.token.next = self.token_register.q.val();
         self.turned.next = self.turned_register.q.val();
         self.verdict.next = self.verdict_register.q.val();
@@ -251,7 +283,7 @@ impl Logic for VisitPipeline {
         if self.issue.token_valid.val() {
             self.valid.d.next = self.shifted.val() | self.one.val();
         }
-        self.done.next = self.valid.q.val().get_bit(14);
+        self.done.next = self.valid.q.val().get_bit(15);
         if self.reset.val() {
             self.valid.d.next = 0.into();
             self.read_valid1.d.next = false;

@@ -6,12 +6,13 @@
 //! | `infinite` | in | 15 | the id of the infinite vertex, a constant |
 //! | `token` | in | Token | the visit, in clock 0 |
 //! | `v0..n2` | in | 15 | its record from the triangle memory, in clock 2 |
-//! | `was_set` | in | 1 | its lock bit, in clock 2 |
+//! | `took`, `foreign`, `again` | in | 1 | what became of its lock, and whether the record counts, in clock 2 |
 //! | `position0..2` | in | 32 | coordinates of `v0..v2`, in clock 4 |
 //! | `turned` | out | Turned | the record turned, in clock 4 |
 //! | `r0..r2` | out | 32 | coordinates of the turned vertices, in clock 5 |
 //!
 //! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does. The links of a record differ.
+//! 2. `took`, `foreign` and `again` pass unchanged into `turned`.
 //!
 //! Latency: see the clocks above; `LATENCY` is that of the corners.
 //!
@@ -54,8 +55,12 @@ pub struct VisitReader {
     pub n1: Signal<In, Bits<15>>,
     /// Column of the record.
     pub n2: Signal<In, Bits<15>>,
-    /// Lock bit of the record.
-    pub was_set: Signal<In, Bit>,
+    /// The visit took the lock.
+    pub took: Signal<In, Bit>,
+    /// It would have, but another context has it, or it was being cleared.
+    pub foreign: Signal<In, Bit>,
+    /// The record was not written yet, or being written.
+    pub again: Signal<In, Bit>,
     /// Coordinates of `v0`.
     pub position0: Signal<In, Bits<32>>,
     /// Coordinates of `v1`.
@@ -110,7 +115,9 @@ impl Logic for VisitReader {
         self.found.d.next.n0 = self.n0.val();
         self.found.d.next.n1 = self.n1.val();
         self.found.d.next.n2 = self.n2.val();
-        self.found.d.next.was_set = self.was_set.val();
+        self.found.d.next.took = self.took.val();
+        self.found.d.next.foreign = self.foreign.val();
+        self.found.d.next.again = self.again.val();
         self.found.d.next.infinite0 = self.v0.val() == self.infinite.val();
         self.found.d.next.infinite1 = self.v1.val() == self.infinite.val();
         self.found.d.next.infinite2 = self.v2.val() == self.infinite.val();

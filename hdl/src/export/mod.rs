@@ -9,7 +9,9 @@ use incircle_protocol::{Config, ConfigError};
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
-use crate::leaf::{BlockMemory, DeepFifo, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier, PacedMemory};
+use crate::leaf::{
+    BlockMemory, DeepFifo, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier, PacedMemory, SharedMemory,
+};
 use crate::predicate::{
     CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
 };
@@ -113,6 +115,8 @@ pub fn blocks() -> Vec<(String, String)> {
         block(LutMemory::<6, 40>::new(5, 37), "lut_memory_5x37"),
         block(LockMemory::<14>::new(14), "lock_memory_14"),
         block(LockMemory::<8>::new(4), "lock_memory_4"),
+        block(SharedMemory::<8, 12>::new(8, 12), "shared_memory_8x12"),
+        block(SharedMemory::<10, 36>::new(6, 33), "shared_memory_6x33"),
         block(DelayLine::<8>::new(3), "delay_line_3"),
         block(DelayLine::<40>::new(19), "delay_line_19"),
         block(Fifo::<3, 8>::new(3, 8), "fifo_3x8"),

@@ -12,6 +12,7 @@ mod lock_memory;
 mod lut_memory;
 mod multiplier;
 mod paced_memory;
+mod shared_memory;
 mod unpack;
 
 pub use block_memory::BlockMemory;
@@ -23,6 +24,7 @@ pub use lock_memory::LockMemory;
 pub use lut_memory::LutMemory;
 pub use multiplier::Multiplier;
 pub use paced_memory::PacedMemory;
+pub use shared_memory::SharedMemory;
 pub use unpack::{Field, Unpack, Unpacked};
 
 /// Widest address a memory leaf takes; keeps the number of words far from any overflow.

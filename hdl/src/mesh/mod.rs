@@ -1,7 +1,9 @@
 //! The memories that hold the mesh.
 
+mod lock_store;
 mod triangle_store;
 mod vertex_store;
 
+pub use lock_store::LockStore;
 pub use triangle_store::TriangleStore;
 pub use vertex_store::VertexStore;

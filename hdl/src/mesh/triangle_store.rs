@@ -1,22 +1,23 @@
-//! The triangle records, a memory per column so that a link can be written alone, and a lock bit for each.
+//! The triangle records, a memory per column so that a link can be written alone, and a lock for each.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock` | in | 1 | everything happens at its rising edge |
 //! | `write` | in | Write | a record or one link, written at this edge |
 //! | `read_id` | in | 15 | record to read |
-//! | `read_locks` | in | 1 | set its lock at this edge |
+//! | `read_locks`, `owner` | in | 1, 5 | take its lock at this edge, for this context |
 //! | `v0..v2`, `n0..n2` | out | 15 | its columns |
-//! | `was_set` | out | 1 | its lock before this edge |
+//! | `took`, `foreign`, `was_set` | out | 1 | what became of that; see `LockStore` |
 //! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear at this edge |
 //!
-//! 1. A write is seen by every read from the next edge on; reading and writing one record at the same edge does not happen, because
-//!    insertions write only while none of their visits is out.
-//! 2. Setting and clearing one lock at the same edge does not happen, because a cavity starts when all locks are released.
+//! 1. A write is seen by every read from the next edge on. A record that is read and written at the same edge comes out torn: every
+//!    column that is written is arbitrary. Walks do that, and must look again; a visit that takes or holds the lock does not, because
+//!    only the holder writes.
+//! 2. A lock is taken whether or not the record is torn. A clear may meet anything at a lock.
 //!
-//! Latency: 2 clocks from `read_id` to the columns and `was_set`.
+//! Latency: 2 clocks from `read_id` to the columns and what became of the lock.
 //!
-//! Record 5 and then its link 1 alone; three reads of it, the second of which sets its lock:
+//! Record 5 and then its link 1 alone; three reads of it, the second of which takes its lock:
 //! ```text
 //! write.valid     /^^^^^\_________________
 //! write.vertices  /^^\____________________
@@ -25,13 +26,15 @@
 //! read_locks      _________/^^\___________
 //! v0                .  .  .  .  7  7  7  .
 //! n1                .  .  .  .  9  9  9  .
+//! took            _______________/^^\_____
 //! was_set           .  .  .  .______/^^  .
 //! ```
 //!
 //! Source: Cline and Renka's triangle-based structure: three vertices and three neighbours for each triangle.
 
+use super::LockStore;
 use crate::engine::Write;
-use crate::leaf::{BlockMemory, LockMemory};
+use crate::leaf::BlockMemory;
 use rust_hdl_core::prelude::*;
 
 /// The triangle memory; see the top of this file.
@@ -43,8 +46,10 @@ pub struct TriangleStore {
     pub write: Signal<In, Write>,
     /// Record to read.
     pub read_id: Signal<In, Bits<15>>,
-    /// Set its lock.
+    /// Take its lock.
     pub read_locks: Signal<In, Bit>,
+    /// The context that takes it.
+    pub owner: Signal<In, Bits<5>>,
     /// First vertex.
     pub v0: Signal<Out, Bits<15>>,
     /// Second vertex.
@@ -57,6 +62,10 @@ pub struct TriangleStore {
     pub n1: Signal<Out, Bits<15>>,
     /// Link opposite the third vertex.
     pub n2: Signal<Out, Bits<15>>,
+    /// The read took the lock.
+    pub took: Signal<Out, Bit>,
+    /// It would have, but another context has it, or it was being cleared.
+    pub foreign: Signal<Out, Bit>,
     /// The lock before this read.
     pub was_set: Signal<Out, Bit>,
     /// Lock to clear.
@@ -65,19 +74,19 @@ pub struct TriangleStore {
     pub clear_enable: Signal<In, Bit>,
     vertices: [BlockMemory<15, 15>; 3],
     links: [BlockMemory<15, 15>; 3],
-    locks: LockMemory<15>,
+    locks: LockStore,
 }
 
 impl TriangleStore {
     /// Clocks from `read_id` to the record.
     pub const LATENCY: usize = BlockMemory::<15, 15>::LATENCY;
 
-    /// A store of `2^id_bits` records whose vertices have `vertex_bits`.
-    pub fn new(id_bits: usize, vertex_bits: usize) -> Self {
+    /// A store of `2^id_bits` records whose vertices have `vertex_bits`, for `2^context_bits` contexts.
+    pub fn new(id_bits: usize, vertex_bits: usize, context_bits: usize) -> Self {
         Self {
             vertices: [(); 3].map(|()| BlockMemory::new(id_bits, vertex_bits)),
             links: [(); 3].map(|()| BlockMemory::new(id_bits, id_bits)),
-            locks: LockMemory::new(id_bits),
+            locks: LockStore::new(id_bits, context_bits),
             ..Self::default()
         }
     }
@@ -111,10 +120,13 @@ impl Logic for TriangleStore {
         self.n1.next = self.links[1].read_data.val();
         self.n2.next = self.links[2].read_data.val();
         self.locks.clock.next = self.clock.val();
-        self.locks.test_address.next = self.read_id.val();
-        self.locks.test_set.next = self.read_locks.val();
-        self.locks.clear_address.next = self.clear_id.val();
+        self.locks.id.next = self.read_id.val();
+        self.locks.takes.next = self.read_locks.val();
+        self.locks.owner.next = self.owner.val();
+        self.locks.clear_id.next = self.clear_id.val();
         self.locks.clear_enable.next = self.clear_enable.val();
+        self.took.next = self.locks.took.val();
+        self.foreign.next = self.locks.foreign.val();
         self.was_set.next = self.locks.was_set.val();
     }
 }

@@ -6,8 +6,12 @@
 //! | `write_id`, `write_position`, `write_enable` | in | 15, 32, 1 | a vertex written at this edge: x in the low half, y in the high |
 //! | `id0..id2` | in | 15 | vertices to read |
 //! | `position0..position2` | out | 32 | their coordinates |
+//! | `fetch_id` | in | 15 | another vertex to read, at an edge without a write |
+//! | `fetched` | out | 32 | its coordinates |
 //!
 //! 1. The infinite vertex has no coordinates: reading it gives an arbitrary word that decides nothing.
+//! 2. Writes and fetches share a port of the first copy, so that a fetch costs no fourth copy. What is fetched at an edge with a
+//!    write is arbitrary.
 //!
 //! Latency: 2 clocks from an id to its coordinates.
 //! ```text
@@ -15,10 +19,12 @@
 //! write_id          3  .  .  .  .
 //! write_position   42  .  .  .  .
 //! id0               .  3  .  .  .
+//! fetch_id          .  .  3  .  .
 //! position0         .  .  . 42  .
+//! fetched           .  .  .  . 42
 //! ```
 
-use crate::leaf::BlockMemory;
+use crate::leaf::{BlockMemory, SharedMemory};
 use rust_hdl_core::prelude::*;
 
 /// The vertex memory; see the top of this file.
@@ -44,7 +50,12 @@ pub struct VertexStore {
     pub position1: Signal<Out, Bits<32>>,
     /// Of the third.
     pub position2: Signal<Out, Bits<32>>,
-    copies: [BlockMemory<15, 32>; 3],
+    /// Another vertex to read.
+    pub fetch_id: Signal<In, Bits<15>>,
+    /// Its coordinates.
+    pub fetched: Signal<Out, Bits<32>>,
+    first_copy: SharedMemory<15, 32>,
+    copies: [BlockMemory<15, 32>; 2],
 }
 
 impl VertexStore {
@@ -53,24 +64,36 @@ impl VertexStore {
 
     /// A store of `2^id_bits` vertices.
     pub fn new(id_bits: usize) -> Self {
-        Self { copies: [(); 3].map(|()| BlockMemory::new(id_bits, 32)), ..Self::default() }
+        Self {
+            first_copy: SharedMemory::new(id_bits, 32),
+            copies: [(); 2].map(|()| BlockMemory::new(id_bits, 32)),
+            ..Self::default()
+        }
     }
 }
 
 impl Logic for VertexStore {
     #[hdl_gen]
     fn update(&mut self) {
-        for i in 0..3 {
+        clock!(self, clock, first_copy);
+        self.first_copy.read_address.next = self.id0.val();
+        self.first_copy.write_data.next = self.write_position.val();
+        self.first_copy.write_enable.next = self.write_enable.val();
+        self.first_copy.shared_address.next = self.fetch_id.val();
+        if self.write_enable.val() {
+            self.first_copy.shared_address.next = self.write_id.val();
+        }
+        for i in 0..2 {
             self.copies[i].clock.next = self.clock.val();
             self.copies[i].write_address.next = self.write_id.val();
             self.copies[i].write_data.next = self.write_position.val();
             self.copies[i].write_enable.next = self.write_enable.val();
         }
-        self.copies[0].read_address.next = self.id0.val();
-        self.copies[1].read_address.next = self.id1.val();
-        self.copies[2].read_address.next = self.id2.val();
-        self.position0.next = self.copies[0].read_data.val();
-        self.position1.next = self.copies[1].read_data.val();
-        self.position2.next = self.copies[2].read_data.val();
+        self.copies[0].read_address.next = self.id1.val();
+        self.copies[1].read_address.next = self.id2.val();
+        self.position0.next = self.first_copy.read_data.val();
+        self.position1.next = self.copies[0].read_data.val();
+        self.position2.next = self.copies[1].read_data.val();
+        self.fetched.next = self.first_copy.shared_data.val();
     }
 }

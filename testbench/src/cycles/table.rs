@@ -88,12 +88,7 @@ pub fn earlier() -> Result<String, MeasureError> {
         let airports = measure_points(&thinned_airports(n)?, CONTEXTS)?.of(Counter::InsertCycles);
         let time = |cycles: u64| cycles as f64 / CLOCK;
         // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "| {n} | {uniform} | {:.1} | {airports} | {:.1} |",
-            time(uniform),
-            time(airports)
-        );
+        let _ = writeln!(text, "| {n} | {uniform} | {:.1} | {airports} | {:.1} |", time(uniform), time(airports));
     }
     Ok(text)
 }

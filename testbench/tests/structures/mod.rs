@@ -4,12 +4,12 @@
 /// Widths of the fields, the lowest first.
 pub type Layout<const N: usize> = [u32; N];
 
-/// rotates, locks, x, after, `f_entry`, f, u.
-pub const TOKEN: Layout<7> = [1, 1, 6, 6, 6, 15, 15];
-/// `is_pair`, rotates, locks, x, after, `f_entry`, f, u, and x, after, u of the second visit.
-pub const BUNDLE: Layout<11> = [1, 1, 1, 6, 6, 6, 15, 15, 6, 6, 15];
-/// v0, v1, v2, n0, n1, n2, slot, `was_set`, and which vertex is infinite.
-pub const TURNED: Layout<11> = [15, 15, 15, 15, 15, 15, 2, 1, 1, 1, 1];
+/// owner, rotates, locks, x, after, `f_entry`, f, u.
+pub const TOKEN: Layout<8> = [5, 1, 1, 6, 6, 6, 15, 15];
+/// `is_pair`, `is_triple`, owner, rotates, locks, x, after, `f_entry`, f, u, after and u of the second visit, u of the third.
+pub const BUNDLE: Layout<13> = [1, 1, 5, 1, 1, 6, 6, 6, 15, 15, 6, 15, 15];
+/// v0, v1, v2, n0, n1, n2, slot, took, foreign, again, and which vertex is infinite.
+pub const TURNED: Layout<13> = [15, 15, 15, 15, 15, 15, 2, 1, 1, 1, 1, 1, 1];
 /// conflict, located, `falls_onto_corner`, `is_left`, `is_straight`, `walk_next`.
 pub const VERDICT: Layout<6> = [1, 1, 1, 1, 1, 15];
 /// a, u, slot, f, after.

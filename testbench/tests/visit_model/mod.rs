@@ -31,6 +31,37 @@ pub fn incircle(triangle: [Point; 3], p: Point) -> i128 {
     a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
+/// Locks and who holds them: the plain statement of what a visit does to one.
+#[derive(Clone, Debug)]
+pub struct Locks(Vec<Option<u64>>);
+
+impl Locks {
+    pub fn new(locks: usize) -> Self {
+        Self(vec![None; locks])
+    }
+
+    /// Who holds a lock.
+    pub fn holder(&self, id: usize) -> Option<u64> {
+        self.0[id]
+    }
+
+    /// A visit of this context wants the lock; `is_cleared` at the same edge. Tells whether it took it, and whether it is foreign.
+    pub fn take(&mut self, id: usize, owner: u64, is_cleared: bool) -> (bool, bool) {
+        match self.0[id] {
+            _ if is_cleared => (false, true),
+            Some(holder) => (false, holder != owner),
+            None => {
+                self.0[id] = Some(owner);
+                (true, false)
+            }
+        }
+    }
+
+    pub fn clear(&mut self, id: usize) {
+        self.0[id] = None;
+    }
+}
+
 /// A record, stored or turned.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Record {
@@ -51,12 +82,13 @@ impl Record {
         turned
     }
 
-    /// This record, turned already, as the structure `Turned`.
-    pub fn pack_turned(&self, slot: usize, was_set: bool, infinite: u64) -> u128 {
+    /// This record, turned already, as the structure `Turned`; `lock` is took, foreign and again.
+    pub fn pack_turned(&self, slot: usize, lock: [bool; 3], infinite: u64) -> u128 {
+        let [took, foreign, again] = lock.map(u64::from);
         let [v0, v1, v2] = self.v;
         let [n0, n1, n2] = self.n;
         let [i0, i1, i2] = self.v.map(|vertex| u64::from(vertex == infinite));
-        let fields = [v0, v1, v2, n0, n1, n2, slot as u64, was_set.into(), i0, i1, i2];
+        let fields = [v0, v1, v2, n0, n1, n2, slot as u64, took, foreign, again, i0, i1, i2];
         pack(TURNED, fields)
     }
 

@@ -1,0 +1,81 @@
+//! The predicates of a visit and the verdict that follows from them.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `r0`, `r1`, `r2`, `p` | in | 32 | corners of the turned record, and the point, in clock 0 |
+//! | `turned` | in | Turned | the record, when its signs are there, in clock 10 |
+//! | `verdict` | out | Verdict | what the visit found out, in clock 10 |
+//!
+//! 1. Corners and point come straight from registers. New ones are taken at every edge; there is no reset.
+//!
+//! Latency: `LATENCY` = 10 clocks from the corners to the verdict, which has no register of its own.
+//! ```text
+//! r0                2  .  .  .  .  .  .  .  .  .  .  .
+//! r1                6  .  .  .  .  .  .  .  .  .  .  .
+//! r2                4  .  .  .  .  .  .  .  .  .  .  .
+//! p                 6  .  .  .  .  .  .  .  .  .  .  .
+//! corner            .  .  .  .  .  .  .  .  .  ./^^  .
+//! ```
+
+use super::{Turned, Verdict, VerdictLogic};
+use crate::predicate::VisitPredicates;
+use rust_hdl_core::prelude::*;
+
+/// Signs and verdict; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct VisitJudge {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// First corner.
+    pub r0: Signal<In, Bits<32>>,
+    /// Second corner.
+    pub r1: Signal<In, Bits<32>>,
+    /// Third corner.
+    pub r2: Signal<In, Bits<32>>,
+    /// The point.
+    pub p: Signal<In, Bits<32>>,
+    /// The record turned.
+    pub turned: Signal<In, Turned>,
+    /// What the visit found out.
+    pub verdict: Signal<Out, Verdict>,
+    predicates: VisitPredicates,
+    logic: VerdictLogic,
+}
+
+impl VisitJudge {
+    /// Clocks from the corners to the verdict.
+    pub const LATENCY: usize = VisitPredicates::LATENCY;
+}
+
+impl Logic for VisitJudge {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.predicates.clock.next = self.clock.val();
+        self.predicates.r0.next = self.r0.val();
+        self.predicates.r1.next = self.r1.val();
+        self.predicates.r2.next = self.r2.val();
+        self.predicates.p.next = self.p.val();
+        self.logic.turned.next = self.turned.val();
+        self.logic.e0_negative.next = self.predicates.e0_negative.val();
+        self.logic.e1_negative.next = self.predicates.e1_negative.val();
+        self.logic.e2_negative.next = self.predicates.e2_negative.val();
+        self.logic.e0_zero.next = self.predicates.e0_zero.val();
+        self.logic.e1_zero.next = self.predicates.e1_zero.val();
+        self.logic.e2_zero.next = self.predicates.e2_zero.val();
+        self.logic.e1_below_e0.next = self.predicates.e1_below_e0.val();
+        self.logic.e2_below_e0.next = self.predicates.e2_below_e0.val();
+        self.logic.e2_below_e1.next = self.predicates.e2_below_e1.val();
+        self.logic.incircle_positive.next = self.predicates.incircle_positive.val();
+        self.logic.incircle_zero.next = self.predicates.incircle_zero.val();
+        self.logic.p_before_r0.next = self.predicates.p_before_r0.val();
+        self.logic.p_before_r1.next = self.predicates.p_before_r1.val();
+        self.logic.p_before_r2.next = self.predicates.p_before_r2.val();
+        self.logic.p_equals_r0.next = self.predicates.p_equals_r0.val();
+        self.logic.p_equals_r1.next = self.predicates.p_equals_r1.val();
+        self.logic.p_equals_r2.next = self.predicates.p_equals_r2.val();
+        self.logic.r0_before_r1.next = self.predicates.r0_before_r1.val();
+        self.logic.r0_before_r2.next = self.predicates.r0_before_r2.val();
+        self.verdict.next = self.logic.verdict.val();
+    }
+}

@@ -1,0 +1,149 @@
+//! A memory in block RAM with one port that reads, and one that reads or writes.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `read_address` | in | A | word to read |
+//! | `read_data` | out | D | its value, zero above the stored bits |
+//! | `shared_address` | in | A | word to write or to read |
+//! | `write_data` | in | D | its new value |
+//! | `write_enable` | in | 1 | write it at this edge; otherwise it is read |
+//! | `shared_data` | out | D | its value, zero above the stored bits |
+//!
+//! 1. Two reads, or a read and a write, can happen at every edge.
+//! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
+//! 3. Reading and writing one word at the same edge is undefined in silicon, and so is what `shared_data` gives for an edge that
+//!    wrote. The design never uses either; simulation in Rust answers with a fixed pattern of alternating bits.
+//! 4. Contents are arbitrary until written.
+//!
+//! Latency: an address that stands before edge 1 is data after edge 2 (array, output register), as in `BlockMemory`. What is
+//! written at an edge is seen by every address from the next edge on.
+//!
+//! Source: ECP5 block RAM as a true dual port memory with output registers, which is at most 18 bits wide: of words below 512 it
+//! takes twice the blocks of `BlockMemory`. `no_rw_check` keeps synthesis from adding bypass logic for rule 3.
+
+use rust_hdl_core::prelude::*;
+
+use super::{assert_shape, low_part, unused_part, zero_extended};
+
+/// A memory with a read port and a shared port; see the top of this file.
+#[derive(LogicBlock)]
+pub struct SharedMemory<const A: usize, const D: usize> {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Word to read.
+    pub read_address: Signal<In, Bits<A>>,
+    /// Its value, [`LATENCY`](SharedMemory::LATENCY) edges later.
+    pub read_data: Signal<Out, Bits<D>>,
+    /// Word to write or to read.
+    pub shared_address: Signal<In, Bits<A>>,
+    /// Its new value.
+    pub write_data: Signal<In, Bits<D>>,
+    /// Write at this edge.
+    pub write_enable: Signal<In, Bit>,
+    /// Its value, [`LATENCY`](SharedMemory::LATENCY) edges later.
+    pub shared_data: Signal<Out, Bits<D>>,
+    _address_bits: usize,
+    _stored_bits: usize,
+    _stored_mask: Bits<D>,
+    _memory: Vec<Bits<D>>,
+    _array_read: Bits<D>,
+    _shared_read: Bits<D>,
+}
+
+impl<const A: usize, const D: usize> SharedMemory<A, D> {
+    /// Edges from address to data.
+    pub const LATENCY: usize = 2;
+
+    /// A memory of `2^address_bits` words of `stored_bits` bits.
+    ///
+    /// # Panics
+    /// If `address_bits` is not in `1..=A` (and at most 20) or `stored_bits` not in `1..=D`.
+    pub fn new(address_bits: usize, stored_bits: usize) -> Self {
+        assert_shape(address_bits, A, stored_bits, D);
+        Self {
+            clock: Signal::default(),
+            read_address: Signal::default(),
+            read_data: Signal::default(),
+            shared_address: Signal::default(),
+            write_data: Signal::default(),
+            write_enable: Signal::default(),
+            shared_data: Signal::default(),
+            _address_bits: address_bits,
+            _stored_bits: stored_bits,
+            _stored_mask: Bits::<D>::mask() >> (D - stored_bits) as u64,
+            _memory: vec![Bits::default(); 1 << address_bits],
+            _array_read: Bits::default(),
+            _shared_read: Bits::default(),
+        }
+    }
+
+    /// What a read that rule 3 leaves open gives in simulation.
+    fn poison(&self) -> Bits<D> {
+        (0..D).step_by(2).fold(Bits::default(), |word: Bits<D>, bit| word.replace_bit(bit, true)) & self._stored_mask
+    }
+}
+
+impl<const A: usize, const D: usize> Default for SharedMemory<A, D> {
+    fn default() -> Self {
+        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+    }
+}
+
+impl<const A: usize, const D: usize> Logic for SharedMemory<A, D> {
+    fn update(&mut self) {
+        if self.clock.pos_edge() {
+            self.read_data.next = self._array_read;
+            self.shared_data.next = self._shared_read;
+            let last = self._memory.len() - 1;
+            let read = self.read_address.val().index() & last;
+            let shared = self.shared_address.val().index() & last;
+            self._array_read = self._memory[read];
+            self._shared_read = self._memory[shared];
+            if self.write_enable.val() {
+                self._memory[shared] = self.write_data.val() & self._stored_mask;
+                self._shared_read = self.poison();
+                if shared == read {
+                    self._array_read = self.poison();
+                }
+            }
+        }
+    }
+
+    fn connect(&mut self) {
+        self.read_data.connect();
+        self.shared_data.connect();
+    }
+
+    fn hdl(&self) -> Verilog {
+        let (address_bits, stored_bits) = (self._address_bits, self._stored_bits);
+        let mut code = unused_part("read_address", A, address_bits);
+        code += &unused_part("shared_address", A, address_bits);
+        code += &unused_part("write_data", D, stored_bits);
+        code += &format!(
+            "\
+(* ram_style = \"block\", no_rw_check *)
+reg [{top}:0] memory [0:{last}];
+reg [{top}:0] array_read;
+reg [{top}:0] shared_read;
+always @(posedge clock) begin
+    array_read <= memory[{read}];
+    read_data <= {read_result};
+end
+always @(posedge clock) begin
+    if (write_enable) memory[{shared}] <= {data};
+    else shared_read <= memory[{shared}];
+    shared_data <= {shared_result};
+end
+",
+            top = stored_bits - 1,
+            last = (1 << address_bits) - 1,
+            read = low_part("read_address", A, address_bits),
+            shared = low_part("shared_address", A, address_bits),
+            data = low_part("write_data", D, stored_bits),
+            read_result = zero_extended("array_read", D, stored_bits),
+            shared_result = zero_extended("shared_read", D, stored_bits),
+        );
+        Verilog::Custom(code)
+    }
+}
