@@ -7,13 +7,17 @@ mod cosimulation;
 use std::collections::VecDeque;
 
 use cosimulation::{named_ports, Cosimulation, Delay, Expected, NamedPorts, Numbers};
-use incircle_hdl::leaf::{BlockMemory, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier};
+use incircle_hdl::leaf::{
+    BlockMemory, DeepFifo, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier, PacedMemory,
+};
 use incircle_testbench::gate::{cell_count, Cells};
 use rust_hdl_core::prelude::*;
 
 named_ports!([] Multiplier, [a, b], [product], clock);
 named_ports!([const A: usize, const D: usize] BlockMemory<A, D>,
     [write_address, write_data, write_enable, read_address], [read_data], clock);
+named_ports!([const A: usize, const D: usize] PacedMemory<A, D>,
+    [write_address, write_data, write_enable, read_address, read_enable], [read_data], clock);
 named_ports!([const A: usize, const D: usize] LutMemory<A, D>,
     [write_address, write_data, write_enable, read_address], [read_data], clock);
 named_ports!([const A: usize] LockMemory<A>,
@@ -21,6 +25,8 @@ named_ports!([const A: usize] LockMemory<A>,
 named_ports!([const D: usize] DelayLine<D>, [data_in], [data_out], clock);
 named_ports!([] FlagDelay, [flag_in], [flag_out], clock);
 named_ports!([const A: usize, const D: usize] Fifo<A, D>,
+    [reset, push, push_data, pop], [valid, data], clock);
+named_ports!([const A: usize, const D: usize] DeepFifo<A, D>,
     [reset, push, push_data, pop], [valid, data], clock);
 
 const CYCLES: usize = 20_000;
@@ -128,6 +134,64 @@ fn block_memory_poisons_a_read_that_meets_a_write() {
     let both = [("write_address", 7), ("write_data", 0xfff), ("write_enable", 1), ("read_address", 7)];
     edge(&mut memory, &both);
     edge(&mut memory, &[("write_enable", 0)]);
+    assert_eq!(memory.get("read_data"), 0x555);
+    edge(&mut memory, &[]);
+    assert_eq!(memory.get("read_data"), 0xfff);
+}
+
+fn paced_memory<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
+    let mut numbers = Numbers::new(8);
+    let mut stimuli = memory_stimuli(A, D, address_bits);
+    for (cycle, values) in stimuli.iter_mut().enumerate() {
+        // Reads at every edge, at most edges, at few.
+        let is_enabled = match (cycle / 100) % 3 {
+            0 => true,
+            1 => !numbers.once_in(3),
+            _ => numbers.once_in(4),
+        };
+        values.push(is_enabled.into());
+        if !is_enabled && numbers.once_in(2) {
+            // A port that stands still may meet a write.
+            values[3] = values[0];
+        }
+    }
+    let mut reference = memory_reference(address_bits, stored_bits);
+    let mut delay = Delay::new(PacedMemory::<A, D>::LATENCY - 1);
+    let mut shown = None;
+    Cosimulation {
+        name,
+        rust: PacedMemory::<A, D>::new(address_bits, stored_bits),
+        inputs: &["write_address", "write_data", "write_enable", "read_address", "read_enable"],
+        outputs: &["read_data"],
+    }
+    .run(stimuli, |values| {
+        let before = shown;
+        let read = reference(values);
+        if values[4] == 1 {
+            shown = delay.pass(read).flatten();
+        }
+        vec![before]
+    });
+}
+
+#[test]
+fn paced_memory_moves_only_when_enabled() {
+    paced_memory::<8, 12>("paced_memory_8x12", 8, 12);
+}
+
+#[test]
+fn paced_memory_ignores_what_is_above_its_shape() {
+    paced_memory::<10, 36>("paced_memory_6x33", 6, 33);
+}
+
+#[test]
+fn paced_memory_poisons_only_a_read_that_is_enabled() {
+    let mut memory = PacedMemory::<8, 12>::new(8, 12);
+    memory.connect_all();
+    let both = [("write_address", 7), ("write_data", 0xfff), ("write_enable", 1), ("read_address", 7)];
+    edge(&mut memory, &[&both[..], &[("read_enable", 1)]].concat());
+    edge(&mut memory, &[("write_enable", 1), ("read_enable", 0)]);
+    edge(&mut memory, &[("write_enable", 0), ("read_enable", 1)]);
     assert_eq!(memory.get("read_data"), 0x555);
     edge(&mut memory, &[]);
     assert_eq!(memory.get("read_data"), 0xfff);
@@ -248,30 +312,57 @@ fn fifo_stimuli(data_bits: usize, places: u32) -> Vec<Vec<u64>> {
         .collect()
 }
 
-fn fifo<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
+/// Pushes and pops as [`fifo_stimuli`], at any pair of rates, for so long that a deep buffer fills and empties.
+fn deep_fifo_stimuli(data_bits: usize, places: u32) -> Vec<Vec<u64>> {
+    let mut numbers = Numbers::new(9);
+    let (mut held, mut push_pace, mut pop_pace, mut left) = (0, 1, 1, 0);
+    (0..4 * CYCLES)
+        .map(|cycle| {
+            if left == 0 {
+                // Short spells end in the middle of a fetch, long ones at either end of the buffer.
+                left = 1 + numbers.next() % if numbers.once_in(4) { 10 } else { u64::from(4 * places) };
+                // A rate of 0 is silence.
+                (push_pace, pop_pace) = (numbers.next() % 5, numbers.next() % 5);
+            }
+            left -= 1;
+            let reset = cycle == 0 || numbers.once_in(5000);
+            let push = held < places && push_pace > 0 && numbers.once_in(push_pace);
+            let pop = (held > 0 || push) && pop_pace > 0 && numbers.once_in(pop_pace);
+            held = if reset { 0 } else { held + u32::from(push) - u32::from(pop) };
+            vec![reset.into(), push.into(), numbers.bits(data_bits as u32), pop.into()]
+        })
+        .collect()
+}
+
+/// Runs a buffer against a queue; the stimuli must fill it to its last place and empty it again.
+fn queue<U: NamedPorts>(name: &str, rust: U, places: usize, stored_bits: usize, stimuli: Vec<Vec<u64>>) {
     let mut entries = VecDeque::new();
-    let mut fullest = 0;
-    Cosimulation {
-        name,
-        rust: Fifo::<A, D>::new(address_bits, stored_bits),
-        inputs: &["reset", "push", "push_data", "pop"],
-        outputs: &["valid", "data"],
-    }
-    .run(fifo_stimuli(D, 1 << address_bits), |values| {
-        if values[1] == 1 {
-            entries.push_back(u128::from(values[2]) & ((1 << stored_bits) - 1));
-        }
-        let shown = vec![Some(u128::from(!entries.is_empty())), entries.front().copied()];
-        if values[3] == 1 {
-            entries.pop_front();
-        }
-        if values[0] == 1 {
-            entries.clear();
-        }
-        fullest = fullest.max(entries.len());
-        shown
-    });
-    assert_eq!(fullest, 1 << address_bits, "the test fills every place");
+    let mut times_full = 0;
+    let mut times_empty = 0;
+    Cosimulation { name, rust, inputs: &["reset", "push", "push_data", "pop"], outputs: &["valid", "data"] }.run(
+        stimuli,
+        |values| {
+            if values[1] == 1 {
+                entries.push_back(u128::from(values[2]) & ((1 << stored_bits) - 1));
+            }
+            let shown = vec![Some(u128::from(!entries.is_empty())), entries.front().copied()];
+            if values[3] == 1 {
+                entries.pop_front();
+            }
+            if values[0] == 1 {
+                entries.clear();
+            }
+            times_full += usize::from(entries.len() == places);
+            times_empty += usize::from(entries.is_empty());
+            shown
+        },
+    );
+    assert!(times_full > 10 && times_empty > 10, "full {times_full} times, empty {times_empty} times");
+}
+
+fn fifo<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
+    let rust = Fifo::<A, D>::new(address_bits, stored_bits);
+    queue(name, rust, 1 << address_bits, stored_bits, fifo_stimuli(D, 1 << address_bits));
 }
 
 #[test]
@@ -282,6 +373,27 @@ fn fifo_keeps_order_in_every_place() {
 #[test]
 fn fifo_ignores_what_is_above_its_shape() {
     fifo::<6, 40>("fifo_2x37", 2, 37);
+}
+
+fn deep_fifo<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
+    let rust = DeepFifo::<A, D>::new(address_bits, stored_bits);
+    queue(name, rust, 1 << address_bits, stored_bits, deep_fifo_stimuli(D, 1 << address_bits));
+}
+
+#[test]
+fn deep_fifo_is_an_ideal_buffer() {
+    deep_fifo::<8, 8>("deep_fifo_8x8", 8, 8);
+}
+
+#[test]
+fn deep_fifo_of_the_least_depth() {
+    deep_fifo::<9, 40>("deep_fifo_5x37", 5, 37);
+}
+
+#[test]
+#[should_panic(expected = "a deep buffer has more than 4 address bits, not 4")]
+fn deep_fifo_refuses_what_a_fifo_holds() {
+    DeepFifo::<6, 8>::new(4, 8);
 }
 
 #[test]
@@ -297,11 +409,25 @@ fn multiplier_as_a_primitive_needs_no_register_outside() {
 
 #[test]
 fn memories_are_block_ram_without_bypass_logic() {
-    for (name, output_bits) in [("block_memory_8x12", 12), ("block_memory_6x33", 33), ("lock_memory_14", 1)] {
+    let shapes = [
+        ("block_memory_8x12", 12),
+        ("block_memory_6x33", 33),
+        ("paced_memory_8x12", 12),
+        ("paced_memory_6x33", 33),
+        ("lock_memory_14", 1),
+    ];
+    for (name, output_bits) in shapes {
         let cells = cells(name);
         assert_eq!((cells.block_ram, cells.lut4), (1, 0), "{name}");
         assert_eq!(cells.flip_flops, output_bits, "{name} has its output register and no other");
     }
+}
+
+#[test]
+fn deep_fifo_is_block_ram_behind_two_banks_in_luts() {
+    let cells = cells("deep_fifo_5x37");
+    // Ten slices of four bits for either bank, and one for the bit that tells them apart.
+    assert_eq!((cells.block_ram, cells.distributed_ram), (2, 21));
 }
 
 #[test]

@@ -161,7 +161,7 @@ fn run_visits<U: cosimulation::NamedPorts>(
 #[test]
 fn visit_predicates_agree_with_the_lifted_determinant() {
     let outputs = [&EDGE_FLAGS[..], &INCIRCLE_FLAGS, &ORDER_FLAGS].concat();
-    assert_eq!(VisitPredicates::LATENCY, 9);
+    assert_eq!(VisitPredicates::LATENCY, 10);
     run_visits("visit_predicates", VisitPredicates::default(), &outputs, VisitPredicates::LATENCY, all_flags);
 }
 
@@ -290,7 +290,7 @@ fn edge_signs_compare_signed() {
             (0..3).map(|_| bits_of(value().into(), 36) as u64).collect()
         })
         .collect();
-    let latency = 3;
+    let latency = 2;
     let mut delay = Delay::new(latency);
     Cosimulation {
         name: "edge_signs",

@@ -9,7 +9,7 @@ use incircle_protocol::{Config, ConfigError};
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
-use crate::leaf::{BlockMemory, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier};
+use crate::leaf::{BlockMemory, DeepFifo, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier, PacedMemory};
 use crate::predicate::{
     CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
 };
@@ -107,6 +107,8 @@ pub fn blocks() -> Vec<(String, String)> {
         block(Multiplier::default(), "multiplier"),
         block(BlockMemory::<8, 12>::new(8, 12), "block_memory_8x12"),
         block(BlockMemory::<10, 36>::new(6, 33), "block_memory_6x33"),
+        block(PacedMemory::<8, 12>::new(8, 12), "paced_memory_8x12"),
+        block(PacedMemory::<10, 36>::new(6, 33), "paced_memory_6x33"),
         block(LutMemory::<4, 8>::new(4, 8), "lut_memory_4x8"),
         block(LutMemory::<6, 40>::new(5, 37), "lut_memory_5x37"),
         block(LockMemory::<14>::new(14), "lock_memory_14"),
@@ -115,6 +117,8 @@ pub fn blocks() -> Vec<(String, String)> {
         block(DelayLine::<40>::new(19), "delay_line_19"),
         block(Fifo::<3, 8>::new(3, 8), "fifo_3x8"),
         block(Fifo::<6, 40>::new(2, 37), "fifo_2x37"),
+        block(DeepFifo::<8, 8>::new(8, 8), "deep_fifo_8x8"),
+        block(DeepFifo::<9, 40>::new(5, 37), "deep_fifo_5x37"),
         block(FlagDelay::new(1), "flag_delay_1"),
         block(FlagDelay::new(2), "flag_delay_2"),
         block(FlagDelay::new(9), "flag_delay_9"),
@@ -122,7 +126,7 @@ pub fn blocks() -> Vec<(String, String)> {
         block(CrossProduct::default(), "cross_product"),
         block(DotProduct::default(), "dot_product"),
         block(WideProduct::default(), "wide_product"),
-        block(EdgeSigns::new(3), "edge_signs"),
+        block(EdgeSigns::new(2), "edge_signs"),
         block(VertexOrder::new(1), "vertex_order"),
         block(VisitPredicates::default(), "visit_predicates"),
     ];

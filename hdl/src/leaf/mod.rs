@@ -1,24 +1,28 @@
-//! Leaves: the blocks whose Verilog is written by hand, and two small blocks on top of them.
+//! Leaves: the blocks whose Verilog is written by hand, and the small blocks on top of them.
 //!
 //! A leaf states its behaviour twice: `update()` for simulation in Rust, `hdl()` for synthesis and Verilator.
 //! `testbench/tests/blocks_leaf.rs` runs both against a third statement of the same.
 
 mod block_memory;
+mod deep_fifo;
 mod delay_line;
 mod fifo;
 mod flag_delay;
 mod lock_memory;
 mod lut_memory;
 mod multiplier;
+mod paced_memory;
 mod unpack;
 
 pub use block_memory::BlockMemory;
+pub use deep_fifo::DeepFifo;
 pub use delay_line::DelayLine;
 pub use fifo::Fifo;
 pub use flag_delay::FlagDelay;
 pub use lock_memory::LockMemory;
 pub use lut_memory::LutMemory;
 pub use multiplier::Multiplier;
+pub use paced_memory::PacedMemory;
 pub use unpack::{Field, Unpack, Unpacked};
 
 /// Widest address a memory leaf takes; keeps the number of words far from any overflow.

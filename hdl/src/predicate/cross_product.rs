@@ -10,8 +10,8 @@
 //! 2. Parts of the vectors are differences of 16-bit coordinates, so each product is below `2^32` and the result fits 34 bits; the
 //!    upper bits of the 36 repeat the sign.
 //!
-//! Latency: vectors that stand before edge 1 give the result after edge 3. The subtraction is behind the last register: the user
-//! registers the result at edge 4.
+//! Latency: vectors that stand before edge 1 give the result after edge 4: edges 1 to 3 the multipliers, 4 the subtraction. Its
+//! register keeps the adder apart from whatever the user multiplies the result with.
 //!
 //! Apart from the wiring and the operator it is [`DotProduct`](super::DotProduct). They are two blocks, since a kernel of rust-hdl
 //! takes no operator as a parameter, and a subtract input would be a port that every user ties to a constant.
@@ -19,6 +19,7 @@
 //! Source: `orient2d(u, v, p)` is the cross product of `u - p` and `v - p`.
 
 use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 use crate::leaf::Multiplier;
 
@@ -39,21 +40,23 @@ pub struct CrossProduct {
     pub product: Signal<Out, Bits<36>>,
     x_by_y: Multiplier,
     y_by_x: Multiplier,
+    sum: DFF<Bits<36>>,
 }
 
 impl CrossProduct {
     /// Edges from vectors to result.
-    pub const LATENCY: usize = Multiplier::LATENCY;
+    pub const LATENCY: usize = Multiplier::LATENCY + 1;
 }
 
 impl Logic for CrossProduct {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, x_by_y, y_by_x);
+        clock!(self, clock, x_by_y, y_by_x, sum);
         self.x_by_y.a.next = self.a_x.val();
         self.x_by_y.b.next = self.b_y.val();
         self.y_by_x.a.next = self.a_y.val();
         self.y_by_x.b.next = self.b_x.val();
-        self.product.next = self.x_by_y.product.val() - self.y_by_x.product.val();
+        self.sum.d.next = self.x_by_y.product.val() - self.y_by_x.product.val();
+        self.product.next = self.sum.q.val();
     }
 }

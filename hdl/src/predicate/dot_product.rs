@@ -10,14 +10,15 @@
 //! 2. Parts of the vectors are differences of 16-bit coordinates, so each product is below `2^32` and the result fits 34 bits; the
 //!    upper bits of the 36 repeat the sign.
 //!
-//! Latency: vectors that stand before edge 1 give the result after edge 3. The addition is behind the last register: the user
-//! registers the result at edge 4.
+//! Latency: vectors that stand before edge 1 give the result after edge 4: edges 1 to 3 the multipliers, 4 the addition. Its
+//! register keeps the adder apart from whatever the user multiplies the result with.
 //!
 //! Apart from the wiring and the operator it is [`CrossProduct`](super::CrossProduct), whose header says why there are two.
 //!
 //! Source: the dot products of the Cline-Renka form of incircle.
 
 use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 use crate::leaf::Multiplier;
 
@@ -38,21 +39,23 @@ pub struct DotProduct {
     pub product: Signal<Out, Bits<36>>,
     x_by_x: Multiplier,
     y_by_y: Multiplier,
+    sum: DFF<Bits<36>>,
 }
 
 impl DotProduct {
     /// Edges from vectors to result.
-    pub const LATENCY: usize = Multiplier::LATENCY;
+    pub const LATENCY: usize = Multiplier::LATENCY + 1;
 }
 
 impl Logic for DotProduct {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, x_by_x, y_by_y);
+        clock!(self, clock, x_by_x, y_by_y, sum);
         self.x_by_x.a.next = self.a_x.val();
         self.x_by_x.b.next = self.b_x.val();
         self.y_by_y.a.next = self.a_y.val();
         self.y_by_y.b.next = self.b_y.val();
-        self.product.next = self.x_by_x.product.val() + self.y_by_y.product.val();
+        self.sum.d.next = self.x_by_x.product.val() + self.y_by_y.product.val();
+        self.product.next = self.sum.q.val();
     }
 }

@@ -11,8 +11,8 @@
 //! 1. New orientations are taken at every edge. There is no reset.
 //! 2. Bits 33 to 35 of an input repeat its sign and are cut off.
 //!
-//! Latency: orientations that stand before edge 1 are registered there; their flags come after edge `latency` of the constructor. Edge 2
-//! takes the signs and compares the bits below them, edge 3 puts the two together: in one step they would set the clock.
+//! Latency: orientations that stand before edge 1, straight from registers, give their flags after edge `latency` of the constructor.
+//! Edge 1 takes the signs and compares the bits below them, edge 2 puts the two together: in one step they would set the clock.
 //!
 //! Source: the rules of the walk. Of two numbers with equal signs the lower bits decide, in two's complement also below zero.
 
@@ -50,9 +50,9 @@ pub struct EdgeSigns {
     pub e2_below_e0: Signal<Out, Bit>,
     /// `e2 < e1`.
     pub e2_below_e1: Signal<Out, Bit>,
-    value_0: DFF<Bits<33>>,
-    value_1: DFF<Bits<33>>,
-    value_2: DFF<Bits<33>>,
+    value_0: Signal<Local, Bits<33>>,
+    value_1: Signal<Local, Bits<33>>,
+    value_2: Signal<Local, Bits<33>>,
     low_0: Signal<Local, Bits<32>>,
     low_1: Signal<Local, Bits<32>>,
     low_2: Signal<Local, Bits<32>>,
@@ -81,10 +81,10 @@ impl EdgeSigns {
     /// Flags that come `latency` edges after the orientations.
     ///
     /// # Panics
-    /// If `latency` is below 3.
+    /// If `latency` is below 2.
     pub fn new(latency: usize) -> Self {
-        assert!(latency >= 3, "the signs of edges take at least 3 clocks, not {latency}");
-        let delay = || FlagDelay::new(latency - 2);
+        assert!(latency >= 2, "the signs of edges take at least 2 clocks, not {latency}");
+        let delay = || FlagDelay::new(latency - 1);
         Self {
             clock: Signal::default(),
             e0: Signal::default(),
@@ -99,9 +99,9 @@ impl EdgeSigns {
             e1_below_e0: Signal::default(),
             e2_below_e0: Signal::default(),
             e2_below_e1: Signal::default(),
-            value_0: DFF::default(),
-            value_1: DFF::default(),
-            value_2: DFF::default(),
+            value_0: Signal::default(),
+            value_1: Signal::default(),
+            value_2: Signal::default(),
             low_0: Signal::default(),
             low_1: Signal::default(),
             low_2: Signal::default(),
@@ -131,32 +131,29 @@ impl EdgeSigns {
 impl Logic for EdgeSigns {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, value_0, value_1, value_2);
         clock!(self, clock, negative_0, negative_1, negative_2, zero_0, zero_1, zero_2);
         clock!(self, clock, low_1_below_0, low_2_below_0, low_2_below_1);
         clock!(self, clock, delay_negative_0, delay_negative_1, delay_negative_2);
         clock!(self, clock, delay_zero_0, delay_zero_1, delay_zero_2);
         clock!(self, clock, delay_1_below_0, delay_2_below_0, delay_2_below_1);
-        // Edge 1.
-        self.value_0.d.next = bit_cast::<33, 36>(self.e0.val());
-        self.value_1.d.next = bit_cast::<33, 36>(self.e1.val());
-        self.value_2.d.next = bit_cast::<33, 36>(self.e2.val());
-
-        // Edge 2: signs, and the bits below them.
-        self.negative_0.d.next = self.value_0.q.val().get_bit(32);
-        self.negative_1.d.next = self.value_1.q.val().get_bit(32);
-        self.negative_2.d.next = self.value_2.q.val().get_bit(32);
-        self.zero_0.d.next = self.value_0.q.val() == self.zero.val();
-        self.zero_1.d.next = self.value_1.q.val() == self.zero.val();
-        self.zero_2.d.next = self.value_2.q.val() == self.zero.val();
-        self.low_0.next = bit_cast::<32, 33>(self.value_0.q.val());
-        self.low_1.next = bit_cast::<32, 33>(self.value_1.q.val());
-        self.low_2.next = bit_cast::<32, 33>(self.value_2.q.val());
+        // Edge 1: signs, and the bits below them.
+        self.value_0.next = bit_cast::<33, 36>(self.e0.val());
+        self.value_1.next = bit_cast::<33, 36>(self.e1.val());
+        self.value_2.next = bit_cast::<33, 36>(self.e2.val());
+        self.negative_0.d.next = self.value_0.val().get_bit(32);
+        self.negative_1.d.next = self.value_1.val().get_bit(32);
+        self.negative_2.d.next = self.value_2.val().get_bit(32);
+        self.zero_0.d.next = self.value_0.val() == self.zero.val();
+        self.zero_1.d.next = self.value_1.val() == self.zero.val();
+        self.zero_2.d.next = self.value_2.val() == self.zero.val();
+        self.low_0.next = bit_cast::<32, 33>(self.value_0.val());
+        self.low_1.next = bit_cast::<32, 33>(self.value_1.val());
+        self.low_2.next = bit_cast::<32, 33>(self.value_2.val());
         self.low_1_below_0.d.next = self.low_1.val() < self.low_0.val();
         self.low_2_below_0.d.next = self.low_2.val() < self.low_0.val();
         self.low_2_below_1.d.next = self.low_2.val() < self.low_1.val();
 
-        // Edge 3: the comparisons; with unequal signs the negative one is below.
+        // Edge 2: the comparisons; with unequal signs the negative one is below.
         self.delay_negative_0.flag_in.next = self.negative_0.q.val();
         self.delay_negative_1.flag_in.next = self.negative_1.q.val();
         self.delay_negative_2.flag_in.next = self.negative_2.q.val();

@@ -19,9 +19,9 @@
 //!    and only if `p` lies strictly inside their circle; clockwise the sign turns.
 //! 4. Every flag is exact for all inputs, also for equal and collinear points.
 //!
-//! Latency: inputs that stand before edge 1 give all flags after edge 9. Edges 1 to 3 small products, 4 sums, 4 to 6 large
-//! products, 7 and 8 their sums, 9 the comparison of the two. The longest path is edge 4, from multiplier through adder to multiplier; a
-//! register between adder and large product would be the next step, at the price of a tenth clock.
+//! Latency: inputs that stand before edge 1 give all flags after edge 10. Edges 1 to 3 small products, 4 their sums, 5 to 7 large
+//! products, 8 and 9 their sums, 10 the comparison of the two. No edge takes more than one addition or comparison, and no adder stands
+//! between two multipliers without a register.
 //!
 //! Source: the Cline-Renka form of incircle (A. K. Cline, R. J. Renka, 1984). 20 multipliers: 12 for small products, 8 for large ones.
 
@@ -205,7 +205,7 @@ impl Logic for VisitPredicates {
         self.dot_point.b_x.next = self.p_to_r2.x.val();
         self.dot_point.b_y.next = self.p_to_r2.y.val();
 
-        // Edge 4: the sums go to registers there and in the wide products.
+        // Edge 5: the sums go to the signs and to the wide products.
         self.edges.e0.next = self.cross_0.product.val();
         self.edges.e1.next = self.cross_1.product.val();
         self.edges.e2.next = self.cross_2.product.val();
@@ -214,7 +214,7 @@ impl Logic for VisitPredicates {
         self.apex_by_point.a.next = self.cross_apex.product.val();
         self.apex_by_point.b.next = self.dot_point.product.val();
 
-        // Edge 9: the sign of their difference.
+        // Edge 10: the sign of their difference.
         self.biased_first.next = self.point_by_apex.product.val() ^ self.sign.val();
         self.biased_second.next = self.apex_by_point.product.val() ^ self.sign.val();
         self.positive.d.next = self.biased_second.val() < self.biased_first.val();

@@ -1,0 +1,247 @@
+//! A [`Fifo`](super::Fifo) that is deep: seen from outside the same, with its entries in block RAM.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `reset` | in | 1 | empty the buffer at this edge |
+//! | `push` | in | 1 | take `push_data` |
+//! | `push_data` | in | D | new entry |
+//! | `pop` | in | 1 | remove the entry on the output at this edge |
+//! | `valid` | out | 1 | there is an entry on the output |
+//! | `data` | out | D | the oldest entry, zero above the stored bits |
+//!
+//! 1. Empty: `valid = push` and `data = push_data` in the same cycle. Otherwise `data` is the oldest entry.
+//! 2. `pop` only while `valid`. Without it `valid` stays and `data` is held.
+//! 3. Push and pop at one edge are allowed in every state; on an empty buffer the entry passes without being stored.
+//! 4. The user never holds more than `2^address_bits` entries: there is no full flag and no check.
+//!
+//! Latency: none from push to output when empty.
+//!
+//! Every stored entry has a place in a ring in block RAM. A window of the 16 oldest entries stands in LUTs as well, where it can be seen
+//! without a clock. A new entry goes straight into the window if it falls into it; otherwise it is spilled, and fetched as soon as the
+//! window has moved on:
+//! ```text
+//!         oldest             fetched             newest
+//!            v                  v                   v
+//!     -------[ window, up to 16 |      spilled      )-------
+//! ```
+//! A fetch takes three clocks. It begins only with 15 entries in the window before it, and the window never holds fewer while anything
+//! is spilled, since a clock that takes one away fetches another; so an entry is there long before it is the oldest. A fetched and a new
+//! entry may enter the window at one edge, hence two banks of it, and a bit per place that tells which bank counts.
+//!
+//! Source: [`Fifo`](super::Fifo) around a [`BlockMemory`].
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+use super::{BlockMemory, LutMemory};
+
+/// A deep buffer; see the top of this file.
+#[derive(LogicBlock)]
+pub struct DeepFifo<const A: usize, const D: usize> {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Empty the buffer.
+    pub reset: Signal<In, Bit>,
+    /// Take `push_data`.
+    pub push: Signal<In, Bit>,
+    /// New entry.
+    pub push_data: Signal<In, Bits<D>>,
+    /// Remove the entry on the output.
+    pub pop: Signal<In, Bit>,
+    /// There is an entry on the output.
+    pub valid: Signal<Out, Bit>,
+    /// The oldest entry.
+    pub data: Signal<Out, Bits<D>>,
+    ring: BlockMemory<A, D>,
+    new_bank: LutMemory<4, D>,
+    fetched_bank: LutMemory<4, D>,
+    was_fetched: LutMemory<4, 1>,
+    holds_entries: DFF<Bit>,
+    window_is_full: DFF<Bit>,
+    holds_spilled: DFF<Bit>,
+    newest: DFF<Bits<A>>,
+    fetched: DFF<Bits<A>>,
+    oldest: DFF<Bits<4>>,
+    fetch_in_array: DFF<Bit>,
+    fetch_in_output: DFF<Bit>,
+    place_in_array: DFF<Bits<4>>,
+    place_in_output: DFF<Bits<4>>,
+    passes: Signal<Local, Bit>,
+    stores: Signal<Local, Bit>,
+    spills: Signal<Local, Bit>,
+    enters: Signal<Local, Bit>,
+    fetches: Signal<Local, Bit>,
+    advances: Signal<Local, Bit>,
+    leaves: Signal<Local, Bit>,
+    after_newest: Signal<Local, Bits<A>>,
+    after_fetched: Signal<Local, Bits<A>>,
+    after_oldest: Signal<Local, Bits<4>>,
+    place: Signal<Local, Bits<4>>,
+    after_place: Signal<Local, Bits<4>>,
+    one: Constant<Bits<A>>,
+    one_place: Constant<Bits<4>>,
+    nothing: Constant<Bits<A>>,
+    first_place: Constant<Bits<4>>,
+    from_user: Constant<Bits<1>>,
+    from_ring: Constant<Bits<1>>,
+    kept_bits: Constant<Bits<D>>,
+}
+
+impl<const A: usize, const D: usize> DeepFifo<A, D> {
+    /// Address bits of the window in LUTs: a buffer no deeper than this is a [`Fifo`](super::Fifo).
+    pub const WINDOW_BITS: usize = 4;
+
+    /// A buffer of `2^address_bits` entries of `stored_bits` bits.
+    ///
+    /// # Panics
+    /// If `address_bits` is not in `5..=A` (and at most 20) or `stored_bits` not in `1..=D`.
+    pub fn new(address_bits: usize, stored_bits: usize) -> Self {
+        let window = Self::WINDOW_BITS;
+        assert!(address_bits > window, "a deep buffer has more than {window} address bits, not {address_bits}");
+        Self {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            push: Signal::default(),
+            push_data: Signal::default(),
+            pop: Signal::default(),
+            valid: Signal::default(),
+            data: Signal::default(),
+            ring: BlockMemory::new(address_bits, stored_bits),
+            new_bank: LutMemory::new(window, stored_bits),
+            fetched_bank: LutMemory::new(window, stored_bits),
+            was_fetched: LutMemory::new(window, 1),
+            holds_entries: DFF::default(),
+            window_is_full: DFF::default(),
+            holds_spilled: DFF::default(),
+            newest: DFF::default(),
+            fetched: DFF::default(),
+            oldest: DFF::default(),
+            fetch_in_array: DFF::default(),
+            fetch_in_output: DFF::default(),
+            place_in_array: DFF::default(),
+            place_in_output: DFF::default(),
+            passes: Signal::default(),
+            stores: Signal::default(),
+            spills: Signal::default(),
+            enters: Signal::default(),
+            fetches: Signal::default(),
+            advances: Signal::default(),
+            leaves: Signal::default(),
+            after_newest: Signal::default(),
+            after_fetched: Signal::default(),
+            after_oldest: Signal::default(),
+            place: Signal::default(),
+            after_place: Signal::default(),
+            one: Constant::new(Bits::from(1)),
+            one_place: Constant::new(Bits::from(1)),
+            nothing: Constant::new(Bits::default()),
+            first_place: Constant::new(Bits::default()),
+            from_user: Constant::new(Bits::from(0)),
+            from_ring: Constant::new(Bits::from(1)),
+            kept_bits: Constant::new(Bits::<D>::mask() >> (D - stored_bits) as u64),
+        }
+    }
+}
+
+impl<const A: usize, const D: usize> Default for DeepFifo<A, D> {
+    fn default() -> Self {
+        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+    }
+}
+
+impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, holds_entries, window_is_full, holds_spilled, newest, fetched, oldest);
+        dff_setup!(self, clock, fetch_in_array, fetch_in_output, place_in_array, place_in_output);
+        clock!(self, clock, ring, new_bank, fetched_bank, was_fetched);
+        self.after_newest.next = self.newest.q.val() + self.one.val();
+        self.after_fetched.next = self.fetched.q.val() + self.one.val();
+        self.after_oldest.next = self.oldest.q.val() + self.one_place.val();
+        self.place.next = self.fetched.q.val().get_bits::<4>(0);
+        self.after_place.next = self.place.val() + self.one_place.val();
+
+        // What the user sees.
+        self.new_bank.read_address.next = self.oldest.q.val();
+        self.fetched_bank.read_address.next = self.oldest.q.val();
+        self.was_fetched.read_address.next = self.oldest.q.val();
+        self.valid.next = self.holds_entries.q.val() | self.push.val();
+        self.data.next = self.push_data.val() & self.kept_bits.val();
+        if self.holds_entries.q.val() {
+            self.data.next = self.new_bank.read_data.val();
+            if self.was_fetched.read_data.val() == self.from_ring.val() {
+                self.data.next = self.fetched_bank.read_data.val();
+            }
+        }
+
+        // What happens at this edge. An entry that is popped while it is pushed into an empty buffer passes.
+        self.passes.next = (!self.holds_entries.q.val()) & self.pop.val();
+        self.stores.next = self.push.val() & (!self.passes.val());
+        self.spills.next = self.stores.val() & (self.holds_spilled.q.val() | self.window_is_full.q.val());
+        self.enters.next = self.stores.val() & (!self.spills.val());
+        self.fetches.next = self.holds_spilled.q.val() & (!self.window_is_full.q.val());
+        self.advances.next = self.enters.val() | self.fetches.val();
+        self.leaves.next = self.pop.val() & self.holds_entries.q.val();
+
+        // The ring, and the way from it into the window.
+        self.ring.write_address.next = self.newest.q.val();
+        self.ring.write_data.next = self.push_data.val();
+        self.ring.write_enable.next = self.spills.val();
+        self.ring.read_address.next = self.fetched.q.val();
+        self.fetch_in_array.d.next = self.fetches.val();
+        self.fetch_in_output.d.next = self.fetch_in_array.q.val();
+        self.place_in_array.d.next = self.place.val();
+        self.place_in_output.d.next = self.place_in_array.q.val();
+        self.fetched_bank.write_address.next = self.place_in_output.q.val();
+        self.fetched_bank.write_data.next = self.ring.read_data.val();
+        self.fetched_bank.write_enable.next = self.fetch_in_output.q.val();
+
+        // The window: at most one entry is added at an edge, a new one or one that is fetched.
+        self.new_bank.write_address.next = self.place.val();
+        self.new_bank.write_data.next = self.push_data.val();
+        self.new_bank.write_enable.next = self.enters.val();
+        self.was_fetched.write_address.next = self.place.val();
+        self.was_fetched.write_data.next = self.from_user.val();
+        if self.fetches.val() {
+            self.was_fetched.write_data.next = self.from_ring.val();
+        }
+        self.was_fetched.write_enable.next = self.advances.val();
+
+        // Pointers, and the three flags that follow from them.
+        if self.stores.val() {
+            self.newest.d.next = self.after_newest.val();
+        }
+        if self.advances.val() {
+            self.fetched.d.next = self.after_fetched.val();
+        }
+        if self.leaves.val() {
+            self.oldest.d.next = self.after_oldest.val();
+        }
+        if self.fetches.val() {
+            self.holds_spilled.d.next = self.after_fetched.val() != self.newest.q.val();
+        }
+        if self.spills.val() {
+            self.holds_spilled.d.next = true;
+        }
+        if self.advances.val() & (!self.leaves.val()) {
+            self.holds_entries.d.next = true;
+            self.window_is_full.d.next = self.after_place.val() == self.oldest.q.val();
+        }
+        if self.leaves.val() & (!self.advances.val()) {
+            self.holds_entries.d.next = self.after_oldest.val() != self.place.val();
+            self.window_is_full.d.next = false;
+        }
+
+        if self.reset.val() {
+            self.holds_entries.d.next = false;
+            self.window_is_full.d.next = false;
+            self.holds_spilled.d.next = false;
+            self.newest.d.next = self.nothing.val();
+            self.fetched.d.next = self.nothing.val();
+            self.oldest.d.next = self.first_place.val();
+            self.fetch_in_array.d.next = false;
+            self.fetch_in_output.d.next = false;
+        }
+    }
+}

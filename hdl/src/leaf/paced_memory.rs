@@ -1,0 +1,142 @@
+//! A memory in block RAM whose read port can stand still: one write port and one read port with an enable.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `write_address` | in | A | word to write |
+//! | `write_data` | in | D | its new value |
+//! | `write_enable` | in | 1 | write at this edge |
+//! | `read_address` | in | A | word to read |
+//! | `read_enable` | in | 1 | the read port moves at this edge |
+//! | `read_data` | out | D | its value, zero above the stored bits |
+//!
+//! 1. One write and one read can happen at every edge.
+//! 2. Without `read_enable` both ranks of the read port, array and output register, hold. Writes go on.
+//! 3. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
+//! 4. Reading (with `read_enable`) and writing one word at the same edge is undefined in silicon. The design never uses such a read;
+//!    simulation in Rust answers it with a fixed pattern of alternating bits.
+//! 5. Contents are arbitrary until written.
+//!
+//! Latency: an address that stands before an edge with `read_enable` is data after the next edge with `read_enable`. What is written
+//! at an edge is seen by every address from the next edge on.
+//!
+//! Source: [`BlockMemory`](super::BlockMemory) with the clock enables of an ECP5 block RAM.
+
+use rust_hdl_core::prelude::*;
+
+use super::{assert_shape, low_part, unused_part, zero_extended};
+
+/// A memory with a paced read port; see the top of this file.
+#[derive(LogicBlock)]
+pub struct PacedMemory<const A: usize, const D: usize> {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Word to write.
+    pub write_address: Signal<In, Bits<A>>,
+    /// Its new value.
+    pub write_data: Signal<In, Bits<D>>,
+    /// Write at this edge.
+    pub write_enable: Signal<In, Bit>,
+    /// Word to read.
+    pub read_address: Signal<In, Bits<A>>,
+    /// The read port moves at this edge.
+    pub read_enable: Signal<In, Bit>,
+    /// Its value, [`LATENCY`](PacedMemory::LATENCY) enabled edges later.
+    pub read_data: Signal<Out, Bits<D>>,
+    _address_bits: usize,
+    _stored_bits: usize,
+    _stored_mask: Bits<D>,
+    _memory: Vec<Bits<D>>,
+    _array_read: Bits<D>,
+}
+
+impl<const A: usize, const D: usize> PacedMemory<A, D> {
+    /// Edges with `read_enable` from address to data.
+    pub const LATENCY: usize = 2;
+
+    /// A memory of `2^address_bits` words of `stored_bits` bits.
+    ///
+    /// # Panics
+    /// If `address_bits` is not in `1..=A` (and at most 20) or `stored_bits` not in `1..=D`.
+    pub fn new(address_bits: usize, stored_bits: usize) -> Self {
+        assert_shape(address_bits, A, stored_bits, D);
+        Self {
+            clock: Signal::default(),
+            write_address: Signal::default(),
+            write_data: Signal::default(),
+            write_enable: Signal::default(),
+            read_address: Signal::default(),
+            read_enable: Signal::default(),
+            read_data: Signal::default(),
+            _address_bits: address_bits,
+            _stored_bits: stored_bits,
+            _stored_mask: Bits::<D>::mask() >> (D - stored_bits) as u64,
+            _memory: vec![Bits::default(); 1 << address_bits],
+            _array_read: Bits::default(),
+        }
+    }
+
+    /// What a read that meets a write of the same word gives in simulation.
+    fn poison(&self) -> Bits<D> {
+        (0..D).step_by(2).fold(Bits::default(), |word: Bits<D>, bit| word.replace_bit(bit, true)) & self._stored_mask
+    }
+}
+
+impl<const A: usize, const D: usize> Default for PacedMemory<A, D> {
+    fn default() -> Self {
+        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+    }
+}
+
+impl<const A: usize, const D: usize> Logic for PacedMemory<A, D> {
+    fn update(&mut self) {
+        if self.clock.pos_edge() {
+            let last = self._memory.len() - 1;
+            let read = self.read_address.val().index() & last;
+            let written = self.write_address.val().index() & last;
+            let is_enabled = self.read_enable.val();
+            if is_enabled {
+                self.read_data.next = self._array_read;
+                self._array_read = self._memory[read];
+            }
+            if self.write_enable.val() {
+                self._memory[written] = self.write_data.val() & self._stored_mask;
+                if is_enabled && written == read {
+                    self._array_read = self.poison();
+                }
+            }
+        }
+    }
+
+    fn connect(&mut self) {
+        self.read_data.connect();
+    }
+
+    fn hdl(&self) -> Verilog {
+        let (address_bits, stored_bits) = (self._address_bits, self._stored_bits);
+        let mut code = unused_part("write_address", A, address_bits);
+        code += &unused_part("read_address", A, address_bits);
+        code += &unused_part("write_data", D, stored_bits);
+        code += &format!(
+            "\
+(* ram_style = \"block\", no_rw_check *)
+reg [{top}:0] memory [0:{last}];
+reg [{top}:0] array_read;
+always @(posedge clock) begin
+    if (write_enable) memory[{write}] <= {data};
+    if (read_enable) begin
+        array_read <= memory[{read}];
+        read_data <= {result};
+    end
+end
+",
+            top = stored_bits - 1,
+            last = (1 << address_bits) - 1,
+            write = low_part("write_address", A, address_bits),
+            data = low_part("write_data", D, stored_bits),
+            read = low_part("read_address", A, address_bits),
+            result = zero_extended("array_read", D, stored_bits),
+        );
+        Verilog::Custom(code)
+    }
+}
