@@ -2,11 +2,15 @@
 
 mod attempt_step;
 mod attempts;
+mod context_address;
 mod context_flags;
 mod counters;
+mod job_queue;
 mod next_point;
 mod next_visits;
 mod progress;
+mod ring_list;
+mod ring_reader;
 mod seed_writes;
 mod seeder;
 mod solo;
@@ -22,11 +26,15 @@ mod write_request;
 
 pub use attempt_step::AttemptStep;
 pub use attempts::Attempts;
+pub use context_address::ContextAddress;
 pub use context_flags::ContextFlags;
 pub use counters::{Counters, WideCounter};
+pub use job_queue::JobQueue;
 pub use next_point::NextPoint;
 pub use next_visits::NextVisits;
 pub use progress::Progress;
+pub use ring_list::RingList;
+pub use ring_reader::RingReader;
 pub use seed_writes::SeedWrites;
 pub use seeder::Seeder;
 pub use solo::{Solo, SoloState};
