@@ -2,9 +2,12 @@
 
 mod attempt_step;
 mod attempts;
+mod commit;
 mod context_address;
 mod context_flags;
 mod counters;
+mod fresh_ids;
+mod inner_list;
 mod job_queue;
 mod next_point;
 mod next_visits;
@@ -26,9 +29,12 @@ mod write_request;
 
 pub use attempt_step::AttemptStep;
 pub use attempts::Attempts;
+pub use commit::{Commit, CommitState};
 pub use context_address::ContextAddress;
 pub use context_flags::ContextFlags;
 pub use counters::{Counters, WideCounter};
+pub use fresh_ids::FreshIds;
+pub use inner_list::InnerList;
 pub use job_queue::JobQueue;
 pub use next_point::NextPoint;
 pub use next_visits::NextVisits;

@@ -4,8 +4,8 @@ use incircle_protocol::{Config, MAX_RING, SMALL, TINY};
 
 use super::block;
 use crate::engine::{
-    AttemptStep, Attempts, ContextFlags, Counters, JobQueue, NextPoint, NextVisits, Progress, RingReader, Seeder, Solo,
-    SoloVisit, SoloWrites, StarId, Starter, VisitCase, WideCounter,
+    AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, NextPoint, NextVisits,
+    Progress, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, WideCounter,
 };
 use crate::link::{AnswerWords, CommandGate, CommandPort, PointSlot, RecordWords, Responder};
 
@@ -16,7 +16,12 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
     vec![
         block(Attempts::new(SMALL), "attempts_small"),
         block(AttemptStep::default(), "attempt_step"),
+        block(Commit::new(TINY), "commit_6"),
+        block(Commit::new(longest_list), "commit_64"),
         block(ContextFlags::default(), "context_flags"),
+        block(FreshIds::default(), "fresh_ids"),
+        block(InnerList::new(TINY), "inner_list_6"),
+        block(InnerList::new(longest_list), "inner_list_64"),
         block(JobQueue::<6>::new(2), "job_queue_2x6"),
         block(NextPoint::default(), "next_point"),
         block(NextVisits::default(), "next_visits"),
