@@ -5,7 +5,7 @@ use incircle_protocol::{Config, MAX_RING, SMALL, TINY};
 use super::block;
 use crate::engine::{
     AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, NextPoint, NextVisits,
-    Progress, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, WideCounter,
+    Progress, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, WideCounter,
 };
 use crate::link::{AnswerWords, CommandGate, CommandPort, PointSlot, RecordWords, Responder};
 
@@ -26,6 +26,8 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
         block(NextPoint::default(), "next_point"),
         block(NextVisits::default(), "next_visits"),
         block(Progress::default(), "progress"),
+        block(Release::new(TINY), "release_6"),
+        block(Release::new(longest_list), "release_64"),
         block(RingReader::new(TINY), "ring_reader_6"),
         block(RingReader::new(longest_list), "ring_reader_64"),
         block(Starter::new(SMALL), "starter_small"),
