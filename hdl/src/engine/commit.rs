@@ -1,36 +1,45 @@
-//! One pass over the finished ring writes the star of the new point.
+//! One pass over a finished ring writes the star of the new point; one ring follows the other without a pause.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset ends the commit |
-//! | `starts` | in | 1 | the ring is complete; held until `ends` |
-//! | `p` | in | 15 | the new vertex |
-//! | `records` | in | 15 | the next new id |
-//! | `inner_count` | in | 7 | inner triangles, whose ids are given back first |
-//! | `entry_pointer`, `entry` | out, in | 6, Entry | the list, read at once |
-//! | `inner_pointer`, `inner_id` | out, in | 6, 15 | the inner triangles, read at once |
-//! | `takes_fresh` | out | 1 | a new id is taken at this edge |
-//! | `ends` | out | 1 | the last write is made at this edge |
-//! | `write` | out | Write | a record or a link, registered |
+//! | `clock`, `reset` | in | 1 | reset drops the ring and forgets all records |
+//! | `head_valid`, `head`, `head_is_last` | in | 1, Entry, 1 | an entry of the list, and whether it ends its ring |
+//! | `head_job` | in | CommitJob | its ring; looked at with the first entry |
+//! | `takes` | out | 1 | the entry is taken at this edge |
+//! | `inner_enable`, `inner_owner`, `inner_place`, `inner_id` | in | 1, 5, 6, 15 | an inner triangle joins the list of a context |
+//! | `solo_inserts`, `seeds`, `clears` | in | 1 | two records are written alone; the first four; all are forgotten |
+//! | `write` | out | Write | a record or a link, registered; its data count while it is valid |
+//! | `ends` | out | 1 | the last write of the ring is requested at this edge |
+//! | `job` | out | CommitJob | the ring, while `ends` |
+//! | `hint` | out | 15 | the record of its first entry, while `ends` |
+//! | `fresh`, `records` | out | 15 | the next new id; ids from `records` on are not written yet |
+//! | `is_at_work` | out | 1 | a ring is being written |
 //!
 //! 1. Entry `i` writes the record `v = (p, a, b)`, `n = (u, id of i + 1, id of i - 1)`, then the link of `u` unless it is right.
 //! 2. Its id is that of the cavity triangle behind it, unless the entry before or the first entry took it: then an inner
-//!    triangle's, or a new one. Two new ones are taken in all.
+//!    triangle's, or a new one. Two new ones are taken in all. An id given so is never that of the triangle behind the entry.
 //! 3. The first entry's record is written last, because it needs the last one's id.
+//! 4. A ring has three entries or more. Its inner triangles are listed before its first entry is offered.
+//! 5. `solo_inserts`, `seeds` and `clears` come only while nothing is at work.
 //!
-//! Latency: entries + links + 3 clocks from `starts` to `ends`.
+//! Latency: entries + links + 1 clocks from the first entry on the head to `ends`, and up to two more for each inner triangle
+//! given back; `records` follows three clocks after `ends`.
 //!
-//! Four entries behind two triangles: ids 0, 10, 1, 11, of which 10 and 11 are new; 7 and 8 are triangles outside.
+//! Four entries behind two triangles: ids 0, 10, 1, 11, of which 10 and 11 are new; 7 and 8 are triangles outside. The next
+//! ring follows.
 //! ```text
-//! starts          ___/^^^^^^^^^^^^^^^^^^^^^^^^^^\_____
-//! takes_fresh     ____________/^^^^^\_________________
-//! ends            ___________________________/^^\_____
-//! write.valid     _______________/^^^^^^^^^^^^^^^^^\__
-//! write.vertices  _______________/^^^^^\__/^^\__/^^\__
-//! write.id          .  .  .  .  .  1 10  7 11  8  0  .
+//! head_valid      ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\__
+//! takes           ___/^^^^^^^^^^^\________/^^^^^^^^^^^\__
+//! ends            ________________________/^^\___________
+//! write.valid     ____________/^^^^^^^^^^^^^^^^^\__/^^^^^
+//! write.vertices  ____________/^^^^^\__/^^\__/^^\__/^^^^^
+//! write.id          .  .  .  .  1 10  7 11  8  0  .  1 12
+//! fresh            10 10 10 10 11 12 12 12 12 12 12 13 14
+//! records          10 10 10 10 10 10 10 10 10 10 10 12 12
 //! ```
 
-use super::{Entry, LinkWrite, RecordWrite, StarId, Write};
+use super::{CommitJob, Entry, FreshIds, InnerList, LinkWrite, RecordWrite, StarId, Write};
+use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -39,9 +48,7 @@ use rust_hdl_widgets::prelude::*;
 pub enum CommitState {
     /// Awaits a ring.
     Idle,
-    /// Has the first entry, fetches the second.
-    Load,
-    /// Writes the record of the current entry.
+    /// Writes the record of the current entry, once the id of the one ahead is known.
     Record,
     /// Writes the link of the triangle outside it.
     Link,
@@ -54,159 +61,180 @@ pub enum CommitState {
 pub struct Commit {
     /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Ends the commit.
+    /// Drops the ring, forgets all records.
     pub reset: Signal<In, Bit>,
-    /// The ring is complete.
-    pub starts: Signal<In, Bit>,
-    /// The new vertex.
-    pub p: Signal<In, Bits<15>>,
-    /// The next new id.
-    pub records: Signal<In, Bits<15>>,
-    /// Inner triangles.
-    pub inner_count: Signal<In, Bits<7>>,
-    /// Entry to read.
-    pub entry_pointer: Signal<Out, Bits<6>>,
+    /// There is an entry.
+    pub head_valid: Signal<In, Bit>,
+    /// The entry.
+    pub head: Signal<In, Entry>,
+    /// It ends its ring.
+    pub head_is_last: Signal<In, Bit>,
+    /// Its ring.
+    pub head_job: Signal<In, CommitJob>,
+    /// It is taken.
+    pub takes: Signal<Out, Bit>,
+    /// An inner triangle joins a list.
+    pub inner_enable: Signal<In, Bit>,
+    /// Its context.
+    pub inner_owner: Signal<In, Bits<5>>,
+    /// Its place in the list.
+    pub inner_place: Signal<In, Bits<6>>,
     /// It.
-    pub entry: Signal<In, Entry>,
-    /// Inner triangle to read.
-    pub inner_pointer: Signal<Out, Bits<6>>,
-    /// Its id.
     pub inner_id: Signal<In, Bits<15>>,
-    /// A new id is taken.
-    pub takes_fresh: Signal<Out, Bit>,
-    /// The last write is made.
-    pub ends: Signal<Out, Bit>,
+    /// Two records are written alone.
+    pub solo_inserts: Signal<In, Bit>,
+    /// The first four records are written.
+    pub seeds: Signal<In, Bit>,
+    /// All records are forgotten.
+    pub clears: Signal<In, Bit>,
     /// A record or a link.
     pub write: Signal<Out, Write>,
+    /// The last write is requested.
+    pub ends: Signal<Out, Bit>,
+    /// The ring.
+    pub job: Signal<Out, CommitJob>,
+    /// Its first record.
+    pub hint: Signal<Out, Bits<15>>,
+    /// The next new id.
+    pub fresh: Signal<Out, Bits<15>>,
+    /// Ids from here on are not written yet.
+    pub records: Signal<Out, Bits<15>>,
+    /// A ring is being written.
+    pub is_at_work: Signal<Out, Bit>,
     state: DFF<CommitState>,
-    pointer: DFF<Bits<6>>,
+    ring: DFF<CommitJob>,
     first: DFF<Entry>,
     current: DFF<Entry>,
     current_id: DFF<Bits<15>>,
-    /// The entry after the current one, and whether the ring has closed there.
-    ahead: DFF<Entry>,
-    ahead_is_first: DFF<Bit>,
+    current_is_last: DFF<Bit>,
+    /// The triangle outside the current entry must learn its id.
+    needs_link: DFF<Bit>,
     /// The current entry is the first, before the last one's id is known.
     opens: DFF<Bit>,
     before_id: DFF<Bits<15>>,
     second_a: DFF<Bits<15>>,
     second_id: DFF<Bits<15>>,
-    inner_index: DFF<Bits<7>>,
     /// The ring closes after the link.
     closes: DFF<Bit>,
     link_u: DFF<Bits<15>>,
     link_slot: DFF<Bits<2>>,
-    link_id: DFF<Bits<15>>,
     request: DFF<Write>,
     star_id: StarId,
+    fresh_ids: FreshIds,
+    inner_list: InnerList,
     record: RecordWrite,
     link: LinkWrite,
-    inner_is_used_up: Signal<Local, Bit>,
-    needs_link: Signal<Local, Bit>,
-    pointer_is_first: Signal<Local, Bit>,
-    first_pointer: Signal<Local, Bits<6>>,
-    one: Signal<Local, Bits<7>>,
+    is_record: Signal<Local, Bit>,
+    is_close: Signal<Local, Bit>,
+    awaits_ring: Signal<Local, Bit>,
+    id_is_known: Signal<Local, Bit>,
+    loads: Signal<Local, Bit>,
+    advances: Signal<Local, Bit>,
+}
+
+impl Commit {
+    /// The commit of a configuration.
+    pub fn new(config: Config) -> Self {
+        Self { inner_list: InnerList::new(config), ..Self::default() }
+    }
 }
 
 impl Logic for Commit {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, pointer, first, current, current_id, ahead, ahead_is_first, opens);
-        dff_setup!(
-            self,
-            clock,
-            before_id,
-            second_a,
-            second_id,
-            inner_index,
-            closes,
-            link_u,
-            link_slot,
-            link_id,
-            request
-        );
-        self.first_pointer.next = 0.into();
-        self.one.next = 1.into();
-        self.entry_pointer.next = self.pointer.q.val();
-        self.pointer_is_first.next = self.pointer.q.val() == self.first_pointer.val();
-        self.inner_pointer.next = self.inner_index.q.val().get_bits::<6>(0);
+        dff_setup!(self, clock, state, ring, first, current, current_id, current_is_last, needs_link, opens);
+        dff_setup!(self, clock, before_id, second_a, second_id, closes, link_u, link_slot, request);
+        clock!(self, clock, fresh_ids, inner_list);
+        self.is_record.next = self.state.q.val() == CommitState::Record;
+        self.is_close.next = self.state.q.val() == CommitState::Close;
+        self.awaits_ring.next = (self.state.q.val() == CommitState::Idle) | self.is_close.val();
         self.write.next = self.request.q.val();
+        self.ends.next = self.is_close.val();
+        self.job.next = self.ring.q.val();
+        self.hint.next = self.first.q.val().f;
+        self.fresh.next = self.fresh_ids.fresh.val();
+        self.records.next = self.fresh_ids.records.val();
+        self.is_at_work.next = self.state.q.val() != CommitState::Idle;
 
-        // The id of the entry ahead.
-        self.inner_is_used_up.next = self.inner_index.q.val() == self.inner_count.val();
-        self.star_id.ahead.next = self.ahead.q.val();
-        self.star_id.ahead_is_first.next = self.ahead_is_first.q.val();
+        // The entry ahead and its id.
+        self.inner_list.enable.next = self.inner_enable.val();
+        self.inner_list.owner.next = self.inner_owner.val();
+        self.inner_list.place.next = self.inner_place.val();
+        self.inner_list.id.next = self.inner_id.val();
+        self.inner_list.reader.next = self.ring.q.val().owner;
+        self.inner_list.inners.next = self.ring.q.val().inners;
+        self.star_id.head.next = self.head.val();
         self.star_id.current.next = self.current.q.val();
         self.star_id.first.next = self.first.q.val();
-        self.star_id.inner_id.next = self.inner_id.val();
-        self.star_id.inner_is_used_up.next = self.inner_is_used_up.val();
-        self.star_id.records.next = self.records.val();
-        self.takes_fresh.next =
-            (self.state.q.val() == CommitState::Record) & self.star_id.shares.val() & self.inner_is_used_up.val();
-        self.needs_link.next = (!self.opens.q.val()) & (self.current_id.q.val() != self.current.q.val().f);
-        self.ends.next = self.state.q.val() == CommitState::Close;
+        self.star_id.current_is_last.next = self.current_is_last.q.val();
+        self.star_id.inner_id.next = self.inner_list.inner_id.val();
+        self.star_id.inner_is_used_up.next = self.inner_list.is_used_up.val();
+        self.star_id.fresh.next = self.fresh_ids.fresh.val();
+        self.id_is_known.next = self.current_is_last.q.val()
+            | (self.head_valid.val() & ((!self.star_id.is_inner.val()) | self.inner_list.is_there.val()));
+        self.loads.next = self.awaits_ring.val() & self.head_valid.val();
+        self.advances.next = self.is_record.val() & self.id_is_known.val();
+        self.takes.next = self.loads.val() | (self.advances.val() & (!self.current_is_last.q.val()));
+        self.inner_list.restarts.next = self.loads.val();
+        self.inner_list.steps.next = self.advances.val() & self.star_id.is_inner.val();
+        self.fresh_ids.reset.next = self.reset.val();
+        self.fresh_ids.takes.next = self.advances.val() & self.star_id.is_fresh.val();
+        self.fresh_ids.ends.next = self.is_close.val();
+        self.fresh_ids.solo_inserts.next = self.solo_inserts.val();
+        self.fresh_ids.seeds.next = self.seeds.val();
+        self.fresh_ids.clears.next = self.clears.val();
 
         // The writes; when the ring closes, the current entry is the first again.
         self.record.id.next = self.current_id.q.val();
-        self.record.v0.next = self.p.val();
+        self.record.v0.next = self.ring.q.val().p;
         self.record.v1.next = self.current.q.val().a;
-        self.record.v2.next = self.ahead.q.val().a;
+        self.record.v2.next = self.star_id.ahead.val().a;
         self.record.n0.next = self.current.q.val().u;
         self.record.n1.next = self.star_id.id.val();
         self.record.n2.next = self.before_id.q.val();
-        if self.state.q.val() == CommitState::Close {
+        if self.is_close.val() {
             self.record.v2.next = self.second_a.q.val();
             self.record.n1.next = self.second_id.q.val();
         }
         self.link.id.next = self.link_u.q.val();
         self.link.slot.next = self.link_slot.q.val();
-        self.link.value.next = self.link_id.q.val();
-        self.request.d.next.valid = false;
+        self.link.value.next = self.before_id.q.val();
+        self.request.d.next = self.record.write.val();
+        self.request.d.next.valid = self.is_close.val() | (self.advances.val() & (!self.opens.q.val()));
 
-        if (self.state.q.val() == CommitState::Load) | (self.state.q.val() == CommitState::Record) {
-            self.ahead.d.next = self.entry.val();
-            self.ahead_is_first.d.next = self.pointer_is_first.val();
-            self.pointer.d.next = self.entry.val().after;
+        if self.advances.val() {
+            if self.opens.q.val() {
+                self.second_a.d.next = self.star_id.ahead.val().a;
+                self.second_id.d.next = self.star_id.id.val();
+            }
+            self.link_u.d.next = self.current.q.val().u;
+            self.link_slot.d.next = self.current.q.val().slot;
+            self.opens.d.next = false;
+            self.closes.d.next = self.current_is_last.q.val();
+            self.before_id.d.next = self.current_id.q.val();
+            self.current.d.next = self.star_id.ahead.val();
+            self.current_id.d.next = self.star_id.id.val();
+            self.current_is_last.d.next = (!self.current_is_last.q.val()) & self.head_is_last.val();
+            self.needs_link.d.next = self.star_id.is_inner.val() | self.star_id.is_fresh.val();
+        }
+        if self.loads.val() {
+            self.ring.d.next = self.head_job.val();
+            self.first.d.next = self.head.val();
+            self.current.d.next = self.head.val();
+            self.current_id.d.next = self.head.val().f;
+            self.current_is_last.d.next = false;
+            self.opens.d.next = true;
+            self.needs_link.d.next = false;
         }
         match self.state.q.val() {
-            CommitState::Idle => {
-                if self.starts.val() {
-                    self.ahead.d.next = self.entry.val();
-                    self.pointer.d.next = self.entry.val().after;
-                    self.inner_index.d.next = 0.into();
-                    self.state.d.next = CommitState::Load;
-                }
-            }
-            CommitState::Load => {
-                self.first.d.next = self.ahead.q.val();
-                self.current.d.next = self.ahead.q.val();
-                self.current_id.d.next = self.ahead.q.val().f;
-                self.opens.d.next = true;
-                self.state.d.next = CommitState::Record;
-            }
             CommitState::Record => {
-                if self.star_id.shares.val() & (!self.inner_is_used_up.val()) {
-                    self.inner_index.d.next = self.inner_index.q.val() + self.one.val();
-                }
-                if self.opens.q.val() {
-                    self.second_a.d.next = self.ahead.q.val().a;
-                    self.second_id.d.next = self.star_id.id.val();
-                } else {
-                    self.request.d.next = self.record.write.val();
-                    self.link_u.d.next = self.current.q.val().u;
-                    self.link_slot.d.next = self.current.q.val().slot;
-                    self.link_id.d.next = self.current_id.q.val();
-                }
-                self.opens.d.next = false;
-                self.closes.d.next = self.ahead_is_first.q.val();
-                self.before_id.d.next = self.current_id.q.val();
-                self.current.d.next = self.ahead.q.val();
-                self.current_id.d.next = self.star_id.id.val();
-                if self.needs_link.val() {
-                    self.state.d.next = CommitState::Link;
-                } else {
-                    if self.ahead_is_first.q.val() {
-                        self.state.d.next = CommitState::Close;
+                if self.advances.val() {
+                    if self.needs_link.q.val() {
+                        self.state.d.next = CommitState::Link;
+                    } else {
+                        if self.current_is_last.q.val() {
+                            self.state.d.next = CommitState::Close;
+                        }
                     }
                 }
             }
@@ -217,18 +245,15 @@ impl Logic for Commit {
                     self.state.d.next = CommitState::Close;
                 }
             }
-            CommitState::Close => {
-                self.request.d.next = self.record.write.val();
-                self.pointer.d.next = 0.into();
-                self.state.d.next = CommitState::Idle;
-            }
             _ => {
                 self.state.d.next = CommitState::Idle;
+                if self.loads.val() {
+                    self.state.d.next = CommitState::Record;
+                }
             }
         }
         if self.reset.val() {
             self.state.d.next = CommitState::Idle;
-            self.pointer.d.next = 0.into();
             self.request.d.next.valid = false;
         }
     }

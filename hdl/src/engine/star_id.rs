@@ -1,15 +1,17 @@
-//! The record id of the ring entry ahead of a commit.
+//! What lies ahead of the current entry of a commit: the entry after it, and the id of the record that one becomes.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `ahead`, `ahead_is_first` | in | Entry, 1 | the entry ahead, and whether the ring has closed there |
+//! | `head` | in | Entry | the next entry of the list |
 //! | `current`, `first` | in | Entry | the entry before it, and the first one |
+//! | `current_is_last` | in | 1 | the ring closes: the first entry lies ahead |
 //! | `inner_id`, `inner_is_used_up` | in | 15, 1 | the next inner triangle, unless there is none left |
-//! | `records` | in | 15 | the next new id |
-//! | `id` | out | 15 | the id |
-//! | `shares` | out | 1 | its cavity triangle's id is taken: it is an inner triangle's or a new one |
+//! | `fresh` | in | 15 | the next new id |
+//! | `ahead`, `id` | out | Entry, 15 | the entry ahead, and its id |
+//! | `is_inner`, `is_fresh` | out | 1 | the id is the inner triangle's, or the new one |
 //!
-//! 1. The ring entries behind which one cavity triangle lies follow each other, so two comparisons tell.
+//! 1. An entry takes the id of the cavity triangle behind it, unless the entry before or the first entry took that.
+//! 2. The ring entries behind which one cavity triangle lies follow each other, so two comparisons tell.
 //!
 //! Latency: none (combinational).
 
@@ -19,42 +21,49 @@ use rust_hdl_core::prelude::*;
 /// The id rule of the commit; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct StarId {
-    /// The entry ahead.
-    pub ahead: Signal<In, Entry>,
-    /// It is the first again.
-    pub ahead_is_first: Signal<In, Bit>,
+    /// The next entry of the list.
+    pub head: Signal<In, Entry>,
     /// The entry before it.
     pub current: Signal<In, Entry>,
     /// The first entry.
     pub first: Signal<In, Entry>,
+    /// The first entry lies ahead.
+    pub current_is_last: Signal<In, Bit>,
     /// The next inner triangle.
     pub inner_id: Signal<In, Bits<15>>,
     /// There is none left.
     pub inner_is_used_up: Signal<In, Bit>,
     /// The next new id.
-    pub records: Signal<In, Bits<15>>,
-    /// The id.
+    pub fresh: Signal<In, Bits<15>>,
+    /// The entry ahead.
+    pub ahead: Signal<Out, Entry>,
+    /// Its id.
     pub id: Signal<Out, Bits<15>>,
-    /// It is not that of the cavity triangle behind.
-    pub shares: Signal<Out, Bit>,
-    is_taken: Signal<Local, Bit>,
+    /// It is the inner triangle's.
+    pub is_inner: Signal<Out, Bit>,
+    /// It is the new one.
+    pub is_fresh: Signal<Out, Bit>,
+    shares: Signal<Local, Bit>,
 }
 
 impl Logic for StarId {
     #[hdl_gen]
     fn update(&mut self) {
-        self.is_taken.next = (!self.ahead_is_first.val())
-            & ((self.ahead.val().f == self.current.val().f) | (self.ahead.val().f == self.first.val().f));
-        self.shares.next = self.is_taken.val();
-        self.id.next = self.ahead.val().f;
-        if self.ahead_is_first.val() {
-            self.id.next = self.first.val().f;
-        }
-        if self.is_taken.val() {
+        self.shares.next = (!self.current_is_last.val())
+            & ((self.head.val().f == self.current.val().f) | (self.head.val().f == self.first.val().f));
+        self.is_inner.next = self.shares.val() & (!self.inner_is_used_up.val());
+        self.is_fresh.next = self.shares.val() & self.inner_is_used_up.val();
+        self.ahead.next = self.head.val();
+        self.id.next = self.head.val().f;
+        if self.shares.val() {
             self.id.next = self.inner_id.val();
             if self.inner_is_used_up.val() {
-                self.id.next = self.records.val();
+                self.id.next = self.fresh.val();
             }
+        }
+        if self.current_is_last.val() {
+            self.ahead.next = self.first.val();
+            self.id.next = self.first.val().f;
         }
     }
 }

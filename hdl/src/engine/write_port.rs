@@ -3,7 +3,7 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | reset drops a write |
-//! | `commit`, `solo`, `seed` | in | Write | requests; at most one is valid, by the phase of the context |
+//! | `commit`, `solo`, `seed` | in | Write | requests; at most one is valid: the last two come only while nothing else is at work |
 //! | `write` | out | Write | the write made at the next edge |
 //!
 //! 1. Without a request the data are held and `write.valid` is low.

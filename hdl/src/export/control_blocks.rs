@@ -1,24 +1,35 @@
 //! The blocks that carry insertions through their phases, and the command streams.
 
-use incircle_protocol::SMALL;
+use incircle_protocol::{Config, MAX_RING, SMALL, TINY};
 
 use super::block;
 use crate::engine::{
-    AttemptStep, Attempts, ContextFlags, Counters, NextPoint, NextVisits, Progress, Seeder, Solo, SoloVisit,
-    SoloWrites, StarId, Starter, VisitCase, WideCounter,
+    AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, NextPoint, NextVisits,
+    Progress, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, WideCounter,
 };
 use crate::link::{AnswerWords, CommandGate, CommandPort, PointSlot, RecordWords, Responder};
 
 /// The name of each root module, and its Verilog.
 pub(super) fn control_blocks() -> Vec<(String, String)> {
     // `context` and `release` alone are words of SystemVerilog.
+    let longest_list = Config { ring: MAX_RING, contexts: 24, ..TINY };
     vec![
         block(Attempts::new(SMALL), "attempts_small"),
         block(AttemptStep::default(), "attempt_step"),
+        block(Commit::new(TINY), "commit_6"),
+        block(Commit::new(longest_list), "commit_64"),
         block(ContextFlags::default(), "context_flags"),
+        block(FreshIds::default(), "fresh_ids"),
+        block(InnerList::new(TINY), "inner_list_6"),
+        block(InnerList::new(longest_list), "inner_list_64"),
+        block(JobQueue::<6>::new(2), "job_queue_2x6"),
         block(NextPoint::default(), "next_point"),
         block(NextVisits::default(), "next_visits"),
         block(Progress::default(), "progress"),
+        block(Release::new(TINY), "release_6"),
+        block(Release::new(longest_list), "release_64"),
+        block(RingReader::new(TINY), "ring_reader_6"),
+        block(RingReader::new(longest_list), "ring_reader_64"),
         block(Starter::new(SMALL), "starter_small"),
         block(VisitCase::default(), "visit_case"),
         block(StarId::default(), "star_id"),
