@@ -7,4 +7,4 @@ pub mod leaf;
 pub mod link;
 pub mod mesh;
 pub mod predicate;
-// `top` follows when the engine is whole again.
+pub mod top;

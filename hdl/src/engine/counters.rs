@@ -1,20 +1,29 @@
-//! The event counters.
+//! The event counters, and the clock that latencies are taken from.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset and clear set all to zero |
-//! | `inserting`, `waiting`, `reading` | in | 1 | this clock counts as that kind of cycle |
-//! | `seeds`, `commit_ends`, `solo_ends` | in | 1 | 3, 1 or 1 points are inserted |
-//! | `duplicate`, `walk_visit`, `test`, `drained`, `flip` | in | 1 | one such event |
-//! | `cavity_triangles` | in | 7 | triangles of the cavity that a commit replaces |
-//! | `select` | in | 4 | word to read: its place in the answer to `Counters` |
+//! | `clock`, `reset`, `clears` | in | 1 | reset and clear set all counters to zero |
+//! | `inserting`, `waiting`, `reading` | in | 1 | a job is under way; it has no point to work on; a read-out is under way |
+//! | `is_issuing`, `is_writing`, `is_committing`, `is_releasing` | in | 1 | a visit is issued; a record or link is written; a commit is at work; a lock is cleared |
+//! | `walk_visit`, `root_visit`, `test`, `solo_test`, `revisit` | in | 1 | a visit of that kind completes; it is made once more |
+//! | `gives_up`, `retries`, `takes_token` | in | 1 | an attempt is given up at a foreign lock; a located triangle no longer holds the point; the waiting token is taken |
+//! | `overflows`, `flip` | in | 1 | a boundary list has overflowed; a flip of an insertion alone is finished |
+//! | `cavity_ends`, `cavity_triangles` | in | 1, 7 | a cavity is complete, and consists of so many triangles |
+//! | `seeds`, `commit_ends`, `solo_inserts` | in | 1 | 3, 1 or 1 points are inserted |
+//! | `since` | in | 22 | when the point whose commit ends was taken: `now` at that edge |
+//! | `duplicate`, `solo_duplicate` | in | 1 | a point is found to be a duplicate |
+//! | `refused` | in | 32 | points refused, counted where they are refused |
+//! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
 //! | `value` | out | 32 | that word |
 //! | `insertions`, `duplicates` | out | 32 | two of them |
+//! | `now` | out | 22 | clocks since reset, modulo 2^22; clear does not stop it |
+//! | `latency_comes`, `latency` | out | 1, 22 | the latency of the commit that ended with the last edge |
 //!
 //! 1. Cycle counts are two words of 32 bits; the high one follows a clock after the low one has wrapped.
 //!
-//! Latency: an event is counted at its edge; `value` follows `select` at once.
+//! Latency: an event is counted at its edge, a latency at the next one; `value` follows `select` at once.
 
+use super::{CycleCounters, EventCounter, LatencyRange, VisitCounters};
 use incircle_protocol::Counter;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -34,215 +43,199 @@ pub struct Counters {
     pub waiting: Signal<In, Bit>,
     /// A read-out is under way.
     pub reading: Signal<In, Bit>,
+    /// A visit is issued.
+    pub is_issuing: Signal<In, Bit>,
+    /// A record or a link is written.
+    pub is_writing: Signal<In, Bit>,
+    /// A commit is at work.
+    pub is_committing: Signal<In, Bit>,
+    /// A lock is cleared.
+    pub is_releasing: Signal<In, Bit>,
+    /// A walk visits a triangle.
+    pub walk_visit: Signal<In, Bit>,
+    /// A cavity test is finished.
+    pub test: Signal<In, Bit>,
+    /// A test of an insertion alone is finished.
+    pub solo_test: Signal<In, Bit>,
+    /// A list has overflowed.
+    pub overflows: Signal<In, Bit>,
+    /// A flip is finished.
+    pub flip: Signal<In, Bit>,
+    /// A located triangle is visited for its lock.
+    pub root_visit: Signal<In, Bit>,
+    /// A visit is made once more.
+    pub revisit: Signal<In, Bit>,
+    /// An attempt is given up at a foreign lock.
+    pub gives_up: Signal<In, Bit>,
+    /// A triangle no longer holds the point when it is locked.
+    pub retries: Signal<In, Bit>,
+    /// A context takes the waiting token.
+    pub takes_token: Signal<In, Bit>,
+    /// A cavity is complete.
+    pub cavity_ends: Signal<In, Bit>,
+    /// Its triangles.
+    pub cavity_triangles: Signal<In, Bits<7>>,
     /// The first triangle is finished.
     pub seeds: Signal<In, Bit>,
     /// A commit is finished.
     pub commit_ends: Signal<In, Bit>,
-    /// An insertion alone is finished.
-    pub solo_ends: Signal<In, Bit>,
-    /// A duplicate is found.
+    /// When its point was taken.
+    pub since: Signal<In, Bits<22>>,
+    /// An insertion alone has inserted its point.
+    pub solo_inserts: Signal<In, Bit>,
+    /// A walk or the visit of a root finds a duplicate.
     pub duplicate: Signal<In, Bit>,
-    /// A walk visits a triangle.
-    pub walk_visit: Signal<In, Bit>,
-    /// A conflict test is finished.
-    pub test: Signal<In, Bit>,
-    /// A list has overflowed.
-    pub drained: Signal<In, Bit>,
-    /// A flip is finished.
-    pub flip: Signal<In, Bit>,
-    /// Triangles that a commit replaces.
-    pub cavity_triangles: Signal<In, Bits<7>>,
-    /// Points refused, counted where they are refused.
+    /// An insertion alone finds one.
+    pub solo_duplicate: Signal<In, Bit>,
+    /// Points refused.
     pub refused: Signal<In, Bits<32>>,
     /// Word to read.
-    pub select: Signal<In, Bits<4>>,
+    pub select: Signal<In, Bits<5>>,
     /// It.
     pub value: Signal<Out, Bits<32>>,
     /// Points inserted.
     pub insertions: Signal<Out, Bits<32>>,
     /// Points that fell onto another.
     pub duplicates: Signal<Out, Bits<32>>,
-    insert_cycles: WideCounter<32>,
-    wait_cycles: WideCounter<32>,
-    read_cycles: WideCounter<32>,
+    /// Clocks since reset.
+    pub now: Signal<Out, Bits<22>>,
+    /// A commit has ended.
+    pub latency_comes: Signal<Out, Bit>,
+    /// Its latency.
+    pub latency: Signal<Out, Bits<22>>,
+    ticks: DFF<Bits<22>>,
     inserted: DFF<Bits<32>>,
-    duplicated: DFF<Bits<32>>,
-    walk_visits: DFF<Bits<32>>,
-    tests: DFF<Bits<32>>,
-    triangles: DFF<Bits<32>>,
-    overflows: DFF<Bits<32>>,
-    flips: DFF<Bits<32>>,
+    duplicated: EventCounter,
+    cycles: CycleCounters,
+    visits: VisitCounters,
+    range: LatencyRange,
+    zero: Signal<Local, Bit>,
+    one_tick: Signal<Local, Bits<22>>,
     one: Signal<Local, Bits<32>>,
     three: Signal<Local, Bits<32>>,
-    wide_triangles: Signal<Local, Bits<32>>,
 }
 
 // `select` counts in the order of `Counter`; a change there must come here.
 const _: () = assert!(
-    Counter::ReadCycles as usize == 4 && Counter::Insertions as usize == 6 && Counter::Flips as usize == 13,
+    Counter::Insertions as usize == 6
+        && Counter::Duplicates as usize == 7
+        && Counter::Refused as usize == 8
+        && Counter::WalkVisits as usize == 9
+        && Counter::WaitingTokens as usize == 18
+        && Counter::LatencyMin as usize == 23
+        && Counter::LatencyMax as usize == 24,
     "the words of this block follow the protocol"
 );
 
 impl Logic for Counters {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, inserted, duplicated, walk_visits, tests, triangles, overflows, flips);
-        clock!(self, clock, insert_cycles, wait_cycles, read_cycles);
+        dff_setup!(self, clock, ticks, inserted);
+        clock!(self, clock, duplicated, cycles, visits, range);
+        self.one_tick.next = 1.into();
         self.one.next = 1.into();
         self.three.next = 3.into();
-        self.wide_triangles.next = bit_cast::<32, 7>(self.cavity_triangles.val());
-        self.insert_cycles.zero.next = self.reset.val() | self.clears.val();
-        self.wait_cycles.zero.next = self.reset.val() | self.clears.val();
-        self.read_cycles.zero.next = self.reset.val() | self.clears.val();
-        self.insert_cycles.count.next = self.inserting.val();
-        self.wait_cycles.count.next = self.waiting.val();
-        self.read_cycles.count.next = self.reading.val();
-        self.insertions.next = self.inserted.q.val();
-        self.duplicates.next = self.duplicated.q.val();
+        self.zero.next = self.reset.val() | self.clears.val();
+        self.duplicated.zero.next = self.zero.val();
+        self.cycles.zero.next = self.zero.val();
+        self.visits.zero.next = self.zero.val();
+        self.range.zero.next = self.zero.val();
 
-        if self.commit_ends.val() | self.solo_ends.val() {
+        self.cycles.inserting.next = self.inserting.val();
+        self.cycles.waiting.next = self.waiting.val();
+        self.cycles.reading.next = self.reading.val();
+        self.cycles.is_issuing.next = self.is_issuing.val();
+        self.cycles.is_writing.next = self.is_writing.val();
+        self.cycles.is_committing.next = self.is_committing.val();
+        self.cycles.is_releasing.next = self.is_releasing.val();
+        self.cycles.select.next = self.select.val();
+        self.visits.walk_visit.next = self.walk_visit.val();
+        self.visits.test.next = self.test.val() | self.solo_test.val();
+        self.visits.overflows.next = self.overflows.val();
+        self.visits.flip.next = self.flip.val();
+        self.visits.root_visit.next = self.root_visit.val();
+        self.visits.revisit.next = self.revisit.val();
+        self.visits.gives_up.next = self.gives_up.val();
+        self.visits.retries.next = self.retries.val();
+        self.visits.takes_token.next = self.takes_token.val();
+        self.visits.cavity_ends.next = self.cavity_ends.val();
+        self.visits.cavity_triangles.next = self.cavity_triangles.val();
+        self.visits.select.next = self.select.val();
+
+        self.ticks.d.next = self.ticks.q.val() + self.one_tick.val();
+        self.now.next = self.ticks.q.val();
+        self.range.commit_ends.next = self.commit_ends.val();
+        self.range.now.next = self.ticks.q.val();
+        self.range.since.next = self.since.val();
+        self.latency_comes.next = self.range.latency_comes.val();
+        self.latency.next = self.range.latency.val();
+
+        self.duplicated.count.next = self.duplicate.val() | self.solo_duplicate.val();
+        if self.commit_ends.val() | self.solo_inserts.val() {
             self.inserted.d.next = self.inserted.q.val() + self.one.val();
         }
         if self.seeds.val() {
             self.inserted.d.next = self.inserted.q.val() + self.three.val();
         }
-        if self.commit_ends.val() {
-            self.triangles.d.next = self.triangles.q.val() + self.wide_triangles.val();
-        }
-        if self.duplicate.val() {
-            self.duplicated.d.next = self.duplicated.q.val() + self.one.val();
-        }
-        if self.walk_visit.val() {
-            self.walk_visits.d.next = self.walk_visits.q.val() + self.one.val();
-        }
-        if self.test.val() {
-            self.tests.d.next = self.tests.q.val() + self.one.val();
-        }
-        if self.drained.val() {
-            self.overflows.d.next = self.overflows.q.val() + self.one.val();
-        }
-        if self.flip.val() {
-            self.flips.d.next = self.flips.q.val() + self.one.val();
-        }
+        self.insertions.next = self.inserted.q.val();
+        self.duplicates.next = self.duplicated.value.val();
 
+        self.value.next = self.cycles.value.val();
         match self.select.val().index() {
-            0 => {
-                self.value.next = self.insert_cycles.low.val();
-            }
-            1 => {
-                self.value.next = self.insert_cycles.high.val();
-            }
-            2 => {
-                self.value.next = self.wait_cycles.low.val();
-            }
-            3 => {
-                self.value.next = self.wait_cycles.high.val();
-            }
-            4 => {
-                self.value.next = self.read_cycles.low.val();
-            }
-            5 => {
-                self.value.next = self.read_cycles.high.val();
-            }
             6 => {
                 self.value.next = self.inserted.q.val();
             }
             7 => {
-                self.value.next = self.duplicated.q.val();
+                self.value.next = self.duplicated.value.val();
             }
             8 => {
                 self.value.next = self.refused.val();
             }
             9 => {
-                self.value.next = self.walk_visits.q.val();
+                self.value.next = self.visits.value.val();
             }
             10 => {
-                self.value.next = self.tests.q.val();
+                self.value.next = self.visits.value.val();
             }
             11 => {
-                self.value.next = self.triangles.q.val();
+                self.value.next = self.visits.value.val();
             }
             12 => {
-                self.value.next = self.overflows.q.val();
+                self.value.next = self.visits.value.val();
+            }
+            13 => {
+                self.value.next = self.visits.value.val();
+            }
+            14 => {
+                self.value.next = self.visits.value.val();
+            }
+            15 => {
+                self.value.next = self.visits.value.val();
+            }
+            16 => {
+                self.value.next = self.visits.value.val();
+            }
+            17 => {
+                self.value.next = self.visits.value.val();
+            }
+            18 => {
+                self.value.next = self.visits.value.val();
+            }
+            23 => {
+                self.value.next = bit_cast::<32, 22>(self.range.least.val());
+            }
+            24 => {
+                self.value.next = bit_cast::<32, 22>(self.range.most.val());
             }
             _ => {
-                self.value.next = self.flips.q.val();
+                self.value.next = self.cycles.value.val();
             }
         }
-
-        if self.reset.val() | self.clears.val() {
-            self.inserted.d.next = 0.into();
-            self.duplicated.d.next = 0.into();
-            self.walk_visits.d.next = 0.into();
-            self.tests.d.next = 0.into();
-            self.triangles.d.next = 0.into();
-            self.overflows.d.next = 0.into();
-            self.flips.d.next = 0.into();
-        }
-    }
-}
-
-/// A counter of two words of `N` bits.
-///
-/// | port | direction | bits | meaning |
-/// |---|---|---|---|
-/// | `clock`, `zero` | in | 1 | `zero` clears it |
-/// | `count` | in | 1 | this clock counts |
-/// | `low`, `high` | out | N | its words; `high` follows a clock after `low` has wrapped |
-#[derive(LogicBlock)]
-pub struct WideCounter<const N: usize> {
-    /// Clock.
-    pub clock: Signal<In, Clock>,
-    /// Clears it.
-    pub zero: Signal<In, Bit>,
-    /// This clock counts.
-    pub count: Signal<In, Bit>,
-    /// Low word.
-    pub low: Signal<Out, Bits<N>>,
-    /// High word.
-    pub high: Signal<Out, Bits<N>>,
-    low_word: DFF<Bits<N>>,
-    high_word: DFF<Bits<N>>,
-    carries: DFF<Bit>,
-    one: Signal<Local, Bits<N>>,
-    all_ones: Constant<Bits<N>>,
-}
-
-impl<const N: usize> Default for WideCounter<N> {
-    fn default() -> Self {
-        Self {
-            clock: Signal::default(),
-            zero: Signal::default(),
-            count: Signal::default(),
-            low: Signal::default(),
-            high: Signal::default(),
-            low_word: DFF::default(),
-            high_word: DFF::default(),
-            carries: DFF::default(),
-            one: Signal::default(),
-            all_ones: Constant::new(Bits::<N>::mask()),
-        }
-    }
-}
-
-impl<const N: usize> Logic for WideCounter<N> {
-    #[hdl_gen]
-    fn update(&mut self) {
-        dff_setup!(self, clock, low_word, high_word, carries);
-        self.one.next = 1.into();
-        self.low.next = self.low_word.q.val();
-        self.high.next = self.high_word.q.val();
-        self.carries.d.next = self.count.val() & (self.low_word.q.val() == self.all_ones.val());
-        if self.count.val() {
-            self.low_word.d.next = self.low_word.q.val() + self.one.val();
-        }
-        if self.carries.q.val() {
-            self.high_word.d.next = self.high_word.q.val() + self.one.val();
-        }
         if self.zero.val() {
-            self.low_word.d.next = 0.into();
-            self.high_word.d.next = 0.into();
-            self.carries.d.next = false;
+            self.inserted.d.next = 0.into();
+        }
+        if self.reset.val() {
+            self.ticks.d.next = 0.into();
         }
     }
 }

@@ -11,22 +11,19 @@
 //! | `seeded`, `collinear`, `records` | out | 1, 1, 15 | state of the mesh |
 //! | `is_quiet`, `stuck`, `sweeps` | out | 1 | every point is finished; nothing is finished any more; locks are being swept |
 //! | `write` | out | Write | the write port of the triangle memory |
-//! | `seeds` ... `cavity_triangles` | out | | events at this edge, for the counters |
+//! | `events` | out | Events | what happens at this edge, for the counters |
 //!
 //! ```text
-//!           +----------------------- visits, one to three a push <-----------------------+
-//!           v                                                                           |
-//! Starter --+-> VisitPipeline -> completion -> Attempts --- ring --> RingReader -> Commit -> WritePort -> memory
-//!    ^                              |          |      \--- locks --> Release -> lock memory           ^
-//!    +---- ContextFlags <-----------+----------+                                                      |
-//!                                   +-> Solo (alone), Seeder (the first triangle) --------------------+
+//!                 +------------------- visits, one to three a push -----------------------------+
+//!                 v                                                                            |
+//! points -> VisitPipeline -> completion -> Insertions: Dispatcher (who starts) -- Attempts (what follows) -- CommitPath
+//!                 ^               |                                                                 |      |
+//!                 |               +-> Seeder (the first triangle), Solo (alone) -> WritePort <------+      | locks
+//!                 +---------------------------------------------------------------------+  <--------------+
 //! ```
 //! Latency: see the blocks.
 
-use super::{
-    Attempts, Bundle, Commit, ContextFlags, Progress, Release, RingReader, Seeder, Solo, Starter, VisitPipeline,
-    Watchdog, Write, WritePort,
-};
+use super::{Bundle, Events, Insertions, Seeder, Solo, VisitPipeline, Write, WritePort};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -98,20 +95,124 @@ pub struct InsertionEngine {
     pub write: Signal<Out, Write>,
     /// What happens at this edge.
     pub events: Signal<Out, Events>,
-    starter: Starter,
-    flags: ContextFlags,
-    attempts: Attempts,
+    insertions: Insertions,
     pipeline: VisitPipeline,
-    rings: RingReader,
-    commit: Commit,
     solo: Solo,
     seeder: Seeder,
-    lock_release: Release,
     write_port: WritePort,
-    progress: Progress,
-    watchdog: Watchdog,
     pushes: DFF<Bit>,
     pushed: DFF<Bundle>,
-    outcome_is_live: Signal<Local, Bit>,
     first_vertex: Signal<Local, Bits<15>>,
+}
+
+impl InsertionEngine {
+    /// The engine of a configuration, which must be a valid one.
+    pub fn new(config: Config) -> Self {
+        Self { insertions: Insertions::new(config), pipeline: VisitPipeline::new(config), ..Self::default() }
+    }
+}
+
+impl Logic for InsertionEngine {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, pushes, pushed);
+        clock!(self, clock, insertions, pipeline, solo, seeder, write_port);
+        self.first_vertex.next = 0.into();
+        self.insertions.reset.next = self.reset.val();
+        self.pipeline.reset.next = self.reset.val();
+        self.solo.reset.next = self.reset.val();
+        self.seeder.reset.next = self.reset.val();
+        self.write_port.reset.next = self.reset.val();
+        self.insertions.clears.next = self.clears.val();
+        self.seeder.clears.next = self.clears.val();
+
+        // What the link sees.
+        self.seeded.next = self.seeder.seeded.val();
+        self.collinear.next = self.seeder.collinear.val();
+        self.records.next = self.insertions.records.val();
+        self.is_quiet.next = self.insertions.is_quiet.val();
+        self.stuck.next = self.insertions.stuck.val();
+        self.sweeps.next = self.insertions.sweeps.val();
+        self.read_done.next = self.pipeline.read_done.val();
+        self.v0.next = self.pipeline.v0.val();
+        self.v1.next = self.pipeline.v1.val();
+        self.v2.next = self.pipeline.v2.val();
+        self.n0.next = self.pipeline.n0.val();
+        self.n1.next = self.pipeline.n1.val();
+        self.n2.next = self.pipeline.n2.val();
+        self.was_set.next = self.pipeline.was_set.val();
+        self.write.next = self.write_port.write.val();
+
+        // The visits.
+        self.pipeline.infinite.next = self.infinite.val();
+        self.pipeline.records.next = self.insertions.records.val();
+        self.pipeline.push.next = self.pushes.q.val();
+        self.pipeline.bundle.next = self.pushed.q.val();
+        self.pipeline.position_enable.next = self.insertions.position_enable.val();
+        self.pipeline.position_owner.next = self.insertions.position_owner.val();
+        self.pipeline.position.next = self.pipeline.fetched.val();
+        self.pipeline.read.next = self.read.val();
+        self.pipeline.read_id.next = self.read_id.val();
+        self.pipeline.write.next = self.write_port.write.val();
+        self.pipeline.vertex_id.next = self.came_id.val();
+        self.pipeline.vertex_position.next = self.point.val();
+        self.pipeline.vertex_enable.next = self.came.val();
+        self.pipeline.fetch_id.next = self.insertions.fetch_id.val();
+        self.pipeline.clear_id.next = self.insertions.clear_id.val();
+        self.pipeline.clear_enable.next = self.insertions.clear_enable.val();
+
+        // The insertions in flight.
+        self.insertions.ring.next = self.ring.val();
+        self.insertions.last_id.next = self.last_id.val();
+        self.insertions.all.next = self.all.val();
+        self.insertions.patience.next = self.patience.val();
+        self.insertions.contexts.next = self.contexts.val();
+        self.insertions.arrived.next = self.arrived.val();
+        self.insertions.came.next = self.came.val();
+        self.insertions.now.next = self.now.val();
+        self.insertions.done.next = self.pipeline.done.val() & (!self.solo.is_at_work.val());
+        self.insertions.token.next = self.pipeline.token.val();
+        self.insertions.turned.next = self.pipeline.turned.val();
+        self.insertions.verdict.next = self.pipeline.verdict.val();
+        self.insertions.seeded.next = self.seeder.seeded.val();
+        self.insertions.collinear.next = self.seeder.collinear.val();
+        self.insertions.seeds.next = self.seeder.seeds.val();
+        self.insertions.is_seeding.next = self.seeder.is_at_work.val();
+        self.insertions.solo_is_at_work.next = self.solo.is_at_work.val();
+        self.insertions.solo_ends.next = self.solo.ends.val();
+        self.insertions.solo_inserts.next = self.solo.inserts.val();
+
+        // The first triangle, and an insertion alone.
+        self.seeder.infinite.next = self.infinite.val();
+        self.seeder.prepares.next = self.came.val() & (self.came_id.val() == self.first_vertex.val());
+        self.seeder.looks.next = self.insertions.looks.val();
+        self.seeder.verdict.next = self.pipeline.verdict.val();
+        self.solo.starts.next = self.insertions.solo_starts.val();
+        self.solo.owner.next = self.insertions.solo_owner.val();
+        self.solo.p.next = self.insertions.solo_p.val();
+        self.solo.start.next = self.insertions.solo_u.val();
+        self.solo.records.next = self.insertions.records.val();
+        self.solo.done.next = self.pipeline.done.val();
+        self.solo.token.next = self.pipeline.token.val();
+        self.solo.turned.next = self.pipeline.turned.val();
+        self.solo.verdict.next = self.pipeline.verdict.val();
+
+        // The push register; an insertion alone asks only while nobody else does.
+        self.pushes.d.next = self.insertions.push.val() | self.solo.push.val();
+        self.pushed.d.next = self.insertions.bundle.val();
+        if self.solo.push.val() {
+            self.pushed.d.next = self.solo.bundle.val();
+        }
+        self.write_port.commit.next = self.insertions.write.val();
+        self.write_port.solo.next = self.solo.write.val();
+        self.write_port.seed.next = self.seeder.write.val();
+        self.events.next = self.insertions.events.val();
+        self.events.next.solo_test = self.solo.tests.val();
+        self.events.next.flip = self.solo.flips.val();
+        self.events.next.is_issuing = self.pipeline.is_issuing.val();
+        self.events.next.is_writing = self.write_port.write.val().valid;
+        if self.reset.val() {
+            self.pushes.d.next = false;
+        }
+    }
 }

@@ -4,16 +4,27 @@
 //! |---|---|---|---|
 //! | `clock`, `reset`, `clears` | in | 1 | reset and clear forget the first triangle |
 //! | `infinite` | in | 15 | the infinite vertex, a constant |
-//! | `prepares` | in | 1 | the first point is taken: a record of vertices 0, 1, 2 is written for the look |
-//! | `is_seed` | in | 1 | the third point is taken, and a look at record 0 is under way; held until `ends` |
-//! | `done`, `verdict` | in | 1, Verdict | the look completes |
+//! | `prepares` | in | 1 | the first point has just come: a record of vertices 0, 1, 2 is written for the look |
+//! | `looks`, `verdict` | in | 1, Verdict | the visit that completes is the look at that record for the third point |
 //! | `seeded`, `collinear` | out | 1 | the first triangle stands; the first three points are collinear |
-//! | `seeds`, `ends` | out | 1 | the last record is written at this edge; or the points are found collinear |
+//! | `seeds` | out | 1 | the last record is written at this edge |
+//! | `is_at_work` | out | 1 | the records are being written |
 //! | `write` | out | Write | a record, registered |
 //!
 //! 1. The look says on which side of vertices 0, 1 the third point lies; collinear points write nothing more.
 //!
-//! Latency: the look, and 4 clocks.
+//! Latency: 4 clocks from the look to `seeds`.
+//!
+//! Three points that turn left:
+//! ```text
+//! prepares        /^^\____________________________________________
+//! looks           _________/^^\___________________________________
+//! is_at_work      ____________/^^^^^^^^^^^\_______________________
+//! write.valid     ___/^^\________/^^^^^^^^^^^\____________________
+//! write.id          .  0  .  .  .  0  1  2  3  .  .  .  .  .  .  .
+//! seeds           _____________________/^^\_______________________
+//! seeded          ________________________/^^^^^^^^^^^^^^^^^^^^^^^
+//! ```
 
 use super::{SeedWrites, Verdict, Write};
 use rust_hdl_core::prelude::*;
@@ -30,12 +41,10 @@ pub struct Seeder {
     pub clears: Signal<In, Bit>,
     /// The infinite vertex.
     pub infinite: Signal<In, Bits<15>>,
-    /// The first point is taken.
+    /// The first point has come.
     pub prepares: Signal<In, Bit>,
-    /// The third point is at work.
-    pub is_seed: Signal<In, Bit>,
     /// The look completes.
-    pub done: Signal<In, Bit>,
+    pub looks: Signal<In, Bit>,
     /// What it found out.
     pub verdict: Signal<In, Verdict>,
     /// The first triangle stands.
@@ -44,8 +53,8 @@ pub struct Seeder {
     pub collinear: Signal<Out, Bit>,
     /// The last record is written.
     pub seeds: Signal<Out, Bit>,
-    /// The seed is over.
-    pub ends: Signal<Out, Bit>,
+    /// The records are being written.
+    pub is_at_work: Signal<Out, Bit>,
     /// A record.
     pub write: Signal<Out, Write>,
     step: DFF<Bits<3>>,
@@ -54,8 +63,7 @@ pub struct Seeder {
     turns_left: DFF<Bit>,
     request: DFF<Write>,
     writes: SeedWrites,
-    looks: Signal<Local, Bit>,
-    is_straight: Signal<Local, Bit>,
+    is_writing: Signal<Local, Bit>,
     is_last: Signal<Local, Bit>,
     look_step: Signal<Local, Bits<3>>,
     last_step: Signal<Local, Bits<3>>,
@@ -69,34 +77,33 @@ impl Logic for Seeder {
         self.look_step.next = 0.into();
         self.last_step.next = 4.into();
         self.one.next = 1.into();
-        self.looks.next = self.is_seed.val() & (self.step.q.val() == self.look_step.val());
-        self.is_straight.next = self.looks.val() & self.done.val() & self.verdict.val().is_straight;
-        self.is_last.next = self.is_seed.val() & (self.step.q.val() == self.last_step.val());
+        self.is_writing.next = self.step.q.val() != self.look_step.val();
+        self.is_last.next = self.step.q.val() == self.last_step.val();
         self.seeded.next = self.is_seeded.q.val();
         self.collinear.next = self.is_collinear.q.val();
         self.seeds.next = self.is_last.val();
-        self.ends.next = self.is_straight.val() | self.is_last.val();
+        self.is_at_work.next = self.is_writing.val();
 
         self.writes.step.next = self.step.q.val();
         self.writes.turns_left.next = self.turns_left.q.val();
         self.writes.infinite.next = self.infinite.val();
         self.request.d.next = self.writes.write.val();
-        self.request.d.next.valid = self.prepares.val() | (self.is_seed.val() & (!self.looks.val()));
+        self.request.d.next.valid = self.is_writing.val() | self.prepares.val();
         self.write.next = self.request.q.val();
 
-        if self.looks.val() {
-            self.turns_left.d.next = self.verdict.val().is_left;
-        }
-        if self.is_seed.val() & (self.done.val() | (!self.looks.val())) {
+        if self.is_writing.val() {
             self.step.d.next = self.step.q.val() + self.one.val();
-        }
-        if self.is_straight.val() {
-            self.is_collinear.d.next = true;
-            self.step.d.next = 0.into();
         }
         if self.is_last.val() {
             self.is_seeded.d.next = true;
             self.step.d.next = 0.into();
+        }
+        if self.looks.val() {
+            self.turns_left.d.next = self.verdict.val().is_left;
+            self.is_collinear.d.next = self.verdict.val().is_straight;
+            if !self.verdict.val().is_straight {
+                self.step.d.next = 1.into();
+            }
         }
         if self.clears.val() | self.reset.val() {
             self.is_seeded.d.next = false;

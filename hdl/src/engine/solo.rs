@@ -1,20 +1,22 @@
-//! Insertion alone, in constant state: splits the located triangle into three, then flips once round the star.
+//! Insertion alone, in constant state: locates the point, splits the triangle into three, then flips once round the star.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | reset ends the insertion |
-//! | `starts` | in | 1 | no visit is out and no lock held; held until `ends` |
-//! | `p`, `records` | in | 15 | the new vertex and the next new id |
-//! | `root_id`, `root` | in | 15, Turned | the located triangle |
+//! | `starts` | in | 1 | begin at this edge: no visit is out and no lock held; only while idle |
+//! | `owner`, `p`, `start` | in | 5, 15, 15 | taken at `starts`: the context, the new vertex, where the walk begins |
+//! | `records` | in | 15 | the next new id |
 //! | `done`, `token`, `turned`, `verdict` | in | | the visit that completes |
-//! | `push`, `bundle` | out | 1, Bundle | a visit to make |
+//! | `push`, `bundle` | out | 1, Bundle | a visit to make; it bears the owner |
 //! | `write` | out | Write | a record or a link, registered |
-//! | `tests`, `flips`, `ends` | out | 1 | a test or a flip is finished, or the insertion, at this edge |
+//! | `tests`, `flips` | out | 1 | a test or a flip is finished at this edge |
+//! | `ends`, `inserts` | out | 1 | the insertion is over at this edge; it has inserted its point, which is no duplicate |
+//! | `is_at_work` | out | 1 | every visit that completes is its own |
 //!
-//! 1. Its visits set no locks, and at most one is out.
-//! 2. The star triangle at work has `p` in slot 0: `v = (p, a, b)`, `n = (outer, after, preceding)`.
-//! 3. While the triangle outside is in conflict, the edge is flipped and the same position is tested again; otherwise the link
-//!    that leads back is mended and the next star triangle is taken. It ends where the round began.
+//! 1. The mesh has changed since the attempt that overflowed, so the point is located again, from the triangle that held it then.
+//! 2. Its visits set no locks, and at most one is out.
+//! 3. While the triangle outside the star triangle at work is in conflict, the edge is flipped and the same position is tested again;
+//!    otherwise the link that leads back is mended and the next star triangle is taken. It ends where the round began.
 //!
 //! ```text
 //!        apex                  apex
@@ -23,12 +25,12 @@
 //!        \  /                  \| /
 //!         p                     p
 //! ```
-//! Latency, with `f` flips: `3 f + 8` visits one after the other (2 mends, `f + 3` fetches, `2 f + 3` tests), each a clock more than the
-//! visit latency, and `3 f + 4` clocks.
+//! Latency, with `w` triangles walked through and `f` flips: `w + 3 f + 8` visits one after the other (2 mends, `f + 3` fetches,
+//! `2 f + 3` tests), each a clock more than the visit latency, and `3 f + 4` clocks.
 //!
 //! Source: Lawson's flips, in the order of the star.
 
-use super::{Bundle, SoloVisit, SoloWrites, Token, Turned, Verdict, Write};
+use super::{Bundle, SoloStar, Token, Turned, Verdict, Write};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -37,7 +39,9 @@ use rust_hdl_widgets::prelude::*;
 pub enum SoloState {
     /// Awaits an insertion.
     Idle,
-    /// Writes the three records that replace the root.
+    /// Walks to the triangle that holds the point.
+    Locate,
+    /// Writes the three records that replace it.
     Split,
     /// Mends the links of the outer neighbours of the second and third.
     Mend,
@@ -56,16 +60,16 @@ pub struct Solo {
     pub clock: Signal<In, Clock>,
     /// Ends the insertion.
     pub reset: Signal<In, Bit>,
-    /// The core is alone.
+    /// Begin.
     pub starts: Signal<In, Bit>,
+    /// The context.
+    pub owner: Signal<In, Bits<5>>,
     /// The new vertex.
     pub p: Signal<In, Bits<15>>,
+    /// Where the walk begins.
+    pub start: Signal<In, Bits<15>>,
     /// The next new id.
     pub records: Signal<In, Bits<15>>,
-    /// The located triangle.
-    pub root_id: Signal<In, Bits<15>>,
-    /// Its record.
-    pub root: Signal<In, Turned>,
     /// A visit completes.
     pub done: Signal<In, Bit>,
     /// The visit.
@@ -84,32 +88,31 @@ pub struct Solo {
     pub tests: Signal<Out, Bit>,
     /// A flip is finished.
     pub flips: Signal<Out, Bit>,
-    /// The insertion is finished.
+    /// The insertion is over.
     pub ends: Signal<Out, Bit>,
+    /// The point is in the mesh.
+    pub inserts: Signal<Out, Bit>,
+    /// The visits that complete are its own.
+    pub is_at_work: Signal<Out, Bit>,
     state: DFF<SoloState>,
     step: DFF<Bits<2>>,
     awaits: DFF<Bit>,
-    id: DFF<Bits<15>>,
-    a: DFF<Bits<15>>,
-    b: DFF<Bits<15>>,
-    outer: DFF<Bits<15>>,
-    after: DFF<Bits<15>>,
-    preceding: DFF<Bits<15>>,
-    /// The link by which `outer` leads back.
-    back: DFF<Bits<15>>,
-    apex: DFF<Bits<15>>,
-    /// The links of `outer` that the flip hands on.
-    apex_after_a: DFF<Bits<15>>,
-    apex_before_b: DFF<Bits<15>>,
-    request: DFF<Write>,
-    visit: SoloVisit,
-    writes: SoloWrites,
-    is_visiting: Signal<Local, Bit>,
-    is_split: Signal<Local, Bit>,
+    at_work_for: DFF<Bits<5>>,
+    vertex: DFF<Bits<15>>,
+    root_id: DFF<Bits<15>>,
+    root: DFF<Turned>,
+    star: SoloStar,
+    is_locate: Signal<Local, Bit>,
+    is_mend: Signal<Local, Bit>,
+    is_fetch: Signal<Local, Bit>,
+    is_test: Signal<Local, Bit>,
     is_flip: Signal<Local, Bit>,
+    is_visiting: Signal<Local, Bit>,
     is_last_step: Signal<Local, Bit>,
     is_second_mend: Signal<Local, Bit>,
+    is_duplicate: Signal<Local, Bit>,
     rests: Signal<Local, Bit>,
+    inserts_now: Signal<Local, Bit>,
     third_step: Signal<Local, Bits<2>>,
     one: Signal<Local, Bits<2>>,
 }
@@ -117,69 +120,77 @@ pub struct Solo {
 impl Logic for Solo {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, step, awaits, id, a, b, outer, after, preceding, back);
-        dff_setup!(self, clock, apex, apex_after_a, apex_before_b, request);
+        dff_setup!(self, clock, state, step, awaits, at_work_for, vertex, root_id, root);
+        clock!(self, clock, star);
         self.one.next = 1.into();
         self.third_step.next = 2.into();
+        self.is_locate.next = self.state.q.val() == SoloState::Locate;
+        self.is_mend.next = self.state.q.val() == SoloState::Mend;
+        self.is_fetch.next = self.state.q.val() == SoloState::Fetch;
+        self.is_test.next = self.state.q.val() == SoloState::Test;
+        self.is_flip.next = self.state.q.val() == SoloState::Flip;
         self.is_second_mend.next = self.step.q.val() == self.one.val();
         self.is_last_step.next = self.step.q.val() == self.third_step.val();
+        self.is_at_work.next = self.state.q.val() != SoloState::Idle;
 
-        self.visit.is_mend.next = self.state.q.val() == SoloState::Mend;
-        self.visit.is_second.next = self.is_second_mend.val();
-        self.visit.is_fetch.next = self.state.q.val() == SoloState::Fetch;
-        self.visit.root_id.next = self.root_id.val();
-        self.visit.root.next = self.root.val();
-        self.visit.id.next = self.id.q.val();
-        self.visit.outer.next = self.outer.q.val();
-        self.visit.back.next = self.back.q.val();
-        self.bundle.next = self.visit.bundle.val();
-        self.is_visiting.next = (self.state.q.val() == SoloState::Mend)
-            | (self.state.q.val() == SoloState::Fetch)
-            | (self.state.q.val() == SoloState::Test);
+        self.star.reset.next = self.reset.val();
+        self.star.owner.next = self.at_work_for.q.val();
+        self.star.is_locate.next = self.is_locate.val();
+        self.star.is_split.next = self.state.q.val() == SoloState::Split;
+        self.star.is_mend.next = self.is_mend.val();
+        self.star.is_fetch.next = self.is_fetch.val();
+        self.star.is_test.next = self.is_test.val();
+        self.star.is_flip.next = self.is_flip.val();
+        self.star.step.next = self.step.q.val();
+        self.star.is_last_flip.next = self.is_flip.val() & self.is_last_step.val();
+        self.star.p.next = self.vertex.q.val();
+        self.star.records.next = self.records.val();
+        self.star.root_id.next = self.root_id.q.val();
+        self.star.root.next = self.root.q.val();
+        self.star.done.next = self.done.val();
+        self.star.token.next = self.token.val();
+        self.star.turned.next = self.turned.val();
+        self.star.conflict.next = self.verdict.val().conflict;
+        self.bundle.next = self.star.bundle.val();
+        self.write.next = self.star.write.val();
+
+        self.is_visiting.next = self.is_locate.val() | self.is_mend.val() | self.is_fetch.val() | self.is_test.val();
         self.push.next = self.is_visiting.val() & (!self.awaits.q.val());
         self.awaits.d.next = self.is_visiting.val() & (!self.done.val());
 
-        self.writes.step.next = self.step.q.val();
-        self.is_split.next = self.state.q.val() == SoloState::Split;
-        self.writes.is_split.next = self.is_split.val();
-        self.writes.p.next = self.p.val();
-        self.writes.records.next = self.records.val();
-        self.writes.root_id.next = self.root_id.val();
-        self.writes.root.next = self.root.val();
-        self.writes.id.next = self.id.q.val();
-        self.writes.a.next = self.a.q.val();
-        self.writes.b.next = self.b.q.val();
-        self.writes.outer.next = self.outer.q.val();
-        self.writes.after.next = self.after.q.val();
-        self.writes.preceding.next = self.preceding.q.val();
-        self.writes.apex.next = self.apex.q.val();
-        self.writes.apex_after_a.next = self.apex_after_a.q.val();
-        self.writes.apex_before_b.next = self.apex_before_b.q.val();
-        self.writes.is_mend.next = self.state.q.val() == SoloState::Mend;
-        self.writes.is_test.next = self.state.q.val() == SoloState::Test;
-        self.writes.visited.next = self.token.val().u;
-        self.writes.slot.next = self.turned.val().slot;
-        self.write.next = self.request.q.val();
-        self.request.d.next.valid = false;
-
-        self.rests.next = (self.state.q.val() == SoloState::Test) & self.done.val() & (!self.verdict.val().conflict);
-        self.tests.next = (self.state.q.val() == SoloState::Test) & self.done.val();
-        self.is_flip.next = self.state.q.val() == SoloState::Flip;
+        self.tests.next = self.is_test.val() & self.done.val();
         self.flips.next = self.is_flip.val() & self.is_last_step.val();
-        self.ends.next = self.rests.val() & (self.b.q.val() == self.root.val().v1);
+        self.rests.next = self.is_test.val() & self.done.val() & (!self.verdict.val().conflict);
+        self.inserts_now.next = self.rests.val() & self.star.is_round.val();
+        self.inserts.next = self.inserts_now.val();
+        self.is_duplicate.next = self.verdict.val().located & self.verdict.val().falls_onto_corner;
+        self.ends.next = self.inserts_now.val() | (self.is_locate.val() & self.done.val() & self.is_duplicate.val());
 
-        if self.is_split.val() | self.is_flip.val() {
-            self.request.d.next = self.writes.write.val();
-            self.step.d.next = self.step.q.val() + self.one.val();
-        }
         match self.state.q.val() {
             SoloState::Idle => {
-                self.step.d.next = 0.into();
                 if self.starts.val() {
-                    self.state.d.next = SoloState::Split;
+                    self.at_work_for.d.next = self.owner.val();
+                    self.vertex.d.next = self.p.val();
+                    self.root_id.d.next = self.start.val();
+                    self.state.d.next = SoloState::Locate;
+                }
+            }
+            SoloState::Locate => {
+                self.step.d.next = 0.into();
+                if self.done.val() {
+                    self.root.d.next = self.turned.val();
+                    if self.verdict.val().located {
+                        self.state.d.next = SoloState::Split;
+                    } else {
+                        self.root_id.d.next = self.verdict.val().walk_next;
+                    }
+                    if self.is_duplicate.val() {
+                        self.state.d.next = SoloState::Idle;
+                    }
                 }
             }
             SoloState::Split => {
+                self.step.d.next = self.step.q.val() + self.one.val();
                 if self.is_last_step.val() {
                     self.step.d.next = 0.into();
                     self.state.d.next = SoloState::Mend;
@@ -187,50 +198,32 @@ impl Logic for Solo {
             }
             SoloState::Mend => {
                 if self.done.val() {
-                    self.request.d.next = self.writes.write.val();
                     self.step.d.next = 1.into();
                     if self.is_second_mend.val() {
-                        self.id.d.next = self.root_id.val();
                         self.state.d.next = SoloState::Fetch;
                     }
                 }
             }
             SoloState::Fetch => {
-                self.back.d.next = self.id.q.val();
                 if self.done.val() {
-                    self.a.d.next = self.turned.val().v1;
-                    self.b.d.next = self.turned.val().v2;
-                    self.outer.d.next = self.turned.val().n0;
-                    self.after.d.next = self.turned.val().n1;
-                    self.preceding.d.next = self.turned.val().n2;
                     self.state.d.next = SoloState::Test;
                 }
             }
             SoloState::Test => {
                 self.step.d.next = 0.into();
-                self.apex.d.next = self.turned.val().v0;
-                self.apex_after_a.d.next = self.turned.val().n1;
-                self.apex_before_b.d.next = self.turned.val().n2;
-                if self.done.val() & self.verdict.val().conflict {
+                if self.done.val() {
                     self.state.d.next = SoloState::Flip;
                 }
                 if self.rests.val() {
-                    if self.back.q.val() != self.id.q.val() {
-                        self.request.d.next = self.writes.write.val();
-                    }
-                    self.id.d.next = self.after.q.val();
                     self.state.d.next = SoloState::Fetch;
-                    if self.b.q.val() == self.root.val().v1 {
-                        self.state.d.next = SoloState::Idle;
-                    }
+                }
+                if self.inserts_now.val() {
+                    self.state.d.next = SoloState::Idle;
                 }
             }
             SoloState::Flip => {
+                self.step.d.next = self.step.q.val() + self.one.val();
                 if self.is_last_step.val() {
-                    self.b.d.next = self.apex.q.val();
-                    self.after.d.next = self.outer.q.val();
-                    self.back.d.next = self.outer.q.val();
-                    self.outer.d.next = self.apex_after_a.q.val();
                     self.state.d.next = SoloState::Test;
                 }
             }
@@ -241,7 +234,6 @@ impl Logic for Solo {
         if self.reset.val() {
             self.state.d.next = SoloState::Idle;
             self.awaits.d.next = false;
-            self.request.d.next.valid = false;
         }
     }
 }

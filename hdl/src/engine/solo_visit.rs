@@ -2,8 +2,10 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `is_mend`, `is_second`, `is_fetch` | in | 1 | an outer neighbour of the split, the second one; the star triangle at work; a test if neither |
-//! | `root_id`, `root` | in | 15, Turned | the located triangle |
+//! | `owner` | in | 5 | the context |
+//! | `is_locate`, `is_fetch` | in | 1 | the triangle that a walk has come to; the star triangle at work |
+//! | `is_mend`, `is_second` | in | 1 | an outer neighbour of the split, the second one; a test if nothing else |
+//! | `root_id`, `root` | in | 15, Turned | the located triangle, or the one that the walk has come to |
 //! | `id`, `outer`, `back` | in | 15 | the star triangle at work, the one outside, and the link by which that leads back |
 //! | `bundle` | out | Bundle | the visit; it sets no lock |
 //!
@@ -15,6 +17,10 @@ use rust_hdl_core::prelude::*;
 /// Visits of an insertion alone; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloVisit {
+    /// The context.
+    pub owner: Signal<In, Bits<5>>,
+    /// The walk is under way.
+    pub is_locate: Signal<In, Bit>,
     /// An outer neighbour is visited.
     pub is_mend: Signal<In, Bit>,
     /// The second one.
@@ -40,8 +46,8 @@ impl Logic for SoloVisit {
     fn update(&mut self) {
         self.bundle.next.is_pair = false;
         self.bundle.next.is_triple = false;
-        self.bundle.next.owner = 0.into();
-        self.bundle.next.rotates = !self.is_fetch.val();
+        self.bundle.next.owner = self.owner.val();
+        self.bundle.next.rotates = (!self.is_fetch.val()) & (!self.is_locate.val());
         self.bundle.next.locks = false;
         self.bundle.next.x = 0.into();
         self.bundle.next.after = 0.into();
@@ -54,6 +60,10 @@ impl Logic for SoloVisit {
         if self.is_fetch.val() {
             self.bundle.next.f = 0.into();
             self.bundle.next.u = self.id.val();
+        }
+        if self.is_locate.val() {
+            self.bundle.next.f = 0.into();
+            self.bundle.next.u = self.root_id.val();
         }
         if self.is_mend.val() {
             self.bundle.next.f = self.root_id.val();

@@ -15,6 +15,7 @@ use crate::leaf::{
 use crate::predicate::{
     CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
 };
+use crate::top::{wrapper, Core, CORE_NAME};
 
 /// A design that cannot become Verilog.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,16 +89,17 @@ fn block<U: Block>(mut uut: U, name: &str) -> (String, String) {
     }
 }
 
-/// The whole Verilog of a configuration: the core and the ANSI wrapper [`CORE_NAME`] around it.
+/// The whole Verilog of a configuration: the core and the ANSI wrapper [`CORE_NAME`](crate::top::CORE_NAME) around it.
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///
 /// # Errors
 /// If a parameter is out of range, or the design is not fit for export.
 pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
-    // Follows when the engine is whole again.
-    let _ = (config.check()?, with_probe);
-    Err(ExportError::OpenSignals(vec!["core".into()]))
+    let mut uut = Core::new(config)?;
+    uut.connect_all();
+    let inside = format!("{CORE_NAME}_logic");
+    Ok(format!("{}{}", verilog(&uut, &inside)?, wrapper(&inside, with_probe)))
 }
 
 /// Every block that is tested alone: the name of its root module, and its Verilog.

@@ -3,11 +3,12 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `opcode`, `first`, `count` | in | 8, 32, 32 | the command and its arguments |
-//! | `capacity`, `ring` | in | 15, 7 | parameters of the core, constants |
-//! | `collinear` | in | 1 | the first three points are collinear |
+//! | `is_refused` | in | 1 | it is a `Clear` that asks for more contexts than there are |
+//! | `capacity`, `contexts`, `ring` | in | 15, 5, 7 | parameters of the core, constants |
+//! | `collinear`, `stuck` | in | 1 | the first three points are collinear; nothing is finished any more |
 //! | `arrived`, `refused`, `insertions`, `duplicates`, `records` | in | | counts of the mesh |
-//! | `index` | in | 4 | word of the payload |
-//! | `counter` | in | 32 | the counter of that number |
+//! | `index` | in | 7 | word of the payload |
+//! | `counter`, `latency` | in | 32 | the counter, and the bucket of the histogram, of that number |
 //! | `header` | out | 32 | first word of the answer |
 //! | `length` | out | 32 | words of the payload |
 //! | `word` | out | 32 | word `index` of the payload |
@@ -16,8 +17,8 @@
 //! Latency: none (combinational).
 
 use incircle_protocol::{
-    Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, MAGIC,
-    PROTOCOL_VERSION,
+    Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS,
+    MAGIC, PROTOCOL_VERSION,
 };
 use rust_hdl_core::prelude::*;
 
@@ -30,12 +31,18 @@ pub struct AnswerWords {
     pub first: Signal<In, Bits<32>>,
     /// Records of a read.
     pub count: Signal<In, Bits<32>>,
+    /// The command asks for too many contexts.
+    pub is_refused: Signal<In, Bit>,
     /// Points the core holds.
     pub capacity: Signal<In, Bits<15>>,
+    /// Contexts it has.
+    pub contexts: Signal<In, Bits<5>>,
     /// Entries of a boundary list.
     pub ring: Signal<In, Bits<7>>,
     /// The start was collinear.
     pub collinear: Signal<In, Bit>,
+    /// Nothing is finished any more.
+    pub stuck: Signal<In, Bit>,
     /// Points with an id.
     pub arrived: Signal<In, Bits<15>>,
     /// Points refused.
@@ -47,9 +54,11 @@ pub struct AnswerWords {
     /// Records.
     pub records: Signal<In, Bits<15>>,
     /// Word of the payload.
-    pub index: Signal<In, Bits<4>>,
+    pub index: Signal<In, Bits<7>>,
     /// Counter of that number.
     pub counter: Signal<In, Bits<32>>,
+    /// Bucket of that number.
+    pub latency: Signal<In, Bits<32>>,
     /// First word of the answer.
     pub header: Signal<Out, Bits<32>>,
     /// Words of the payload.
@@ -82,13 +91,17 @@ const _: () = assert!(
         && Opcode::Insert as u8 == 3
         && Opcode::Read as u8 == 4
         && Opcode::Counters as u8 == 5
+        && Opcode::Latencies as u8 == 6
         && Status::UnknownOpcode as u8 == 1
         && Status::BadRange as u8 == 2
         && Status::Collinear as u8 == 3
         && Status::Full as u8 == 4
+        && Status::BadContexts as u8 == 5
+        && Status::Stuck as u8 == 6
         && IDENTITY_WORDS == 7
         && INSERT_REPORT_WORDS == 5
         && COUNTER_WORDS == 25
+        && LATENCY_BUCKETS == 128
         && MAGIC == 0x696e_4369
         && PROTOCOL_VERSION == 0x0001_0001
         && CORE_VERSION == 0x0000_0200
@@ -131,7 +144,7 @@ impl Logic for AnswerWords {
                 self.report.next = bit_cast::<32, 15>(self.records.val());
             }
             5 => {
-                self.identity.next = 1.into();
+                self.identity.next = bit_cast::<32, 5>(self.contexts.val());
                 self.report.next = 0.into();
             }
             _ => {
@@ -150,7 +163,9 @@ impl Logic for AnswerWords {
                 self.word.next = self.identity.val();
             }
             2 => {
-                self.length.next = 0.into();
+                if self.is_refused.val() {
+                    self.status.next = 5.into();
+                }
             }
             3 => {
                 self.length.next = 5.into();
@@ -160,6 +175,9 @@ impl Logic for AnswerWords {
                 }
                 if self.collinear.val() {
                     self.status.next = 3.into();
+                }
+                if self.stuck.val() {
+                    self.status.next = 6.into();
                 }
             }
             4 => {
@@ -172,6 +190,10 @@ impl Logic for AnswerWords {
             }
             5 => {
                 self.length.next = 25.into();
+            }
+            6 => {
+                self.length.next = 128.into();
+                self.word.next = self.latency.val();
             }
             _ => {
                 self.status.next = 1.into();

@@ -5,8 +5,9 @@
 //! | `is_command`, `is_argument`, `is_points` | in | 1 | what the next word means |
 //! | `sweeps` | in | 1 | the core is not ready for commands yet |
 //! | `none_is_left` | in | 1 | all points of the command have come |
-//! | `point_waits` | in | 1 | the point before has not gone to the engine |
+//! | `came` | in | 1 | the point before is being stored |
 //! | `arrived`, `seeded`, `collinear` | in | 15, 1, 1 | points so far, and what became of the first three |
+//! | `stuck` | in | 1 | the core is stuck: nothing is waited for |
 //! | `ready` | out | 1 | a word is taken |
 //! | `awaits_point` | out | 1 | a point may come |
 //!
@@ -29,14 +30,16 @@ pub struct CommandGate {
     pub sweeps: Signal<In, Bit>,
     /// All points have come.
     pub none_is_left: Signal<In, Bit>,
-    /// A point waits for the engine.
-    pub point_waits: Signal<In, Bit>,
+    /// The point before is being stored.
+    pub came: Signal<In, Bit>,
     /// Points so far.
     pub arrived: Signal<In, Bits<15>>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
     /// The first three points are collinear.
     pub collinear: Signal<In, Bit>,
+    /// The core is stuck.
+    pub stuck: Signal<In, Bit>,
     /// A word is taken.
     pub ready: Signal<Out, Bit>,
     /// A point may come.
@@ -49,15 +52,17 @@ impl Logic for CommandGate {
     #[hdl_gen]
     fn update(&mut self) {
         self.three.next = 3.into();
-        self.start_is_open.next =
-            (self.arrived.val() == self.three.val()) & (!self.seeded.val()) & (!self.collinear.val());
+        self.start_is_open.next = (self.arrived.val() == self.three.val())
+            & (!self.seeded.val())
+            & (!self.collinear.val())
+            & (!self.stuck.val());
         self.awaits_point.next = self.is_points.val() & (!self.none_is_left.val());
         self.ready.next = self.is_argument.val();
         if self.is_command.val() {
             self.ready.next = !self.sweeps.val();
         }
         if self.is_points.val() {
-            self.ready.next = (!self.none_is_left.val()) & (!self.point_waits.val()) & (!self.start_is_open.val());
+            self.ready.next = (!self.none_is_left.val()) & (!self.came.val()) & (!self.start_is_open.val());
         }
     }
 }

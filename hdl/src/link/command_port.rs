@@ -2,16 +2,17 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset awaits a command |
-//! | `capacity` | in | 15 | points the core holds, a constant |
+//! | `clock`, `reset` | in | 1 | reset awaits a command; all contexts work |
+//! | `capacity`, `built` | in | 15, 5 | points the core holds, and contexts it has; constants |
 //! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
-//! | `sweeps` | in | 1 | the core is not ready for commands yet |
+//! | `sweeps` | in | 1 | memories are being cleared: the core is not ready for commands |
 //! | `seeded`, `collinear` | in | 1 | what became of the first three points |
-//! | `is_quiet` | in | 1 | no point waits, the engine is idle, no lock is held |
-//! | `takes_point` | in | 1 | the engine takes the waiting point at this edge |
-//! | `point_valid`, `point_id`, `point` | out | 1, 15, 32 | the waiting point: x in the low half, y in the high |
-//! | `vertex_enable` | out | 1 | `point` is to be written into the vertex memory at this edge |
+//! | `stuck` | in | 1 | nothing is finished any more: points are refused, and nothing is waited for |
+//! | `is_quiet` | in | 1 | every point that has come is finished, and no lock is held |
+//! | `came`, `came_id`, `point` | out | 1, 15, 32 | a point has come, and is written into the vertex memory at this edge: x in the low half, y in the high |
 //! | `clears` | out | 1 | forget the mesh at this edge |
+//! | `contexts` | out | 5 | contexts that work |
+//! | `is_refused` | out | 1 | the last command is a `Clear` that asks for more contexts than there are |
 //! | `answers` | out | 1 | an answer is due, until `answer_ends` |
 //! | `opcode`, `first`, `count` | out | 8, 32, 32 | the command and its arguments |
 //! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
@@ -19,24 +20,18 @@
 //! | `inserting`, `reading`, `awaits_point` | out | 1 | what the cycle counters count |
 //!
 //! 1. `command_ready` depends on registers only and does not wait for `command_valid`.
-//! 2. A point is taken when the one before has gone to the engine; the fourth waits until the first three are known to span a
-//!    triangle.
+//! 2. A point is taken when the one before has been stored; the fourth waits until the first three are known to span a triangle.
+//! 3. A `Clear` for no number of contexts is one for all. One for too many changes nothing, and `clears` stays low.
+//! 4. The answer to a `Clear` is due when `clears` is over.
 //!
-//! Latency: a point accepted at an edge waits at the engine in the next clock.
+//! Latency: a point accepted at an edge is stored at the next; one is taken every second clock.
 //!
-//! An insertion of two points into an empty core; the engine works a clock on each:
+//! An insertion of three points into an empty core:
 //! ```text
-//! sweeps          /^^^^^\_________________________________________
-//! command_valid   /^^^^^^^^^^^^^^^^^^^^\__________________________
-//! command_ready   ______/^^^^^^^^\__/^^\_________________/^^^^^^^^
-//! point_valid     _______________/^^\__/^^\_______________________
-//! point_id          .  .  .  .  .  0  .  1  .  .  .  .  .  .  .  .
-//! takes_point     _______________/^^\__/^^\_______________________
-//! is_quiet        /^^^^^^^^^^^^^^\___________/^^^^^^^^^^^^^^^^^^^^
-//! answers         ______________________________/^^^^^^^^\________
+//! WAVE
 //! ```
 
-use super::{CommandGate, PointSlot};
+use super::{ClearCommand, CommandGate, PointSlot};
 use incircle_protocol::Opcode;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -67,6 +62,8 @@ pub struct CommandPort {
     pub reset: Signal<In, Bit>,
     /// Points the core holds.
     pub capacity: Signal<In, Bits<15>>,
+    /// Contexts it has.
+    pub built: Signal<In, Bits<5>>,
     /// A word is offered.
     pub command_valid: Signal<In, Bit>,
     /// A word is taken.
@@ -79,20 +76,22 @@ pub struct CommandPort {
     pub seeded: Signal<In, Bit>,
     /// The first three points are collinear.
     pub collinear: Signal<In, Bit>,
+    /// Nothing is finished any more.
+    pub stuck: Signal<In, Bit>,
     /// The engine has finished.
     pub is_quiet: Signal<In, Bit>,
-    /// The waiting point is taken.
-    pub takes_point: Signal<In, Bit>,
-    /// A point waits.
-    pub point_valid: Signal<Out, Bit>,
+    /// A point has come.
+    pub came: Signal<Out, Bit>,
     /// Its vertex id.
-    pub point_id: Signal<Out, Bits<15>>,
+    pub came_id: Signal<Out, Bits<15>>,
     /// Its coordinates.
     pub point: Signal<Out, Bits<32>>,
-    /// Write it into the vertex memory.
-    pub vertex_enable: Signal<Out, Bit>,
     /// Forget the mesh.
     pub clears: Signal<Out, Bit>,
+    /// Contexts that work.
+    pub contexts: Signal<Out, Bits<5>>,
+    /// The last command is a `Clear` for too many.
+    pub is_refused: Signal<Out, Bit>,
     /// An answer is due.
     pub answers: Signal<Out, Bit>,
     /// The command.
@@ -121,45 +120,42 @@ pub struct CommandPort {
     command: DFF<Bits<8>>,
     first_word: DFF<Bits<32>>,
     left: DFF<Bits<32>>,
-    clearing: DFF<Bit>,
     is_inserting: DFF<Bit>,
     is_reading: DFF<Bit>,
     slot: PointSlot,
     gate: CommandGate,
+    clear: ClearCommand,
     accepts: Signal<Local, Bit>,
     is_last: Signal<Local, Bit>,
     code: Signal<Local, Bits<8>>,
     is_insert: Signal<Local, Bit>,
     read_code: Signal<Local, Bits<8>>,
     insert_code: Signal<Local, Bits<8>>,
-    clear_code: Signal<Local, Bits<8>>,
     none_left: Signal<Local, Bits<32>>,
     one: Signal<Local, Bits<32>>,
 }
 
 // The kernel names opcodes by number, because rust-hdl takes literals only; a change in the protocol must come here.
-const _: () = assert!(
-    Opcode::Clear as u8 == 2 && Opcode::Insert as u8 == 3 && Opcode::Read as u8 == 4,
-    "the opcodes of this block follow the protocol"
-);
+const _: () =
+    assert!(Opcode::Insert as u8 == 3 && Opcode::Read as u8 == 4, "the opcodes of this block follow the protocol");
 
 impl Logic for CommandPort {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, command, first_word, left, clearing, is_inserting, is_reading);
-        clock!(self, clock, slot);
-        self.clear_code.next = 2.into();
+        dff_setup!(self, clock, state, command, first_word, left, is_inserting, is_reading);
+        clock!(self, clock, slot, clear);
         self.insert_code.next = 3.into();
         self.read_code.next = 4.into();
         self.none_left.next = 0.into();
         self.one.next = 1.into();
 
-        self.point_valid.next = self.slot.valid.val();
-        self.point_id.next = self.slot.id.val();
+        self.came.next = self.slot.came.val();
+        self.came_id.next = self.slot.came_id.val();
         self.point.next = self.slot.point.val();
-        self.vertex_enable.next = self.slot.is_new.val();
-        self.clears.next = self.clearing.q.val();
-        self.answers.next = self.state.q.val() == CommandState::Answer;
+        self.clears.next = self.clear.clears.val();
+        self.contexts.next = self.clear.contexts.val();
+        self.is_refused.next = self.clear.is_refused.val();
+        self.answers.next = (self.state.q.val() == CommandState::Answer) & (!self.clear.clears.val());
         self.opcode.next = self.command.q.val();
         self.first.next = self.first_word.q.val();
         self.count.next = self.left.q.val();
@@ -176,24 +172,28 @@ impl Logic for CommandPort {
         self.gate.is_points.next = self.state.q.val() == CommandState::Points;
         self.gate.sweeps.next = self.sweeps.val();
         self.gate.none_is_left.next = self.is_last.val();
-        self.gate.point_waits.next = self.slot.valid.val();
+        self.gate.came.next = self.slot.came.val();
         self.gate.arrived.next = self.slot.arrived.val();
         self.gate.seeded.next = self.seeded.val();
         self.gate.collinear.next = self.collinear.val();
+        self.gate.stuck.next = self.stuck.val();
         self.awaits_point.next = self.gate.awaits_point.val();
         self.command_ready.next = self.gate.ready.val();
         self.accepts.next = self.command_valid.val() & self.gate.ready.val();
+        self.clear.reset.next = self.reset.val();
+        self.clear.built.next = self.built.val();
+        self.clear.accepts.next = self.accepts.val() & (self.state.q.val() == CommandState::Command);
+        self.clear.word.next = self.command_data.val();
         self.slot.reset.next = self.reset.val();
-        self.slot.clears.next = self.clearing.q.val();
+        self.slot.clears.next = self.clear.clears.val();
         self.slot.capacity.next = self.capacity.val();
         self.slot.collinear.next = self.collinear.val();
+        self.slot.stuck.next = self.stuck.val();
         self.slot.accepts.next = self.accepts.val() & (self.state.q.val() == CommandState::Points);
         self.slot.word.next = self.command_data.val();
-        self.slot.takes.next = self.takes_point.val();
         self.code.next = self.command_data.val().get_bits::<8>(24);
         self.is_insert.next = self.command.q.val() == self.insert_code.val();
 
-        self.clearing.d.next = false;
         if (self.state.q.val() != CommandState::Answer) & self.responder_is_idle.val() & self.answer_is_taken.val() {
             self.is_reading.d.next = false;
         }
@@ -201,7 +201,6 @@ impl Logic for CommandPort {
             CommandState::Command => {
                 if self.accepts.val() {
                     self.command.d.next = self.code.val();
-                    self.clearing.d.next = self.code.val() == self.clear_code.val();
                     self.state.d.next = CommandState::Answer;
                     if self.code.val() == self.insert_code.val() {
                         self.state.d.next = CommandState::Count;
@@ -238,7 +237,7 @@ impl Logic for CommandPort {
                 }
             }
             CommandState::Settle => {
-                if self.is_quiet.val() {
+                if self.is_quiet.val() | self.stuck.val() {
                     self.is_inserting.d.next = false;
                     self.state.d.next = CommandState::Answer;
                 }
@@ -254,7 +253,6 @@ impl Logic for CommandPort {
         }
         if self.reset.val() {
             self.state.d.next = CommandState::Command;
-            self.clearing.d.next = false;
             self.is_inserting.d.next = false;
             self.is_reading.d.next = false;
         }

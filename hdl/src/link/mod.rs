@@ -1,6 +1,7 @@
 //! The command and answer streams.
 
 mod answer_words;
+mod clear_command;
 mod command_gate;
 mod command_port;
 mod point_slot;
@@ -8,6 +9,7 @@ mod record_words;
 mod responder;
 
 pub use answer_words::AnswerWords;
+pub use clear_command::ClearCommand;
 pub use command_gate::CommandGate;
 pub use command_port::{CommandPort, CommandState};
 pub use point_slot::PointSlot;

@@ -1,24 +1,22 @@
-//! The place where a point waits for the engine, and the count of points.
+//! The point that has just come, and the count of points.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock`, `reset`, `clears` | in | 1 | reset drops the point; reset and clear set the counts to zero |
 //! | `capacity` | in | 15 | points the core holds, a constant |
-//! | `collinear` | in | 1 | the first three points are collinear: all others are refused |
-//! | `accepts`, `word` | in | 1, 32 | a point comes; only while none waits |
-//! | `takes` | in | 1 | the engine takes the waiting point at this edge |
-//! | `valid`, `id`, `point` | out | 1, 15, 32 | the waiting point |
-//! | `is_new` | out | 1 | it came with the last edge |
+//! | `collinear`, `stuck` | in | 1 | the first three points are collinear, or the core is stuck: points are refused |
+//! | `accepts`, `word` | in | 1, 32 | a point comes |
+//! | `came`, `came_id`, `point` | out | 1, 15, 32 | it came with the last edge and is not refused: it is to be stored at this edge |
 //! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
 //!
-//! 1. `id` and `point` are held until the next point comes.
+//! 1. `came_id` and `point` are held until the next point comes.
 //!
 //! Latency: 1 clock.
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// The waiting point; see the top of this file.
+/// The last point; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PointSlot {
     /// Clock.
@@ -29,30 +27,27 @@ pub struct PointSlot {
     pub clears: Signal<In, Bit>,
     /// Points the core holds.
     pub capacity: Signal<In, Bits<15>>,
-    /// Points are refused.
+    /// The first three points are collinear.
     pub collinear: Signal<In, Bit>,
+    /// The core is stuck.
+    pub stuck: Signal<In, Bit>,
     /// A point comes.
     pub accepts: Signal<In, Bit>,
     /// It.
     pub word: Signal<In, Bits<32>>,
-    /// The waiting point is taken.
-    pub takes: Signal<In, Bit>,
-    /// A point waits.
-    pub valid: Signal<Out, Bit>,
+    /// It came with the last edge.
+    pub came: Signal<Out, Bit>,
     /// Its vertex id.
-    pub id: Signal<Out, Bits<15>>,
+    pub came_id: Signal<Out, Bits<15>>,
     /// Its coordinates.
     pub point: Signal<Out, Bits<32>>,
-    /// It came with the last edge.
-    pub is_new: Signal<Out, Bit>,
     /// Points with an id.
     pub arrived: Signal<Out, Bits<15>>,
     /// Points refused.
     pub refused: Signal<Out, Bits<32>>,
-    waits: DFF<Bit>,
-    waiting_id: DFF<Bits<15>>,
-    waiting_point: DFF<Bits<32>>,
-    came: DFF<Bit>,
+    is_new: DFF<Bit>,
+    last_id: DFF<Bits<15>>,
+    last_point: DFF<Bits<32>>,
     arrivals: DFF<Bits<15>>,
     refusals: DFF<Bits<32>>,
     stores: Signal<Local, Bit>,
@@ -65,27 +60,23 @@ pub struct PointSlot {
 impl Logic for PointSlot {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, waits, waiting_id, waiting_point, came, arrivals, refusals);
+        dff_setup!(self, clock, is_new, last_id, last_point, arrivals, refusals);
         self.one_arrival.next = 1.into();
         self.one.next = 1.into();
-        self.valid.next = self.waits.q.val();
-        self.id.next = self.waiting_id.q.val();
-        self.point.next = self.waiting_point.q.val();
-        self.is_new.next = self.came.q.val();
+        self.came.next = self.is_new.q.val();
+        self.came_id.next = self.last_id.q.val();
+        self.point.next = self.last_point.q.val();
         self.arrived.next = self.arrivals.q.val();
         self.refused.next = self.refusals.q.val();
 
-        self.has_room.next = (!self.collinear.val()) & (self.arrivals.q.val() != self.capacity.val());
+        self.has_room.next =
+            (!self.collinear.val()) & (!self.stuck.val()) & (self.arrivals.q.val() != self.capacity.val());
         self.stores.next = self.accepts.val() & self.has_room.val();
         self.refuses.next = self.accepts.val() & (!self.has_room.val());
-        self.came.d.next = self.stores.val();
-        if self.takes.val() {
-            self.waits.d.next = false;
-        }
+        self.is_new.d.next = self.stores.val();
         if self.stores.val() {
-            self.waits.d.next = true;
-            self.waiting_id.d.next = self.arrivals.q.val();
-            self.waiting_point.d.next = self.word.val();
+            self.last_id.d.next = self.arrivals.q.val();
+            self.last_point.d.next = self.word.val();
             self.arrivals.d.next = self.arrivals.q.val() + self.one_arrival.val();
         }
         if self.refuses.val() {
@@ -96,8 +87,7 @@ impl Logic for PointSlot {
             self.refusals.d.next = 0.into();
         }
         if self.reset.val() {
-            self.waits.d.next = false;
-            self.came.d.next = false;
+            self.is_new.d.next = false;
         }
     }
 }

@@ -4,9 +4,10 @@
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | reset drops an answer |
 //! | `answers` | in | 1 | an answer is due, held until `ends` |
+//! | `sweeps` | in | 1 | counts are being cleared: no answer begins |
 //! | `first` | in | 32 | first record of a read |
 //! | `header`, `length`, `word`, `is_read` | in | | the answer, from `AnswerWords` |
-//! | `index` | out | 4 | word of the payload that is wanted |
+//! | `index` | out | 7 | word of the payload that is wanted |
 //! | `read`, `read_id` | out | 1, 15 | a record is wanted |
 //! | `read_done`, `v0..n2`, `was_set` | in | | it has come |
 //! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 32 | the answer stream |
@@ -56,6 +57,8 @@ pub struct Responder {
     pub reset: Signal<In, Bit>,
     /// An answer is due.
     pub answers: Signal<In, Bit>,
+    /// Counts are being cleared.
+    pub sweeps: Signal<In, Bit>,
     /// First record of a read.
     pub first: Signal<In, Bits<32>>,
     /// First word of the answer.
@@ -67,7 +70,7 @@ pub struct Responder {
     /// The payload consists of records.
     pub is_read: Signal<In, Bit>,
     /// Word of the payload that is wanted.
-    pub index: Signal<Out, Bits<4>>,
+    pub index: Signal<Out, Bits<7>>,
     /// A record is wanted.
     pub read: Signal<Out, Bit>,
     /// Its id.
@@ -104,7 +107,7 @@ pub struct Responder {
     valid: DFF<Bit>,
     data: DFF<Bits<32>>,
     left: DFF<Bits<32>>,
-    loaded: DFF<Bits<4>>,
+    loaded: DFF<Bits<7>>,
     record_id: DFF<Bits<15>>,
     fetching: DFF<Bit>,
     buffered: DFF<Bit>,
@@ -122,7 +125,7 @@ pub struct Responder {
     words: RecordWords,
     one: Signal<Local, Bits<32>>,
     zero: Signal<Local, Bits<32>>,
-    one_word: Signal<Local, Bits<4>>,
+    one_word: Signal<Local, Bits<7>>,
     one_record: Signal<Local, Bits<15>>,
     one_column: Signal<Local, Bits<2>>,
     last_column: Signal<Local, Bits<2>>,
@@ -180,7 +183,7 @@ impl Logic for Responder {
         }
         match self.state.q.val() {
             AnswerState::Idle => {
-                if self.answers.val() {
+                if self.answers.val() & (!self.sweeps.val()) {
                     self.state.d.next = AnswerState::Header;
                 }
             }

@@ -8,18 +8,19 @@
 //! | `write` | out | Write | the write port of the triangle memory, for simulation |
 //!
 //! 1. All outputs are functions of registers.
-//! 2. After reset the lock memory is swept, a clock for each record; until then `command_ready` is low.
+//! 2. After reset the lock memory is swept, a clock for each record, and the histogram of latencies beside it; until then
+//!    `command_ready` is low.
 //!
 //! ```text
 //! commands -> CommandPort --- points ---> InsertionEngine
 //! answers  <- Responder <---- records -------+   |
-//!                 +--- AnswerWords <- Counters <-+ events
+//!                 +--- AnswerWords <- Counters, Latencies <- events
 //! ```
 //! Latency: see the blocks.
 
-use crate::engine::{Counters, InsertionEngine, Write};
+use crate::engine::{Counters, InsertionEngine, Latencies, Write};
 use crate::link::{AnswerWords, CommandPort, Responder};
-use incircle_protocol::{infinite_vertex, triangle_capacity, Config, ConfigError};
+use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
 /// The core; see the top of this file.
@@ -48,10 +49,15 @@ pub struct Core {
     responder: Responder,
     engine: InsertionEngine,
     counters: Counters,
+    latencies: Latencies,
     infinite: Constant<Bits<15>>,
     capacity: Constant<Bits<15>>,
     ring: Constant<Bits<7>>,
     last_id: Constant<Bits<15>>,
+    contexts: Constant<Bits<5>>,
+    all_contexts: Constant<Bits<24>>,
+    patience: Constant<Bits<22>>,
+    sweeps: Signal<Local, Bit>,
 }
 
 impl Core {
@@ -76,10 +82,15 @@ impl Core {
             responder: Responder::default(),
             engine: InsertionEngine::new(config),
             counters: Counters::default(),
+            latencies: Latencies::default(),
             infinite: Constant::new(u64::from(infinite_vertex(config.points)).into()),
             capacity: Constant::new(u64::from(config.points).into()),
             ring: Constant::new(u64::from(config.ring).into()),
             last_id: Constant::new(u64::from(triangle_capacity(config.points) - 1).into()),
+            contexts: Constant::new(u64::from(config.contexts).into()),
+            all_contexts: Constant::new(((1u64 << config.contexts) - 1).into()),
+            patience: Constant::new(u64::from(patience(config.points)).into()),
+            sweeps: Signal::default(),
         })
     }
 }
@@ -87,22 +98,25 @@ impl Core {
 impl Logic for Core {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, command_port, responder, engine, counters);
+        clock!(self, clock, command_port, responder, engine, counters, latencies);
         self.command_port.reset.next = self.reset.val();
         self.responder.reset.next = self.reset.val();
         self.engine.reset.next = self.reset.val();
         self.counters.reset.next = self.reset.val();
+        self.latencies.reset.next = self.reset.val();
+        self.sweeps.next = self.engine.sweeps.val() | self.latencies.sweeps.val();
 
         // The command stream.
         self.command_port.capacity.next = self.capacity.val();
+        self.command_port.built.next = self.contexts.val();
         self.command_port.command_valid.next = self.command_valid.val();
         self.command_port.command_data.next = self.command_data.val();
         self.command_ready.next = self.command_port.command_ready.val();
-        self.command_port.sweeps.next = self.engine.sweeps.val();
+        self.command_port.sweeps.next = self.sweeps.val();
         self.command_port.seeded.next = self.engine.seeded.val();
         self.command_port.collinear.next = self.engine.collinear.val();
+        self.command_port.stuck.next = self.engine.stuck.val();
         self.command_port.is_quiet.next = self.engine.is_quiet.val();
-        self.command_port.takes_point.next = self.engine.takes_point.val();
         self.command_port.responder_is_idle.next = self.responder.is_idle.val();
         self.command_port.answer_ends.next = self.responder.ends.val();
         self.command_port.answer_is_taken.next = self.responder.is_taken.val();
@@ -111,17 +125,22 @@ impl Logic for Core {
         self.answer_words.opcode.next = self.command_port.opcode.val();
         self.answer_words.first.next = self.command_port.first.val();
         self.answer_words.count.next = self.command_port.count.val();
-        self.answer_words.capacity.next = self.capacity.val();
-        self.answer_words.ring.next = self.ring.val();
-        self.answer_words.collinear.next = self.engine.collinear.val();
+        self.answer_words.is_refused.next = self.command_port.is_refused.val();
         self.answer_words.arrived.next = self.command_port.arrived.val();
         self.answer_words.refused.next = self.command_port.refused.val();
+        self.answer_words.capacity.next = self.capacity.val();
+        self.answer_words.contexts.next = self.contexts.val();
+        self.answer_words.ring.next = self.ring.val();
+        self.answer_words.collinear.next = self.engine.collinear.val();
+        self.answer_words.stuck.next = self.engine.stuck.val();
+        self.answer_words.records.next = self.engine.records.val();
         self.answer_words.insertions.next = self.counters.insertions.val();
         self.answer_words.duplicates.next = self.counters.duplicates.val();
-        self.answer_words.records.next = self.engine.records.val();
         self.answer_words.index.next = self.responder.index.val();
         self.answer_words.counter.next = self.counters.value.val();
+        self.answer_words.latency.next = self.latencies.value.val();
         self.responder.answers.next = self.command_port.answers.val();
+        self.responder.sweeps.next = self.latencies.sweeps.val();
         self.responder.first.next = self.command_port.first.val();
         self.responder.header.next = self.answer_words.header.val();
         self.responder.length.next = self.answer_words.length.val();
@@ -143,13 +162,17 @@ impl Logic for Core {
         self.engine.infinite.next = self.infinite.val();
         self.engine.ring.next = self.ring.val();
         self.engine.last_id.next = self.last_id.val();
+        self.engine.all.next = self.all_contexts.val();
+        self.engine.patience.next = self.patience.val();
+        self.engine.contexts.next = self.command_port.contexts.val();
         self.engine.clears.next = self.command_port.clears.val();
-        self.engine.point_valid.next = self.command_port.point_valid.val();
-        self.engine.point_id.next = self.command_port.point_id.val();
+        self.engine.came.next = self.command_port.came.val();
+        self.engine.came_id.next = self.command_port.came_id.val();
         self.engine.point.next = self.command_port.point.val();
-        self.engine.vertex_enable.next = self.command_port.vertex_enable.val();
+        self.engine.arrived.next = self.command_port.arrived.val();
         self.engine.read.next = self.responder.read.val();
         self.engine.read_id.next = self.responder.read_id.val();
+        self.engine.now.next = self.counters.now.val();
         self.write.next = self.engine.write.val();
 
         // The counters.
@@ -158,16 +181,33 @@ impl Logic for Core {
         self.counters.waiting.next =
             self.command_port.inserting.val() & self.command_port.awaits_point.val() & self.engine.is_quiet.val();
         self.counters.reading.next = self.command_port.reading.val();
-        self.counters.seeds.next = self.engine.seeds.val();
-        self.counters.commit_ends.next = self.engine.commit_ends.val();
-        self.counters.solo_ends.next = self.engine.solo_ends.val();
-        self.counters.duplicate.next = self.engine.duplicate.val();
-        self.counters.walk_visit.next = self.engine.walk_visit.val();
-        self.counters.test.next = self.engine.test.val();
-        self.counters.drained.next = self.engine.drained.val();
-        self.counters.flip.next = self.engine.flip.val();
-        self.counters.cavity_triangles.next = self.engine.cavity_triangles.val();
+        self.counters.seeds.next = self.engine.events.val().seeds;
+        self.counters.commit_ends.next = self.engine.events.val().commit_ends;
+        self.counters.since.next = self.engine.events.val().since;
+        self.counters.solo_inserts.next = self.engine.events.val().solo_inserts;
+        self.counters.solo_duplicate.next = self.engine.events.val().solo_duplicate;
+        self.counters.solo_test.next = self.engine.events.val().solo_test;
+        self.counters.flip.next = self.engine.events.val().flip;
+        self.counters.duplicate.next = self.engine.events.val().duplicate;
+        self.counters.walk_visit.next = self.engine.events.val().walk_visit;
+        self.counters.root_visit.next = self.engine.events.val().root_visit;
+        self.counters.test.next = self.engine.events.val().test;
+        self.counters.revisit.next = self.engine.events.val().revisit;
+        self.counters.overflows.next = self.engine.events.val().overflow;
+        self.counters.gives_up.next = self.engine.events.val().gives_up;
+        self.counters.retries.next = self.engine.events.val().root_retry;
+        self.counters.takes_token.next = self.engine.events.val().takes_token;
+        self.counters.cavity_ends.next = self.engine.events.val().cavity_ends;
+        self.counters.cavity_triangles.next = self.engine.events.val().cavity_triangles;
+        self.counters.is_issuing.next = self.engine.events.val().is_issuing;
+        self.counters.is_writing.next = self.engine.events.val().is_writing;
+        self.counters.is_committing.next = self.engine.events.val().is_committing;
+        self.counters.is_releasing.next = self.engine.events.val().is_releasing & self.command_port.inserting.val();
         self.counters.refused.next = self.command_port.refused.val();
-        self.counters.select.next = self.responder.index.val();
+        self.counters.select.next = self.responder.index.val().get_bits::<5>(0);
+        self.latencies.clears.next = self.command_port.clears.val();
+        self.latencies.comes.next = self.counters.latency_comes.val();
+        self.latencies.latency.next = self.counters.latency.val();
+        self.latencies.select.next = self.responder.index.val();
     }
 }

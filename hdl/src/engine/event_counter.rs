@@ -1,0 +1,111 @@
+//! Counts: one of a word, and one of two words.
+//!
+//! `EventCounter`
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `zero` | in | 1 | `zero` clears it |
+//! | `count` | in | 1 | this clock counts |
+//! | `value` | out | 32 | clocks that counted, modulo 2^32 |
+//!
+//! `WideCounter`
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `zero` | in | 1 | `zero` clears it |
+//! | `count` | in | 1 | this clock counts |
+//! | `low`, `high` | out | N | its words; `high` follows a clock after `low` has wrapped |
+//!
+//! Latency: a clock is counted at its edge.
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// A counter of a word; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct EventCounter {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Clears it.
+    pub zero: Signal<In, Bit>,
+    /// This clock counts.
+    pub count: Signal<In, Bit>,
+    /// Clocks that counted.
+    pub value: Signal<Out, Bits<32>>,
+    word: DFF<Bits<32>>,
+    one: Signal<Local, Bits<32>>,
+}
+
+impl Logic for EventCounter {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, word);
+        self.one.next = 1.into();
+        self.value.next = self.word.q.val();
+        if self.count.val() {
+            self.word.d.next = self.word.q.val() + self.one.val();
+        }
+        if self.zero.val() {
+            self.word.d.next = 0.into();
+        }
+    }
+}
+
+/// A counter of two words of `N` bits; see the top of this file.
+#[derive(LogicBlock)]
+pub struct WideCounter<const N: usize> {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Clears it.
+    pub zero: Signal<In, Bit>,
+    /// This clock counts.
+    pub count: Signal<In, Bit>,
+    /// Low word.
+    pub low: Signal<Out, Bits<N>>,
+    /// High word.
+    pub high: Signal<Out, Bits<N>>,
+    low_word: DFF<Bits<N>>,
+    high_word: DFF<Bits<N>>,
+    carries: DFF<Bit>,
+    one: Signal<Local, Bits<N>>,
+    all_ones: Constant<Bits<N>>,
+}
+
+impl<const N: usize> Default for WideCounter<N> {
+    fn default() -> Self {
+        Self {
+            clock: Signal::default(),
+            zero: Signal::default(),
+            count: Signal::default(),
+            low: Signal::default(),
+            high: Signal::default(),
+            low_word: DFF::default(),
+            high_word: DFF::default(),
+            carries: DFF::default(),
+            one: Signal::default(),
+            all_ones: Constant::new(Bits::<N>::mask()),
+        }
+    }
+}
+
+impl<const N: usize> Logic for WideCounter<N> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, low_word, high_word, carries);
+        self.one.next = 1.into();
+        self.low.next = self.low_word.q.val();
+        self.high.next = self.high_word.q.val();
+        self.carries.d.next = self.count.val() & (self.low_word.q.val() == self.all_ones.val());
+        if self.count.val() {
+            self.low_word.d.next = self.low_word.q.val() + self.one.val();
+        }
+        if self.carries.q.val() {
+            self.high_word.d.next = self.high_word.q.val() + self.one.val();
+        }
+        if self.zero.val() {
+            self.low_word.d.next = 0.into();
+            self.high_word.d.next = 0.into();
+            self.carries.d.next = false;
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! The contexts and what their visits lead to: who starts, what follows a visit, stars written, locks released.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset`, `clears` | in | 1 | reset drops everything at work; clear forgets the mesh |
+//! | `ring`, `last_id`, `all`, `patience` | in | 7, 15, 24, 22 | parameters, constants |
+//! | `contexts`, `arrived`, `came`, `now` | in | 5, 15, 1, 22 | contexts that work; points that have come; one is being stored; the time |
+//! | `done`, `token`, `turned`, `verdict` | in | | the visit that completes; none while an insertion alone is at work |
+//! | `seeded`, `collinear`, `is_seeding`, `seeds` | in | 1 | the first triangle |
+//! | `solo_is_at_work`, `solo_ends`, `solo_inserts` | in | 1 | the insertion alone |
+//! | `push`, `bundle` | out | 1, Bundle | visits to make: those of the visit that completes, else of a context that starts |
+//! | `looks` | out | 1 | the visit that completes is the look at the first three points |
+//! | `fetch_id`, `position_enable`, `position_owner` | out | 15, 1, 5 | a point to fetch; its context, when it has come |
+//! | `solo_starts`, `solo_owner`, `solo_p`, `solo_u` | out | 1, 5, 15, 15 | an insertion alone starts |
+//! | `write`, `records` | out | Write, 15 | a record or a link; records from this id on are not written yet |
+//! | `clear_enable`, `clear_id`, `sweeps` | out | 1, 15, 1 | a lock to clear; the lock memory is being cleared after reset |
+//! | `is_quiet`, `stuck` | out | 1 | every point is finished; nothing is finished any more |
+//! | `events` | out | Events | what happens at this edge, but for what others know |
+//!
+//! Latency: see the blocks.
+
+use super::{
+    Attempts, Bundle, CommitPath, Dispatcher, Events, Token, Turned, Verdict, Write,
+};
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+
+/// Insertions in flight; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Insertions {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Drops everything at work.
+    pub reset: Signal<In, Bit>,
+    /// Forgets the mesh.
+    pub clears: Signal<In, Bit>,
+    /// Entries of a boundary list.
+    pub ring: Signal<In, Bits<7>>,
+    /// The highest record id.
+    pub last_id: Signal<In, Bits<15>>,
+    /// Contexts that are built, a bit each.
+    pub all: Signal<In, Bits<24>>,
+    /// Clocks without a finished point.
+    pub patience: Signal<In, Bits<22>>,
+    /// Contexts that work.
+    pub contexts: Signal<In, Bits<5>>,
+    /// Points that have come.
+    pub arrived: Signal<In, Bits<15>>,
+    /// A point is being stored.
+    pub came: Signal<In, Bit>,
+    /// The time.
+    pub now: Signal<In, Bits<22>>,
+    /// A visit completes.
+    pub done: Signal<In, Bit>,
+    /// The visit.
+    pub token: Signal<In, Token>,
+    /// Its record.
+    pub turned: Signal<In, Turned>,
+    /// What it found out.
+    pub verdict: Signal<In, Verdict>,
+    /// The first triangle stands.
+    pub seeded: Signal<In, Bit>,
+    /// It never will.
+    pub collinear: Signal<In, Bit>,
+    /// Its records are being written.
+    pub is_seeding: Signal<In, Bit>,
+    /// The last of them is.
+    pub seeds: Signal<In, Bit>,
+    /// An insertion alone is under way.
+    pub solo_is_at_work: Signal<In, Bit>,
+    /// It is over.
+    pub solo_ends: Signal<In, Bit>,
+    /// It has inserted its point.
+    pub solo_inserts: Signal<In, Bit>,
+    /// Visits to make.
+    pub push: Signal<Out, Bit>,
+    /// The visits.
+    pub bundle: Signal<Out, Bundle>,
+    /// The look at the first three points.
+    pub looks: Signal<Out, Bit>,
+    /// A point to fetch.
+    pub fetch_id: Signal<Out, Bits<15>>,
+    /// It has come.
+    pub position_enable: Signal<Out, Bit>,
+    /// Its context.
+    pub position_owner: Signal<Out, Bits<5>>,
+    /// An insertion alone starts.
+    pub solo_starts: Signal<Out, Bit>,
+    /// Its context.
+    pub solo_owner: Signal<Out, Bits<5>>,
+    /// Its point.
+    pub solo_p: Signal<Out, Bits<15>>,
+    /// Where it starts to walk.
+    pub solo_u: Signal<Out, Bits<15>>,
+    /// A record or a link.
+    pub write: Signal<Out, Write>,
+    /// Records that are written.
+    pub records: Signal<Out, Bits<15>>,
+    /// A lock to clear.
+    pub clear_enable: Signal<Out, Bit>,
+    /// Which.
+    pub clear_id: Signal<Out, Bits<15>>,
+    /// The lock memory is being cleared.
+    pub sweeps: Signal<Out, Bit>,
+    /// Every point is finished.
+    pub is_quiet: Signal<Out, Bit>,
+    /// Nothing is finished any more.
+    pub stuck: Signal<Out, Bit>,
+    /// What happens at this edge.
+    pub events: Signal<Out, Events>,
+    dispatcher: Dispatcher,
+    attempts: Attempts,
+    commits: CommitPath,
+}
+
+impl Insertions {
+    /// The insertions of a configuration.
+    pub fn new(config: Config) -> Self {
+        Self {
+            dispatcher: Dispatcher::new(config),
+            attempts: Attempts::new(config),
+            commits: CommitPath::new(config),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for Insertions {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, dispatcher, attempts, commits);
+        self.dispatcher.reset.next = self.reset.val();
+        self.dispatcher.clears.next = self.clears.val();
+        self.commits.reset.next = self.reset.val();
+        self.commits.clears.next = self.clears.val();
+
+        // A visit completes.
+        self.attempts.ring.next = self.ring.val();
+        self.attempts.done.next = self.done.val();
+        self.attempts.token.next = self.token.val();
+        self.attempts.turned.next = self.turned.val();
+        self.attempts.verdict.next = self.verdict.val();
+        self.attempts.seeded.next = self.seeded.val();
+        self.attempts.now.next = self.now.val();
+        self.attempts.busy.next = self.dispatcher.busy.val();
+        self.attempts.waiter_valid.next = self.dispatcher.waiter_valid.val();
+        self.attempts.waiter.next = self.dispatcher.waiter.val();
+        self.attempts.takes.next = self.dispatcher.takes.val();
+        self.attempts.taken_id.next = self.dispatcher.taken_id.val();
+        self.attempts.taker.next = self.dispatcher.starter.val();
+        self.looks.next = self.attempts.looks.val();
+
+        // Who starts, and what is finished.
+        self.dispatcher.all.next = self.all.val();
+        self.dispatcher.patience.next = self.patience.val();
+        self.dispatcher.contexts.next = self.contexts.val();
+        self.dispatcher.arrived.next = self.arrived.val();
+        self.dispatcher.came.next = self.came.val();
+        self.dispatcher.seeded.next = self.seeded.val();
+        self.dispatcher.collinear.next = self.collinear.val();
+        self.dispatcher.is_seeding.next = self.is_seeding.val();
+        self.dispatcher.seeds.next = self.seeds.val();
+        self.dispatcher.solo_is_at_work.next = self.solo_is_at_work.val();
+        self.dispatcher.solo_ends.next = self.solo_ends.val();
+        self.dispatcher.owner.next = self.attempts.owner.val();
+        self.dispatcher.sleeps.next = self.attempts.sleeps.val();
+        self.dispatcher.keeps.next = self.attempts.keeps.val();
+        self.dispatcher.asks_to_wait.next = self.attempts.asks_to_wait.val();
+        self.dispatcher.waits.next = self.attempts.waits.val();
+        self.dispatcher.stops_waiting.next = self.attempts.stops_waiting.val();
+        self.dispatcher.overflows.next = self.attempts.overflows.val();
+        self.dispatcher.duplicate.next = self.attempts.duplicate.val();
+        self.dispatcher.root_enable.next = self.attempts.root_enable.val();
+        self.dispatcher.root.next = self.attempts.root.val();
+        self.dispatcher.hands_over.next = self.attempts.commit_enable.val() | self.attempts.release_enable.val();
+        self.dispatcher.pushes.next = self.attempts.push.val();
+        self.dispatcher.commit_ends.next = self.commits.ends.val();
+        self.dispatcher.commit_owner.next = self.commits.job.val().owner;
+        self.dispatcher.hint.next = self.commits.hint.val();
+        self.dispatcher.released.next = self.commits.released.val();
+        self.dispatcher.released_owner.next = self.commits.released_owner.val();
+        self.fetch_id.next = self.dispatcher.taken_id.val();
+        self.position_enable.next = self.dispatcher.position_enable.val();
+        self.position_owner.next = self.dispatcher.position_owner.val();
+        self.solo_starts.next = self.dispatcher.solo_starts.val();
+        self.solo_owner.next = self.dispatcher.solo_owner.val();
+        self.solo_p.next = self.dispatcher.solo_p.val();
+        self.is_quiet.next = self.dispatcher.is_quiet.val();
+        self.stuck.next = self.dispatcher.stuck.val();
+        self.solo_u.next = self.dispatcher.u.val();
+
+        // The star and the locks.
+        self.commits.last_id.next = self.last_id.val();
+        self.commits.seeds.next = self.seeds.val();
+        self.commits.solo_inserts.next = self.solo_inserts.val();
+        self.commits.owner.next = self.attempts.owner.val();
+        self.commits.entry_enable.next = self.attempts.entry_enable.val();
+        self.commits.entry_place.next = self.attempts.entry_place.val();
+        self.commits.entry.next = self.attempts.entry.val();
+        self.commits.inner_enable.next = self.attempts.inner_enable.val();
+        self.commits.inner_place.next = self.attempts.inner_place.val();
+        self.commits.inner_id.next = self.attempts.inner_id.val();
+        self.commits.lock_enable.next = self.attempts.lock_enable.val();
+        self.commits.lock_place.next = self.attempts.lock_place.val();
+        self.commits.lock_id.next = self.attempts.lock_id.val();
+        self.commits.commit_enable.next = self.attempts.commit_enable.val();
+        self.commits.commit_job.next = self.attempts.commit_job.val();
+        self.commits.release_enable.next = self.attempts.release_enable.val();
+        self.commits.release_job.next = self.attempts.release_job.val();
+        self.write.next = self.commits.write.val();
+        self.records.next = self.commits.records.val();
+        self.clear_enable.next = self.commits.clear_enable.val();
+        self.clear_id.next = self.commits.clear_id.val();
+        self.sweeps.next = self.commits.sweeps.val();
+
+        // The visits that follow, else those of a context that starts.
+        self.push.next = self.attempts.push.val() | self.dispatcher.starts.val();
+        self.bundle.next = self.attempts.bundle.val();
+        if !self.attempts.push.val() {
+            self.bundle.next.is_pair = false;
+            self.bundle.next.is_triple = false;
+            self.bundle.next.owner = self.dispatcher.starter.val();
+            self.bundle.next.rotates = false;
+            self.bundle.next.locks = false;
+            self.bundle.next.u = self.dispatcher.u.val();
+        }
+
+        // For the counters; the rest is filled in where it is known.
+        self.events.next.seeds = self.seeds.val();
+        self.events.next.commit_ends = self.commits.ends.val();
+        self.events.next.since = self.commits.job.val().since;
+        self.events.next.duplicate = self.attempts.duplicate.val();
+        self.events.next.walk_visit = self.attempts.walk_visit.val();
+        self.events.next.root_visit = self.attempts.root_visit.val();
+        self.events.next.test = self.attempts.test.val();
+        self.events.next.revisit = self.attempts.revisit.val();
+        self.events.next.overflow = self.attempts.overflows.val();
+        self.events.next.gives_up = self.attempts.gives_up.val();
+        self.events.next.root_retry = self.attempts.retries.val();
+        self.events.next.takes_token = self.dispatcher.takes_token.val();
+        self.events.next.cavity_ends = self.attempts.commit_enable.val();
+        self.events.next.cavity_triangles = self.attempts.cavity_triangles.val();
+        self.events.next.is_committing = self.commits.is_at_work.val();
+        self.events.next.is_releasing = self.commits.clear_enable.val();
+        self.events.next.solo_inserts = self.solo_inserts.val();
+        self.events.next.solo_duplicate = self.solo_ends.val() & (!self.solo_inserts.val());
+        self.events.next.solo_test = false;
+        self.events.next.flip = false;
+        self.events.next.is_issuing = false;
+        self.events.next.is_writing = false;
+    }
+}

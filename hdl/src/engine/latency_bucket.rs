@@ -1,0 +1,86 @@
+//! The bucket of a latency: eight to an octave from 16 clocks on, one of all below, one of all from 2^20 - 2^17 on.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `latency` | in | 22 | clocks |
+//! | `bucket` | out | 7 | four bits of the octave, then three of the place in it |
+//!
+//! 1. The highest bit that is set says the octave, the three below it the place.
+//!
+//! Latency: none (combinational).
+
+use rust_hdl_core::prelude::*;
+
+/// The bucket of a latency; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct LatencyBucket {
+    /// Clocks.
+    pub latency: Signal<In, Bits<22>>,
+    /// Their bucket.
+    pub bucket: Signal<Out, Bits<7>>,
+    /// The latency from bit 1 up, shifted until its highest bit that is set stands at the top.
+    from8: Signal<Local, Bits<19>>,
+    from4: Signal<Local, Bits<19>>,
+    from2: Signal<Local, Bits<19>>,
+    from1: Signal<Local, Bits<19>>,
+    top: Signal<Local, Bits<19>>,
+    /// Eight, four, two octaves, and one.
+    octave8: Signal<Local, Bits<7>>,
+    octave4: Signal<Local, Bits<7>>,
+    octave2: Signal<Local, Bits<7>>,
+    octave1: Signal<Local, Bits<7>>,
+    place: Signal<Local, Bits<7>>,
+    is_far: Signal<Local, Bit>,
+    eight: Signal<Local, Bits<19>>,
+    four: Signal<Local, Bits<19>>,
+    two: Signal<Local, Bits<19>>,
+    one: Signal<Local, Bits<19>>,
+}
+
+impl Logic for LatencyBucket {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.eight.next = 8.into();
+        self.four.next = 4.into();
+        self.two.next = 2.into();
+        self.one.next = 1.into();
+        self.is_far.next = self.latency.val().get_bit(20) | self.latency.val().get_bit(21);
+        self.from8.next = self.latency.val().get_bits::<19>(1);
+
+        self.octave8.next = 0.into();
+        self.from4.next = self.from8.val() << self.eight.val();
+        if self.from8.val().get_bits::<8>(11).any() {
+            self.octave8.next = 64.into();
+            self.from4.next = self.from8.val();
+        }
+        self.octave4.next = 0.into();
+        self.from2.next = self.from4.val() << self.four.val();
+        if self.from4.val().get_bits::<4>(15).any() {
+            self.octave4.next = 32.into();
+            self.from2.next = self.from4.val();
+        }
+        self.octave2.next = 0.into();
+        self.from1.next = self.from2.val() << self.two.val();
+        if self.from2.val().get_bits::<2>(17).any() {
+            self.octave2.next = 16.into();
+            self.from1.next = self.from2.val();
+        }
+        self.octave1.next = 0.into();
+        self.top.next = self.from1.val() << self.one.val();
+        if self.from1.val().get_bit(18) {
+            self.octave1.next = 8.into();
+            self.top.next = self.from1.val();
+        }
+
+        // Below 16 clocks no bit comes to the top.
+        self.place.next = bit_cast::<7, 3>(self.top.val().get_bits::<3>(15));
+        self.bucket.next = 0.into();
+        if self.top.val().get_bit(18) {
+            self.bucket.next =
+                self.octave8.val() | self.octave4.val() | self.octave2.val() | self.octave1.val() | self.place.val();
+        }
+        if self.is_far.val() {
+            self.bucket.next = 127.into();
+        }
+    }
+}

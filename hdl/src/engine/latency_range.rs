@@ -1,0 +1,72 @@
+//! The latency of insertions, and the least and the most of all.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `zero` | in | 1 | `zero` forgets all |
+//! | `commit_ends` | in | 1 | an insertion is finished at this edge |
+//! | `now`, `since` | in | 22 | the clock count, and what it was when the point was taken; both modulo 2^22 |
+//! | `latency_comes`, `latency` | out | 1, 22 | the latency of the insertion that was finished at the last edge |
+//! | `least`, `most` | out | 22 | of all; 0 if there was none |
+//!
+//! 1. The first one counts as the least; as the first counts whatever comes while the most is 0.
+//!
+//! Latency: 1 clock to `latency`, 2 to `least` and `most`.
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Latencies of insertions; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct LatencyRange {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Forgets all.
+    pub zero: Signal<In, Bit>,
+    /// An insertion is finished.
+    pub commit_ends: Signal<In, Bit>,
+    /// The clock count.
+    pub now: Signal<In, Bits<22>>,
+    /// What it was when the point was taken.
+    pub since: Signal<In, Bits<22>>,
+    /// A latency comes.
+    pub latency_comes: Signal<Out, Bit>,
+    /// It.
+    pub latency: Signal<Out, Bits<22>>,
+    /// The least.
+    pub least: Signal<Out, Bits<22>>,
+    /// The most.
+    pub most: Signal<Out, Bits<22>>,
+    comes: DFF<Bit>,
+    taken: DFF<Bits<22>>,
+    lowest: DFF<Bits<22>>,
+    highest: DFF<Bits<22>>,
+    none: Signal<Local, Bits<22>>,
+}
+
+impl Logic for LatencyRange {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, comes, taken, lowest, highest);
+        self.none.next = 0.into();
+        self.latency_comes.next = self.comes.q.val();
+        self.latency.next = self.taken.q.val();
+        self.least.next = self.lowest.q.val();
+        self.most.next = self.highest.q.val();
+
+        self.comes.d.next = self.commit_ends.val();
+        self.taken.d.next = self.now.val() - self.since.val();
+        if self.comes.q.val() {
+            if (self.highest.q.val() == self.none.val()) | (self.taken.q.val() < self.lowest.q.val()) {
+                self.lowest.d.next = self.taken.q.val();
+            }
+            if self.taken.q.val() > self.highest.q.val() {
+                self.highest.d.next = self.taken.q.val();
+            }
+        }
+        if self.zero.val() {
+            self.comes.d.next = false;
+            self.lowest.d.next = 0.into();
+            self.highest.d.next = 0.into();
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Notices that nothing is finished any more.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset forgets the fault |
+//! | `finishes` | in | 1 | a point is in the mesh, or known to be a duplicate, at this edge |
+//! | `is_quiet` | in | 1 | there is nothing to do |
+//! | `patience` | in | 22 | clocks to wait, a constant; see `patience` of the protocol |
+//! | `stuck` | out | 1 | a fault: that many clocks have passed without either |
+//!
+//! 1. `stuck` stays until reset.
+//!
+//! Latency: a clock more than `patience`.
+//!
+//! With a patience of 4 clocks:
+//! ```text
+//! is_quiet        /^^\____________________________________________
+//! finishes        _________/^^\___________________________________
+//! stuck           ___________________________/^^^^^^^^^^^^^^^^^^^^
+//! ```
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The watchdog; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Watchdog {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Forgets the fault.
+    pub reset: Signal<In, Bit>,
+    /// A point is finished.
+    pub finishes: Signal<In, Bit>,
+    /// There is nothing to do.
+    pub is_quiet: Signal<In, Bit>,
+    /// Clocks to wait.
+    pub patience: Signal<In, Bits<22>>,
+    /// A fault.
+    pub stuck: Signal<Out, Bit>,
+    clocks: DFF<Bits<22>>,
+    is_stuck: DFF<Bit>,
+    one: Signal<Local, Bits<22>>,
+}
+
+impl Logic for Watchdog {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, clocks, is_stuck);
+        self.one.next = 1.into();
+        self.stuck.next = self.is_stuck.q.val();
+        self.clocks.d.next = self.clocks.q.val() + self.one.val();
+        if self.finishes.val() | self.is_quiet.val() {
+            self.clocks.d.next = 0.into();
+        }
+        if self.clocks.q.val() == self.patience.val() {
+            self.is_stuck.d.next = true;
+        }
+        if self.reset.val() {
+            self.clocks.d.next = 0.into();
+            self.is_stuck.d.next = false;
+        }
+    }
+}
