@@ -61,7 +61,7 @@ pub struct LockStore {
     owners: BlockMemory<15, 5>,
     lock: Signal<Local, Bits<15>>,
     cleared: Signal<Local, Bits<15>>,
-    context: Signal<Local, Bits<5>>,
+    visitor: Signal<Local, Bits<5>>,
     meets_clear: Signal<Local, Bit>,
     /// The visit in clocks 1 to 3.
     id1: DFF<Bits<15>>,
@@ -110,7 +110,7 @@ impl LockStore {
             owners: BlockMemory::new(id_bits, context_bits),
             lock: Signal::default(),
             cleared: Signal::default(),
-            context: Signal::default(),
+            visitor: Signal::default(),
             meets_clear: Signal::default(),
             id1: DFF::default(),
             id2: DFF::default(),
@@ -151,7 +151,7 @@ impl Logic for LockStore {
         clock!(self, clock, locks, owners);
         self.lock.next = self.id.val() & self.kept_id_bits.val();
         self.cleared.next = self.clear_id.val() & self.kept_id_bits.val();
-        self.context.next = self.owner.val() & self.kept_owner_bits.val();
+        self.visitor.next = self.owner.val() & self.kept_owner_bits.val();
 
         // Clock 0: test and set, unless the lock is being cleared.
         self.meets_clear.next = self.clear_enable.val() & (self.lock.val() == self.cleared.val());
@@ -161,7 +161,7 @@ impl Logic for LockStore {
         self.locks.clear_enable.next = self.clear_enable.val();
         self.owners.read_address.next = self.lock.val();
         self.id1.d.next = self.lock.val();
-        self.owner1.d.next = self.context.val();
+        self.owner1.d.next = self.visitor.val();
         self.takes1.d.next = self.takes.val();
         self.met_clear1.d.next = self.meets_clear.val();
 
