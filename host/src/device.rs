@@ -2,18 +2,19 @@
 
 use std::time::Duration;
 
-use incircle_protocol::{CORE_COORD_BITS, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_COORD_BITS};
+use incircle_protocol::{Config, CORE_COORD_BITS, LARGE, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_COORD_BITS, NAMED};
 
+use crate::clock::{ClockTransport, CLOCK_NAME};
 use crate::error::Error;
 use crate::link::{Limit, Link};
-use crate::model::ModelTransport;
+use crate::model::{ModelTransport, MODEL_NAME};
 use crate::session::Session;
 use crate::transport::Transport;
 
 /// Time for the greeting unless chosen otherwise.
 const GREETING_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// Something that triangulates: the embedded software model, or what is behind a [`Transport`].
+/// Something that triangulates: an embedded software model, or what is behind a [`Transport`].
 pub struct Device {
     link: Link,
 }
@@ -24,15 +25,19 @@ impl Device {
     /// - `model`: the embedded software model with 16-bit coordinates. It takes memory as points arrive.
     /// - `model?coord-bits=B`: the same with `B` bits, 1 to 31.
     /// - `model?coord-bits=B&capacity=N`: a model that holds `N` points and no more.
+    /// - `clock`: the core's model, clock by clock, in the configuration `large`. It gives the answers, records and cycle counts of
+    ///   the core, some thousand times slower than `model`.
+    /// - `clock?config=NAME`: the same in the configuration `tiny`, `small`, `full` or `large`.
     ///
     /// Other devices come through [`Device::from_transport`].
     ///
     /// # Errors
     /// [`Error::Address`] for an unknown address, and the errors of [`Device::model`].
     pub fn open(address: &str) -> Result<Self, Error> {
-        let choice =
-            ModelChoice::parse(address).map_err(|reason| Error::Address { address: address.to_owned(), reason })?;
-        Self::model(choice.coord_bits, choice.capacity)
+        match Choice::parse(address).map_err(|reason| Error::Address { address: address.to_owned(), reason })? {
+            Choice::Model { coord_bits, capacity } => Self::model(coord_bits, capacity),
+            Choice::Clock(config) => Self::clock_model(config),
+        }
     }
 
     /// The software model for `capacity` points of `coord_bits` bits. It takes memory as points arrive.
@@ -46,6 +51,14 @@ impl Device {
         Ok(Self::from_transport(Box::new(transport)))
     }
 
+    /// The core's model, clock by clock: it gives the answers, records and cycle counts of the core of this configuration.
+    ///
+    /// # Errors
+    /// [`Error::Model`] for a configuration that no core can be built with.
+    pub fn clock_model(config: Config) -> Result<Self, Error> {
+        Ok(Self::from_transport(Box::new(ClockTransport::new(config)?)))
+    }
+
     /// The device behind a transport: a simulation, a board, a test double. Nothing is sent yet.
     pub fn from_transport(transport: Box<dyn Transport>) -> Self {
         Self { link: Link::new(transport) }
@@ -55,7 +68,7 @@ impl Device {
     ///
     /// # Errors
     /// [`Error::Link`], [`Error::Timeout`], or [`Error::Device`] for one that is no incircle device, speaks another
-    /// major version, or claims coordinate bits or a capacity that cannot be.
+    /// major version or an older minor one, or claims coordinate bits, a capacity or contexts that cannot be.
     pub fn session(&mut self) -> Result<Session<'_>, Error> {
         self.session_within(GREETING_TIMEOUT)
     }
@@ -79,34 +92,55 @@ pub(crate) fn check_coord_bits(coord_bits: u32) -> Result<(), Error> {
     }
 }
 
-/// What a model address asks for.
+/// What an address asks for.
 #[derive(Debug, PartialEq, Eq)]
-struct ModelChoice {
-    coord_bits: u32,
-    capacity: u32,
+enum Choice {
+    Model { coord_bits: u32, capacity: u32 },
+    Clock(Config),
 }
 
-impl ModelChoice {
-    /// Parses `model`, optionally with `?coord-bits=B&capacity=N`; the error is a sentence without the address.
+impl Choice {
+    /// Parses a name with choices behind a question mark; the error is a sentence without the address.
     fn parse(address: &str) -> Result<Self, String> {
         let (name, choices) = address.split_once('?').unwrap_or((address, ""));
-        if name != crate::model::MODEL_NAME {
-            return Err("this library opens \"model\" by name, other devices from a transport".to_owned());
+        let items = choices.split('&').filter(|item| !item.is_empty());
+        let items = items.map(|item| item.split_once('=').unwrap_or((item, "")));
+        match name {
+            MODEL_NAME => Self::parse_model(items),
+            CLOCK_NAME => Self::parse_clock(items),
+            _ => Err("this library opens \"model\" and \"clock\" by name, other devices from a transport".to_owned()),
         }
-        let mut choice = Self { coord_bits: CORE_COORD_BITS, capacity: MAX_MODEL_POINTS };
-        for item in choices.split('&').filter(|item| !item.is_empty()) {
-            let (key, value) = item.split_once('=').unwrap_or((item, ""));
+    }
+
+    fn parse_model<'a>(items: impl Iterator<Item = (&'a str, &'a str)>) -> Result<Self, String> {
+        let (mut coord_bits, mut capacity) = (CORE_COORD_BITS, MAX_MODEL_POINTS);
+        for (key, value) in items {
             let number = || {
                 let parsed = value.parse::<u32>();
                 parsed.map_err(|_| format!("\"{key}\" wants a whole number, not \"{value}\""))
             };
             match key {
-                "coord-bits" => choice.coord_bits = number()?,
-                "capacity" => choice.capacity = number()?,
+                "coord-bits" => coord_bits = number()?,
+                "capacity" => capacity = number()?,
                 _ => return Err(format!("\"{key}\" is unknown; \"coord-bits\" and \"capacity\" are known")),
             }
         }
-        Ok(choice)
+        Ok(Self::Model { coord_bits, capacity })
+    }
+
+    fn parse_clock<'a>(items: impl Iterator<Item = (&'a str, &'a str)>) -> Result<Self, String> {
+        let mut config = LARGE;
+        for (key, value) in items {
+            if key != "config" {
+                return Err(format!("\"{key}\" is unknown; \"config\" is known"));
+            }
+            let named = Config::named(value);
+            config = named.ok_or_else(|| {
+                let names = NAMED.map(|config| config.name).join(", ");
+                format!("there is no configuration \"{value}\"; there are {names}")
+            })?;
+        }
+        Ok(Self::Clock(config))
     }
 }
 
@@ -116,17 +150,31 @@ mod tests {
     use crate::error::ErrorKind;
 
     #[test]
-    fn model_addresses_are_parsed() {
-        let choice = |coord_bits, capacity| ModelChoice { coord_bits, capacity };
-        assert_eq!(ModelChoice::parse("model"), Ok(choice(16, MAX_MODEL_POINTS)));
-        assert_eq!(ModelChoice::parse("model?coord-bits=20"), Ok(choice(20, MAX_MODEL_POINTS)));
-        let both = ModelChoice::parse("model?coord-bits=8&capacity=99");
-        assert_eq!(both, Ok(choice(8, 99)));
+    fn addresses_are_parsed() {
+        let model = |coord_bits, capacity| Ok(Choice::Model { coord_bits, capacity });
+        assert_eq!(Choice::parse("model"), model(16, MAX_MODEL_POINTS));
+        assert_eq!(Choice::parse("model?coord-bits=20"), model(20, MAX_MODEL_POINTS));
+        assert_eq!(Choice::parse("model?coord-bits=8&capacity=99"), model(8, 99));
+        assert_eq!(Choice::parse("clock"), Ok(Choice::Clock(LARGE)));
+        for config in NAMED {
+            assert_eq!(Choice::parse(&format!("clock?config={}", config.name)), Ok(Choice::Clock(config)));
+        }
     }
 
     #[test]
     fn bad_addresses_are_refused_with_a_reason() {
-        for address in ["", "modem", "serial:/dev/x", "model?bits=3", "model?capacity=many", "model?capacity"] {
+        for address in [
+            "",
+            "modem",
+            "serial:/dev/x",
+            "model?bits=3",
+            "model?capacity=many",
+            "model?capacity",
+            "model?config=tiny",
+            "clock?config=huge",
+            "clock?config",
+            "clock?capacity=8",
+        ] {
             let error = Device::open(address).err().expect(address);
             assert_eq!(error.kind(), ErrorKind::DeviceNotFound, "{error}");
             assert!(error.to_string().contains(address));

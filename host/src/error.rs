@@ -12,7 +12,7 @@ use crate::transport::TransportError;
 pub enum ErrorKind {
     /// The points cannot be used as they are.
     BadInput,
-    /// A choice that does not exist, such as 32 coordinate bits.
+    /// A choice that does not exist, such as 32 coordinate bits, or more contexts than the device has.
     BadChoice,
     /// There is no device at the address, or it may not be opened.
     DeviceNotFound,
@@ -141,6 +141,16 @@ pub enum Error {
         /// Name of the device.
         device: String,
     },
+    /// No contexts, or more than the device has.
+    #[error("{device} cannot work with {asked} contexts: choose {}, or leave the choice out", from_one_to(*contexts))]
+    Contexts {
+        /// Contexts asked for.
+        asked: u32,
+        /// Contexts the device has.
+        contexts: u32,
+        /// Name of the device.
+        device: String,
+    },
     /// The software model refused its parameters.
     #[error("the software model cannot be made: {0}")]
     Model(String),
@@ -200,6 +210,15 @@ pub enum Error {
     },
 }
 
+/// The numbers from 1 on as a choice.
+fn from_one_to(last: u32) -> String {
+    if last == 1 {
+        "1".to_owned()
+    } else {
+        format!("1 to {last}")
+    }
+}
+
 impl Error {
     /// What kind of error it is.
     pub fn kind(&self) -> ErrorKind {
@@ -209,7 +228,7 @@ impl Error {
             | Self::NotInteger { .. }
             | Self::OutOfGrid { .. }
             | Self::Extent { .. } => ErrorKind::BadInput,
-            Self::Scale { .. } | Self::CoordBits(_) | Self::Model(_) => ErrorKind::BadChoice,
+            Self::Scale { .. } | Self::CoordBits(_) | Self::Contexts { .. } | Self::Model(_) => ErrorKind::BadChoice,
             Self::Address { .. } => ErrorKind::DeviceNotFound,
             Self::TooManyPoints { .. } | Self::Capacity { .. } => ErrorKind::Capacity,
             Self::Link { .. } | Self::OutOfStep { .. } => ErrorKind::Link,

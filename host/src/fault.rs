@@ -4,6 +4,9 @@ use incircle_protocol::{MAX_MODEL_POINTS, MIN_POINTS};
 
 use crate::point::Point;
 
+/// Most contexts of a device: `Clear` names them in a byte.
+pub(crate) const MAX_DEVICE_CONTEXTS: u32 = 255;
+
 /// A fault in the answer of a device. A hostile or broken device ends in one of these, never in a panic.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -16,7 +19,7 @@ pub enum DeviceFault {
         /// Word of every incircle device.
         expected: u32,
     },
-    /// It speaks another major version of the protocol.
+    /// It speaks another major version of the protocol, or an older minor one.
     #[error("it speaks protocol {}.{}, this library {}.{}", found >> 16, found & 0xffff, expected >> 16, expected & 0xffff)]
     ProtocolVersion {
         /// Version of the device.
@@ -30,6 +33,9 @@ pub enum DeviceFault {
     /// It claims a capacity that no device has.
     #[error("it claims to hold {0} points, but {MIN_POINTS} to {MAX_MODEL_POINTS} are possible")]
     Capacity(u32),
+    /// It claims a number of contexts that no device has.
+    #[error("it claims {0} contexts, but 1 to {MAX_DEVICE_CONTEXTS} are possible")]
+    Contexts(u32),
     /// The first word of an answer is none.
     #[error("the answer starts with {found:#010x}, which is no header of an answer to opcode {opcode}")]
     Header {

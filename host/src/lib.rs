@@ -32,6 +32,8 @@
 #![warn(missing_docs)]
 
 mod assemble;
+mod clock;
+mod counters;
 mod device;
 mod edges;
 mod error;
@@ -51,16 +53,18 @@ mod sort;
 mod transport;
 pub mod verify;
 
+pub use clock::ClockTransport;
+pub use counters::{Counters, Latencies};
 pub use device::Device;
 pub use error::{Error, ErrorKind, Shown};
 pub use fault::DeviceFault;
-pub use incircle_protocol::Identity;
+pub use incircle_protocol::{Config, Identity};
 pub use mesh::{Duplicate, Mesh, EMPTY};
 pub use model::ModelTransport;
 pub use options::{Options, Order, Progress, ProgressListener, Stage, INSERT_CHUNK};
 pub use point::Point;
 pub use quantize::{Quantization, Quantize};
-pub use report::{Counters, Report};
+pub use report::Report;
 pub use session::{Session, MAX_POINTS};
 pub use transport::{Transport, TransportError};
 pub use verify::{verify, VerifyError, VerifySummary};

@@ -4,13 +4,14 @@
 use std::time::{Duration, Instant};
 
 use incircle_protocol::{
-    answer_opcode, answer_status, command_word, Identity, InsertReport, Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS,
-    INSERT_REPORT_WORDS, MAGIC, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_COORD_BITS, MIN_POINTS, PROTOCOL_VERSION,
+    answer_opcode, answer_status, clear_word, command_word, Identity, InsertReport, Opcode, Status, COUNTER_WORDS,
+    IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS, MAGIC, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_CONTEXTS,
+    MIN_COORD_BITS, MIN_POINTS, PROTOCOL_VERSION,
 };
 
+use crate::counters::Counters;
 use crate::error::Error;
-use crate::fault::DeviceFault;
-use crate::report::Counters;
+use crate::fault::{DeviceFault, MAX_DEVICE_CONTEXTS};
 use crate::transport::{Transport, TransportError};
 
 /// Until when a job may run, and how long that was at its start.
@@ -53,9 +54,9 @@ impl Link {
         Ok(identity)
     }
 
-    /// Makes the device forget everything.
-    pub(crate) fn clear(&mut self, limit: Limit) -> Result<(), Error> {
-        self.ask(Opcode::Clear, &[command_word(Opcode::Clear)], &mut [], limit)
+    /// Makes the device forget everything, and work with this many contexts from now on.
+    pub(crate) fn clear(&mut self, contexts: u32, limit: Limit) -> Result<(), Error> {
+        self.ask(Opcode::Clear, &[clear_word(contexts)], &mut [], limit)
     }
 
     /// Sends `words`, a whole `Insert` command, and returns the totals.
@@ -76,6 +77,13 @@ impl Link {
         let mut words = [0; COUNTER_WORDS];
         self.ask(Opcode::Counters, &[command_word(Opcode::Counters)], &mut words, limit)?;
         Ok(Counters::from_words(&words))
+    }
+
+    /// Reads the histogram of latencies.
+    pub(crate) fn latencies(&mut self, limit: Limit) -> Result<[u32; LATENCY_BUCKETS], Error> {
+        let mut buckets = [0; LATENCY_BUCKETS];
+        self.ask(Opcode::Latencies, &[command_word(Opcode::Latencies)], &mut buckets, limit)?;
+        Ok(buckets)
     }
 
     /// The error for a fault; the device is not asked again.
@@ -143,14 +151,19 @@ fn check_identity(identity: &Identity) -> Result<(), DeviceFault> {
     if identity.magic != MAGIC {
         return Err(DeviceFault::Magic { found: identity.magic, expected: MAGIC });
     }
-    if identity.protocol_version >> 16 != PROTOCOL_VERSION >> 16 {
-        return Err(DeviceFault::ProtocolVersion { found: identity.protocol_version, expected: PROTOCOL_VERSION });
+    let (found, expected) = (identity.protocol_version, PROTOCOL_VERSION);
+    // An older minor version lacks commands that are sent, and counters that are awaited.
+    if found >> 16 != expected >> 16 || found < expected {
+        return Err(DeviceFault::ProtocolVersion { found, expected });
     }
     if !(MIN_COORD_BITS..=MAX_COORD_BITS).contains(&identity.coord_bits) {
         return Err(DeviceFault::CoordBits(identity.coord_bits));
     }
     if !(MIN_POINTS..=MAX_MODEL_POINTS).contains(&identity.capacity) {
         return Err(DeviceFault::Capacity(identity.capacity));
+    }
+    if !(MIN_CONTEXTS..=MAX_DEVICE_CONTEXTS).contains(&identity.contexts) {
+        return Err(DeviceFault::Contexts(identity.contexts));
     }
     Ok(())
 }
@@ -175,7 +188,7 @@ const fn status_meaning(status: Status) -> &'static str {
         Status::BadRange => "the range passes the last record",
         Status::Collinear => "the first three points lie on one line",
         Status::Full => "the memory is full",
-        Status::BadContexts => "it has fewer contexts",
-        Status::Stuck => "no insertion ends any more: reset it",
+        Status::BadContexts => "more contexts were asked for than it has",
+        Status::Stuck => "no insertion ends any more",
     }
 }

@@ -86,6 +86,9 @@ pub struct Options<'a> {
     pub order: Order,
     /// Called at the start of each stage and after every chunk.
     pub progress: Option<ProgressListener<'a>>,
+    /// Contexts that work, that is insertions in flight at once: 1 to what [`Session::identity`](crate::Session::identity) says the
+    /// device has. `None`: all of them. The mesh does not depend on it, the time does.
+    pub contexts: Option<u32>,
     /// Points of one `Insert` command; at least 3 are sent. Progress and cancellation come between chunks.
     pub insert_chunk: usize,
 }
@@ -93,8 +96,8 @@ pub struct Options<'a> {
 impl Options<'_> {
     /// The time a job of this many points may take when none is chosen: a minute and 2 ms per point.
     ///
-    /// The simulated core takes about 0.07 ms per uniform point: 140 clocks at two million a second. Choose more for a
-    /// device that is much slower, such as a simulation that writes waveforms.
+    /// The simulated core with one context takes about 0.07 ms per uniform point: 120 clocks at two million a second. Choose more
+    /// for a device that is much slower, such as a simulation that writes waveforms.
     pub fn default_timeout(points: usize) -> Duration {
         let milliseconds = u64::try_from(points).unwrap_or(u64::MAX).saturating_mul(2);
         Duration::from_secs(60).saturating_add(Duration::from_millis(milliseconds))
@@ -103,7 +106,7 @@ impl Options<'_> {
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Self { timeout: None, order: Order::default(), progress: None, insert_chunk: INSERT_CHUNK }
+        Self { timeout: None, order: Order::default(), progress: None, contexts: None, insert_chunk: INSERT_CHUNK }
     }
 }
 
@@ -113,6 +116,7 @@ impl std::fmt::Debug for Options<'_> {
             .field("timeout", &self.timeout)
             .field("order", &self.order)
             .field("progress", &self.progress.is_some())
+            .field("contexts", &self.contexts)
             .field("insert_chunk", &self.insert_chunk)
             .finish()
     }

@@ -216,7 +216,53 @@ mod tests {
         assert_eq!(in_order(&points), in_order(&reversed));
     }
 
+    #[test]
+    fn a_context_gets_a_stretch_of_each_round() {
+        let points = lattice(40, 7);
+        for contexts in 1..=incircle_protocol::MAX_CONTEXTS {
+            for single in [false, true] {
+                let undealt = || match single {
+                    true => Rounds::single(hilbert(&points)),
+                    false => rounds(&along_curve(&points)),
+                };
+                let Rounds { order, starts } = undealt();
+                let dealt = undealt().deal(contexts);
+                assert_eq!(dealt[..FIRST_ROUND], order[..FIRST_ROUND]);
+                assert_eq!(starts.len(), if single { 1 } else { 4 });
+                for (round, &start) in starts.iter().enumerate() {
+                    let end = starts.get(round + 1).copied().unwrap_or(order.len());
+                    let places = || start.max(FIRST_ROUND)..end;
+                    let belongs = |place: usize| (place - FIRST_ROUND) as u32 % contexts;
+                    let stretches = (0..contexts).flat_map(|context| places().filter(move |&j| belongs(j) == context));
+                    let along: Vec<u32> = stretches.map(|place| dealt[place]).collect();
+                    assert_eq!(along, order[places()], "{contexts} contexts, round {round}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn short_sets_and_one_context_are_not_dealt() {
+        let points = lattice(4, 9);
+        assert_eq!(brio_hilbert_dealt(&points, 24), brio_hilbert(&points));
+        let points = lattice(30, 9);
+        assert_eq!(brio_hilbert_dealt(&points, 1), brio_hilbert(&points));
+        assert_ne!(brio_hilbert_dealt(&points, 2), brio_hilbert(&points));
+    }
+
     proptest! {
+        #[test]
+        fn dealt_orders_are_permutations(
+            raw in prop::collection::vec((0u32..1 << 16, 0u32..1 << 16), 0..1500),
+            contexts in 1u32..25,
+        ) {
+            let points: Vec<Point> = raw.into_iter().map(Point::from).collect();
+            for mut dealt in [brio_hilbert_dealt(&points, contexts), Rounds::single(hilbert(&points)).deal(contexts)] {
+                dealt.sort_unstable();
+                prop_assert!(dealt.iter().copied().eq(0..points.len() as u32));
+            }
+        }
+
         #[test]
         fn both_orders_are_permutations(
             raw in prop::collection::vec((any::<u32>(), any::<u32>()), 0..1500),

@@ -3,7 +3,7 @@
 
 use crate::mesh::Duplicate;
 use crate::options::Order;
-use crate::order::{along_curve, rounds, Curve};
+use crate::order::{along_curve, rounds, Curve, Rounds};
 use crate::point::Point;
 use crate::sort::Entry;
 
@@ -18,25 +18,29 @@ pub(crate) struct Prepared {
     pub(crate) collinear: bool,
 }
 
-/// Sorts, removes duplicates and orders. The input must be shorter than 2^32. O(n), 16 bytes per point while it runs (32
-/// where a coordinate has more than 16 bits).
-pub(crate) fn prepare(points: &[Point], order: Order) -> Prepared {
+/// Sorts, removes duplicates, orders, and deals the points to this many contexts; the order of the input is left alone. The
+/// input must be shorter than 2^32. O(n), 16 bytes per point while it runs (32 where a coordinate has more than 16 bits).
+pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared {
     let mut curve = along_curve(points);
     let mut duplicates = match &mut curve {
         Curve::Narrow(entries) => remove_duplicates(entries),
         Curve::Wide(entries) => remove_duplicates(entries),
     };
     duplicates.sort_unstable();
-    let mut order = match order {
-        Order::BrioHilbert => rounds(&curve).order,
-        Order::Hilbert => curve.into_indices(),
+    let mut rounds = match order {
+        Order::BrioHilbert => rounds(&curve),
+        Order::Hilbert => Rounds::single(curve.into_indices()),
         Order::Input => {
             let mut indices = curve.into_indices();
             indices.sort_unstable();
-            indices
+            Rounds::single(indices)
         }
     };
-    let collinear = !start_with_a_triangle(&mut order, points);
+    let collinear = !start_with_a_triangle(&mut rounds, points);
+    let mut order = match order {
+        Order::Input => rounds.order,
+        Order::BrioHilbert | Order::Hilbert => rounds.deal(contexts),
+    };
     if collinear {
         order.sort_unstable_by_key(|&index| points[index as usize]);
     }
@@ -56,18 +60,22 @@ fn remove_duplicates<E: Entry>(entries: &mut Vec<E>) -> Vec<Duplicate> {
     duplicates
 }
 
-/// Moves the first point that is not collinear with the first two to the third place; all others keep their order.
-/// False if there is none.
-fn start_with_a_triangle(order: &mut [u32], points: &[Point]) -> bool {
+/// Moves the first point that is not collinear with the first two to the third place; all others keep their order and their
+/// round. False if there is none.
+fn start_with_a_triangle(rounds: &mut Rounds, points: &[Point]) -> bool {
     let at = |index: u32| points[index as usize];
-    let [first, second, rest @ ..] = &*order else {
+    let [first, second, rest @ ..] = &*rounds.order else {
         return false;
     };
     let (a, b) = (at(*first), at(*second));
     let Some(found) = rest.iter().position(|&index| doubled_area(a, b, at(index)) != 0) else {
         return false;
     };
-    order[2..=found + 2].rotate_right(1);
+    rounds.order[2..=found + 2].rotate_right(1);
+    // What stood before the point is a place further on, and so are the rounds that began there.
+    for start in rounds.starts.iter_mut().filter(|start| (2..=found + 2).contains(*start)) {
+        *start += 1;
+    }
     true
 }
 
@@ -92,14 +100,14 @@ mod tests {
     #[test]
     fn tiny_sets_are_collinear() {
         for raw in [&[][..], &[(5, 5)], &[(5, 5), (5, 5)], &[(9, 1), (2, 3)]] {
-            let prepared = prepare(&points(raw), Order::default());
+            let prepared = prepare(&points(raw), Order::default(), 4);
             assert!(prepared.collinear);
         }
     }
 
     #[test]
     fn collinear_points_come_in_lexicographic_order() {
-        let prepared = prepare(&points(&[(6, 3), (2, 1), (4, 2), (2, 1), (0, 0)]), Order::Input);
+        let prepared = prepare(&points(&[(6, 3), (2, 1), (4, 2), (2, 1), (0, 0)]), Order::Input, 4);
         assert!(prepared.collinear);
         assert_eq!(prepared.order, [4, 1, 2, 0]);
         assert_eq!(prepared.duplicates, [Duplicate { index: 3, of: 1 }]);
@@ -107,9 +115,41 @@ mod tests {
 
     #[test]
     fn the_first_point_off_the_line_becomes_the_third() {
-        let prepared = prepare(&points(&[(0, 0), (1, 1), (2, 2), (3, 3), (3, 0), (9, 1)]), Order::Input);
+        let prepared = prepare(&points(&[(0, 0), (1, 1), (2, 2), (3, 3), (3, 0), (9, 1)]), Order::Input, 4);
         assert!(!prepared.collinear);
         assert_eq!(prepared.order, [0, 1, 4, 2, 3, 5]);
+    }
+
+    #[test]
+    fn rounds_keep_their_points_when_the_third_is_found() {
+        // Points 0 to 4 lie on a line; the rounds begin at points 0, 2, 4, 6.
+        let line = points(&[(0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (5, 0), (6, 6), (7, 7)]);
+        let mut rounds = Rounds { order: (0..8).collect(), starts: vec![0, 2, 4, 6] };
+        assert!(start_with_a_triangle(&mut rounds, &line));
+        assert_eq!(rounds.order, [0, 1, 5, 2, 3, 4, 6, 7]);
+        assert_eq!(rounds.starts, [0, 3, 5, 6]);
+        let mut rounds = Rounds { order: vec![0, 1, 2, 5], starts: vec![0, 1, 3] };
+        assert!(start_with_a_triangle(&mut rounds, &line));
+        assert_eq!((rounds.order, rounds.starts), (vec![0, 1, 5, 2], vec![0, 1, 4]));
+    }
+
+    #[test]
+    fn points_are_dealt_but_not_in_the_order_of_the_input() {
+        // A line first, so that the third point comes from far behind.
+        let mut raw: Vec<(u32, u32)> = (0..100).map(|k| (k, k)).collect();
+        raw.extend((0..900).map(|k| (k * 7919 % 10_007, k * 104_729 % 9973)));
+        let points = points(&raw);
+        for order in Order::ALL {
+            let one = prepare(&points, order, 1);
+            for contexts in 2..=24 {
+                let many = prepare(&points, order, contexts);
+                assert_eq!(many.order[..16], one.order[..16]);
+                assert_eq!(many.order == one.order, order == Order::Input, "{order:?}, {contexts}");
+                let mut sorted = [one.order.clone(), many.order];
+                sorted.iter_mut().for_each(|order| order.sort_unstable());
+                assert_eq!(sorted[0], sorted[1]);
+            }
+        }
     }
 
     #[test]
@@ -126,10 +166,11 @@ mod tests {
         fn every_distinct_point_is_there_once_under_its_lowest_index(
             raw in prop::collection::vec((0u32..6, 0u32..6), 0..60),
             which in 0usize..3,
+            contexts in 1u32..25,
             shift in prop::sample::select(vec![0u32, 20]),
         ) {
             let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(x << shift, y << shift)).collect();
-            let prepared = prepare(&points, Order::ALL[which]);
+            let prepared = prepare(&points, Order::ALL[which], contexts);
             let lowest = |index: u32| points.iter().position(|p| *p == points[index as usize]);
             for &index in &prepared.order {
                 prop_assert_eq!(lowest(index), Some(index as usize));

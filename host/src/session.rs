@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use incircle_protocol::{command_word, Identity, InsertReport, Layout, Opcode};
 
 use crate::assemble::Assembly;
+use crate::counters::Latencies;
 use crate::error::Error;
 use crate::fault::DeviceFault;
 use crate::link::{Limit, Link};
@@ -53,7 +54,7 @@ impl<'d> Session<'d> {
     /// of 16 bits the peak is 120 bytes per point, the software model and the mesh included, the caller's points not.
     ///
     /// # Errors
-    /// A coordinate beyond the device's bits, more distinct points than it holds, a failing link, an answer that no
+    /// A coordinate beyond the device's bits, more contexts than it has, more distinct points than it holds, a failing link, an answer that no
     /// sound device gives, a passed deadline, or a cancelled job. After an error of link or device the session is out of
     /// step; after all others it can be used again.
     pub fn triangulate_with(&mut self, points: &[Point], options: &Options<'_>) -> Result<Mesh, Error> {
@@ -64,6 +65,7 @@ impl<'d> Session<'d> {
         let timeout = options.timeout.unwrap_or_else(|| Options::default_timeout(points.len()));
         let job = Job {
             identity: self.identity,
+            contexts: options.contexts.unwrap_or(self.identity.contexts),
             layout: Layout::of(self.identity.coord_bits, self.identity.capacity),
             limit: Limit::of(timeout),
             link: self.link,
@@ -98,6 +100,8 @@ impl Stopwatch {
 /// One triangulation under way.
 struct Job<'j> {
     identity: Identity,
+    /// Contexts that work.
+    contexts: u32,
     layout: Layout,
     limit: Limit,
     link: &'j mut Link,
@@ -107,8 +111,12 @@ struct Job<'j> {
 }
 
 impl<'j> Job<'j> {
-    /// Every point must fit the device's grid, and all of them 32-bit indices.
+    /// The device must have the contexts; every point must fit its grid, and all of them 32-bit indices.
     fn check_input(&self) -> Result<(), Error> {
+        let (asked, contexts) = (self.contexts, self.identity.contexts);
+        if !(1..=contexts).contains(&asked) {
+            return Err(Error::Contexts { asked, contexts, device: self.link.name() });
+        }
         if self.points.len() > MAX_POINTS {
             return Err(Error::TooManyPoints { points: self.points.len(), max: MAX_POINTS });
         }
@@ -125,7 +133,7 @@ impl<'j> Job<'j> {
     /// Everything but the points of the mesh.
     fn run(mut self) -> Result<Mesh, Error> {
         self.tell(Stage::Order, 0, self.points.len())?;
-        let prepared = prepare(self.points, self.options.order);
+        let prepared = prepare(self.points, self.options.order, self.contexts);
         self.watch.ended(Stage::Order);
         self.check_capacity(prepared.order.len())?;
         let mut report = self.begin_report(&prepared);
@@ -134,7 +142,9 @@ impl<'j> Job<'j> {
         } else {
             self.insert(&prepared.order)?;
             let assembly = self.read(&prepared.order)?;
-            report.counters = Some(self.link.counters(self.limit)?);
+            let counters = self.link.counters(self.limit)?;
+            report.counters = Some(counters);
+            report.latencies = Latencies::of(&counters, &self.link.latencies(self.limit)?);
             self.assemble(assembly)?
         };
         report.triangles = triangles.len();
@@ -161,13 +171,14 @@ impl<'j> Job<'j> {
             order: self.options.order.name(),
             coord_bits: self.identity.coord_bits,
             capacity: self.identity.capacity,
+            contexts: self.contexts,
             ..Report::default()
         }
     }
 
     /// Clears the device and inserts all points, a chunk per command.
     fn insert(&mut self, order: &[u32]) -> Result<(), Error> {
-        self.link.clear(self.limit)?;
+        self.link.clear(self.contexts, self.limit)?;
         let chunk = self.options.insert_chunk.max(MIN_INSERT_CHUNK);
         let mut words = Vec::with_capacity(2 + chunk.min(order.len()) * self.layout.point_words);
         let mut sent = 0;

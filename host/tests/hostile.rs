@@ -53,12 +53,17 @@ fn an_honest_device_passes() {
 fn lies_about_the_identity() {
     let hello = |place: usize, value: u32| fault(word(Opcode::Hello, 2 + place, move |_| value));
     assert!(matches!(hello(0, 0xdead_beef), DeviceFault::Magic { found: 0xdead_beef, .. }));
-    assert!(matches!(hello(1, 2 << 16), DeviceFault::ProtocolVersion { .. }));
+    for version in [0, 1 << 16, 2 << 16] {
+        assert!(matches!(hello(1, version), DeviceFault::ProtocolVersion { found, .. } if found == version));
+    }
     for bits in [0, 32, u32::MAX] {
         assert_eq!(hello(3, bits), DeviceFault::CoordBits(bits));
     }
     for capacity in [0, 3, 1 << 30, u32::MAX] {
         assert_eq!(hello(4, capacity), DeviceFault::Capacity(capacity));
+    }
+    for contexts in [0, 256, u32::MAX] {
+        assert_eq!(hello(5, contexts), DeviceFault::Contexts(contexts));
     }
 }
 
@@ -66,6 +71,27 @@ fn lies_about_the_identity() {
 fn a_larger_minor_version_is_welcome() {
     let mesh = run(Liar::new(16, word(Opcode::Hello, 3, |version| version + 7)));
     assert!(mesh.is_ok());
+}
+
+#[test]
+fn contexts_that_are_claimed_and_not_there_are_found_out() {
+    // The model behind the liar has one, and refuses to clear for more.
+    let found = fault(word(Opcode::Hello, 2 + 5, |_| 255));
+    assert_eq!(
+        found,
+        DeviceFault::Status { status: Status::BadContexts as u8, meaning: "more contexts were asked for than it has" }
+    );
+}
+
+#[test]
+fn absurd_latencies_are_no_more_than_absurd() {
+    let mesh = run(Liar::new(16, |opcode, answer| {
+        if matches!(opcode, Opcode::Latencies | Opcode::Counters) {
+            answer[2..].fill(u32::MAX);
+        }
+    }));
+    let report = mesh.expect("an honest mesh").report;
+    assert_eq!(report.latencies.map(|latencies| latencies.insertions), Some(128 * u64::from(u32::MAX)));
 }
 
 #[test]
@@ -89,7 +115,9 @@ fn wrong_headers_and_lengths() {
 
 #[test]
 fn every_failure_status_is_reported() {
-    for status in [Status::UnknownOpcode, Status::BadRange, Status::Collinear, Status::Full] {
+    for status in
+        [Status::UnknownOpcode, Status::BadRange, Status::Collinear, Status::Full, Status::BadContexts, Status::Stuck]
+    {
         let found = fault(move |opcode, answer| {
             if opcode == Opcode::Insert {
                 answer[0] = answer_header(opcode as u8, status);
@@ -196,7 +224,7 @@ fn a_well_formed_mesh_of_another_kind_is_left_to_the_validator() {
 
 #[test]
 fn short_answers_are_timeouts_and_the_session_ends() {
-    for opcode in [Opcode::Hello, Opcode::Clear, Opcode::Insert, Opcode::Read, Opcode::Counters] {
+    for opcode in [Opcode::Hello, Opcode::Clear, Opcode::Insert, Opcode::Read, Opcode::Counters, Opcode::Latencies] {
         let result = run(Liar::new(16, move |asked, answer| {
             if asked == opcode {
                 answer.pop();
@@ -235,7 +263,7 @@ fn noise_in_any_word_never_panics() {
     for round in 0..3000u64 {
         let mut noise = Random(random.next());
         let bits = if round % 2 == 0 { 16 } else { 20 };
-        let target = noise.below(5) + 1;
+        let target = noise.below(6) + 1;
         let lie = move |opcode: Opcode, answer: &mut Vec<u32>| {
             if opcode as u32 == target {
                 let place = noise.below(answer.len() as u32) as usize;

@@ -3,31 +3,48 @@
 use std::path::Path;
 
 use incircle::{Device, Point, MAX_POINTS};
+use incircle_protocol::{Config, CORE_COORD_BITS, NAMED};
 
-#[cfg(feature = "sim")]
-use crate::arguments::ConfigName;
-use crate::arguments::{BackendArguments, BackendName};
-use crate::failure::Failure;
+use crate::arguments::{BackendArguments, BackendName, ConfigName};
+use crate::failure::{Exit, Failure};
 use crate::grid::failure_of;
 
 /// Fewest points a model is made for.
 const LEAST_CAPACITY: usize = 4;
 
-/// Points of one `Insert` command to a simulated core, which takes up to half a second for them: progress and
-/// interrupts come between commands.
-#[cfg(feature = "sim")]
-const SIM_INSERT_CHUNK: usize = 4096;
+/// Points of one `Insert` command to a core that is simulated or predicted: a whole job, because the end of each command waits
+/// until nothing is in flight. Progress and interrupts come between commands; a job takes a second or two.
+const CORE_INSERT_CHUNK: usize = 16_384;
 
 /// An opened back end.
 pub struct Backend {
     /// The device.
     pub device: Device,
-    /// Its name in reports: `model` or `sim`.
+    /// Its name in reports: `model`, `clock` or `sim`.
     pub name: &'static str,
-    /// The named configuration of a core.
-    pub config: Option<&'static str>,
+    /// The configuration of a core.
+    pub config: Option<Config>,
     /// Points of one `Insert` command.
     pub insert_chunk: usize,
+}
+
+impl Backend {
+    /// Holds that a core has as many contexts as are asked for. Other back ends are left to the library.
+    pub fn check_contexts(&self, asked: Option<u32>) -> Result<(), Failure> {
+        let (Some(asked), Some(config)) = (asked, self.config) else {
+            return Ok(());
+        };
+        if asked <= config.contexts {
+            return Ok(());
+        }
+        let all = NAMED.map(|config| format!("{} {}", config.name, config.contexts)).join(", ");
+        let larger = NAMED.into_iter().find(|config| config.contexts >= asked);
+        let advice = larger.map_or(String::new(), |config| format!(" or --config {}", config.name));
+        Err(Failure::usage(format!(
+            "{asked} contexts are more than the {} of the core {} ({all}): choose fewer{advice}",
+            config.contexts, config.name
+        )))
+    }
 }
 
 /// Opens the back end for these points, or, without points, as large as it gets. A core is taken in the configuration
@@ -39,69 +56,83 @@ pub fn open(
     points: Option<&[Point]>,
     trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
-    match choice.backend {
-        BackendName::Model => open_model(choice, coord_bits, points.map_or(MAX_POINTS, <[Point]>::len)),
-        BackendName::Sim => open_sim(choice, coord_bits, points, trace),
-    }
+    let room = points.map(|points| match choice.backend {
+        BackendName::Model => points.len(),
+        BackendName::Clock | BackendName::Sim => count_distinct(points),
+    });
+    open_with_room(choice, coord_bits, room, trace)
 }
 
-fn open_model(choice: &BackendArguments, coord_bits: u32, points: usize) -> Result<Backend, Failure> {
+/// As [`open`], for jobs of up to `room` points: all of them for the model, distinct ones for a core.
+pub fn open_with_room(
+    choice: &BackendArguments,
+    coord_bits: u32,
+    room: Option<usize>,
+    trace: Option<&Path>,
+) -> Result<Backend, Failure> {
+    let (device, name, config) = match choice.backend {
+        BackendName::Model => (open_model(choice, coord_bits, room.unwrap_or(MAX_POINTS))?, "model", None),
+        BackendName::Clock => {
+            let config = config_for(choice, coord_bits, room)?;
+            (Device::clock_model(config).map_err(|error| failure_of(&error))?, "clock", Some(config))
+        }
+        BackendName::Sim => {
+            check_sim()?;
+            let config = config_for(choice, coord_bits, room)?;
+            (open_sim(config, trace)?, "sim", Some(config))
+        }
+    };
+    let insert_chunk = if config.is_some() { CORE_INSERT_CHUNK } else { incircle::INSERT_CHUNK };
+    Ok(Backend { device, name, config, insert_chunk })
+}
+
+fn open_model(choice: &BackendArguments, coord_bits: u32, points: usize) -> Result<Device, Failure> {
     if choice.config.is_some() {
-        return Err(Failure::usage("--config chooses a configuration of the core: it needs --backend sim"));
+        return Err(Failure::usage(
+            "--config chooses a configuration of the core: it needs --backend clock or --backend sim",
+        ));
     }
     let capacity = points.clamp(LEAST_CAPACITY, MAX_POINTS);
     let capacity = u32::try_from(capacity).unwrap_or(u32::MAX);
-    let device = Device::model(coord_bits, capacity).map_err(|error| failure_of(&error))?;
-    Ok(Backend { device, name: "model", config: None, insert_chunk: incircle::INSERT_CHUNK })
+    Device::model(coord_bits, capacity).map_err(|error| failure_of(&error))
 }
 
-#[cfg(not(feature = "sim"))]
-fn open_sim(_: &BackendArguments, _: u32, _: Option<&[Point]>, _: Option<&Path>) -> Result<Backend, Failure> {
+/// Comes before all that is said about configurations: without the core none of it would help.
+fn check_sim() -> Result<(), Failure> {
+    if cfg!(feature = "sim") {
+        return Ok(());
+    }
     Err(Failure::usage(
         "this incircle was built without the simulated core: install Verilator and build it with \
-         'cargo build --release --features sim'",
+         'cargo build --release --features sim', or use --backend clock",
     ))
 }
 
-#[cfg(feature = "sim")]
-fn open_sim(
-    choice: &BackendArguments,
-    coord_bits: u32,
-    points: Option<&[Point]>,
-    trace: Option<&Path>,
-) -> Result<Backend, Failure> {
-    let config = match points {
-        Some(points) => config_for(choice, coord_bits, points)?,
-        None => choice.config.unwrap_or(ConfigName::Large).config(),
-    };
-    Ok(Backend {
-        device: crate::sim_backend::open(config, trace)?,
-        name: "sim",
-        config: Some(config.name),
-        insert_chunk: SIM_INSERT_CHUNK,
-    })
+#[cfg(not(feature = "sim"))]
+fn open_sim(_: Config, _: Option<&Path>) -> Result<Device, Failure> {
+    check_sim().and(Err(Failure::usage("there is no simulated core in this build")))
 }
 
-/// The configuration for a job, or why there is none.
 #[cfg(feature = "sim")]
-fn config_for(
-    choice: &BackendArguments,
-    coord_bits: u32,
-    points: &[Point],
-) -> Result<incircle_protocol::Config, Failure> {
-    use incircle_protocol::{CORE_COORD_BITS, NAMED};
+fn open_sim(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
+    crate::sim_backend::open(config, trace)
+}
 
+/// The configuration for a job of so many distinct points, or why there is none; without a job the one asked for, or the largest.
+fn config_for(choice: &BackendArguments, coord_bits: u32, distinct: Option<usize>) -> Result<Config, Failure> {
     if coord_bits > CORE_COORD_BITS {
         return Err(Failure::new(
-            crate::failure::Exit::Capacity,
+            Exit::Capacity,
             format!(
                 "the core has coordinates of {CORE_COORD_BITS} bits, not {coord_bits}: \
                  give --coord-bits {CORE_COORD_BITS} or --backend model"
             ),
         ));
     }
-    let distinct = count_distinct(points);
-    let holds = |config: &incircle_protocol::Config| config.points as usize >= distinct;
+    let Some(distinct) = distinct else {
+        return Ok(choice.config.unwrap_or(ConfigName::Large).config());
+    };
+    let holds = |config: &Config| config.points as usize >= distinct;
     let smallest = NAMED.into_iter().find(holds);
     let config = choice.config.map_or(smallest, |name| Some(name.config()));
     config.filter(holds).ok_or_else(|| {
@@ -112,14 +143,14 @@ fn config_for(
             None => "--backend model".to_owned(),
         };
         Failure::new(
-            crate::failure::Exit::Capacity,
+            Exit::Capacity,
             format!("{distinct} distinct points are more than {asked} holds ({all}): use {advice}"),
         )
     })
 }
 
-#[cfg(feature = "sim")]
-fn count_distinct(points: &[Point]) -> usize {
+/// Distinct points of a list.
+pub fn count_distinct(points: &[Point]) -> usize {
     let mut sorted = points.to_vec();
     sorted.sort_unstable();
     sorted.dedup();

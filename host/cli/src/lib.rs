@@ -6,6 +6,7 @@
 
 mod arguments;
 mod backend;
+mod bench_report;
 mod commands;
 mod failure;
 pub mod formats;
@@ -20,6 +21,7 @@ mod report;
 mod sim_backend;
 mod source;
 mod text;
+mod values;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -45,6 +47,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Triangulate(arguments) => commands::triangulate::run(arguments),
         Command::Verify(arguments) => commands::verify::run(arguments),
         Command::Generate(arguments) => commands::generate::run(arguments),
+        Command::Bench(arguments) => commands::bench::run(arguments),
         Command::Info(arguments) => commands::info::run(arguments),
         Command::Completions(arguments) => commands::completions::run(arguments),
     });

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use incircle::{Counters, Quantization, Report, Shown};
+use incircle::{Counters, Latencies, Quantization, Report, Shown};
 use serde_json::{json, Map, Value};
 
 use crate::backend::Backend;
@@ -25,7 +25,13 @@ pub struct RunReport<'a> {
 impl<'a> RunReport<'a> {
     /// A report of a job on this back end, the command's own stages still empty.
     pub fn new(job: &'a Report, backend: &Backend, coord_bits: u32, quantization: Option<&'a Quantization>) -> Self {
-        Self { job, backend: (backend.name, backend.config), coord_bits, quantization, stages: Vec::new() }
+        Self {
+            job,
+            backend: (backend.name, backend.config.map(|config| config.name)),
+            coord_bits,
+            quantization,
+            stages: Vec::new(),
+        }
     }
 
     /// The object that `--json` prints. Cycles are there where the back end has a clock.
@@ -44,11 +50,13 @@ impl<'a> RunReport<'a> {
             "order": job.order,
             "coord_bits": self.coord_bits,
             "capacity": job.capacity,
+            "contexts": job.contexts,
             "seconds": self.seconds(),
             "quantisation": self.quantization.map(quantization_json),
             "counters": job.counters.as_ref().map(counters_json),
+            "latency": job.latencies.as_ref().map(latencies_json),
         });
-        if backend == "sim" {
+        if config.is_some() {
             add_cycles(&mut object, job);
         }
         object
@@ -86,7 +94,8 @@ impl<'a> RunReport<'a> {
         if verbose {
             let stages = self.stages.iter().map(|(name, duration)| format!("{name} {:.6} s", duration.as_secs_f64()));
             lines.push(stages.collect::<Vec<_>>().join(", "));
-            lines.extend(job.counters.as_ref().map(|counters| counters_json(counters).to_string()));
+            lines.extend(job.counters.iter().flat_map(|counters| counter_lines(counters, job.distinct)));
+            lines.extend(job.latencies.as_ref().map(latency_line));
         }
         lines
     }
@@ -109,8 +118,29 @@ impl<'a> RunReport<'a> {
     }
 }
 
+/// What the software model counts; the rest is 0 where there is no clock.
+const WITHOUT_CLOCK: [&str; 8] =
+    ["insertions", "duplicates", "refused", "walk_visits", "tests", "cavity_triangles", "overflows", "flips"];
+
+/// The counters as a table: what, how many, how many per insertion. Latencies have a line of their own.
+fn counter_lines(counters: &Counters, insertions: usize) -> Vec<String> {
+    let has_clock = counters.insert_cycles > 0;
+    let is_shown = |name: &str| !name.starts_with("latency") && (has_clock || WITHOUT_CLOCK.contains(&name));
+    let named = counters.named().into_iter().filter(|(name, _)| is_shown(name));
+    let line = |(name, value): (&str, u64)| {
+        let what = name.replace('_', " ");
+        format!("  {what:<17} {value:>12} {:>10.3} per insertion", value as f64 / insertions.max(1) as f64)
+    };
+    named.map(line).collect()
+}
+
+fn latency_line(latencies: &Latencies) -> String {
+    let Latencies { min, median, p99, max, .. } = latencies;
+    format!("  cycles of an insertion: least {min}, half up to {median}, 99 % up to {p99}, most {max}")
+}
+
 /// The cycle counts of a job on a core; zero where the host answered alone.
-fn add_cycles(object: &mut Value, job: &Report) {
+pub fn add_cycles(object: &mut Value, job: &Report) {
     let counters = job.counters.unwrap_or_default();
     let cycles = counters.insert_cycles;
     object["cycles"] = cycles.into();
@@ -130,18 +160,23 @@ pub fn quantization_json(quantization: &Quantization) -> Value {
     })
 }
 
-fn counters_json(counters: &Counters) -> Value {
+/// The counters by name.
+pub fn counters_json(counters: &Counters) -> Value {
+    counters.named().into_iter().map(|(name, value)| (name.to_owned(), Value::from(value))).collect()
+}
+
+/// The most that a percentile is told above its true value, as a share of that: buckets are an eighth of an octave wide.
+const RESOLUTION: f64 = 0.125;
+
+/// How long insertions took, as an object.
+pub fn latencies_json(latencies: &Latencies) -> Value {
     json!({
-        "insert_cycles": counters.insert_cycles,
-        "wait_cycles": counters.wait_cycles,
-        "read_cycles": counters.read_cycles,
-        "insertions": counters.insertions,
-        "duplicates": counters.duplicates,
-        "refused": counters.refused,
-        "walk_visits": counters.walk_visits,
-        "tests": counters.tests,
-        "cavity_triangles": counters.cavity_triangles,
-        "overflows": counters.overflows,
-        "flips": counters.flips,
+        "insertions": latencies.insertions,
+        "min": latencies.min,
+        "median": latencies.median,
+        "p99": latencies.p99,
+        "max": latencies.max,
+        "resolution": RESOLUTION,
+        "histogram": latencies.histogram,
     })
 }

@@ -70,6 +70,11 @@ fn json_report_has_all_keys() {
     assert_eq!(report["quantisation"], Value::Null);
     assert_eq!(report["counters"]["insertions"], 5);
     assert_eq!(report["coord_bits"], 16);
+    assert_eq!((&report["contexts"], &report["latency"]), (&Value::from(1), &Value::Null));
+    // The software model has no clock, and one context: these are there, and 0.
+    for counter in ["insert_cycles", "root_visits", "aborts", "waiting_tokens", "issue_cycles", "latency_max"] {
+        assert_eq!(report["counters"][counter], 0, "{counter}");
+    }
     for stage in ["load", "quantise", "order", "insert", "read", "assemble", "write", "total"] {
         assert!(report["seconds"][stage].is_f64(), "{stage}: {report}");
     }
@@ -166,6 +171,12 @@ fn wrong_use_ends_with_two() {
         "triangulate p.csv -o m.ele --quantize never",
         "triangulate p.csv -o m.ele --timeout 0",
         "triangulate p.csv -o m.ele --order random",
+        "triangulate p.csv -o m.ele --contexts 0",
+        "triangulate p.csv -o m.ele --contexts many",
+        "bench everything",
+        "bench --mhz 0",
+        "bench -n 0",
+        "bench --coord-bits 32",
         "triangulate p.csv -o m.ele --backend abacus",
         "verify p.csv m.svg --format svg",
         "generate uniform -n 5 --bits 32 -o x.csv",
@@ -182,6 +193,11 @@ fn wrong_use_ends_with_two() {
         ("triangulate p.csv -o - --format ele --json", "--json"),
         ("triangulate p.csv -o m.ele --config tiny", "--backend sim"),
         ("triangulate p.csv -o m.ele --trace t.vcd", "--backend sim"),
+        ("triangulate p.csv -o m.ele --trace t.vcd --backend clock", "--backend sim"),
+        ("triangulate p.csv -o m.ele --contexts 2", "model cannot work with 2 contexts: choose 1,"),
+        ("bench --contexts 2", "model cannot work with 2 contexts: choose 1,"),
+        ("bench --config tiny", "--backend clock"),
+        ("bench -n 600000000", "536870911"),
         ("generate uniform -n 5 -o x.ply", "x.ply"),
         ("verify p.csv m.svg", "m.svg"),
     ];
@@ -197,7 +213,10 @@ fn wrong_use_ends_with_two() {
 fn a_build_without_the_core_says_how_to_build_it() {
     let scratch = Scratch::new();
     scratch.write("p.csv", FIVE);
-    scratch.run("triangulate p.csv -o m.ele --backend sim").fails(2, &["--features sim"]);
+    for command in ["triangulate p.csv -o m.ele", "bench", "info"] {
+        let run = scratch.run(&format!("{command} --backend sim"));
+        run.fails(2, &["--features sim", "--backend clock"]);
+    }
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 
@@ -250,7 +269,10 @@ fn quiet_is_quiet_and_verbose_says_more() {
     let plain = scratch.run("triangulate p.csv -o m.ele").ok();
     assert!(plain.stderr.starts_with("quantised to 16 bits"), "{plain:?}");
     let verbose = scratch.run("triangulate p.csv -o m.ele -v").ok();
-    assert!(verbose.stderr.contains("walk_visits"), "{verbose:?}");
+    assert!(verbose.stderr.contains("  insertions                   3      1.000 per insertion\n"), "{verbose:?}");
+    assert!(verbose.stderr.contains("  walk visits"), "{verbose:?}");
+    // Nothing that needs a clock.
+    assert!(!verbose.stderr.contains("cycles"), "{verbose:?}");
 }
 
 #[test]

@@ -183,6 +183,7 @@ fn an_interrupt_leaves_a_sentence_and_no_file() {
         (vec!["-INT"], "generate uniform -n 50000000 --bits 31 -o g.csv"),
         (vec!["-INT"], "triangulate big.csv -o m.ele --coord-bits 31"),
         (vec!["-INT", "-TERM"], "triangulate big.csv -o m.ele --coord-bits 31"),
+        (vec!["-INT"], "bench uniform -n 16000 --backend clock --contexts 1 --order input"),
     ];
     for (signals, arguments) in runs {
         let mut command = scratch.command(arguments.split_whitespace());

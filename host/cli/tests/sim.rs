@@ -1,4 +1,5 @@
-//! The back end `sim` gives the files of the back end `model`, byte for byte.
+//! The back end `sim` gives the files of the back end `model`, byte for byte, and the cycles of the back end `clock`. The order in
+//! which a core holds its records depends on its contexts; the files do not.
 #![cfg(feature = "sim")]
 
 mod common;
@@ -6,13 +7,13 @@ mod common;
 use common::Scratch;
 use serde_json::Value;
 
-/// Triangulates `p.csv` with both back ends and gives the simulation's report.
+/// Triangulates `p.csv` with both back ends, the core with these options, and gives the simulation's report.
 #[track_caller]
-fn compare(scratch: &Scratch, options: &str) -> Value {
-    scratch.run(&format!("triangulate p.csv -o model.ele {options}")).ok();
-    let run = scratch.run(&format!("triangulate p.csv -o sim.ele --backend sim --json {options}")).ok();
-    assert_eq!(scratch.read("model.ele"), scratch.read("sim.ele"));
-    scratch.run(&format!("verify p.csv sim.ele {options}")).ok();
+fn compare(scratch: &Scratch, grid: &str, core: &str) -> Value {
+    scratch.run(&format!("triangulate p.csv -o model.ele {grid}")).ok();
+    let run = scratch.run(&format!("triangulate p.csv -o sim.ele --backend sim --json {grid} {core}")).ok();
+    assert_eq!(scratch.read("model.ele"), scratch.read("sim.ele"), "{core}");
+    scratch.run(&format!("verify p.csv sim.ele {grid}")).ok();
     serde_json::from_str(&run.stdout).expect("the report is JSON")
 }
 
@@ -21,7 +22,7 @@ fn named_sets_of_a_thousand_points() {
     let scratch = Scratch::new();
     for distribution in incircle_cli::generate::Distribution::all() {
         scratch.run(&format!("generate {distribution} -n 1000 --bits 16 --seed 1 -o p.csv")).ok();
-        let report = compare(&scratch, "");
+        let report = compare(&scratch, "", "");
         assert_eq!(report["backend"], "sim");
         assert_eq!(report["config"], "small", "{distribution}");
         let cycles = report["cycles"].as_f64().expect("cycles are counted");
@@ -35,10 +36,52 @@ fn named_sets_of_a_thousand_points() {
 }
 
 #[test]
+fn any_number_of_contexts() {
+    let scratch = Scratch::new();
+    for distribution in incircle_cli::generate::Distribution::all() {
+        scratch.run(&format!("generate {distribution} -n 1000 --bits 16 --seed 2 -o p.csv")).ok();
+        for (config, has) in [("small", 4), ("full", 16), ("large", 24)] {
+            for contexts in [1, 2, 4, 8, 16, 24].into_iter().filter(|&contexts| contexts <= has) {
+                let report = compare(&scratch, "", &format!("--config {config} --contexts {contexts}"));
+                assert_eq!(report["contexts"], contexts, "{distribution}, {config}");
+            }
+        }
+    }
+    scratch.run("triangulate p.csv -o m.ele --backend sim --contexts 5").fails(2, &["the 4 of the core small"]);
+}
+
+#[test]
+fn any_order_with_all_contexts() {
+    let scratch = Scratch::new();
+    for distribution in incircle_cli::generate::Distribution::all() {
+        scratch.run(&format!("generate {distribution} -n 1000 --bits 16 --seed 3 -o p.csv")).ok();
+        for order in ["brio-hilbert", "hilbert", "input"] {
+            compare(&scratch, "", &format!("--config full --order {order}"));
+        }
+    }
+}
+
+#[test]
+fn the_clock_model_counts_what_the_core_counts() {
+    let scratch = Scratch::new();
+    scratch.run("generate kuzmin -n 1000 -o p.csv").ok();
+    for contexts in [1, 7, 16] {
+        let [sim, clock] = ["sim", "clock"].map(|backend| {
+            let options = format!("--backend {backend} --config full --contexts {contexts} --json");
+            let run = scratch.run(&format!("triangulate p.csv -o m.ele {options}")).ok();
+            serde_json::from_str::<Value>(&run.stdout).expect("the report is JSON")
+        });
+        for key in ["counters", "latency", "cycles", "wait_cycles", "read_cycles"] {
+            assert_eq!(sim[key], clock[key], "{contexts} contexts");
+        }
+    }
+}
+
+#[test]
 fn the_report_says_the_bits_of_the_grid() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n255,0\n0,255\n");
-    let report = compare(&scratch, "--coord-bits 8");
+    let report = compare(&scratch, "--coord-bits 8", "");
     assert_eq!(report["coord_bits"], 8);
 }
 
@@ -47,7 +90,7 @@ fn sets_without_triangles() {
     let scratch = Scratch::new();
     for points in ["", "3,4\n", "3,4\n5,6\n", "3,4\n3,4\n", "0,0\n2,2\n1,1\n7,7\n"] {
         scratch.write("p.csv", points);
-        let report = compare(&scratch, "");
+        let report = compare(&scratch, "", "");
         assert_eq!(report["cycles"], 0);
         assert_eq!(report["cycles_per_insertion"], Value::Null);
     }
@@ -59,11 +102,11 @@ fn the_smallest_core_that_holds_the_points_is_taken() {
     for (n, config) in [(3, "tiny"), (8, "tiny"), (9, "small"), (1024, "small")] {
         // All different: evenly spaced on a parabola.
         scratch.run(&format!("generate parabola -n {n} -o p.csv")).ok();
-        assert_eq!(compare(&scratch, "")["config"], config, "{n}");
+        assert_eq!(compare(&scratch, "", "")["config"], config, "{n}");
     }
     // Duplicates do not count.
     scratch.write("p.csv", "0,0\n9,0\n0,9\n".repeat(100));
-    assert_eq!(compare(&scratch, "")["config"], "tiny");
+    assert_eq!(compare(&scratch, "", "")["config"], "tiny");
 }
 
 #[test]

@@ -182,6 +182,9 @@ impl CommandModel {
                 let words = self.identity.to_words();
                 self.answer(opcode, Status::Ok, &words);
             }
+            Some(Opcode::Clear) if protocol::command_contexts(word) > self.identity.contexts => {
+                self.answer(opcode, Status::BadContexts, &[]);
+            }
             Some(Opcode::Clear) => {
                 self.mesh.clear();
                 self.answer(opcode, Status::Ok, &[]);

@@ -3,7 +3,8 @@
 
 use incircle_model::{ClockModel, CommandModel, Inputs};
 use incircle_protocol::{
-    answer_opcode, answer_status, Config, Counter, Layout, Opcode, Status, CORE_COORD_BITS, SMALL, TINY,
+    answer_opcode, answer_status, latency_bucket, latency_of_bucket, Config, Counter, Layout, Opcode, Status,
+    CORE_COORD_BITS, COUNTER_WORDS, FIRST_ROUND, LATENCY_BUCKETS, PROTOCOL_VERSION, SMALL, TINY,
 };
 use std::collections::BTreeSet;
 
@@ -107,28 +108,50 @@ fn answer_of(core: &mut ClockModel, sent: &[u32]) -> Vec<u32> {
     said
 }
 
+/// Sets what a core counts otherwise than the model (clocks, and visits of walks, which start elsewhere) to 0; gives how much
+/// that was.
+fn forget_clocks(said: &mut [u32]) -> u64 {
+    let opcode = Opcode::from_u8(answer_opcode(said[0]));
+    let payload = &mut said[2..];
+    let walk_visits = Counter::WalkVisits as usize;
+    let all = 0..payload.len();
+    let clocked = match opcode {
+        Some(Opcode::Counters) => &[
+            0..Counter::Insertions as usize,
+            walk_visits..walk_visits + 1,
+            Counter::RootVisits as usize..COUNTER_WORDS,
+        ][..],
+        Some(Opcode::Latencies) => std::slice::from_ref(&all),
+        _ => &[],
+    };
+    let mut sum = 0;
+    for range in clocked {
+        let words = &mut payload[range.clone()];
+        sum += words.iter().copied().map(u64::from).sum::<u64>();
+        words.fill(0);
+    }
+    sum
+}
+
 #[test]
-fn the_core_says_it() {
-    let mut replayed = 0;
+fn a_core_with_one_context_says_it() {
+    let (mut replayed, mut clocks) = (0, 0);
     for exchange in exchanges() {
         if exchange.coord_bits != CORE_COORD_BITS {
             continue;
         }
-        let config = Config { points: exchange.capacity, ring: exchange.ring, ..TINY };
+        let config = Config { points: exchange.capacity, ring: exchange.ring, contexts: 1, ..TINY };
         let mut core = ClockModel::new(config).expect("possible");
-        for (sent, expected) in exchange.steps {
+        for (sent, mut expected) in exchange.steps {
             let mut said = answer_of(&mut core, &sent);
-            if answer_opcode(said[0]) == Opcode::Counters as u8 {
-                // The document shows the model without a clock.
-                let cycles = 2 + Counter::InsertCycles as usize..2 + Counter::Insertions as usize;
-                assert!(said[cycles.start] > 0, "the core counts clocks");
-                said[cycles].fill(0);
-            }
+            clocks += forget_clocks(&mut said);
+            forget_clocks(&mut expected);
             assert_eq!(hex(&said), hex(&expected), "answer to {}", hex(&sent));
             replayed += 1;
         }
     }
-    assert!(replayed >= 8, "only {replayed} answers are the core's");
+    assert!(replayed >= 11, "only {replayed} answers are the core's");
+    assert!(clocks > 100, "the core counts clocks");
 }
 
 #[test]
@@ -141,8 +164,8 @@ fn every_opcode_status_and_layout_is_shown() {
             statuses.insert(answer_status(answer[0]));
         }
     }
-    assert_eq!(opcodes, BTreeSet::from([1, 2, 3, 4, 5]));
-    assert_eq!(statuses, BTreeSet::from([0, 1, 2, 3, 4]));
+    assert_eq!(opcodes, BTreeSet::from([1, 2, 3, 4, 5, 6]));
+    assert_eq!(statuses, BTreeSet::from([0, 1, 2, 3, 4, 5]));
     assert_eq!(record_words, BTreeSet::from([3, 6]));
     let small = &exchanges()[0];
     assert_eq!((small.capacity, small.ring), (SMALL.points, SMALL.ring));
@@ -167,10 +190,48 @@ fn the_tables_have_the_numbers_of_the_crate() {
             CavityTriangles,
             Overflows,
             Flips,
+            RootVisits,
+            Revisits,
+            Aborts,
+            RootRetries,
+            WaitingTokens,
+            IssueCycles,
+            WriteCycles,
+            CommitCycles,
+            ReleaseCycles,
+            LatencyMin,
+            LatencyMax,
         ]
         .map(|it| format!("| {} | `{it:?}` |", it as usize)),
     );
     for row in rows {
         assert!(README.contains(&row), "no row starts with {row}");
     }
+}
+
+#[test]
+fn the_prose_has_the_numbers_of_the_crate() {
+    let last = LATENCY_BUCKETS - 1;
+    let thousands = |clocks: u32| format!("{},{:03}", clocks / 1000, clocks % 1000);
+    for said in [
+        format!("Version {}.{}.", PROTOCOL_VERSION >> 16, PROTOCOL_VERSION & 0xffff),
+        format!("counters, {COUNTER_WORDS} words"),
+        format!("histogram of latencies, {LATENCY_BUCKETS} words"),
+        format!("before the {}th are inserted by", FIRST_ROUND + 1),
+        format!("context `(j - {FIRST_ROUND}) mod C`"),
+        format!(
+            "below {} clocks, bucket {last} for all from {} on",
+            latency_of_bucket(1),
+            thousands(latency_of_bucket(last))
+        ),
+    ] {
+        assert!(README.contains(&said), "not said: {said}");
+    }
+    for bucket in 1..last {
+        let (octave, eighth) = (bucket as u32 / 8, bucket as u32 % 8);
+        assert_eq!(latency_of_bucket(bucket), (8 + eighth) << (octave + 1));
+        assert_eq!(latency_bucket(latency_of_bucket(bucket)), bucket);
+        assert_eq!(latency_bucket(latency_of_bucket(bucket + 1) - 1), bucket);
+    }
+    assert_eq!((latency_bucket(0), latency_bucket(u32::MAX)), (0, last));
 }

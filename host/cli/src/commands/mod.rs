@@ -1,5 +1,6 @@
 //! The subcommands.
 
+pub mod bench;
 pub mod completions;
 pub mod generate;
 pub mod info;

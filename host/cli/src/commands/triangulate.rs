@@ -35,6 +35,7 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
         Some(&points),
         trace.as_ref().and_then(Written::part),
     )?;
+    backend.check_contexts(arguments.job.contexts)?;
     watch.ended("open");
     let mesh = triangulate(&mut backend, &points, arguments)?;
     watch.stages.extend(&mesh.report.stages);
@@ -108,9 +109,10 @@ fn triangulate(
     let meter = Meter::new(arguments.quiet);
     let listener = |progress| meter.hear(progress);
     let options = Options {
-        timeout: arguments.timeout,
-        order: arguments.order,
+        timeout: arguments.job.timeout,
+        order: arguments.job.order,
         progress: Some(&listener),
+        contexts: arguments.job.contexts,
         insert_chunk: backend.insert_chunk,
     };
     let mesh = interrupt::working(|| {

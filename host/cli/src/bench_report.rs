@@ -1,0 +1,224 @@
+//! What a bench prints: a table for people, an object for scripts.
+
+use incircle::{Counters, Report, Stage};
+use serde_json::{json, Value};
+
+use crate::arguments::BenchArguments;
+use crate::failure::counted;
+use crate::generate::Distribution;
+use crate::report::{add_cycles, counters_json, latencies_json};
+
+/// A set and what became of it.
+pub struct Measured {
+    /// The set.
+    pub set: Distribution,
+    /// The library's report of the run.
+    pub report: Report,
+    /// Time of the whole library call.
+    pub seconds: f64,
+}
+
+/// What all rows have in common.
+pub struct Bench<'a> {
+    /// The command.
+    pub arguments: &'a BenchArguments,
+    /// Name of the back end.
+    pub backend: &'static str,
+    /// Name of the configuration, of a core.
+    pub config: Option<&'static str>,
+    /// Points it holds.
+    pub capacity: u32,
+    /// Contexts that work.
+    pub contexts: u32,
+}
+
+/// Columns of a core's table, with their widths. Visits and tests are per insertion, ports in per cent of the cycles.
+const CORE_COLUMNS: [(&str, usize); 16] = [
+    ("points", 7),
+    ("cycles", 8),
+    ("ms", 8),
+    ("visits", 8),
+    ("tests", 7),
+    ("aborts", 8),
+    ("waits", 7),
+    ("retries", 9),
+    ("issue", 7),
+    ("write", 7),
+    ("commit", 8),
+    ("release", 9),
+    ("min", 6),
+    ("median", 8),
+    ("p99", 7),
+    ("max", 7),
+];
+
+/// Columns of the software model's table, with their widths. Times are in nanoseconds.
+const MODEL_COLUMNS: [(&str, usize); 6] =
+    [("points", 10), ("ns/point", 10), ("insertion", 11), ("visits", 8), ("tests", 8), ("overflows", 11)];
+
+/// Width of the names of sets.
+const SET_WIDTH: usize = 15;
+
+impl Bench<'_> {
+    /// The lines above the rows.
+    pub fn header(&self) -> String {
+        let BenchArguments { n, coord_bits, seed, job, mhz, .. } = self.arguments;
+        let config = self.config.map_or(String::new(), |config| format!(" {config}"));
+        let contexts = counted(self.contexts as usize, "context");
+        let order = job.order.name();
+        let about = format!(
+            "{}{config}, {contexts}; sets of {}, {coord_bits} bits, seed {seed}, order {order}\n",
+            self.backend,
+            counted(*n as usize, "point")
+        );
+        if self.config.is_none() {
+            return about + &line("set", MODEL_COLUMNS.map(|(name, _)| name.to_owned()), MODEL_COLUMNS) + "\n";
+        }
+        // Groups end where their last column does.
+        let groups = [
+            (format!("at {mhz} MHz"), 3),
+            ("per insertion".to_owned(), 5),
+            ("in all".to_owned(), 8),
+            ("% of the cycles".to_owned(), 12),
+            ("cycles of an insertion".to_owned(), 16),
+        ];
+        let mut above = String::new();
+        for (group, end) in groups {
+            let width = SET_WIDTH + CORE_COLUMNS[..end].iter().map(|(_, width)| width).sum::<usize>();
+            above += &format!("{group:>0$}", width.saturating_sub(above.len()));
+        }
+        format!("{about}{above}\n{}\n", line("set", CORE_COLUMNS.map(|(name, _)| name.to_owned()), CORE_COLUMNS))
+    }
+
+    /// The row of a set.
+    pub fn row(&self, measured: &Measured) -> String {
+        let set = measured.set.to_string();
+        match self.config {
+            Some(_) => line(&set, self.core_cells(&measured.report), CORE_COLUMNS),
+            None => line(&set, model_cells(measured), MODEL_COLUMNS),
+        }
+    }
+
+    fn core_cells(&self, report: &Report) -> [String; 16] {
+        let counters = report.counters.unwrap_or_default();
+        let mean = |count: u32| Some(f64::from(count) / report.distinct as f64);
+        let percent = |cycles: u32| Some(100.0 * busy(cycles, &counters)?);
+        let latencies = report.latencies.as_ref();
+        let latency = |value: Option<u32>| value.map_or_else(nothing, |cycles| cycles.to_string());
+        // Where the host answered alone there is nothing to tell.
+        let asked = |text: String| if report.counters.is_some() { text } else { nothing() };
+        [
+            report.distinct.to_string(),
+            shown(report.cycles_per_insertion(), 2),
+            asked(shown(Some(1000.0 * self.seconds(&counters)), 3)),
+            asked(shown(mean(counters.walk_visits), 2)),
+            asked(shown(mean(counters.tests), 2)),
+            asked(counters.aborts.to_string()),
+            asked(counters.waiting_tokens.to_string()),
+            asked(counters.root_retries.to_string()),
+            shown(percent(counters.issue_cycles), 1),
+            shown(percent(counters.write_cycles), 1),
+            shown(percent(counters.commit_cycles), 1),
+            shown(percent(counters.release_cycles), 1),
+            latency(latencies.map(|it| it.min)),
+            latency(latencies.map(|it| it.median)),
+            latency(latencies.map(|it| it.p99)),
+            latency(latencies.map(|it| it.max)),
+        ]
+    }
+
+    /// Time of the insertions at the frequency that is assumed.
+    fn seconds(&self, counters: &Counters) -> f64 {
+        counters.insert_cycles as f64 / (self.arguments.mhz * 1e6)
+    }
+
+    /// The object that `--json` prints.
+    pub fn to_json(&self, rows: &[Measured]) -> Value {
+        let BenchArguments { n, coord_bits, seed, job, mhz, .. } = self.arguments;
+        let mut object = json!({
+            "backend": self.backend,
+            "config": self.config,
+            "capacity": self.capacity,
+            "contexts": self.contexts,
+            "order": job.order.name(),
+            "n": n,
+            "coord_bits": coord_bits,
+            "seed": seed,
+            "sets": rows.iter().map(|measured| self.row_json(measured)).collect::<Vec<_>>(),
+        });
+        if self.config.is_some() {
+            object["mhz"] = (*mhz).into();
+        }
+        object
+    }
+
+    fn row_json(&self, measured: &Measured) -> Value {
+        let report = &measured.report;
+        let stage = |stage: Stage| report.stage(stage).map(|duration| duration.as_secs_f64());
+        let mut object = json!({
+            "set": measured.set.to_string(),
+            "distinct": report.distinct,
+            "triangles": report.triangles,
+            "hull": report.hull,
+            "seconds": {
+                "order": stage(Stage::Order),
+                "insert": stage(Stage::Insert),
+                "read": stage(Stage::Read),
+                "assemble": stage(Stage::Assemble),
+                "total": measured.seconds,
+            },
+            "counters": report.counters.as_ref().map(counters_json),
+            "latency": report.latencies.as_ref().map(latencies_json),
+        });
+        if self.config.is_some() {
+            let counters = report.counters.unwrap_or_default();
+            add_cycles(&mut object, report);
+            object["seconds_at_mhz"] = self.seconds(&counters).into();
+            object["busy"] = json!({
+                "issue": busy(counters.issue_cycles, &counters),
+                "write": busy(counters.write_cycles, &counters),
+                "commit": busy(counters.commit_cycles, &counters),
+                "release": busy(counters.release_cycles, &counters),
+            });
+        }
+        object
+    }
+}
+
+fn model_cells(measured: &Measured) -> [String; 6] {
+    let report = &measured.report;
+    let distinct = report.distinct as f64;
+    let insertion = report.stage(Stage::Insert).map(|duration| duration.as_secs_f64() * 1e9 / distinct);
+    let counters = report.counters;
+    let mean = |count: Option<u32>| shown(count.map(|count| f64::from(count) / distinct), 2);
+    [
+        report.distinct.to_string(),
+        shown(Some(measured.seconds * 1e9 / report.points as f64), 1),
+        shown(insertion, 1),
+        mean(counters.map(|it| it.walk_visits)),
+        mean(counters.map(|it| it.tests)),
+        counters.map_or_else(nothing, |it| it.overflows.to_string()),
+    ]
+}
+
+/// The share of the insertion's cycles; `None` if there are none.
+fn busy(cycles: u32, counters: &Counters) -> Option<f64> {
+    (counters.insert_cycles > 0).then(|| f64::from(cycles) / counters.insert_cycles as f64)
+}
+
+/// A cell without a value.
+fn nothing() -> String {
+    "-".to_owned()
+}
+
+fn shown(value: Option<f64>, decimals: usize) -> String {
+    value.filter(|value| value.is_finite()).map_or_else(nothing, |value| format!("{value:.decimals$}"))
+}
+
+fn line<const N: usize>(set: &str, cells: [String; N], columns: [(&str, usize); N]) -> String {
+    let mut line = format!("{set:<SET_WIDTH$}");
+    for (cell, (_, width)) in cells.iter().zip(columns) {
+        line += &format!("{cell:>width$}");
+    }
+    line
+}

@@ -1,0 +1,84 @@
+//! The values of arguments, read from text; a wrong one is told in a sentence.
+
+use std::time::Duration;
+
+use clap::ValueEnum;
+use incircle::{Order, Quantize};
+
+use crate::formats::MeshFormat;
+
+/// An order by its name.
+pub fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
+    use clap::builder::{PossibleValuesParser, TypedValueParser};
+    let names = PossibleValuesParser::new(Order::ALL.map(Order::name));
+    // Only names of orders come through, so the default is never taken.
+    names.map(|name| Order::named(&name).unwrap_or_default())
+}
+
+/// The formats that a mesh can be read back from.
+pub fn readable_format_parser() -> impl clap::builder::TypedValueParser<Value = MeshFormat> {
+    use clap::builder::{PossibleValuesParser, TypedValueParser};
+    let readable = MeshFormat::value_variants().iter().filter(|format| format.is_readable());
+    let names = PossibleValuesParser::new(readable.filter_map(MeshFormat::to_possible_value));
+    names.try_map(|name| MeshFormat::from_str(&name, false))
+}
+
+/// How coordinates are laid onto the grid: `fit`, a scale, or a scale with an offset.
+pub fn quantize_from(text: &str) -> Result<Quantize, String> {
+    if text == "fit" {
+        return Ok(Quantize::Fit);
+    }
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
+    let (scale, offset) = match numbers.as_deref() {
+        Ok(&[scale]) => (scale, [0.0, 0.0]),
+        Ok(&[scale, x, y]) => (scale, [x, y]),
+        _ => return Err("give 'fit', a scale, or a scale and an offset 'SCALE,X0,Y0'".to_owned()),
+    };
+    if scale > 0.0 && scale.is_finite() && offset.iter().all(|value| value.is_finite()) {
+        Ok(Quantize::Scale { scale, offset })
+    } else {
+        Err("the scale must be positive, and all numbers finite".to_owned())
+    }
+}
+
+/// A positive number of seconds.
+pub fn seconds_from(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|_| "give seconds, such as 2.5".to_owned())?;
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(duration) if !duration.is_zero() => Ok(duration),
+        _ => Err("give a positive number of seconds".to_owned()),
+    }
+}
+
+/// A positive number of megahertz.
+pub fn mhz_from(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(mhz) if mhz > 0.0 && mhz.is_finite() => Ok(mhz),
+        _ => Err("give a positive number of megahertz".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantisation_is_read() {
+        assert_eq!(quantize_from("fit"), Ok(Quantize::Fit));
+        let scale = Quantize::Scale { scale: 2.0, offset: [-1.5, 0.0] };
+        assert_eq!(quantize_from("2,-1.5,0"), Ok(scale));
+        for bad in ["", "0", "-1", "nan", "1,2", "fill", "1,inf,0"] {
+            assert!(quantize_from(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn times_and_frequencies_are_positive() {
+        assert_eq!(seconds_from("2.5"), Ok(Duration::from_millis(2500)));
+        assert_eq!(mhz_from("62.5"), Ok(62.5));
+        for bad in ["", "0", "-1", "nan", "inf", "1e400", "fast"] {
+            assert!(seconds_from(bad).is_err(), "{bad}");
+            assert!(mhz_from(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! `incircle bench`: a table for people, an object for scripts.
+
+mod common;
+
+use common::{Run, Scratch};
+use serde_json::Value;
+
+/// The words of every row, the lines above the rows left out.
+fn rows(run: &Run, above: usize) -> Vec<Vec<String>> {
+    let lines = run.stdout.lines().skip(above);
+    lines.map(|line| line.split_whitespace().map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn a_core_has_a_row_per_set_with_every_column() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench --backend clock -n 600 --seed 3").ok();
+    assert_eq!(run.stderr, "");
+    let about = "clock small, 4 contexts; sets of 600 points, 16 bits, seed 3, order brio-hilbert\n";
+    assert!(run.stdout.starts_with(about), "{run:?}");
+    assert!(run.stdout.lines().nth(1).is_some_and(|line| line.contains("at 125 MHz")), "{run:?}");
+    // All lines of the table end together.
+    let widths: Vec<usize> = run.stdout.lines().skip(1).map(str::len).collect();
+    assert!(widths.iter().all(|&width| width == widths[0] && width < 140), "{widths:?}");
+    let rows = rows(&run, 3);
+    let sets: Vec<&str> = rows.iter().map(|row| row[0].as_str()).collect();
+    assert_eq!(sets, ["uniform", "normal", "kuzmin", "line", "checkers", "lattice"]);
+    for row in &rows {
+        assert_eq!(row.len(), 17, "{row:?}");
+        let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
+        let (distinct, cycles, ms) = (value(1), value(2), value(3));
+        assert!((cycles * distinct / 125e3 - ms).abs() < 0.01, "{row:?}");
+        assert!((9..=12).all(|column| value(column) > 1.0 && value(column) < 100.0), "{row:?}");
+        assert!((13..16).all(|column| value(column) <= value(column + 1)), "{row:?}");
+    }
+    assert_eq!(scratch.run("bench --backend clock -n 600 --seed 3").ok().stdout, run.stdout);
+}
+
+#[test]
+fn json_has_everything() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench box spiral --backend clock -n 900 --contexts 2 --order hilbert --mhz 50 --json").ok();
+    assert_eq!((run.stderr.as_str(), run.stdout.lines().count()), ("", 1));
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    for (key, value) in [("backend", "clock"), ("config", "small"), ("order", "hilbert")] {
+        assert_eq!(bench[key], value);
+    }
+    for (key, value) in [("contexts", 2), ("capacity", 1024), ("n", 900), ("coord_bits", 16), ("seed", 1)] {
+        assert_eq!(bench[key], value);
+    }
+    let sets = bench["sets"].as_array().expect("a list");
+    assert_eq!(sets.len(), 2);
+    for (set, name) in sets.iter().zip(["box", "spiral"]) {
+        assert_eq!(set["set"], name);
+        let cycles = set["cycles"].as_f64().expect("cycles are counted");
+        assert_eq!(set["seconds_at_mhz"], cycles / 50e6);
+        assert_eq!(set["counters"]["insert_cycles"], set["cycles"]);
+        assert_eq!(set["counters"]["insertions"], set["distinct"]);
+        for port in ["issue", "write", "commit", "release"] {
+            let share = set["busy"][port].as_f64().expect("a share");
+            assert_eq!(share, set["counters"][format!("{port}_cycles")].as_f64().expect("a count") / cycles);
+        }
+        assert!(set["latency"]["p99"].as_u64() >= set["latency"]["median"].as_u64());
+        assert!(set["seconds"]["total"].as_f64() > set["seconds"]["insert"].as_f64());
+    }
+}
+
+#[test]
+fn more_contexts_take_fewer_cycles() {
+    let scratch = Scratch::new();
+    let cycles = [1, 4, 16].map(|contexts| {
+        let run = scratch.run(&format!("bench uniform --backend clock -n 2000 --contexts {contexts} --json")).ok();
+        let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+        bench["sets"][0]["cycles_per_insertion"].as_f64().expect("a number")
+    });
+    assert!(cycles[0] > 2.5 * cycles[1] && cycles[1] > 1.5 * cycles[2], "{cycles:?}");
+}
+
+#[test]
+fn the_software_model_has_host_times() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench -n 3000 --coord-bits 20").ok();
+    assert!(run.stdout.starts_with("model, 1 context; sets of 3000 points, 20 bits, seed 1,"), "{run:?}");
+    let rows = rows(&run, 2);
+    assert_eq!(rows.len(), 6);
+    assert!(rows.iter().all(|row| row.len() == 7 && row[2].parse::<f64>().is_ok_and(|time| time > 1.0)), "{rows:?}");
+    let run = scratch.run("bench lattice -n 100 --json").ok();
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    assert_eq!((&bench["config"], bench.get("mhz")), (&Value::Null, None));
+    assert_eq!(bench["sets"][0]["latency"], Value::Null);
+    assert_eq!(bench["sets"][0].get("cycles"), None);
+}
+
+#[test]
+fn sets_that_the_host_answers_alone_have_dashes() {
+    let scratch = Scratch::new();
+    for backend in ["model", "clock"] {
+        let run = scratch.run(&format!("bench uniform -n 2 --backend {backend}")).ok();
+        let row = run.stdout.lines().last().expect("a row");
+        assert!(row.ends_with(" -") && !row.contains("NaN") && !row.contains("inf"), "{row}");
+        scratch.run(&format!("bench uniform -n 1 --json --backend {backend}")).ok();
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_told_before_any_row() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench --backend clock --config small");
+    run.fails(7, &["4096 distinct points", "--config full or --backend model"]);
+    scratch.run("bench --backend clock --coord-bits 17").fails(7, &["16 bits", "17"]);
+    scratch.run("bench --backend clock --contexts 17").fails(2, &["17 contexts", "the 16 of the core full"]);
+    // Duplicates are no matter: 20000 points fall onto 5000 places.
+    let run = scratch.run("bench box -n 20000 --backend clock").ok();
+    assert!(run.stdout.starts_with("clock full,"), "{run:?}");
+}
