@@ -21,8 +21,8 @@ fn two_jobs_clock_by_clock() {
     let mut model = ClockModel::new(TINY).unwrap();
     let points =
         [0x0000_0000, 0x0000_0009, 0x0009_0000, 0x0003_0003, 0x0009_0009, 0x0005_0001, 0x0003_0003, 0x0001_0008];
-    let mut commands = Job::of(&points, 8, TINY.points, TINY.ring).commands;
-    commands.extend(Job::of(&points[..5], 2, TINY.points, TINY.ring).commands);
+    let mut commands = Job::of(&points, 8, 0, TINY).commands;
+    commands.extend(Job::of(&points[..5], 2, 1, TINY).commands);
     let mut rest = commands.as_slice();
     let mut chance = 1u64;
     for clock in 0..3500 {

@@ -7,7 +7,7 @@
 mod lockstep_rig;
 
 use incircle_cli::generate::{Distribution, SplitMix64};
-use incircle_protocol::{command_word, Config, Counter, Opcode, FULL, LARGE, SMALL, TINY};
+use incircle_protocol::{clear_word, command_word, Config, Counter, Opcode, FULL, LARGE, SMALL, TINY};
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use lockstep_rig::{ordered, word, Rig};
 use std::path::PathBuf;
@@ -26,7 +26,7 @@ fn tiny_jobs_in_tiny_boxes() {
         let count = random.below(12);
         let points: Vec<u32> = (0..count).map(|_| word(random.below(side), random.below(side))).collect();
         let piece = 1 + random.below(4) as usize;
-        rig.run(&points, piece, Stalls::ALL[job as usize % 9]);
+        rig.run(&points, piece, job % 3, Stalls::ALL[job as usize % 9]);
     }
     rig.expect_clocks(1_000_000);
 }
@@ -36,12 +36,12 @@ fn overflowing_lists() {
     let mut rig = Rig::new("core_small_ring9", RING9, 2);
     let mut random = SplitMix64::new(2);
     for (k, &distribution) in Distribution::all().iter().enumerate() {
-        let points = ordered(distribution, 300, 12, k as u64);
-        rig.run(&points, 300, Stalls::ALL[k % 9]);
+        let points = ordered(distribution, 300, 12, k as u64, 4);
+        rig.run(&points, 300, 0, Stalls::ALL[k % 9]);
         // Unordered points make large cavities.
         let mut points = points;
         random.shuffle(&mut points);
-        rig.run(&points, 77, Stalls::NONE);
+        rig.run(&points, 77, k as u32 % 5, Stalls::NONE);
     }
     assert!(rig.counted(Counter::Overflows) > 150, "{} overflows", rig.counted(Counter::Overflows));
     rig.expect_clocks(800_000);
@@ -53,9 +53,9 @@ fn every_distribution_to_the_brim() {
     for (k, &distribution) in Distribution::all().iter().enumerate() {
         rig.start_anew(k as u32);
         // One point more than it holds, one less, and many duplicates in few bits.
-        rig.run(&ordered(distribution, 1025, 16, k as u64), 1025, Stalls::ALL[k % 9]);
-        rig.run(&ordered(distribution, 1023, 8, k as u64), 400, Stalls::ALL[(k + 4) % 9]);
-        rig.run(&ordered(distribution, 600, 16, 7 + k as u64), 600, Stalls::NONE);
+        rig.run(&ordered(distribution, 1025, 16, k as u64, 4), 1025, 0, Stalls::ALL[k % 9]);
+        rig.run(&ordered(distribution, 1023, 8, k as u64, 3), 400, 3, Stalls::ALL[(k + 4) % 9]);
+        rig.run(&ordered(distribution, 600, 16, 7 + k as u64, 1), 600, 1, Stalls::NONE);
     }
     rig.expect_clocks(4_500_000);
 }
@@ -64,7 +64,7 @@ fn every_distribution_to_the_brim() {
 fn the_full_core() {
     let mut rig = Rig::new("core_full", FULL, 4);
     for distribution in [Distribution::Uniform, Distribution::Kuzmin, Distribution::Lattice, Distribution::Line] {
-        rig.run(&ordered(distribution, 8192, 16, 4), 8192, Stalls::NONE);
+        rig.run(&ordered(distribution, 8192, 16, 4, 16), 8192, 0, Stalls::NONE);
     }
     rig.expect_clocks(4_600_000);
 }
@@ -74,10 +74,10 @@ fn resets_in_mid_job() {
     let mut rig = Rig::new("core_small_ring9", RING9, 5);
     let mut random = SplitMix64::new(5);
     for k in 0..150 {
-        let points = ordered(Distribution::all()[k % Distribution::all().len()], 60, 8, k as u64);
+        let points = ordered(Distribution::all()[k % Distribution::all().len()], 60, 8, k as u64, 4);
         rig.run_and_reset(&points, random.below(9000), Stalls::ALL[k % 9]);
         if k % 10 == 0 {
-            rig.run(&points, 60, Stalls::NONE);
+            rig.run(&points, 60, 0, Stalls::NONE);
         }
     }
     rig.expect_clocks(500_000);
@@ -95,7 +95,7 @@ fn commands_out_of_place() {
                 1 => vec![command_word(Opcode::Read), random.below(20) as u32, random.below(20) as u32],
                 2 => vec![command_word(Opcode::Read), u32::MAX - random.below(3) as u32, random.below(5) as u32],
                 3 => vec![command_word(Opcode::Counters)],
-                4 => vec![command_word(Opcode::Clear)],
+                4 => vec![clear_word(random.below(4) as u32)],
                 _ => vec![command_word(Opcode::Insert), 2, word(random.below(9), 3), word(4, random.below(9))],
             };
             // A random opcode may want arguments.
@@ -120,16 +120,16 @@ fn the_least_core_and_the_longest_list() {
         let side = [3, 9, 1 << 16][job % 3];
         let count = random.below(7);
         let points: Vec<u32> = (0..count).map(|_| word(random.below(side), random.below(side))).collect();
-        rig.run(&points, 3, Stalls::ALL[job % 9]);
+        rig.run(&points, 3, 0, Stalls::ALL[job % 9]);
     }
     rig.expect_clocks(100_000);
     let ring64 = Config { ring: 64, ..SMALL };
     let mut rig = Rig::new("core_small_ring64", ring64, 8);
     for distribution in [Distribution::Parabola, Distribution::TwoChains, Distribution::Lattice] {
-        let mut points = ordered(distribution, 700, 16, 8);
-        rig.run(&points, 700, Stalls::NONE);
+        let mut points = ordered(distribution, 700, 16, 8, 4);
+        rig.run(&points, 700, 0, Stalls::NONE);
         random.shuffle(&mut points);
-        rig.run(&points, 700, Stalls::ALL[4]);
+        rig.run(&points, 700, 0, Stalls::ALL[4]);
     }
     rig.expect_clocks(500_000);
 }
@@ -137,14 +137,14 @@ fn the_least_core_and_the_longest_list() {
 #[test]
 fn the_large_core_to_the_brim() {
     let mut rig = Rig::new("core_large", LARGE, 9);
-    rig.run(&ordered(Distribution::Uniform, 16385, 16, 9), 16385, Stalls::NONE);
+    rig.run(&ordered(Distribution::Uniform, 16385, 16, 9, 24), 16385, 0, Stalls::NONE);
     rig.expect_clocks(2_000_000);
 }
 
 /// Runs some jobs that touch every rule; returns the first mismatch and leaves its waveform.
 fn first_mismatch(name: &str) -> Option<(Mismatch, PathBuf)> {
     [Distribution::Uniform, Distribution::Lattice].into_iter().find_map(|distribution| {
-        let job = Job::of(&ordered(distribution, 200, 6, 1), 200, SMALL.points, SMALL.ring);
+        let job = Job::of(&ordered(distribution, 200, 6, 1, 4), 200, 0, SMALL);
         let mut pair = Lockstep::new(name, SMALL, 1);
         let mut random = SplitMix64::new(1);
         let mismatch = pair.run(&job, Stalls::NONE, &mut || random.next_u64()).err()?;
@@ -162,7 +162,7 @@ fn broken_cores_are_caught_and_reported() {
         let report = mismatch.to_string();
         println!("{name}: {report}\n");
         assert_ne!(mismatch.expected, mismatch.found);
-        for part in ["clock ", mismatch.port, "the model says", "the model is at: phase", "last events:\n"] {
+        for part in ["clock ", mismatch.port, "the model says", "the model is at: asleep", "last events:\n"] {
             assert!(report.contains(part), "{part:?} is missing in {report}");
         }
         let wave = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));

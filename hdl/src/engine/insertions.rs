@@ -19,9 +19,7 @@
 //!
 //! Latency: see the blocks.
 
-use super::{
-    Attempts, Bundle, CommitPath, Dispatcher, Events, Token, Turned, Verdict, Write,
-};
+use super::{Attempts, Bundle, CommitPath, Dispatcher, Events, Token, Turned, Verdict, Write};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 

@@ -2,7 +2,7 @@
 
 use super::{Lockstep, Mismatch};
 use incircle_model::Inputs;
-use incircle_protocol::{command_word, Opcode};
+use incircle_protocol::{clear_word, command_word, Config, Opcode};
 
 /// How often each side of the core stalls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,10 +52,10 @@ pub struct Job {
 }
 
 impl Job {
-    /// Clears, inserts the points in the given pieces, reads all records and the counters; `answers` comes from the model by
-    /// commands.
-    pub fn of(points: &[u32], piece: usize, capacity: u32, ring: u32) -> Self {
-        let mut model = incircle_model::CommandModel::new(incircle_protocol::CORE_COORD_BITS, capacity, ring)
+    /// Clears, inserts the points in the given pieces with this many contexts (0: all), reads all records, latencies and counters;
+    /// the number of answer words comes from the model by commands.
+    pub fn of(points: &[u32], piece: usize, contexts: u32, config: Config) -> Self {
+        let mut model = incircle_model::CommandModel::new(incircle_protocol::CORE_COORD_BITS, config.points, config.ring)
             .unwrap_or_else(|error| panic!("{error}"));
         let mut commands = vec![command_word(Opcode::Hello), command_word(Opcode::Clear)];
         for piece in points.chunks(piece.max(1)) {
@@ -64,7 +64,8 @@ impl Job {
         }
         model.send(&commands);
         let records = model.mesh().records().len() as u32;
-        let rest = [command_word(Opcode::Read), 0, records, command_word(Opcode::Counters)];
+        let rest =
+            [command_word(Opcode::Read), 0, records, command_word(Opcode::Latencies), command_word(Opcode::Counters)];
         commands.extend(rest);
         model.send(&rest);
         let mut answers = 0;
@@ -75,6 +76,8 @@ impl Job {
                 some => answers += some,
             }
         }
+        // The model by commands has one context, whatever the core has.
+        commands[1] = clear_word(contexts);
         Self { commands, answers }
     }
 }

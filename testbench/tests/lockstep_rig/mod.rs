@@ -3,9 +3,14 @@
 use incircle::Point;
 use incircle_cli::generate::{generate, Distribution, SplitMix64};
 use incircle_model::{CommandModel, Inputs};
-use incircle_protocol::{Config, Counter, CORE_COORD_BITS, COUNTER_WORDS};
+use incircle_protocol::{
+    command_word, Config, Counter, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS,
+};
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use std::path::PathBuf;
+
+#[path = "../../../sim/model/tests/common/mesh_check.rs"]
+mod mesh_check;
 
 /// A point as its word.
 pub fn word(x: u64, y: u64) -> u32 {
@@ -13,10 +18,10 @@ pub fn word(x: u64, y: u64) -> u32 {
 }
 
 /// Points of a distribution in the order in which the host sends them, duplicates included.
-pub fn ordered(distribution: Distribution, count: usize, bits: u32, seed: u64) -> Vec<u32> {
+pub fn ordered(distribution: Distribution, count: usize, bits: u32, seed: u64, contexts: u32) -> Vec<u32> {
     let points = generate(distribution, count, bits, seed).unwrap_or_else(|error| panic!("{error}"));
     let points: Vec<Point> = points.into_iter().map(Point::from).collect();
-    let order = incircle::order::brio_hilbert(&points);
+    let order = incircle::order::brio_hilbert_dealt(&points, contexts);
     let mut ordered: Vec<Point> = order.into_iter().map(|index| points[index as usize]).collect();
     make_first_three_span(&mut ordered);
     ordered.into_iter().map(|p| word(u64::from(p.x), u64::from(p.y))).collect()
@@ -82,20 +87,40 @@ impl Rig {
         self.counters[counter as usize]
     }
 
-    /// A whole job: insert in pieces, read all, counters.
-    pub fn run(&mut self, points: &[u32], piece: usize, stalls: Stalls) {
-        let job = Job::of(points, piece, self.config.points, self.config.ring);
-        let mut answers = self.execute(&job, stalls);
-        let mut expected = self.by_commands(&job);
+    /// A whole job with this many contexts (0: all): insert in pieces, read all, latencies, counters.
+    pub fn run(&mut self, points: &[u32], piece: usize, contexts: u32, stalls: Stalls) {
+        let job = Job::of(points, piece, contexts, self.config);
+        let answers = self.execute(&job, stalls);
+        let expected = self.by_commands(&job);
         let counters = answers.len() - COUNTER_WORDS;
         for (sum, &word) in self.counters.iter_mut().zip(&answers[counters..]) {
             *sum += u64::from(word);
         }
-        // The model by commands knows no clock.
-        let cycles = counters..counters + Counter::Insertions as usize;
-        answers[cycles.clone()].fill(0);
-        expected[cycles].fill(0);
-        assert_eq!(answers, expected, "the core and the model clock by clock agree, the model by commands does not");
+        self.compare(points, piece, &answers, &expected);
+    }
+
+    /// What the core answers, against the model by commands, which knows no clock and no contexts: all reports are the same and all
+    /// meshes, under whatever ids.
+    fn compare(&self, points: &[u32], piece: usize, answers: &[u32], expected: &[u32]) {
+        let reports = points.chunks(piece.max(1)).len() * (2 + INSERT_REPORT_WORDS);
+        let records = 2 + IDENTITY_WORDS + 2 + reports;
+        let latencies = answers.len() - (2 + COUNTER_WORDS) - (2 + LATENCY_BUCKETS);
+        assert_eq!(answers.len(), expected.len());
+        assert_eq!(answers[2 + IDENTITY_WORDS..records + 2], expected[2 + IDENTITY_WORDS..records + 2], "reports");
+        let mesh = |words: &[u32]| {
+            let records: Vec<[u32; 3]> = words[records + 2..latencies].chunks(3).map(|r| [r[0], r[1], r[2]]).collect();
+            let arrived = &points[..points.len().min(self.config.points as usize)];
+            let canonical = || mesh_check::canonical(&records, arrived, self.config.points);
+            (!records.is_empty()).then(|| canonical().unwrap_or_else(|fault| panic!("{}: {fault}", self.name)))
+        };
+        assert_eq!(mesh(answers), mesh(expected), "the core and the model clock by clock agree, the mesh is wrong");
+        let counters = answers.len() - COUNTER_WORDS;
+        for counter in [Counter::Insertions, Counter::Duplicates, Counter::Refused] {
+            let place = counters + counter as usize;
+            assert_eq!(answers[place], expected[place], "{counter:?}");
+        }
+        let timed: u32 = answers[latencies + 2..latencies + 2 + LATENCY_BUCKETS].iter().sum();
+        assert!(timed <= answers[counters + Counter::Insertions as usize], "{timed} latencies");
     }
 
     /// Any commands; `Counters` answers may hold cycles, so answers are compared clock by clock only.
@@ -111,7 +136,7 @@ impl Rig {
 
     /// Part of a job, then a reset at some clock.
     pub fn run_and_reset(&mut self, points: &[u32], clocks: u64, stalls: Stalls) {
-        let job = Job::of(points, 40, self.config.points, self.config.ring);
+        let job = Job::of(points, 40, 0, self.config);
         let mut rest = job.commands.as_slice();
         for _ in 0..clocks {
             let chance = self.random.next_u64();
@@ -155,7 +180,10 @@ impl Rig {
     fn by_commands(&self, job: &Job) -> Vec<u32> {
         let mut model = CommandModel::new(CORE_COORD_BITS, self.config.points, self.config.ring)
             .unwrap_or_else(|error| panic!("{error}"));
-        model.send(&job.commands);
+        // It has one context, whatever the core has.
+        let mut commands = job.commands.clone();
+        commands[1] = command_word(Opcode::Clear);
+        model.send(&commands);
         let mut answers = vec![0; job.answers + 1];
         let count = model.receive(&mut answers);
         answers.truncate(count);
