@@ -166,7 +166,8 @@ fn somebody_waits() {
 /// Rule 2: while it waits in vain, who has given up does not start again. Else others hold the lock it waits for in turns, for ever.
 #[test]
 fn the_others_yield_to_the_one_that_waits() {
-    let jobs = Jobs { contexts: 14, ring: 32, points: |random| sets::started(sets::boxed(random, 100, 40)), most: 400 };
+    let points = |random: &mut Random| sets::started(sets::stuttering(random, 100, 300));
+    let jobs = Jobs { contexts: 16, ring: 32, points, most: 200 };
     jobs.expect(Defect::NobodyYields, |found| *found == Symptom::Stuck);
 }
 

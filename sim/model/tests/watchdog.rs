@@ -34,7 +34,7 @@ fn a_stuck_core_still_answers_and_takes_no_points() {
     let mut words = vec![command_word(Opcode::Insert), 50];
     words.extend(&points[..50]);
     words.extend([command_word(Opcode::Hello), command_word(Opcode::Counters)]);
-    let answers = bench.run(&words, 3, Stalls { idle: 3, full: 3 }, 10_000, &mut Random(2)).unwrap();
+    let answers = bench.run(&words, 3, Stalls { idle: 3, full: 3, beat: 0 }, 10_000, &mut Random(2)).unwrap();
     assert!(answers[0].is(Status::Stuck));
     assert_eq!(answers[0].report().arrived, stuck.report().arrived);
     assert_eq!(answers[0].report().refused, stuck.report().refused + 50);
