@@ -24,9 +24,9 @@ impl Job {
         self.pieces.concat()
     }
 
-    /// `Clear`, and an `Insert` for each piece.
-    fn words(&self) -> Vec<u32> {
-        let mut words = vec![clear_word(self.contexts)];
+    /// `Clear` for so many contexts, and an `Insert` for each piece.
+    fn words(&self, contexts: u32) -> Vec<u32> {
+        let mut words = vec![clear_word(contexts)];
         for piece in &self.pieces {
             words.extend([command_word(Opcode::Insert), piece.len() as u32]);
             words.extend(piece);
@@ -78,13 +78,14 @@ fn compare(bench: &mut Bench, job: &Job, stalls: Stalls, random: &mut Random) ->
     let mut model = CommandModel::new(16, config.points, config.ring).unwrap();
     let points = job.points();
     let what = || format!("{config:?}, {} contexts, pieces {:x?}", job.contexts, job.pieces);
-    let wanted = expected(&mut model, &job.words());
+    // The model by commands has one context.
+    let wanted = expected(&mut model, &job.words(0));
     let most = 4 * limit(points.len());
     let mut run = |words: &[u32], count| match bench.run(words, count, stalls, most, random) {
         Ok(answers) => answers,
         Err(hang) => panic!("stuck: {}, {}", hang.0, what()),
     };
-    assert_eq!(run(&job.words(), wanted.len()), wanted, "{}", what());
+    assert_eq!(run(&job.words(job.contexts), wanted.len()), wanted, "{}", what());
     let count = model.mesh().records().len() as u32;
     let past = run(&[command_word(Opcode::Read), 0, count + 1], 1);
     assert!(past[0].is(Status::BadRange) && past[0].payload.is_empty());
@@ -172,7 +173,7 @@ fn answers_as_the_model_by_commands() {
                 for turn in 0..jobs {
                     let job = Job::random(config, &mut random);
                     let stalls = [(0, 0), (2, 3), (5, 2), (40, 40)][turn % 4];
-                    let stalls = Stalls { idle: stalls.0, full: stalls.1 };
+                    let stalls = Stalls { idle: stalls.0, full: stalls.1, beat: 0 };
                     let counters = compare(&mut bench, &job, stalls, &mut random);
                     if counters.counter(Counter::Insertions) >= 3 {
                         check_counters(&mut bench, &job, &counters);
@@ -219,7 +220,7 @@ fn refuses_what_it_does_not_know_and_goes_on() {
     let mut random = Random(6);
     let mut bench = Bench::new(config);
     let mut run = |words: &[u32]| {
-        let stalls = Stalls { idle: 3, full: 3 };
+        let stalls = Stalls { idle: 3, full: 3, beat: 0 };
         bench.run(words, 1, stalls, 20_000, &mut random).unwrap().swap_remove(0)
     };
     let points = sets::boxed(&mut Random(7), 60, 1 << 16);
@@ -265,6 +266,30 @@ fn reset_in_mid_job_leaves_nothing_behind() {
             bench.reset();
             let job = Job::random(config, &mut random);
             compare(&mut bench, &job, Stalls::default(), &mut random);
+        }
+    }
+}
+
+/// A host that is in step with the pointer that goes round the contexts keeps none of them from its turn.
+#[test]
+fn no_beat_of_the_host_slows_the_core_down() {
+    let mut random = Random(9);
+    let points = sets::boxed(&mut random, 480, 1 << 16);
+    for contexts in [2, 3, 4, 8, 12, 16, 24] {
+        let mut bench = Bench::new(Config { name: "test", points: 512, ring: 32, contexts });
+        let mut cycles = |beat: u64| {
+            let job = Job { contexts: 0, pieces: vec![points.clone()] };
+            let stalls = Stalls { beat, ..Stalls::default() };
+            compare(&mut bench, &job, stalls, &mut random).counter(Counter::InsertCycles)
+        };
+        let in_every_clock = cycles(0);
+        for beat in 1..=2 * u64::from(contexts) {
+            let found = cycles(beat);
+            let most = in_every_clock + in_every_clock / 3;
+            assert!(
+                found < most,
+                "{contexts} contexts, a word every {beat} clocks: {found} and {in_every_clock} cycles"
+            );
         }
     }
 }

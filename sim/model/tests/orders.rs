@@ -7,9 +7,6 @@ use common::mesh_check::canonical;
 use common::{sets, Random};
 use incircle_protocol::{clear_word, command_word, Config, Opcode, Status};
 
-/// Points on no line to start with.
-const START: [u32; 3] = [0, 1, 0x1_0000];
-
 #[test]
 fn every_order_gives_the_same_mesh() {
     const ORDERS: u32 = 12;
@@ -26,12 +23,11 @@ fn every_order_gives_the_same_mesh() {
             let mut bench = Bench::new(Config { name: "test", points: 256, ring: random.pick(&[9, 32]), contexts });
             for _ in 0..ORDERS {
                 random.shuffle(&mut points);
-                let mut sent = START.to_vec();
-                sent.extend(&points);
+                let sent = sets::started(points.clone());
                 let mut words = vec![clear_word(0), command_word(Opcode::Insert), sent.len() as u32];
                 words.extend(&sent);
                 // The mesh does not depend on when points come either.
-                let stalls = Stalls { idle: random.pick(&[0, 2, 3]), full: 0 };
+                let stalls = Stalls { idle: random.pick(&[0, 2, 3]), ..Stalls::default() };
                 let answers = bench.run(&words, 2, stalls, 1_000_000, &mut random).unwrap();
                 assert!(answers[1].is(Status::Ok), "{answers:?}, {}", bench.core.describe());
                 let records = bench.records(answers[1].report().records);

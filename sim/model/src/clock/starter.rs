@@ -59,7 +59,7 @@ impl Starter {
             return None;
         }
         if flags.keeps & bit != 0 {
-            let rested = self.round % BACK_OFF_ROUNDS == 0 || defect == Some(Defect::NeverBacksOff);
+            let rested = self.round == 0 || defect == Some(Defect::NeverBacksOff);
             let may = flags.may_try_again(context) || defect == Some(Defect::NobodyYields);
             let ready = flags.busy & bit == 0 && rested && may;
             return ready.then(|| Start { context, id: None, push: Bundle::look(context, tables.root[context]) });

@@ -14,10 +14,12 @@ pub fn limit(points: usize) -> u64 {
 /// How the two channels are held up.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stalls {
-    /// No word is offered in one of so many clocks; 0: never.
+    /// The next word is not offered yet in one of so many clocks; 0: never.
     pub idle: u32,
     /// No answer is taken in one of so many clocks; 0: never.
     pub full: u32,
+    /// A word is first offered in every clock of so many; 0: in any.
+    pub beat: u64,
 }
 
 /// One answer.
@@ -123,19 +125,24 @@ impl Bench {
     ) -> Result<Vec<Answer>, Hang> {
         let mut answers = Answers::default();
         let mut rest = words;
+        // Once offered, a word stays until it is taken.
+        let mut offered = false;
         let last = self.clocks + limit;
         while answers.whole.len() < count || !rest.is_empty() {
             let outputs = self.core.outputs();
-            let idle = stalls.idle != 0 && random.below(stalls.idle) == 0;
+            let off_beat = stalls.beat != 0 && !self.clocks.is_multiple_of(stalls.beat);
+            let idle = off_beat || stalls.idle != 0 && random.below(stalls.idle) == 0;
+            offered |= !rest.is_empty() && !idle;
             let full = stalls.full != 0 && random.below(stalls.full) == 0;
             let inputs = Inputs {
                 reset: false,
-                command_valid: !rest.is_empty() && !idle,
+                command_valid: offered,
                 command_data: rest.first().copied().unwrap_or(0xdead_beef),
                 response_ready: !full,
             };
             if inputs.command_valid && outputs.command_ready {
                 rest = &rest[1..];
+                offered = false;
             }
             if inputs.response_ready && outputs.response_valid {
                 answers.take(outputs.response_data);

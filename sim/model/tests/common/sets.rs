@@ -2,6 +2,11 @@
 
 use super::Random;
 
+/// The points behind three that span a triangle.
+pub fn started(points: Vec<u32>) -> Vec<u32> {
+    [vec![0, 1, 0x1_0000], points].concat()
+}
+
 /// Points of a box: in a small one most fall together.
 pub fn boxed(random: &mut Random, count: u32, side: u32) -> Vec<u32> {
     (0..count).map(|_| random.below(side) | random.below(side) << 16).collect()
@@ -23,16 +28,33 @@ pub fn stuttering(random: &mut Random, count: u32, side: u32) -> Vec<u32> {
 
 /// Points of a parabola: all on the hull, and the cavities of a point above it are large.
 pub fn parabola(random: &mut Random, count: u32) -> Vec<u32> {
-    let mut points: Vec<u32> = (0..count).map(|x| x | (x * x & 0xffff) << 16).collect();
+    let mut points: Vec<u32> = (0..count).map(|x| x | ((x * x) & 0xffff) << 16).collect();
     random.shuffle(&mut points);
     points
 }
 
-/// Many points of one circle, which all see each other, and a few inside.
+/// Many points of one circle, which all see each other, and a few inside, in any order.
 pub fn wheel(random: &mut Random, count: u32) -> Vec<u32> {
-    // 5^2 13^2 17^2 leaves many points with whole coordinates on the circle of radius 1105.
+    let mut points = rim(random);
+    points.truncate(count as usize);
+    let inside = count - points.len() as u32;
+    points.extend(hub(random, inside));
+    random.shuffle(&mut points);
+    points
+}
+
+/// The same, the circle first: the first point inside removes nearly all triangles.
+pub fn wheel_from_outside(random: &mut Random, inside: u32) -> Vec<u32> {
+    let mut points = rim(random);
+    points.extend(hub(random, inside));
+    points
+}
+
+/// Points on one circle.
+fn rim(random: &mut Random) -> Vec<u32> {
+    // 1105 = 5 * 13 * 17 is the hypotenuse of many triangles with whole sides.
     const RADIUS: i64 = 1105;
-    let mut points: Vec<u32> = Vec::new();
+    let mut points = Vec::new();
     for x in -RADIUS..=RADIUS {
         let y = (RADIUS * RADIUS - x * x).isqrt();
         if y * y + x * x == RADIUS * RADIUS {
@@ -40,9 +62,10 @@ pub fn wheel(random: &mut Random, count: u32) -> Vec<u32> {
         }
     }
     random.shuffle(&mut points);
-    points.truncate(count as usize);
-    let inside = count - points.len() as u32;
-    points.extend((0..inside).map(|_| 900 + random.below(400) | 900 + random.below(400) << 16));
-    random.shuffle(&mut points);
     points
+}
+
+/// Points around its centre.
+fn hub(random: &mut Random, count: u32) -> Vec<u32> {
+    boxed(random, count, 400).into_iter().map(|point| point + 900 * 0x1_0001).collect()
 }
