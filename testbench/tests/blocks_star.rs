@@ -200,7 +200,8 @@ fn gives_inner_triangles(name: &'static str, config: Config) {
         let restarts = random.below(20) == 0 && (rig.age.is_none() || rig.is_used_up());
         // The list that was read is over, and its context begins another.
         let after = random.below(config.contexts.into()) as usize;
-        let joins = (!is_read && !is_full && !(restarts && context == after)).then(|| (context, random.below(1 << 15)));
+        let is_closed = is_read || is_full || restarts && context == after;
+        let joins = (!is_closed).then(|| (context, random.below(1 << 15)));
         let steps = rig.can_step() && random.below(3) != 0;
         let old_reader = rig.reader;
         rig.clock(joins, restarts.then_some(after), steps);
