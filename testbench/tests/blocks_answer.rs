@@ -6,16 +6,16 @@ mod stepper;
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::AnswerWords;
 use incircle_protocol::{
-    answer_header, Identity, InsertReport, Layout, Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS, MAGIC,
-    PROTOCOL_VERSION,
+    answer_header, Identity, InsertReport, Layout, Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS,
+    LATENCY_BUCKETS, MAGIC, MAX_CONTEXTS, PROTOCOL_VERSION,
 };
 use stepper::{named_ports, Stepper};
 
 named_ports!(
     AnswerWords,
     [
-        opcode, first, count, capacity, ring, collinear, arrived, refused, insertions, duplicates, records, index,
-        counter
+        opcode, first, count, is_refused, capacity, contexts, ring, collinear, stuck, arrived, refused, insertions,
+        duplicates, records, index, counter, latency
     ],
     [header, length, word, is_read]
 );
@@ -43,11 +43,15 @@ struct Asked {
     opcode: u8,
     first: u32,
     count: u32,
+    is_refused: bool,
     capacity: u32,
+    contexts: u32,
     ring: u32,
     collinear: bool,
+    stuck: bool,
     report: InsertReport,
     counter: u32,
+    latency: u32,
 }
 
 impl Asked {
@@ -56,16 +60,19 @@ impl Asked {
         let first = if percent(random, 50) { word(random) } else { records / 2 };
         let rest = records.wrapping_sub(first);
         Self {
-            opcode: if percent(random, 80) { random.below(7) as u8 } else { word(random) as u8 },
+            opcode: if percent(random, 80) { random.below(8) as u8 } else { word(random) as u8 },
             first,
             count: match random.below(3) {
                 0 => word(random),
                 // Just to the last record, one less, one more.
                 _ => rest.wrapping_add(random.below(3) as u32).wrapping_sub(1),
             },
+            is_refused: percent(random, 50),
             capacity: 1 << (2 + random.below(13)),
+            contexts: 1 + random.below(MAX_CONTEXTS.into()) as u32,
             ring: 3 + random.below(62) as u32,
             collinear: percent(random, 20),
+            stuck: percent(random, 20),
             report: InsertReport {
                 arrived: random.below(1 << 15) as u32,
                 inserted: word(random),
@@ -74,6 +81,7 @@ impl Asked {
                 records,
             },
             counter: word(random),
+            latency: word(random),
         }
     }
 
@@ -81,6 +89,7 @@ impl Asked {
         let end = u64::from(self.first) + u64::from(self.count);
         let (status, length, payload) = match Opcode::from_u8(self.opcode) {
             None => (Status::UnknownOpcode, 0, Some(vec![])),
+            Some(Opcode::Clear) if self.is_refused => (Status::BadContexts, 0, Some(vec![])),
             Some(Opcode::Clear) => (Status::Ok, 0, Some(vec![])),
             Some(Opcode::Read) if end > u64::from(self.report.records) => (Status::BadRange, 0, None),
             Some(Opcode::Read) => {
@@ -91,6 +100,10 @@ impl Asked {
                 let words = vec![self.counter; COUNTER_WORDS];
                 (Status::Ok, COUNTER_WORDS as u32, Some(words))
             }
+            Some(Opcode::Latencies) => {
+                let words = vec![self.latency; LATENCY_BUCKETS];
+                (Status::Ok, LATENCY_BUCKETS as u32, Some(words))
+            }
             Some(Opcode::Hello) => {
                 let identity = Identity {
                     magic: MAGIC,
@@ -98,13 +111,15 @@ impl Asked {
                     core_version: CORE_VERSION,
                     coord_bits: CORE_COORD_BITS,
                     capacity: self.capacity,
-                    contexts: 1,
+                    contexts: self.contexts,
                     ring_capacity: self.ring,
                 };
                 (Status::Ok, 7, Some(identity.to_words().to_vec()))
             }
             Some(Opcode::Insert) => {
-                let status = if self.collinear {
+                let status = if self.stuck {
+                    Status::Stuck
+                } else if self.collinear {
                     Status::Collinear
                 } else if self.report.refused > 0 {
                     Status::Full
@@ -127,15 +142,19 @@ fn answer_words_follow_the_protocol() {
         let asked = Asked::random(&mut random);
         let answer = asked.answer();
         bad_ranges += u32::from(answer.status == Status::BadRange);
-        let index = random.below(COUNTER_WORDS as u64) as usize;
+        let words = [8, LATENCY_BUCKETS as u64][random.below(2) as usize];
+        let index = random.below(words) as usize;
         let report = asked.report;
         for (port, value) in [
             ("opcode", u32::from(asked.opcode)),
             ("first", asked.first),
             ("count", asked.count),
+            ("is_refused", asked.is_refused.into()),
             ("capacity", asked.capacity),
+            ("contexts", asked.contexts),
             ("ring", asked.ring),
             ("collinear", asked.collinear.into()),
+            ("stuck", asked.stuck.into()),
             ("arrived", report.arrived),
             ("refused", report.refused),
             ("insertions", report.inserted),
@@ -143,6 +162,7 @@ fn answer_words_follow_the_protocol() {
             ("records", report.records),
             ("index", index as u32),
             ("counter", asked.counter),
+            ("latency", asked.latency),
         ] {
             block.set(port, value);
         }

@@ -7,10 +7,10 @@ mod stepper;
 
 use std::collections::VecDeque;
 
-use command_reference::{Meaning, Pins, Reference, Surroundings};
+use command_reference::{Meaning, Pins, Reference, Shape, Surroundings};
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::CommandPort;
-use incircle_protocol::{command_word, Opcode};
+use incircle_protocol::{clear_word, command_word, Opcode};
 use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
@@ -18,24 +18,26 @@ named_ports!(
     [
         reset,
         capacity,
+        built,
         command_valid,
         command_data,
         sweeps,
         seeded,
         collinear,
+        stuck,
         is_quiet,
-        takes_point,
         responder_is_idle,
         answer_ends,
         answer_is_taken
     ],
     [
         command_ready,
-        point_valid,
-        point_id,
+        came,
+        came_id,
         point,
-        vertex_enable,
         clears,
+        contexts,
+        is_refused,
         answers,
         opcode,
         first,
@@ -53,7 +55,7 @@ named_ports!(
 fn command(random: &mut SplitMix64) -> Vec<u32> {
     match random.below(12) {
         0 => vec![command_word(Opcode::Hello)],
-        1 | 2 => vec![command_word(Opcode::Clear)],
+        1 | 2 => vec![clear_word([0, random.below(6) as u32, random.below(300) as u32][random.below(3) as usize])],
         3 => vec![command_word(Opcode::Counters)],
         4 => vec![(random.below(256) as u32 | 8) << 24],
         5 | 6 => vec![command_word(Opcode::Read), random.next_u64() as u32, random.next_u64() as u32],
@@ -70,8 +72,7 @@ fn command(random: &mut SplitMix64) -> Vec<u32> {
 #[derive(Clone, Copy, Debug, Default)]
 struct Shown {
     ready: bool,
-    waiting: Option<(u32, u32)>,
-    takes_point: bool,
+    came: Option<(u32, u32)>,
     is_quiet: bool,
     answers: bool,
 }
@@ -81,27 +82,31 @@ struct Rig {
     random: SplitMix64,
     reference: Reference,
     around: Surroundings,
-    capacity: u32,
+    shape: Shape,
     words: VecDeque<u32>,
     is_offered: bool,
     refused: u32,
+    /// Answers that were due while the core was stuck.
+    stuck_answers: u32,
     shown: Shown,
 }
 
 impl Rig {
-    fn new(capacity: u32) -> Self {
+    fn new(shape: Shape) -> Self {
         let mut rig = Self {
             block: Stepper::new("command_port", CommandPort::default(), 1),
-            random: SplitMix64::new(capacity.into()),
-            reference: Reference::new(),
+            random: SplitMix64::new(shape.capacity.into()),
+            reference: Reference::new(shape),
             around: Surroundings::default(),
-            capacity,
+            shape,
             words: VecDeque::new(),
             is_offered: false,
             refused: 0,
+            stuck_answers: 0,
             shown: Shown::default(),
         };
-        rig.block.set("capacity", capacity);
+        rig.block.set("capacity", shape.capacity);
+        rig.block.set("built", shape.contexts);
         rig.reset();
         rig
     }
@@ -111,7 +116,7 @@ impl Rig {
         self.block.settle();
         self.block.edge();
         self.block.set("reset", false);
-        self.reference = Reference::new();
+        self.reference = Reference::new(self.shape);
         self.around = Surroundings { sweeping: self.random.below(20), ..Surroundings::default() };
         self.words.clear();
         self.is_offered = false;
@@ -119,7 +124,7 @@ impl Rig {
 
     fn pins(&self) -> Pins {
         Pins {
-            is_quiet: self.around.busy == 0 && self.reference.waiting.is_none(),
+            is_quiet: self.around.busy == 0 && self.reference.came.is_none(),
             responder_is_idle: self.around.answering == 0,
             answer_ends: self.around.answering == 1,
         }
@@ -128,11 +133,9 @@ impl Rig {
     fn clock(&mut self, pace: u64) {
         self.is_offered |= !self.words.is_empty() && self.random.below(100) < pace;
         let pins = self.pins();
-        let can_take = self.reference.waiting.is_some() && self.around.busy == 0;
-        let takes_point = can_take && self.random.below(100) < pace.max(20);
         self.around.answer_is_taken = self.random.below(100) < pace;
         let data = if self.is_offered { self.words[0] } else { self.random.next_u64() as u32 };
-        self.set_pins(pins, takes_point, data);
+        self.set_pins(pins, data);
         let ready = self.reference.is_ready(&self.around);
         self.block.expect("command_ready", ready);
         self.block.set("command_valid", self.is_offered);
@@ -140,30 +143,26 @@ impl Rig {
         // It does not wait for `command_valid`.
         self.block.expect("command_ready", ready);
         self.expect();
-        self.shown = Shown {
-            ready,
-            waiting: self.reference.waiting,
-            takes_point,
-            is_quiet: pins.is_quiet,
-            answers: self.reference.answers,
-        };
+        let answers = self.reference.answers_now();
+        self.shown = Shown { ready, came: self.reference.came, is_quiet: pins.is_quiet, answers };
         self.block.edge();
         let word = if ready && self.is_offered { self.words.pop_front() } else { None };
         self.is_offered &= word.is_none();
         let refused = self.reference.refused;
         let around = self.around;
-        self.live(takes_point);
-        self.reference.edge(word, takes_point, pins, &around, self.capacity);
+        self.live();
+        self.reference.edge(word, pins, &around, self.shape);
         self.refused += u32::from(self.reference.refused > refused);
+        self.stuck_answers += u32::from(self.reference.answers && !answers && around.stuck);
     }
 
-    fn set_pins(&mut self, pins: Pins, takes_point: bool, data: u32) {
+    fn set_pins(&mut self, pins: Pins, data: u32) {
         for (port, value) in [
             ("sweeps", self.around.sweeping > 0),
             ("seeded", self.around.seeded),
             ("collinear", self.around.collinear),
             ("is_quiet", pins.is_quiet),
-            ("takes_point", takes_point),
+            ("stuck", self.around.stuck),
             ("responder_is_idle", pins.responder_is_idle),
             ("answer_ends", pins.answer_ends),
             ("answer_is_taken", self.around.answer_is_taken),
@@ -179,23 +178,24 @@ impl Rig {
     fn expect(&self) {
         let (block, reference) = (&self.block, &self.reference);
         for (port, expected) in [
-            ("point_valid", reference.waiting.is_some()),
-            ("vertex_enable", reference.is_new),
+            ("came", reference.came.is_some()),
             ("clears", reference.clears),
-            ("answers", reference.answers),
+            ("answers", reference.answers_now()),
             ("inserting", reference.inserting),
             ("reading", reference.reading),
             ("awaits_point", reference.wants.front() == Some(&Meaning::Point)),
         ] {
             block.expect(port, expected);
         }
-        let (id, point) = (reference.waiting.map(|point| point.0), reference.waiting.map(|point| point.1));
+        let (id, point) = (reference.came.map(|point| point.0), reference.came.map(|point| point.1));
         for (port, expected) in [
-            ("point_id", id),
+            ("came_id", id),
             ("point", point),
             ("opcode", reference.opcode.map(u32::from)),
             ("first", reference.first),
             ("count", reference.count),
+            ("contexts", Some(reference.contexts)),
+            ("is_refused", reference.is_refused.map(u32::from)),
             ("arrived", Some(reference.arrived)),
             ("refused", Some(reference.refused)),
         ] {
@@ -206,34 +206,38 @@ impl Rig {
     }
 
     /// The engine and the responder live through a clock.
-    fn live(&mut self, takes_point: bool) {
+    fn live(&mut self) {
         let around = &mut self.around;
-        let was_busy = around.busy > 0;
         around.sweeping = around.sweeping.saturating_sub(1);
-        around.busy = around.busy.saturating_sub(1);
-        if was_busy && around.busy == 0 && around.triple_is_in && !around.seeded {
+        if !around.stuck {
+            around.stuck = self.random.below(1500) == 0;
+            around.busy = around.busy.saturating_sub(1);
+        }
+        if around.busy == 0 && around.triple_is_in && !around.seeded && !around.collinear {
             around.collinear = self.random.below(4) == 0;
             around.seeded = !around.collinear;
         }
-        if takes_point {
+        if let Some((id, _)) = self.reference.came {
             around.busy = 1 + self.random.below(12);
-            around.triple_is_in |= self.reference.waiting.is_some_and(|(id, _)| id == 2);
+            around.triple_is_in |= id == 2;
         }
         if around.answering > 0 {
             around.answering -= 1;
-        } else if self.reference.answers {
+        } else if self.reference.answers_now() {
             around.answering = 1 + self.random.below(12);
         }
         if self.reference.clears {
             (around.seeded, around.collinear, around.triple_is_in) = (false, false, false);
+            // The histogram is swept.
+            around.sweeping = self.random.below(20);
         }
     }
 }
 
-fn run(capacity: u32, pace: u64) {
-    let mut rig = Rig::new(capacity);
-    for _ in 0..4000 {
-        if rig.random.below(500) == 0 {
+fn run(capacity: u32, contexts: u32, pace: u64) {
+    let mut rig = Rig::new(Shape { capacity, contexts });
+    for _ in 0..8000 {
+        if rig.random.below(if rig.around.stuck { 100 } else { 700 }) == 0 {
             rig.reset();
         }
         if rig.words.is_empty() {
@@ -242,46 +246,45 @@ fn run(capacity: u32, pace: u64) {
         rig.clock(pace);
     }
     assert!(rig.refused > 0, "some points are refused");
+    assert!(rig.stuck_answers > 0, "some answers come although the core is stuck");
 }
 
 #[test]
 fn command_port_at_full_speed() {
-    run(8, 100);
+    run(8, 2, 100);
 }
 
 #[test]
 fn command_port_with_a_slow_host() {
-    run(4, 30);
+    run(4, 1, 30);
 }
 
 #[test]
 fn command_port_with_a_slower_host_and_a_large_memory() {
-    run(16384, 60);
+    run(16384, 24, 60);
 }
 
-/// An insertion of two points into an empty core.
+/// An insertion of three points into an empty core.
 #[test]
 fn command_port_shows_the_wave_of_its_header() {
-    let mut rig = Rig::new(8);
+    let mut rig = Rig::new(Shape { capacity: 8, contexts: 2 });
     rig.around.sweeping = 2;
-    rig.words = [command_word(Opcode::Insert), 2, 0x70005, 0x90008].into();
+    rig.words = [command_word(Opcode::Insert), 3, 0x70005, 0x90008, 0x10002].into();
     let mut wave = Wave::default();
     for _ in 0..16 {
         let sweeps = rig.around.sweeping > 0;
         let offers = !rig.words.is_empty();
         rig.clock(100);
         // An engine and a responder that are soon done.
-        rig.around.busy = rig.around.busy.min(1);
+        rig.around.busy = rig.around.busy.min(2);
         rig.around.answering = rig.around.answering.min(2);
         let shown = rig.shown;
-        let waiting = shown.waiting.map_or(Cell::Open, |(id, _)| Cell::Number(id.into()));
         wave.take(&[
             ("sweeps", Cell::Bit(sweeps)),
             ("command_valid", Cell::Bit(offers)),
             ("command_ready", Cell::Bit(shown.ready)),
-            ("point_valid", Cell::Bit(shown.waiting.is_some())),
-            ("point_id", waiting),
-            ("takes_point", Cell::Bit(shown.takes_point)),
+            ("came", Cell::Bit(shown.came.is_some())),
+            ("came_id", shown.came.map_or(Cell::Open, |(id, _)| Cell::Number(id.into()))),
             ("is_quiet", Cell::Bit(shown.is_quiet)),
             ("answers", Cell::Bit(shown.answers)),
         ]);

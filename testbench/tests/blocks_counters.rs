@@ -4,8 +4,8 @@ mod block_ports;
 mod stepper;
 
 use incircle_cli::generate::SplitMix64;
-use incircle_hdl::engine::{Counters, WideCounter};
-use incircle_protocol::{Counter, COUNTER_WORDS};
+use incircle_hdl::engine::{Counters, LatencyRange, WideCounter};
+use incircle_protocol::{Counter, COUNTER_WORDS, LATENCY_BITS};
 use stepper::{named_ports, Stepper};
 
 named_ports!(
@@ -16,84 +16,215 @@ named_ports!(
         inserting,
         waiting,
         reading,
+        is_issuing,
+        is_writing,
+        is_committing,
+        is_releasing,
+        walk_visit,
+        root_visit,
+        test,
+        solo_test,
+        revisit,
+        gives_up,
+        retries,
+        takes_token,
+        overflows,
+        flip,
+        cavity_ends,
+        cavity_triangles,
         seeds,
         commit_ends,
-        solo_ends,
+        since,
+        solo_inserts,
         duplicate,
-        walk_visit,
-        test,
-        drained,
-        flip,
-        cavity_triangles,
+        solo_duplicate,
         refused,
         select
     ],
-    [value, insertions, duplicates],
+    [value, insertions, duplicates, now, latency_comes, latency],
     clock
 );
+named_ports!(LatencyRange, [zero, commit_ends, now, since], [latency_comes, latency, least, most], clock);
 named_ports!(WideCounter<4>, [zero, count], [low, high], clock);
 
 /// Events that add one to one counter.
-const EVENTS: [(&str, Counter); 8] = [
+const EVENTS: [(&str, Counter); 19] = [
     ("inserting", Counter::InsertCycles),
     ("waiting", Counter::WaitCycles),
     ("reading", Counter::ReadCycles),
-    ("duplicate", Counter::Duplicates),
+    ("is_issuing", Counter::IssueCycles),
+    ("is_writing", Counter::WriteCycles),
+    ("is_committing", Counter::CommitCycles),
     ("walk_visit", Counter::WalkVisits),
-    ("test", Counter::Tests),
-    ("drained", Counter::Overflows),
+    ("root_visit", Counter::RootVisits),
+    ("revisit", Counter::Revisits),
+    ("gives_up", Counter::Aborts),
+    ("retries", Counter::RootRetries),
+    ("takes_token", Counter::WaitingTokens),
+    ("overflows", Counter::Overflows),
     ("flip", Counter::Flips),
+    // Of two ports that add to one counter, the later one is low where the earlier is high.
+    ("test", Counter::Tests),
+    ("solo_test", Counter::Tests),
+    ("duplicate", Counter::Duplicates),
+    ("solo_duplicate", Counter::Duplicates),
+    ("is_releasing", Counter::ReleaseCycles),
 ];
 
-#[test]
-fn counters_count_their_events() {
-    let mut random = SplitMix64::new(3);
-    let mut block = Stepper::new("counters", Counters::default(), 1);
-    let mut sums = [0u64; COUNTER_WORDS];
-    let mut highest = 0;
-    for clock in 0..8000 {
-        // Long enough between zeros that every counter leaves its lowest byte.
-        let zeros = clock == 0 || random.below(1500) == 0;
-        let by_reset = clock == 0 || random.below(2) == 0;
-        block.set("reset", zeros && by_reset);
-        block.set("clears", zeros && !by_reset);
-        let mut added = [0u64; COUNTER_WORDS];
+/// The clock count and the range of latencies.
+#[derive(Clone, Copy, Default)]
+struct LatencyReference {
+    now: u64,
+    /// The latency of the last edge's commit.
+    came: Option<u64>,
+    /// Least and most of those before.
+    range: Option<(u64, u64)>,
+}
+
+impl LatencyReference {
+    fn edge(&mut self, since: Option<u64>, forgets: bool) {
+        if let Some(latency) = self.came {
+            let (least, most) = self.range.unwrap_or((latency, latency));
+            self.range = Some((least.min(latency), most.max(latency)));
+        }
+        let turn = 1 << LATENCY_BITS;
+        self.came = since.map(|since| (self.now + turn - since) % turn);
+        self.now = (self.now + 1) % turn;
+        if forgets {
+            (self.came, self.range) = (None, None);
+        }
+    }
+}
+
+struct Rig {
+    block: Stepper<Counters>,
+    random: SplitMix64,
+    sums: [u64; COUNTER_WORDS],
+    latencies: LatencyReference,
+    commit_ends: bool,
+}
+
+impl Rig {
+    /// Random events; what they add to each counter.
+    fn set_events(&mut self) -> [u64; COUNTER_WORDS] {
+        let mut added = [0; COUNTER_WORDS];
+        let mut inserting = false;
         for (port, counter) in EVENTS {
-            let happens = random.below(2) == 1;
-            block.set(port, happens);
-            added[counter as usize] = happens.into();
+            let happens = added[counter as usize] == 0 && self.random.below(2) == 1;
+            self.block.set(port, happens);
+            inserting |= port == "inserting" && happens;
+            // The sweep after reset does not count.
+            added[counter as usize] += u64::from(happens && (port != "is_releasing" || inserting));
         }
         // At most one kind of insertion ends in a clock.
-        let ends = random.below(8);
-        for (kind, port, points) in [(0, "seeds", 3), (1, "commit_ends", 1), (2, "solo_ends", 1)] {
-            block.set(port, ends == kind);
+        let ends = self.random.below(8);
+        for (kind, port, points) in [(0, "seeds", 3), (1, "commit_ends", 1), (2, "solo_inserts", 1)] {
+            self.block.set(port, ends == kind);
             if ends == kind {
                 added[Counter::Insertions as usize] = points;
             }
         }
-        let triangles = [0, 1, 126, random.below(127)][random.below(4) as usize];
-        block.set("cavity_triangles", triangles);
-        if ends == 1 {
-            added[Counter::CavityTriangles as usize] = triangles;
+        self.commit_ends = ends == 1;
+        let triangles = [0, 1, 126, self.random.below(127)][self.random.below(4) as usize];
+        let cavity_ends = self.random.below(4) == 0;
+        self.block.set("cavity_ends", cavity_ends);
+        self.block.set("cavity_triangles", triangles);
+        added[Counter::CavityTriangles as usize] = if cavity_ends { triangles } else { 0 };
+        added
+    }
+
+    /// When the point was taken whose commit ends, if one does.
+    fn set_since(&mut self) -> Option<u64> {
+        let turn = 1 << LATENCY_BITS;
+        let ago = 1 + [self.random.below(100), self.random.below(turn - 1)][self.random.below(2) as usize];
+        let since = (self.latencies.now + turn - ago) % turn;
+        self.block.set("since", since);
+        self.commit_ends.then_some(since)
+    }
+
+    fn expect(&mut self) {
+        let refused = [0, 0xffff_ffff, self.random.below(1 << 32)][self.random.below(3) as usize];
+        self.sums[Counter::Refused as usize] = refused;
+        let (least, most) = self.latencies.range.unwrap_or_default();
+        self.sums[Counter::LatencyMin as usize] = least;
+        self.sums[Counter::LatencyMax as usize] = most;
+        self.block.set("refused", refused);
+        let select = self.random.below(COUNTER_WORDS as u64);
+        self.block.set("select", select);
+        self.block.settle();
+        if self.block.clocks() > 0 {
+            self.block.expect("value", self.sums[select as usize]);
+            self.block.expect("insertions", self.sums[Counter::Insertions as usize]);
+            self.block.expect("duplicates", self.sums[Counter::Duplicates as usize]);
+            self.block.expect("now", self.latencies.now);
+            self.block.expect("latency_comes", self.latencies.came.is_some());
         }
-        let refused = [0, 0xffff_ffff, random.below(1 << 32)][random.below(3) as usize];
-        sums[Counter::Refused as usize] = refused;
-        block.set("refused", refused);
-        let select = random.below(COUNTER_WORDS as u64);
-        block.set("select", select);
-        block.settle();
-        if clock > 0 {
-            block.expect("value", sums[select as usize]);
-            block.expect("insertions", sums[Counter::Insertions as usize]);
-            block.expect("duplicates", sums[Counter::Duplicates as usize]);
+        if let Some(latency) = self.latencies.came {
+            self.block.expect("latency", latency);
         }
-        block.edge();
-        for (sum, added) in sums.iter_mut().zip(added) {
+    }
+}
+
+#[test]
+fn counters_count_their_events() {
+    let block = Stepper::new("counters", Counters::default(), 1);
+    let latencies = LatencyReference::default();
+    let mut rig = Rig { block, random: SplitMix64::new(3), sums: [0; COUNTER_WORDS], latencies, commit_ends: false };
+    let (mut highest, mut commits) = (0, 0);
+    for clock in 0..10_000 {
+        // Long enough between zeros that every counter leaves its lowest byte.
+        let zeros = clock == 0 || rig.random.below(1500) == 0;
+        let by_reset = clock == 0 || rig.random.below(2) == 0;
+        rig.block.set("reset", zeros && by_reset);
+        rig.block.set("clears", zeros && !by_reset);
+        let added = rig.set_events();
+        let since = rig.set_since();
+        rig.expect();
+        rig.block.edge();
+        rig.latencies.edge(since, zeros);
+        if zeros && by_reset {
+            rig.latencies.now = 0;
+        }
+        for (sum, added) in rig.sums.iter_mut().zip(added) {
             *sum = if zeros { 0 } else { *sum + added };
         }
-        highest = highest.max(sums[Counter::CavityTriangles as usize]);
+        highest = highest.max(rig.sums[Counter::CavityTriangles as usize]);
+        commits += usize::from(rig.commit_ends);
     }
-    assert!(highest > 1 << 10, "{highest}");
+    assert!(highest > 1 << 10 && commits > 500, "{highest} {commits}");
+}
+
+/// At the ends of the clock count, which the event counters do not reach in a test.
+#[test]
+fn latency_range_lives_with_a_clock_that_wraps() {
+    let mut random = SplitMix64::new(6);
+    let mut block = Stepper::new("latency_range", LatencyRange::default(), 1);
+    let turn = 1u64 << LATENCY_BITS;
+    let mut reference = LatencyReference::default();
+    for clock in 0..8000 {
+        let zero = clock == 0 || random.below(60) == 0;
+        let commit_ends = random.below(3) == 0;
+        reference.now = [0, 1, turn / 2, turn - 1, random.below(turn)][random.below(5) as usize];
+        // A point is never taken and finished in one clock.
+        let latency = 1 + [random.below(40), turn - 2, random.below(turn - 1)][random.below(3) as usize];
+        let since = (reference.now + turn - latency) % turn;
+        block.set("zero", zero);
+        block.set("commit_ends", commit_ends);
+        block.set("now", reference.now);
+        block.set("since", since);
+        block.settle();
+        if clock > 0 {
+            let (least, most) = reference.range.unwrap_or_default();
+            block.expect("least", least);
+            block.expect("most", most);
+            block.expect("latency_comes", reference.came.is_some());
+        }
+        if let Some(latency) = reference.came {
+            block.expect("latency", latency);
+        }
+        block.edge();
+        reference.edge(commit_ends.then_some(since), zero);
+    }
 }
 
 /// With words of four bits, so that both wrap.

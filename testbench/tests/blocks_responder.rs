@@ -8,12 +8,30 @@ use std::collections::VecDeque;
 
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::Responder;
-use incircle_protocol::{Layout, CORE_COORD_BITS};
+use incircle_protocol::{Layout, CORE_COORD_BITS, LATENCY_BUCKETS};
 use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
     Responder,
-    [reset, answers, first, header, length, word, is_read, read_done, v0, v1, v2, n0, n1, n2, was_set, response_ready],
+    [
+        reset,
+        answers,
+        sweeps,
+        first,
+        header,
+        length,
+        word,
+        is_read,
+        read_done,
+        v0,
+        v1,
+        v2,
+        n0,
+        n1,
+        n2,
+        was_set,
+        response_ready
+    ],
     [index, read, read_id, response_valid, response_data, is_idle, ends, is_taken],
     clock
 );
@@ -45,7 +63,8 @@ impl Sent {
             let layout = Layout::of(CORE_COORD_BITS, 1 << 14);
             records.flat_map(|(v, n, lock)| layout.record_to_words(v, n, lock)[..3].to_vec()).collect()
         } else {
-            (0..random.below(15)).map(|_| word(random)).collect()
+            let most = [15, LATENCY_BUCKETS as u64 + 1][random.below(2) as usize];
+            (0..random.below(most)).map(|_| word(random)).collect()
         };
         Self { header: word(random), payload, first: reads.then_some(first) }
     }
@@ -74,6 +93,8 @@ struct ResponderRig {
     /// Reads under way: clocks to go, id.
     reads: VecDeque<(usize, u64)>,
     read_clocks: usize,
+    /// Clocks of a sweep that are left.
+    sweeping: u64,
     offered: Option<u128>,
     taken: Vec<u32>,
     /// Words loaded since reset, and those of the answers that have ended.
@@ -96,6 +117,7 @@ impl ResponderRig {
             ready,
             reads: VecDeque::new(),
             read_clocks,
+            sweeping: 0,
             offered: None,
             taken: vec![],
             loaded: 0,
@@ -112,6 +134,7 @@ impl ResponderRig {
         self.block.edge();
         self.block.set("reset", false);
         self.reads.clear();
+        self.sweeping = 0;
         self.offered = None;
         self.taken.clear();
         (self.loaded, self.ended) = (0, 0);
@@ -120,13 +143,17 @@ impl ResponderRig {
     fn set_inputs(&mut self, answers: bool, sent: &Sent) {
         let block = &mut self.block;
         block.set("answers", answers);
+        // In the middle of an answer it does not count.
+        let is_under_way = self.loaded > self.ended;
+        block.set("sweeps", self.sweeping > 0 || is_under_way && self.random.below(2) == 0);
+        self.sweeping = self.sweeping.saturating_sub(1);
         block.set("header", sent.header);
         block.set("length", sent.payload.len() as u64);
         block.set("is_read", sent.first.is_some());
         // Bits above an id do not count.
         block.set("first", sent.first.unwrap_or(0) | 0xabcd_0000);
         block.settle();
-        let index = block.get_masked("index", if self.loaded > self.ended { 15 } else { 0 }) as usize;
+        let index = block.get_masked("index", if is_under_way { 127 } else { 0 }) as usize;
         block.set("word", sent.payload.get(index).copied().unwrap_or(0xbad));
         let due = self.reads.front().is_some_and(|(clocks, _)| *clocks == 0);
         let id = if due { self.reads.pop_front().map_or(0, |(_, id)| id) } else { self.random.below(1 << 15) };
@@ -217,6 +244,7 @@ fn responder_sends_every_answer_whole_and_in_order() {
                 expected.clear();
                 continue;
             }
+            rig.sweeping = random.below(6);
             rig.answer(&sent);
             expected.extend(sent.words());
             for _ in 0..random.below(4) {
@@ -252,6 +280,18 @@ fn responder_is_as_fast_as_it_says() {
     }
     assert_eq!(ends[1] - ends[0], 7, "clocks a record");
     assert_eq!(ends[2] - ends[0], 9 * 7);
+}
+
+#[test]
+fn responder_begins_no_answer_in_a_sweep() {
+    let mut rig = ResponderRig::new(100, READ_CLOCKS);
+    let sent = Sent { header: 9, payload: vec![], first: None };
+    for sweep in [0, 1, 2, LATENCY_BUCKETS as u64] {
+        rig.sweeping = sweep;
+        let (_, header) = rig.answer(&sent);
+        assert_eq!(header as u64, 2 + sweep);
+        rig.clock(false, &sent);
+    }
 }
 
 /// A read of one record, whose length word has to wait.

@@ -4,9 +4,12 @@
 //! |---|---|---|---|
 //! | `clock`, `reset`, `clears` | in | 1 | reset and clear set all counters to zero |
 //! | `inserting`, `waiting`, `reading` | in | 1 | a job is under way; it has no point to work on; a read-out is under way |
-//! | `is_issuing`, `is_writing`, `is_committing`, `is_releasing` | in | 1 | a visit is issued; a record or link is written; a commit is at work; a lock is cleared |
-//! | `walk_visit`, `root_visit`, `test`, `solo_test`, `revisit` | in | 1 | a visit of that kind completes; it is made once more |
-//! | `gives_up`, `retries`, `takes_token` | in | 1 | an attempt is given up at a foreign lock; a located triangle no longer holds the point; the waiting token is taken |
+//! | `is_issuing`, `is_writing` | in | 1 | a visit is issued; a record or a link is written |
+//! | `is_committing`, `is_releasing` | in | 1 | a commit is at work; a lock is cleared |
+//! | `walk_visit`, `root_visit`, `test`, `solo_test` | in | 1 | a visit of that kind completes |
+//! | `revisit` | in | 1 | it is made once more |
+//! | `gives_up`, `retries` | in | 1 | an attempt ends at a foreign lock; a located triangle no longer holds the point |
+//! | `takes_token` | in | 1 | the waiting token is taken |
 //! | `overflows`, `flip` | in | 1 | a boundary list has overflowed; a flip of an insertion alone is finished |
 //! | `cavity_ends`, `cavity_triangles` | in | 1, 7 | a cavity is complete, and consists of so many triangles |
 //! | `seeds`, `commit_ends`, `solo_inserts` | in | 1 | 3, 1 or 1 points are inserted |

@@ -4,7 +4,8 @@
 //! |---|---|---|---|
 //! | `clock`, `zero` | in | 1 | `zero` clears all |
 //! | `inserting`, `waiting`, `reading` | in | 1 | a job is under way; it has no point to work on; a read-out is under way |
-//! | `is_issuing`, `is_writing`, `is_committing`, `is_releasing` | in | 1 | a visit is issued; a record or link is written; a commit is at work; a lock is cleared |
+//! | `is_issuing`, `is_writing` | in | 1 | a visit is issued; a record or a link is written |
+//! | `is_committing`, `is_releasing` | in | 1 | a commit is at work; a lock is cleared |
 //! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
 //! | `value` | out | 32 | that word, if it is one of these |
 //!

@@ -26,7 +26,19 @@
 //!         p                     p
 //! ```
 //! Latency, with `w` triangles walked through and `f` flips: `w + 3 f + 8` visits one after the other (2 mends, `f + 3` fetches,
-//! `2 f + 3` tests), each a clock more than the visit latency, and `3 f + 4` clocks.
+//! `2 f + 3` tests), each a clock more than the visit latency, and `3 f + 4` clocks. A duplicate takes `w` visits and a clock.
+//!
+//! A walk of two triangles, the split, and the first mend, with visits of two clocks:
+//! ```text
+//! starts          ___/^^\_________________________________________
+//! is_at_work      ______/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+//! push            ______/^^\_____/^^\______________/^^\_____/^^\__
+//! bundle.u          .  .  2  .  .  0  .  .  .  .  .  2  .  .  3  .
+//! done            ____________/^^\_____/^^\______________/^^\_____
+//! located           .  .  .  .___  .  ./^^  .  .  .  .  .  .  .  .
+//! write.valid     ___________________________/^^^^^^^^\_____/^^\__
+//! write.id          .  .  .  .  .  .  .  .  .  0  4  5  .  .  2  .
+//! ```
 //!
 //! Source: Lawson's flips, in the order of the star.
 

@@ -5,7 +5,8 @@
 //! | `clock`, `zero` | in | 1 | `zero` clears all |
 //! | `walk_visit`, `root_visit`, `test` | in | 1 | a visit of that kind completes |
 //! | `revisit` | in | 1 | it is made once more |
-//! | `gives_up`, `retries`, `takes_token` | in | 1 | an attempt is given up at a foreign lock; a located triangle no longer holds the point; the waiting token is taken |
+//! | `gives_up`, `retries` | in | 1 | an attempt ends at a foreign lock; a located triangle no longer holds the point |
+//! | `takes_token` | in | 1 | the waiting token is taken |
 //! | `overflows`, `flip` | in | 1 | a boundary list has overflowed; a flip of an insertion alone is finished |
 //! | `cavity_ends`, `cavity_triangles` | in | 1, 7 | a cavity is complete, and consists of so many triangles |
 //! | `select` | in | 5 | word to read: its place in the answer to `Counters` |

@@ -4,10 +4,11 @@ use incircle_protocol::{Config, MAX_RING, SMALL, TINY};
 
 use super::block;
 use crate::engine::{
-    AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, NextPoint, NextVisits,
-    Progress, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, WideCounter,
+    AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, Latencies, LatencyBucket,
+    LatencyRange, NextPoint, NextVisits, Progress, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId,
+    Starter, VisitCase, Watchdog, WideCounter,
 };
-use crate::link::{AnswerWords, CommandGate, CommandPort, PointSlot, RecordWords, Responder};
+use crate::link::{AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordWords, Responder};
 
 /// The name of each root module, and its Verilog.
 pub(super) fn control_blocks() -> Vec<(String, String)> {
@@ -39,6 +40,11 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
         block(Seeder::default(), "seeder"),
         block(Counters::default(), "counters"),
         block(WideCounter::<4>::default(), "wide_counter_4"),
+        block(LatencyRange::default(), "latency_range"),
+        block(LatencyBucket::default(), "latency_bucket"),
+        block(Latencies::default(), "latencies"),
+        block(Watchdog::default(), "watchdog"),
+        block(ClearCommand::default(), "clear_command"),
         block(CommandPort::default(), "command_port"),
         block(CommandGate::default(), "command_gate"),
         block(PointSlot::default(), "point_slot"),

@@ -9,7 +9,8 @@
 //! | `seeded`, `collinear` | in | 1 | what became of the first three points |
 //! | `stuck` | in | 1 | nothing is finished any more: points are refused, and nothing is waited for |
 //! | `is_quiet` | in | 1 | every point that has come is finished, and no lock is held |
-//! | `came`, `came_id`, `point` | out | 1, 15, 32 | a point has come, and is written into the vertex memory at this edge: x in the low half, y in the high |
+//! | `came`, `came_id` | out | 1, 15 | a point has come, and is written into the vertex memory at this edge |
+//! | `point` | out | 32 | that point: x in the low half, y in the high |
 //! | `clears` | out | 1 | forget the mesh at this edge |
 //! | `contexts` | out | 5 | contexts that work |
 //! | `is_refused` | out | 1 | the last command is a `Clear` that asks for more contexts than there are |
@@ -28,7 +29,13 @@
 //!
 //! An insertion of three points into an empty core:
 //! ```text
-//! WAVE
+//! sweeps          /^^^^^\_________________________________________
+//! command_valid   /^^^^^^^^^^^^^^^^^^^^^^^^^^\____________________
+//! command_ready   ______/^^^^^^^^\__/^^\__/^^\____________________
+//! came            _______________/^^\__/^^\__/^^\_________________
+//! came_id           .  .  .  .  .  0  .  1  .  2  .  .  .  .  .  .
+//! is_quiet        /^^^^^^^^^^^^^^\____________________/^^^^^^^^^^^
+//! answers         _______________________________________/^^^^^^^^
 //! ```
 
 use super::{ClearCommand, CommandGate, PointSlot};

@@ -4,15 +4,24 @@ use std::collections::VecDeque;
 
 use incircle_protocol::Opcode;
 
+/// Points that the core holds, and contexts that it has.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    pub capacity: u32,
+    pub contexts: u32,
+}
+
 /// The engine and the responder as the port sees them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Surroundings {
     pub sweeping: u64,
-    /// Clocks until the point at work is in.
+    /// Clocks until all points are in.
     pub busy: u64,
     pub triple_is_in: bool,
     pub seeded: bool,
     pub collinear: bool,
+    /// Nothing is finished any more.
+    pub stuck: bool,
     /// Clocks until the answer ends.
     pub answering: u64,
     pub answer_is_taken: bool,
@@ -37,9 +46,12 @@ pub struct Reference {
     pub count: Option<u32>,
     pub arrived: u32,
     pub refused: u32,
-    pub waiting: Option<(u32, u32)>,
-    pub is_new: bool,
+    /// The point that came with the last edge: id and word.
+    pub came: Option<(u32, u32)>,
     pub clears: bool,
+    /// Contexts that work.
+    pub contexts: u32,
+    pub is_refused: Option<bool>,
     /// All words of the command have come; an insert settles first.
     pub is_complete: bool,
     pub settles: bool,
@@ -49,8 +61,8 @@ pub struct Reference {
 }
 
 impl Reference {
-    pub fn new() -> Self {
-        Self { wants: [Meaning::Command].into(), ..Self::default() }
+    pub fn new(shape: Shape) -> Self {
+        Self { wants: [Meaning::Command].into(), contexts: shape.contexts, ..Self::default() }
     }
 
     pub fn is_ready(&self, around: &Surroundings) -> bool {
@@ -59,16 +71,27 @@ impl Reference {
             None => false,
             Some(Meaning::Command) => around.sweeping == 0,
             Some(Meaning::First | Meaning::Count) => true,
-            Some(Meaning::Point) => self.waiting.is_none() && !start_is_open,
+            Some(Meaning::Point) => self.came.is_none() && (around.stuck || !start_is_open),
         }
     }
 
-    fn take(&mut self, word: u32, around: &Surroundings, capacity: u32) {
+    /// An answer is due, and no memory is about to be cleared.
+    pub fn answers_now(&self) -> bool {
+        self.answers && !self.clears
+    }
+
+    fn take(&mut self, word: u32, around: &Surroundings, shape: Shape) {
         match self.wants.pop_front().expect("a word that is wanted") {
             Meaning::Command => {
                 let opcode = (word >> 24) as u8;
                 self.opcode = Some(opcode);
-                self.clears = opcode == Opcode::Clear as u8;
+                let asked = word & 0xff;
+                let is_clear = opcode == Opcode::Clear as u8;
+                self.is_refused = Some(is_clear && asked > shape.contexts);
+                self.clears = is_clear && asked <= shape.contexts;
+                if self.clears {
+                    self.contexts = if asked == 0 { shape.contexts } else { asked };
+                }
                 match Opcode::from_u8(opcode) {
                     Some(Opcode::Insert) => self.wants.push_back(Meaning::Count),
                     Some(Opcode::Read) => self.wants.extend([Meaning::First, Meaning::Count]),
@@ -90,11 +113,10 @@ impl Reference {
                 self.count = self.count.map(|count| count - 1);
                 self.is_complete = self.wants.is_empty();
                 self.inserting = true;
-                if around.collinear || self.arrived == capacity {
+                if around.collinear || around.stuck || self.arrived == shape.capacity {
                     self.refused += 1;
                 } else {
-                    self.waiting = Some((self.arrived, word));
-                    self.is_new = true;
+                    self.came = Some((self.arrived, word));
                     self.arrived += 1;
                 }
             }
@@ -102,20 +124,17 @@ impl Reference {
     }
 
     /// A rising edge, at which `word` is taken if there is one.
-    pub fn edge(&mut self, word: Option<u32>, takes_point: bool, pins: Pins, around: &Surroundings, capacity: u32) {
+    pub fn edge(&mut self, word: Option<u32>, pins: Pins, around: &Surroundings, shape: Shape) {
         let was = self.clone();
-        (self.is_new, self.clears, self.is_complete) = (false, false, false);
-        if takes_point {
-            self.waiting = None;
-        }
+        (self.came, self.clears, self.is_complete) = (None, false, false);
         if !was.answers && pins.responder_is_idle && around.answer_is_taken {
             self.reading = false;
         }
         if let Some(word) = word {
-            self.take(word, around, capacity);
+            self.take(word, around, shape);
         }
         self.settles |= was.is_complete;
-        if was.settles && pins.is_quiet {
+        if was.settles && (pins.is_quiet || around.stuck) {
             (self.settles, self.inserting, self.answers) = (false, false, true);
         }
         if was.answers && pins.answer_ends {
