@@ -165,6 +165,12 @@ impl Visits {
         self.numbers.next() % POOL * (self.records.len() as u64 / POOL)
     }
 
+    /// A record of the pool; every second time the one that a visit reads in this clock.
+    fn visited_id(&mut self) -> u64 {
+        let any = self.record_id();
+        self.issued.filter(|_| self.numbers.bits(1) == 1).map_or(any, |token| unpack(TOKEN, token)[7])
+    }
+
     /// A vertex of the pool; the last one stands where the infinite vertex reads.
     fn vertex_id(&mut self, place: u64) -> u64 {
         let pool = POOL.min(self.vertices);
@@ -221,12 +227,12 @@ impl Visits {
         } else if clock < 90 {
             let pace = if clock < 20 { 2 } else { 6 };
             if self.numbers.once_in(pace) {
-                let id = self.record_id();
+                let id = self.visited_id();
                 writes.write = self.write(id, false);
             }
             writes.vertex = (self.vertex_id(place), self.position(), self.numbers.once_in(pace));
             writes.position = (owner, self.position(), self.numbers.once_in(3 * pace));
-            writes.clear = (self.record_id(), self.numbers.once_in(3));
+            writes.clear = (self.visited_id(), self.numbers.once_in(3));
         }
         writes
     }

@@ -284,7 +284,7 @@ fn visit_judge_answers_ten_clocks_after_the_corners() {
         [&points.map(|point| u128::from(word(point)))[..], &[turned]].concat()
     });
     let mut seen = [0; 3];
-    let mut cycle = 0;
+    let mut cycle = 0usize;
     Cosimulation {
         name: "visit_judge",
         rust: VisitJudge::default(),
@@ -292,7 +292,7 @@ fn visit_judge_answers_ten_clocks_after_the_corners() {
         outputs: &["verdict"],
     }
     .run(stimuli, |_| {
-        let verdict = cycle.checked_sub(LATENCY).map(|before: usize| {
+        let verdict = cycle.checked_sub(LATENCY).map(|before| {
             let ([r0, r1, r2, p], record) = cases[before];
             record.verdict([r0, r1, r2], p, INFINITE)
         });
