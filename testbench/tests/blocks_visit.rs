@@ -9,14 +9,15 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 
 use cosimulation::{named_ports, Cosimulation, Expected, Numbers};
-use incircle_hdl::engine::{Issue, VerdictLogic, VisitReader};
+use incircle_hdl::engine::{Issue, VerdictLogic, VisitJudge, VisitReader};
 use structures::{pack, random, unpack, BUNDLE, TOKEN};
-use visit_model::{incircle, orientation, Point, Record};
+use visit_model::{incircle, orientation, word, Point, Record};
 
 named_ports!([] Issue, [reset, push, bundle, read, read_id], [token_valid, token, read_valid], clock);
 named_ports!([] VisitReader,
-    [infinite, token, v0, v1, v2, n0, n1, n2, was_set, position0, position1, position2],
+    [infinite, token, v0, v1, v2, n0, n1, n2, took, foreign, again, position0, position1, position2],
     [turned, token_at_record, r0, r1, r2], clock);
+named_ports!([] VisitJudge, [r0, r1, r2, p, turned], [verdict], clock);
 named_ports!([] VerdictLogic,
     [turned, e0_negative, e1_negative, e2_negative, e0_zero, e1_zero, e2_zero, e1_below_e0, e2_below_e0, e2_below_e1,
      incircle_positive, incircle_zero, p_before_r0, p_before_r1, p_before_r2, p_equals_r0, p_equals_r1, p_equals_r2,
@@ -40,12 +41,13 @@ impl Queue {
     }
 
     fn push(&mut self, bundle: u128) {
-        let [is_pair, rotates, locks, x, after, f_entry, f, u, x2, after2, u2] = unpack(BUNDLE, bundle);
-        let first = pack(TOKEN, [rotates, locks, x, after, f_entry, f, u]);
-        self.waiting.push_back((first, is_pair == 0));
-        if is_pair == 1 {
-            let second = pack(TOKEN, [rotates, locks, x2, after2, f_entry, f, u2]);
-            self.waiting.push_back((second, true));
+        let [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
+            unpack(BUNDLE, bundle);
+        let visits = [(x, after, u), (after, after2, u2), (after2, 0, u3)];
+        let last = (is_pair + is_triple) as usize;
+        for (place, (x, after, u)) in visits.into_iter().enumerate().take(last + 1) {
+            let token = pack(TOKEN, [owner, rotates, locks, x, after, f_entry, f, u]);
+            self.waiting.push_back((token, place == last));
         }
         self.fullest = self.fullest.max(self.bundles());
     }
@@ -53,29 +55,31 @@ impl Queue {
 
 #[test]
 fn issue_makes_one_visit_a_clock_in_order() {
-    const PLACES: usize = 8;
+    const PLACES: usize = 32;
     let queue = RefCell::new((Queue::default(), Numbers::new(31)));
     let stimuli = (0..CYCLES).map(|cycle| {
         let (queue, numbers) = &mut *queue.borrow_mut();
         // In turn: floods, drops, droughts.
-        let rate = [1, 2, 9, 40][cycle / 64 % 4];
+        let rate = [1, 2, 9, 40][cycle / 128 % 4];
         let has_place = queue.bundles() < PLACES;
         let push = has_place && numbers.once_in(rate);
         let read = queue.waiting.is_empty() && !push && numbers.bits(1) == 1;
+        let mut bundle = random(BUNDLE, |bits| numbers.bits(bits));
+        bundle[1] &= bundle[0];
         vec![
-            u128::from(cycle == 0 || numbers.once_in(50)),
+            u128::from(cycle == 0 || numbers.once_in(200)),
             push.into(),
-            pack(BUNDLE, random(BUNDLE, |bits| numbers.bits(bits))),
+            pack(BUNDLE, bundle),
             read.into(),
             numbers.bits(15).into(),
         ]
     });
     let mut is_known = false;
     Cosimulation {
-        name: "issue_3",
-        rust: Issue::new(3),
+        name: "issue_5",
+        rust: Issue::new(5),
         inputs: &["reset", "push", "bundle", "read", "read_id"],
-        outputs: &["token_valid", "token", "read_valid", "token[35+:15]"],
+        outputs: &["token_valid", "token", "read_valid", "token[40+:15]"],
     }
     .run(stimuli, |values| {
         let queue = &mut queue.borrow_mut().0;
@@ -122,13 +126,13 @@ fn visit_reader_turns_record_and_corners() {
             let mut token = random(TOKEN, |bits| numbers.bits(bits));
             let link = numbers.bits(2) as usize;
             if link < 3 {
-                token[5] = records[cycle + 2].n[link];
+                token[6] = records[cycle + 2].n[link];
             }
             let Record { v, n } = records[cycle];
             let columns = [v, n].concat();
             let mut values = vec![INFINITE.into(), pack(TOKEN, token)];
             values.extend(columns.into_iter().map(u128::from));
-            values.push(numbers.bits(1).into());
+            values.extend([(); 3].map(|()| u128::from(numbers.bits(1))));
             values.extend([(); 3].map(|()| u128::from(numbers.bits(32))));
             values
         })
@@ -147,7 +151,9 @@ fn visit_reader_turns_record_and_corners() {
             "n0",
             "n1",
             "n2",
-            "was_set",
+            "took",
+            "foreign",
+            "again",
             "position0",
             "position1",
             "position2",
@@ -162,14 +168,15 @@ fn visit_reader_turns_record_and_corners() {
             let (columns, token) = (ago(clocks)?, unpack(TOKEN, ago(clocks + 2)?[1]));
             let column = |port: usize| columns[port] as u64;
             let record = Record { v: [2, 3, 4].map(column), n: [5, 6, 7].map(column) };
-            Some((record, record.slot(token[0] == 1, token[5]), columns[8] == 1))
+            let lock = [8, 9, 10].map(|port| columns[port] == 1);
+            Some((record, record.slot(token[1] == 1, token[6]), lock))
         };
-        let turned = visit(2).map(|(record, slot, was_set)| {
+        let turned = visit(2).map(|(record, slot, lock)| {
             turns[slot] += 1;
-            record.turned(slot).pack_turned(slot, was_set, INFINITE)
+            record.turned(slot).pack_turned(slot, lock, INFINITE)
         });
         let corners = visit(3).map(|(_, slot, _)| {
-            let mut corners = [9, 10, 11].map(|port| ago(1).map(|then| then[port]));
+            let mut corners = [11, 12, 13].map(|port| ago(1).map(|then| then[port]));
             corners.rotate_left(slot);
             corners
         });
@@ -220,7 +227,7 @@ fn verdict_logic_agrees_with_the_geometry() {
                 r0 < r1,
                 r0 < r2,
             ];
-            let turned = record.pack_turned(0, false, INFINITE);
+            let turned = record.pack_turned(0, [false; 3], INFINITE);
             [&[turned][..], &flags.map(u128::from)].concat()
         })
         .collect();
@@ -263,4 +270,37 @@ fn verdict_logic_agrees_with_the_geometry() {
         vec![Some(verdict)]
     });
     assert!(seen.iter().all(|count| *count > CYCLES / 10), "conflicts, located, cocircular, ghosts: {seen:?}");
+}
+
+#[test]
+fn visit_judge_answers_ten_clocks_after_the_corners() {
+    const LATENCY: usize = 10;
+    let mut numbers = Numbers::new(35);
+    let cases: Vec<_> = (0..CYCLES).map(|_| (points(&mut numbers), record(&mut numbers))).collect();
+    let stimuli = cases.iter().enumerate().map(|(cycle, (points, _))| {
+        // The record of the visit whose corners came before.
+        let record = cycle.checked_sub(LATENCY).map_or(Record::default(), |before| cases[before].1);
+        let turned = record.pack_turned(0, [false; 3], INFINITE);
+        [&points.map(|point| u128::from(word(point)))[..], &[turned]].concat()
+    });
+    let mut seen = [0; 3];
+    let mut cycle = 0usize;
+    Cosimulation {
+        name: "visit_judge",
+        rust: VisitJudge::default(),
+        inputs: &["r0", "r1", "r2", "p", "turned"],
+        outputs: &["verdict"],
+    }
+    .run(stimuli, |_| {
+        let verdict = cycle.checked_sub(LATENCY).map(|before| {
+            let ([r0, r1, r2, p], record) = cases[before];
+            record.verdict([r0, r1, r2], p, INFINITE)
+        });
+        cycle += 1;
+        for (bit, count) in seen.iter_mut().enumerate() {
+            *count += usize::from(verdict.unwrap_or(0) >> bit & 1 == 1);
+        }
+        vec![verdict]
+    });
+    assert!(seen.iter().all(|count| *count > CYCLES / 50), "conflicts, located, on a corner: {seen:?}");
 }

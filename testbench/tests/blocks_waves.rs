@@ -7,51 +7,34 @@ mod structures;
 use std::collections::BTreeMap;
 
 use block_ports::NamedPorts;
-use incircle_hdl::engine::{Cavity, Issue, VisitPipeline, VisitReader, WritePort};
-use incircle_hdl::mesh::{TriangleStore, VertexStore};
+use incircle_hdl::engine::{Issue, VisitJudge, VisitPipeline, VisitReader, WritePort};
+use incircle_hdl::mesh::{LockStore, TriangleStore, VertexStore};
 use incircle_protocol::TINY;
 use incircle_testbench::blocks;
 use stepper::{named_ports, Cell, Stepper, Wave};
-use structures::{pack, BUNDLE, TOKEN, TURNED, VERDICT, WRITE};
+use structures::{pack, BUNDLE, TOKEN, TURNED, WRITE};
 use verilated::Direction;
 
 named_ports!(Issue, [reset, push, bundle, read, read_id], [token_valid, token, read_valid], clock);
 named_ports!(WritePort, [reset, commit, solo, seed], [write], clock);
+named_ports!(LockStore, [id, owner, takes, clear_id, clear_enable], [took, foreign, was_set], clock);
+named_ports!(VisitJudge, [r0, r1, r2, p, turned], [verdict], clock);
 named_ports!(
     TriangleStore,
-    [write, read_id, read_locks, clear_id, clear_enable],
-    [v0, v1, v2, n0, n1, n2, was_set],
+    [write, read_id, read_locks, owner, clear_id, clear_enable],
+    [v0, v1, v2, n0, n1, n2, took, foreign, was_set],
     clock
 );
 named_ports!(
     VertexStore,
-    [write_id, write_position, write_enable, id0, id1, id2],
-    [position0, position1, position2],
+    [write_id, write_position, write_enable, id0, id1, id2, fetch_id],
+    [position0, position1, position2, fetched],
     clock
 );
 named_ports!(
     VisitReader,
-    [infinite, token, v0, v1, v2, n0, n1, n2, was_set, position0, position1, position2],
+    [infinite, token, v0, v1, v2, n0, n1, n2, took, foreign, again, position0, position1, position2],
     [turned, token_at_record, r0, r1, r2],
-    clock
-);
-named_ports!(
-    Cavity,
-    [
-        reset,
-        ring,
-        is_root,
-        is_cavity,
-        is_drain,
-        root_visits,
-        done,
-        token,
-        turned,
-        verdict,
-        entry_pointer,
-        inner_pointer
-    ],
-    [split, split_bundle, overflows, nothing_is_out, count, inner_count, entry, inner_id],
     clock
 );
 named_ports!(
@@ -59,19 +42,23 @@ named_ports!(
     [
         reset,
         infinite,
+        records,
         push,
         bundle,
-        p,
+        position_owner,
+        position,
+        position_enable,
         read,
         read_id,
         write,
         vertex_id,
         vertex_position,
         vertex_enable,
+        fetch_id,
         clear_id,
         clear_enable
     ],
-    [done, token, turned, verdict, read_done, v0, v1, v2, n0, n1, n2, was_set],
+    [is_issuing, done, token, turned, verdict, read_done, v0, v1, v2, n0, n1, n2, was_set, fetched],
     clock
 );
 
@@ -138,31 +125,33 @@ fn draw<U: NamedPorts>(name: &'static str, rust: U, stimuli: &Stimuli, clocks: u
     wave
 }
 
-/// A bundle of these ring entries.
-fn bundle(is_pair: u64, x: u64, second_x: u64) -> u128 {
-    pack(BUNDLE, [is_pair, 1, 0, x, 0, 0, 0, 0, second_x, 0, 0])
+/// A bundle of context 1 from these ring entries.
+fn bundle(entries: &[u64]) -> u128 {
+    let [is_pair, is_triple] = [2, 3].map(|visits| u64::from(entries.len() >= visits));
+    let [x, x2, x3] = [0, 1, 2].map(|place| entries.get(place).copied().unwrap_or(0));
+    pack(BUNDLE, [is_pair, is_triple, 1, 1, 0, x, x2, 0, 0, 0, x3, 0, 0])
 }
 
 #[test]
 fn issue_shows_the_wave_of_its_header() {
     let stimuli = [
         (1, "push", 1),
-        (1, "bundle", bundle(1, 1, 2)),
+        (1, "bundle", bundle(&[1, 2, 3])),
         (2, "push", 1),
-        (2, "bundle", bundle(0, 3, 0)),
-        (5, "read", 1),
-        (5, "read_id", 9),
+        (2, "bundle", bundle(&[4])),
+        (6, "read", 1),
+        (6, "read_id", 9),
     ];
     let lanes = [
         ("push", "push", 0, 1, When::Always),
-        ("bundle.x", "bundle", 3, 6, When::If("push")),
+        ("bundle.x", "bundle", 9, 6, When::If("push")),
         ("token_valid", "token_valid", 0, 1, When::Always),
-        ("token.x", "token", 2, 6, When::If("token_valid")),
+        ("token.x", "token", 7, 6, When::If("token_valid")),
         ("read", "read", 0, 1, When::Always),
         ("read_valid", "read_valid", 0, 1, When::Always),
-        ("token.u", "token", 35, 15, When::If("read_valid")),
+        ("token.u", "token", 40, 15, When::If("read_valid")),
     ];
-    draw("issue_3", Issue::new(3), &stimuli, 8, &lanes).assert_drawn_in(include_str!("../../hdl/src/engine/issue.rs"));
+    draw("issue_5", Issue::new(5), &stimuli, 9, &lanes).assert_drawn_in(include_str!("../../hdl/src/engine/issue.rs"));
 }
 
 /// A write of a record with these columns; `columns` has a bit for the vertices and one for each link.
@@ -188,9 +177,30 @@ fn write_port_shows_the_wave_of_its_header() {
 }
 
 #[test]
+fn lock_store_shows_the_wave_of_its_header() {
+    const VISITS: [usize; 5] = [0, 1, 2, 4, 5];
+    const KNOWN: [usize; 7] = [1, 2, 3, 4, 5, 6, 7];
+    let mut stimuli = vec![(4, "clear_id", 5), (4, "clear_enable", 1)];
+    for (clock, owner) in VISITS.into_iter().zip([3, 4, 3, 4, 4]) {
+        stimuli.extend([(clock, "id", 5), (clock, "owner", owner), (clock, "takes", 1)]);
+    }
+    let lanes = [
+        ("id", "id", 0, 15, When::At(&VISITS)),
+        ("owner", "owner", 0, 5, When::At(&VISITS)),
+        ("takes", "takes", 0, 1, When::Always),
+        ("clear_enable", "clear_enable", 0, 1, When::Always),
+        ("took", "took", 0, 1, When::At(&KNOWN)),
+        ("foreign", "foreign", 0, 1, When::At(&KNOWN)),
+    ];
+    draw("lock_store_15_5", LockStore::new(15, 5), &stimuli, 8, &lanes)
+        .assert_drawn_in(include_str!("../../hdl/src/mesh/lock_store.rs"));
+}
+
+#[test]
 fn triangle_store_shows_the_wave_of_its_header() {
     const READS: [usize; 3] = [2, 3, 4];
     const ANSWERS: [usize; 3] = [4, 5, 6];
+    const KNOWN: [usize; 7] = [1, 2, 3, 4, 5, 6, 7];
     let stimuli = [
         (0, "write", write(5, 15, 7, 8)),
         (1, "write", write(5, 4, 0, 9)),
@@ -207,22 +217,26 @@ fn triangle_store_shows_the_wave_of_its_header() {
         ("read_locks", "read_locks", 0, 1, When::Always),
         ("v0", "v0", 0, 15, When::At(&ANSWERS)),
         ("n1", "n1", 0, 15, When::At(&ANSWERS)),
+        ("took", "took", 0, 1, When::At(&KNOWN)),
         ("was_set", "was_set", 0, 1, When::At(&ANSWERS)),
     ];
-    let store = TriangleStore::new(15, 15);
-    draw("triangle_store_15", store, &stimuli, 8, &lanes)
+    let store = TriangleStore::new(15, 15, 5);
+    draw("triangle_store_15_15_5", store, &stimuli, 8, &lanes)
         .assert_drawn_in(include_str!("../../hdl/src/mesh/triangle_store.rs"));
 }
 
 #[test]
 fn vertex_store_shows_the_wave_of_its_header() {
-    let stimuli = [(0, "write_enable", 1), (0, "write_id", 3), (0, "write_position", 42), (1, "id0", 3)];
+    let stimuli =
+        [(0, "write_enable", 1), (0, "write_id", 3), (0, "write_position", 42), (1, "id0", 3), (2, "fetch_id", 3)];
     let lanes = [
         ("write_enable", "write_enable", 0, 1, When::Always),
         ("write_id", "write_id", 0, 15, When::If("write_enable")),
         ("write_position", "write_position", 0, 32, When::If("write_enable")),
         ("id0", "id0", 0, 15, When::At(&[1])),
+        ("fetch_id", "fetch_id", 0, 15, When::At(&[2])),
         ("position0", "position0", 0, 32, When::At(&[3])),
+        ("fetched", "fetched", 0, 32, When::At(&[4])),
     ];
     draw("vertex_store_14", VertexStore::new(14), &stimuli, 5, &lanes)
         .assert_drawn_in(include_str!("../../hdl/src/mesh/vertex_store.rs"));
@@ -232,20 +246,23 @@ fn vertex_store_shows_the_wave_of_its_header() {
 fn visit_reader_shows_the_wave_of_its_header() {
     // Through link 1, so that vertex 1 comes first.
     let stimuli = [
-        (0, "token", pack(TOKEN, [1, 0, 0, 0, 0, 30, 5])),
+        (0, "token", pack(TOKEN, [0, 1, 0, 0, 0, 0, 30, 5])),
         (2, "v0", 11),
         (2, "v1", 12),
         (2, "n1", 30),
+        (2, "again", 1),
         (4, "position0", 51),
         (4, "position1", 52),
     ];
     let lanes = [
-        ("token.f", "token", 20, 15, When::At(&[0])),
+        ("token.f", "token", 25, 15, When::At(&[0])),
         ("n1", "n1", 0, 15, When::At(&[2])),
         ("v0", "v0", 0, 15, When::At(&[2])),
         ("v1", "v1", 0, 15, When::At(&[2])),
+        ("again", "again", 0, 1, When::Always),
         ("turned.v0", "turned", 0, 15, When::At(&[4])),
         ("turned.slot", "turned", 90, 2, When::At(&[4])),
+        ("turned.again", "turned", 94, 1, When::At(&[4])),
         ("position0", "position0", 0, 32, When::At(&[4])),
         ("position1", "position1", 0, 32, When::At(&[4])),
         ("r0", "r0", 0, 32, When::At(&[5])),
@@ -256,50 +273,38 @@ fn visit_reader_shows_the_wave_of_its_header() {
 }
 
 #[test]
-fn cavity_shows_the_wave_of_its_header() {
-    let mut stimuli: Vec<(usize, &'static str, u128)> = vec![];
-    for clock in 0..20 {
-        stimuli.push((clock, "ring", 6));
-        stimuli.push((clock, "is_root", u128::from((1..4).contains(&clock))));
-        stimuli.push((clock, "is_cavity", u128::from(clock > 3)));
-    }
-    stimuli.extend([(1, "root_visits", 1), (2, "root_visits", 2), (3, "root_visits", 1)]);
-    // The root's lock, then the three tests and the two that the first of them asks for.
-    let visits = [(4, 0, 0, 0), (5, 1, 0, 1), (7, 1, 1, 0), (8, 1, 2, 0), (10, 1, 0, 0), (11, 1, 3, 0)];
-    for (clock, rotates, x, conflict) in visits {
-        stimuli.push((clock, "done", 1));
-        stimuli.push((clock, "token", pack(TOKEN, [rotates, 0, x, 0, 0, 0, 0])));
-        stimuli.push((clock, "verdict", pack(VERDICT, [conflict, 0, 0, 0, 0, 0])));
-        stimuli.push((clock, "turned", pack(TURNED, [0; 11])));
-    }
+fn visit_judge_shows_the_wave_of_its_header() {
+    let mut turned = [0; 13];
+    turned[3] = 9;
+    let stimuli = [(0, "r0", 2), (0, "r1", 6), (0, "r2", 4), (0, "p", 6), (10, "turned", pack(TURNED, turned))];
     let lanes = [
-        ("is_root", "is_root", 0, 1, When::Always),
-        ("root_visits", "root_visits", 0, 2, When::If("is_root")),
-        ("is_cavity", "is_cavity", 0, 1, When::Always),
-        ("done", "done", 0, 1, When::Always),
-        ("token.rotates", "token", 0, 1, When::If("done")),
-        ("token.x", "token", 2, 6, When::If("done")),
-        ("conflict", "verdict", 0, 1, When::If("done")),
-        ("split", "split", 0, 1, When::Always),
-        ("count", "count", 0, 7, When::If("is_cavity")),
-        ("nothing_is_out", "nothing_is_out", 0, 1, When::Always),
+        ("r0", "r0", 0, 32, When::At(&[0])),
+        ("r1", "r1", 0, 32, When::At(&[0])),
+        ("r2", "r2", 0, 32, When::At(&[0])),
+        ("p", "p", 0, 32, When::At(&[0])),
+        ("turned.n0", "turned", 45, 15, When::At(&[10])),
+        ("walk_next", "verdict", 5, 15, When::At(&[10])),
+        ("corner", "verdict", 2, 1, When::At(&[10])),
     ];
-    draw("cavity_6", Cavity::new(TINY), &stimuli, 14, &lanes)
-        .assert_drawn_in(include_str!("../../hdl/src/engine/cavity.rs"));
+    draw("visit_judge", VisitJudge::default(), &stimuli, 12, &lanes)
+        .assert_drawn_in(include_str!("../../hdl/src/engine/visit_judge.rs"));
 }
 
 #[test]
 fn visit_pipeline_shows_the_wave_of_its_header() {
-    let stimuli = [(0, "push", 1), (0, "bundle", bundle(1, 1, 2)), (18, "read", 1)];
+    let stimuli = [(0, "push", 1), (0, "bundle", bundle(&[1, 2])), (19, "read", 1)];
     let lanes = [
         ("push", "push", 0, 1, When::Always),
-        ("bundle.x", "bundle", 3, 6, When::If("push")),
+        ("bundle.owner", "bundle", 2, 5, When::If("push")),
+        ("bundle.x", "bundle", 9, 6, When::If("push")),
+        ("is_issuing", "is_issuing", 0, 1, When::Always),
         ("done", "done", 0, 1, When::Always),
-        ("token.x", "token", 2, 6, When::If("done")),
+        ("token.owner", "token", 0, 5, When::If("done")),
+        ("token.x", "token", 7, 6, When::If("done")),
         ("read", "read", 0, 1, When::Always),
         ("read_done", "read_done", 0, 1, When::Always),
     ];
     let pipeline = VisitPipeline::new(TINY);
-    draw("visit_pipeline_tiny", pipeline, &stimuli, 23, &lanes)
+    draw("visit_pipeline_tiny", pipeline, &stimuli, 24, &lanes)
         .assert_drawn_in(include_str!("../../hdl/src/engine/visit_pipeline.rs"));
 }

@@ -65,8 +65,8 @@ pub struct Issue {
 }
 
 impl Issue {
-    /// Fewest address bits of the queue.
-    const MIN_ADDRESS_BITS: usize = 5;
+    /// Fewest address bits of the queue: it is a deep one.
+    const MIN_ADDRESS_BITS: usize = DeepFifo::<RING_ADDRESS_BITS, BUNDLE_BITS>::WINDOW_BITS + 1;
 
     /// A queue of `2^address_bits` bundles, 32 at least.
     ///

@@ -10,11 +10,15 @@
 //! 1. Corners and point come straight from registers. New ones are taken at every edge; there is no reset.
 //!
 //! Latency: `LATENCY` = 10 clocks from the corners to the verdict, which has no register of its own.
+//!
+//! A point that falls onto a corner of a triangle without area; a walk would leave it by its first link:
 //! ```text
 //! r0                2  .  .  .  .  .  .  .  .  .  .  .
 //! r1                6  .  .  .  .  .  .  .  .  .  .  .
 //! r2                4  .  .  .  .  .  .  .  .  .  .  .
 //! p                 6  .  .  .  .  .  .  .  .  .  .  .
+//! turned.n0         .  .  .  .  .  .  .  .  .  .  9  .
+//! walk_next         .  .  .  .  .  .  .  .  .  .  9  .
 //! corner            .  .  .  .  .  .  .  .  .  ./^^  .
 //! ```
 
