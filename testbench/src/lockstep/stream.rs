@@ -55,8 +55,9 @@ impl Job {
     /// Clears, inserts the points in the given pieces with this many contexts (0: all), reads all records, latencies and counters;
     /// the number of answer words comes from the model by commands.
     pub fn of(points: &[u32], piece: usize, contexts: u32, config: Config) -> Self {
-        let mut model = incircle_model::CommandModel::new(incircle_protocol::CORE_COORD_BITS, config.points, config.ring)
-            .unwrap_or_else(|error| panic!("{error}"));
+        let mut model =
+            incircle_model::CommandModel::new(incircle_protocol::CORE_COORD_BITS, config.points, config.ring)
+                .unwrap_or_else(|error| panic!("{error}"));
         let mut commands = vec![command_word(Opcode::Hello), command_word(Opcode::Clear)];
         for piece in points.chunks(piece.max(1)) {
             commands.extend([command_word(Opcode::Insert), piece.len() as u32]);

@@ -4,7 +4,8 @@ use incircle::Point;
 use incircle_cli::generate::{generate, Distribution, SplitMix64};
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{
-    command_word, Config, Counter, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS,
+    command_word, Config, Counter, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS,
+    LATENCY_BUCKETS,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use std::path::PathBuf;
