@@ -6,7 +6,7 @@ use std::fs;
 const CELLS: [&str; 2] = ["DP16KD", "MULT18X18D"];
 
 /// Blocks that are run in both forms: the leaves that instantiate primitives, in every shape that is exported.
-const LEAVES: [&str; 4] = ["multiplier", "block_memory_", "paced_memory_", "lock_memory_"];
+const LEAVES: [&str; 5] = ["multiplier", "block_memory_", "paced_memory_", "shared_memory_", "lock_memory_"];
 
 /// The block with the primitives, and with models of them, so that it runs; nothing if it is not one that is run so.
 pub fn with_primitives(name: &str, verilog: &str) -> Option<String> {

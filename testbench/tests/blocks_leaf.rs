@@ -454,6 +454,8 @@ fn memories_as_primitives_are_block_ram_and_nothing_else() {
         ("block_memory_14x2", 2),
         ("paced_memory_8x12", 1),
         ("paced_memory_6x33", 2),
+        ("shared_memory_8x12", 1),
+        ("shared_memory_6x33", 2),
         ("lock_memory_14", 1),
         ("lock_memory_4", 1),
     ];

@@ -138,6 +138,7 @@ end
             read_address: &read,
             read_enable: "1'b1",
             result: &result,
+            shared_result: None,
         };
         code += &memory.verilog(&neutral);
         Verilog::Custom(code)

@@ -102,7 +102,7 @@ fn either(primitive: Option<String>, neutral: &str) -> String {
     }
 }
 
-/// What a memory with a write port and a read port connects to, as expressions.
+/// What a memory with a read port and a port that writes, or also reads, connects to, as expressions.
 pub(super) struct Memory<'a> {
     pub address_bits: usize,
     pub stored_bits: usize,
@@ -112,6 +112,8 @@ pub(super) struct Memory<'a> {
     pub read_enable: &'a str,
     /// The value of `read_data`, from a word called `word`.
     pub result: &'a str,
+    /// The value of `shared_data`, from a word called `shared_word`, if the write port also reads.
+    pub shared_result: Option<&'a str>,
 }
 
 impl Memory<'_> {
@@ -130,7 +132,7 @@ impl Memory<'_> {
             letter: 'A',
             address: "write_pins",
             taken: "taken",
-            given: None,
+            given: self.shared_result.map(|_| "shared_given"),
             write: "write_enable",
             enable: "1'b1",
         };
@@ -142,6 +144,15 @@ impl Memory<'_> {
             write: "1'b0",
             enable: self.read_enable,
         };
+        let (mut all_shared, mut shared, mut shared_data) = (String::new(), String::new(), String::new());
+        if let Some(result) = self.shared_result {
+            let (padded, top, last) = (slices * bits - 1, self.stored_bits - 1, bits - 1);
+            all_shared = format!("wire [{padded}:0] all_shared;\nwire [{top}:0] shared_word = all_shared[{top}:0];\n");
+            shared = format!(
+                "wire [17:0] shared_given;\nassign all_shared[slice*{bits} +: {bits}] = shared_given[{last}:0];\n"
+            );
+            shared_data = format!("always @(*) shared_data = {result};\n");
+        }
         format!(
             "\
 wire [13:0] write_pins = {write_pins};
@@ -150,14 +161,14 @@ wire [17:0] nothing = 18'b0;
 wire [{padded}:0] all_taken = {{{padding}{data}}};
 wire [{padded}:0] all_given;
 wire [{top}:0] word = all_given[{top}:0];
-genvar slice;
+{all_shared}genvar slice;
 generate for (slice = 0; slice < {slices}; slice = slice + 1) begin : slices
 wire [17:0] taken = {taken};
 wire [17:0] given;
 assign all_given[slice*{bits} +: {bits}] = given[{last}:0];
-{block_ram}end endgenerate
+{shared}{block_ram}end endgenerate
 always @(*) read_data = {result};
-",
+{shared_data}",
             write_pins = address_pins(self.write_address, self.address_bits, bits),
             read_pins = address_pins(self.read_address, self.address_bits, bits),
             padded = slices * bits - 1,

@@ -148,6 +148,7 @@ end
             read_address: &read,
             read_enable: "read_enable",
             result: &result,
+            shared_result: None,
         };
         code += &memory.verilog(&neutral);
         Verilog::Custom(code)
