@@ -1,6 +1,8 @@
 //! Verilates every block that incircle-hdl exports, and whole cores for lock-step, sound ones and broken ones, so that tests can
 //! run any of them by name.
 
+#[path = "build/cells.rs"]
+mod cells;
 #[path = "build/cores.rs"]
 mod cores;
 
@@ -8,14 +10,20 @@ use verilated::build::{Builder, ModelSource, Optimisation};
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=build/cells.rs");
     println!("cargo:rerun-if-changed=build/cores.rs");
+    println!("cargo:rerun-if-changed=cells");
     println!("cargo:rerun-if-env-changed=INCIRCLE_ONLY");
     // For work on a few blocks: only models whose name begins with one of these prefixes, separated by commas, are built.
     let only = std::env::var("INCIRCLE_ONLY").unwrap_or_default();
     let is_wanted = |name: &str| only.is_empty() || only.split(',').any(|prefix| name.starts_with(prefix));
     let mut builder = Builder::new();
     for (name, verilog) in incircle_hdl::export::blocks().into_iter().filter(|(name, _)| is_wanted(name)) {
-        builder = builder.model(ModelSource::new(&name, &name, verilog).trace(true).random_initial_state(true));
+        let block = |model: &str, text| ModelSource::new(model, &name, text).trace(true).random_initial_state(true);
+        if let Some(with_primitives) = cells::with_primitives(&name, &verilog) {
+            builder = builder.model(block(&format!("{name}_ecp5"), with_primitives));
+        }
+        builder = builder.model(block(&name, verilog));
     }
     let cores = if only.is_empty() || only.contains("core") { cores::all() } else { Vec::new() };
     for (name, verilog) in cores.into_iter().filter(|(name, _)| is_wanted(name)) {

@@ -44,6 +44,11 @@ fn cells(name: &str) -> Cells {
     cells_with("", name)
 }
 
+/// The model of a block as neutral Verilog, and that with the primitives of the ECP5.
+fn both_forms(name: &str) -> [String; 2] {
+    [name.to_string(), format!("{name}_ecp5")]
+}
+
 /// Runs a block in Rust alone.
 fn edge(block: &mut impl NamedPorts, inputs: &[(&str, u64)]) {
     for (port, value) in inputs {
@@ -65,14 +70,16 @@ fn multiplier_multiplies_in_three_clocks() {
     let mut numbers = Numbers::new(1);
     let mut stimuli: Vec<_> = corners.iter().flat_map(|a| corners.iter().map(|b| vec![*a, *b])).collect();
     stimuli.extend((0..CYCLES).map(|_| vec![numbers.bits(18), numbers.bits(18)]));
-    let mut delay = Delay::new(Multiplier::LATENCY);
-    Cosimulation { name: "multiplier", rust: Multiplier::default(), inputs: &["a", "b"], outputs: &["product"] }.run(
-        stimuli,
-        |values| {
-            let product = signed(values[0], 18) * signed(values[1], 18);
-            vec![delay.pass(u128::from(product as u64 & 0xf_ffff_ffff))]
-        },
-    );
+    for name in both_forms("multiplier") {
+        let mut delay = Delay::new(Multiplier::LATENCY);
+        Cosimulation { name: &name, rust: Multiplier::default(), inputs: &["a", "b"], outputs: &["product"] }.run(
+            stimuli.clone(),
+            |values| {
+                let product = signed(values[0], 18) * signed(values[1], 18);
+                vec![delay.pass(u128::from(product as u64 & 0xf_ffff_ffff))]
+            },
+        );
+    }
 }
 
 /// Random reads and writes; a read never meets a write of the same word.
@@ -106,15 +113,17 @@ fn memory_reference(address_bits: usize, stored_bits: usize) -> impl FnMut(&[u64
 }
 
 fn block_memory<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
-    let mut reference = memory_reference(address_bits, stored_bits);
-    let mut delay = Delay::new(BlockMemory::<A, D>::LATENCY);
-    Cosimulation {
-        name,
-        rust: BlockMemory::<A, D>::new(address_bits, stored_bits),
-        inputs: &MEMORY_PORTS,
-        outputs: &["read_data"],
+    for name in both_forms(name) {
+        let mut reference = memory_reference(address_bits, stored_bits);
+        let mut delay = Delay::new(BlockMemory::<A, D>::LATENCY);
+        Cosimulation {
+            name: &name,
+            rust: BlockMemory::<A, D>::new(address_bits, stored_bits),
+            inputs: &MEMORY_PORTS,
+            outputs: &["read_data"],
+        }
+        .run(memory_stimuli(A, D, address_bits), |values| vec![delay.pass(reference(values)).flatten()]);
     }
-    .run(memory_stimuli(A, D, address_bits), |values| vec![delay.pass(reference(values)).flatten()]);
 }
 
 #[test]
@@ -125,6 +134,15 @@ fn block_memory_gives_back_what_was_written() {
 #[test]
 fn block_memory_ignores_what_is_above_its_shape() {
     block_memory::<10, 36>("block_memory_6x33", 6, 33);
+}
+
+#[test]
+fn block_memory_of_every_width_of_a_block_ram() {
+    // Words of 18 bits are in the tests above; a word of these takes more than one block RAM, the last in part.
+    block_memory::<11, 20>("block_memory_11x20", 11, 20);
+    block_memory::<12, 10>("block_memory_12x10", 12, 10);
+    block_memory::<13, 3>("block_memory_13x3", 13, 3);
+    block_memory::<14, 2>("block_memory_14x2", 14, 2);
 }
 
 #[test]
@@ -155,23 +173,25 @@ fn paced_memory<const A: usize, const D: usize>(name: &str, address_bits: usize,
             values[3] = values[0];
         }
     }
-    let mut reference = memory_reference(address_bits, stored_bits);
-    let mut delay = Delay::new(PacedMemory::<A, D>::LATENCY - 1);
-    let mut shown = None;
-    Cosimulation {
-        name,
-        rust: PacedMemory::<A, D>::new(address_bits, stored_bits),
-        inputs: &["write_address", "write_data", "write_enable", "read_address", "read_enable"],
-        outputs: &["read_data"],
-    }
-    .run(stimuli, |values| {
-        let before = shown;
-        let read = reference(values);
-        if values[4] == 1 {
-            shown = delay.pass(read).flatten();
+    for name in both_forms(name) {
+        let mut reference = memory_reference(address_bits, stored_bits);
+        let mut delay = Delay::new(PacedMemory::<A, D>::LATENCY - 1);
+        let mut shown = None;
+        Cosimulation {
+            name: &name,
+            rust: PacedMemory::<A, D>::new(address_bits, stored_bits),
+            inputs: &["write_address", "write_data", "write_enable", "read_address", "read_enable"],
+            outputs: &["read_data"],
         }
-        vec![before]
-    });
+        .run(stimuli.clone(), |values| {
+            let before = shown;
+            let read = reference(values);
+            if values[4] == 1 {
+                shown = delay.pass(read).flatten();
+            }
+            vec![before]
+        });
+    }
 }
 
 #[test]
@@ -232,11 +252,11 @@ fn lock_memory<const A: usize>(name: &str, address_bits: usize) {
             vec![test, numbers.bits(1), clear, numbers.bits(1)]
         })
         .collect();
-    let mut locks = vec![false; 1 << address_bits];
-    let mut delay = Delay::new(LockMemory::<A>::LATENCY);
-    Cosimulation { name, rust: LockMemory::<A>::new(address_bits), inputs: &LOCK_PORTS, outputs: &["was_set"] }.run(
-        stimuli,
-        |values| {
+    for name in both_forms(name) {
+        let mut locks = vec![false; 1 << address_bits];
+        let mut delay = Delay::new(LockMemory::<A>::LATENCY);
+        let rust = LockMemory::<A>::new(address_bits);
+        Cosimulation { name: &name, rust, inputs: &LOCK_PORTS, outputs: &["was_set"] }.run(stimuli.clone(), |values| {
             let tested = (values[0] & last) as usize;
             let was_set = delay.pass(locks[tested].into());
             locks[tested] |= values[1] == 1;
@@ -244,8 +264,8 @@ fn lock_memory<const A: usize>(name: &str, address_bits: usize) {
                 locks[(values[2] & last) as usize] = false;
             }
             vec![was_set]
-        },
-    );
+        });
+    }
 }
 
 #[test]
@@ -420,6 +440,28 @@ fn memories_are_block_ram_without_bypass_logic() {
         let cells = cells(name);
         assert_eq!((cells.block_ram, cells.lut4), (1, 0), "{name}");
         assert_eq!(cells.flip_flops, output_bits, "{name} has its output register and no other");
+    }
+}
+
+#[test]
+fn memories_as_primitives_are_block_ram_and_nothing_else() {
+    let shapes = [
+        ("block_memory_8x12", 1),
+        ("block_memory_6x33", 2),
+        ("block_memory_11x20", 3),
+        ("block_memory_12x10", 3),
+        ("block_memory_13x3", 2),
+        ("block_memory_14x2", 2),
+        ("paced_memory_8x12", 1),
+        ("paced_memory_6x33", 2),
+        ("shared_memory_8x12", 1),
+        ("shared_memory_6x33", 2),
+        ("lock_memory_14", 1),
+        ("lock_memory_4", 1),
+    ];
+    for (name, block_ram) in shapes {
+        let cells = cells_with("`define INCIRCLE_ECP5\n", name);
+        assert_eq!(cells, Cells { block_ram, ..Cells::default() }, "{name}");
     }
 }
 

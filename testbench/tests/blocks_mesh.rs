@@ -56,26 +56,29 @@ fn shared_memory<const A: usize, const D: usize>(name: &str, address_bits: usize
         })
         .collect();
     let last = (1 << address_bits) - 1;
-    let mut words: Vec<Expected> = vec![None; last + 1];
-    let mut delay = Delay::new(SharedMemory::<A, D>::LATENCY);
-    Cosimulation {
-        name,
-        rust: SharedMemory::<A, D>::new(address_bits, stored_bits),
-        inputs: &["read_address", "shared_address", "write_data", "write_enable"],
-        outputs: &["read_data", "shared_data"],
-    }
-    .run(stimuli, |values| {
-        let [read, shared] = [values[0], values[1]].map(|address| address as usize & last);
-        let mut seen = vec![words[read], words[shared]];
-        if values[3] == 1 {
-            seen[1] = None;
-            if read == shared {
-                seen[0] = None;
-            }
-            words[shared] = Some(u128::from(values[2]) & ((1 << stored_bits) - 1));
+    // As neutral Verilog, and with the primitives of the ECP5.
+    for name in [name.to_string(), format!("{name}_ecp5")] {
+        let mut words: Vec<Expected> = vec![None; last + 1];
+        let mut delay = Delay::new(SharedMemory::<A, D>::LATENCY);
+        Cosimulation {
+            name: &name,
+            rust: SharedMemory::<A, D>::new(address_bits, stored_bits),
+            inputs: &["read_address", "shared_address", "write_data", "write_enable"],
+            outputs: &["read_data", "shared_data"],
         }
-        delay.pass(seen).unwrap_or(vec![None; 2])
-    });
+        .run(stimuli.clone(), |values| {
+            let [read, shared] = [values[0], values[1]].map(|address| address as usize & last);
+            let mut seen = vec![words[read], words[shared]];
+            if values[3] == 1 {
+                seen[1] = None;
+                if read == shared {
+                    seen[0] = None;
+                }
+                words[shared] = Some(u128::from(values[2]) & ((1 << stored_bits) - 1));
+            }
+            delay.pass(seen).unwrap_or(vec![None; 2])
+        });
+    }
 }
 
 #[test]

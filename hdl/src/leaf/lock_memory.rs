@@ -20,10 +20,13 @@
 //! Latency: an address that stands before edge 1 gives `was_set` after edge 2, in step with `BlockMemory`.
 //!
 //! Source: one ECP5 block RAM of 16K x 1, true dual port, with port A in read-before-write mode.
+//!
+//! With `INCIRCLE_ECP5` defined, the Verilog instantiates it, for up to 14 address bits; otherwise, and without it, it is plain Verilog
+//! that any tool maps to its block memories.
 
 use rust_hdl_core::prelude::*;
 
-use super::{assert_shape, low_part, unused_part};
+use super::{assert_shape, ecp5, low_part, unused_part};
 
 /// A memory of lock bits; see the top of this file.
 #[derive(LogicBlock)]
@@ -105,7 +108,9 @@ impl<const A: usize> Logic for LockMemory<A> {
         let address_bits = self._address_bits;
         let mut code = unused_part("test_address", A, address_bits);
         code += &unused_part("clear_address", A, address_bits);
-        code += &format!(
+        let test = low_part("test_address", A, address_bits);
+        let clear = low_part("clear_address", A, address_bits);
+        let neutral = format!(
             "\
 (* ram_style = \"block\", no_rw_check *)
 reg memory [0:{last}];
@@ -124,9 +129,8 @@ always @(posedge clock) begin
 end
 ",
             last = (1 << address_bits) - 1,
-            test = low_part("test_address", A, address_bits),
-            clear = low_part("clear_address", A, address_bits),
         );
+        code += &ecp5::locks(address_bits, &test, &clear, &neutral);
         Verilog::Custom(code)
     }
 }

@@ -6,6 +6,7 @@
 mod block_memory;
 mod deep_fifo;
 mod delay_line;
+mod ecp5;
 mod fifo;
 mod flag_delay;
 mod lock_memory;

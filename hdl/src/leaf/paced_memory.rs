@@ -21,10 +21,13 @@
 //! at an edge is seen by every address from the next edge on.
 //!
 //! Source: [`BlockMemory`](super::BlockMemory) with the clock enables of an ECP5 block RAM.
+//!
+//! With `INCIRCLE_ECP5` defined, the Verilog instantiates DP16KD with its output registers, as many as leave no multiplexer behind
+//! them, for up to 14 address bits; otherwise, and without it, it is plain Verilog that any tool maps to its block memories.
 
 use rust_hdl_core::prelude::*;
 
-use super::{assert_shape, low_part, unused_part, zero_extended};
+use super::{assert_shape, ecp5, low_part, unused_part, zero_extended};
 
 /// A memory with a paced read port; see the top of this file.
 #[derive(LogicBlock)]
@@ -117,26 +120,37 @@ impl<const A: usize, const D: usize> Logic for PacedMemory<A, D> {
         let mut code = unused_part("write_address", A, address_bits);
         code += &unused_part("read_address", A, address_bits);
         code += &unused_part("write_data", D, stored_bits);
-        code += &format!(
+        let write = low_part("write_address", A, address_bits);
+        let data = low_part("write_data", D, stored_bits);
+        let read = low_part("read_address", A, address_bits);
+        let result = zero_extended("word", D, stored_bits);
+        let neutral = format!(
             "\
 (* ram_style = \"block\", no_rw_check *)
 reg [{top}:0] memory [0:{last}];
-reg [{top}:0] array_read;
+reg [{top}:0] word;
 always @(posedge clock) begin
     if (write_enable) memory[{write}] <= {data};
     if (read_enable) begin
-        array_read <= memory[{read}];
+        word <= memory[{read}];
         read_data <= {result};
     end
 end
 ",
             top = stored_bits - 1,
             last = (1 << address_bits) - 1,
-            write = low_part("write_address", A, address_bits),
-            data = low_part("write_data", D, stored_bits),
-            read = low_part("read_address", A, address_bits),
-            result = zero_extended("array_read", D, stored_bits),
         );
+        let memory = ecp5::Memory {
+            address_bits,
+            stored_bits,
+            write_address: &write,
+            write_data: &data,
+            read_address: &read,
+            read_enable: "read_enable",
+            result: &result,
+            shared_result: None,
+        };
+        code += &memory.verilog(&neutral);
         Verilog::Custom(code)
     }
 }

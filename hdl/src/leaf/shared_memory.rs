@@ -21,10 +21,13 @@
 //!
 //! Source: ECP5 block RAM as a true dual port memory with output registers, which is at most 18 bits wide: of words below 512 it
 //! takes twice the blocks of `BlockMemory`. `no_rw_check` keeps synthesis from adding bypass logic for rule 3.
+//!
+//! With `INCIRCLE_ECP5` defined, the Verilog instantiates DP16KD with its output registers, as many as leave no multiplexer behind
+//! them, for up to 14 address bits; otherwise, and without it, it is plain Verilog that any tool maps to its block memories.
 
 use rust_hdl_core::prelude::*;
 
-use super::{assert_shape, low_part, unused_part, zero_extended};
+use super::{assert_shape, ecp5, low_part, unused_part, zero_extended};
 
 /// A memory with a read port and a shared port; see the top of this file.
 #[derive(LogicBlock)]
@@ -120,30 +123,41 @@ impl<const A: usize, const D: usize> Logic for SharedMemory<A, D> {
         let mut code = unused_part("read_address", A, address_bits);
         code += &unused_part("shared_address", A, address_bits);
         code += &unused_part("write_data", D, stored_bits);
-        code += &format!(
+        let read = low_part("read_address", A, address_bits);
+        let shared = low_part("shared_address", A, address_bits);
+        let data = low_part("write_data", D, stored_bits);
+        let result = zero_extended("word", D, stored_bits);
+        let shared_result = zero_extended("shared_word", D, stored_bits);
+        let neutral = format!(
             "\
 (* ram_style = \"block\", no_rw_check *)
 reg [{top}:0] memory [0:{last}];
-reg [{top}:0] array_read;
-reg [{top}:0] shared_read;
+reg [{top}:0] word;
+reg [{top}:0] shared_word;
 always @(posedge clock) begin
-    array_read <= memory[{read}];
-    read_data <= {read_result};
+    word <= memory[{read}];
+    read_data <= {result};
 end
 always @(posedge clock) begin
     if (write_enable) memory[{shared}] <= {data};
-    else shared_read <= memory[{shared}];
+    else shared_word <= memory[{shared}];
     shared_data <= {shared_result};
 end
 ",
             top = stored_bits - 1,
             last = (1 << address_bits) - 1,
-            read = low_part("read_address", A, address_bits),
-            shared = low_part("shared_address", A, address_bits),
-            data = low_part("write_data", D, stored_bits),
-            read_result = zero_extended("array_read", D, stored_bits),
-            shared_result = zero_extended("shared_read", D, stored_bits),
         );
+        let memory = ecp5::Memory {
+            address_bits,
+            stored_bits,
+            write_address: &shared,
+            write_data: &data,
+            read_address: &read,
+            read_enable: "1'b1",
+            result: &result,
+            shared_result: Some(&shared_result),
+        };
+        code += &memory.verilog(&neutral);
         Verilog::Custom(code)
     }
 }
