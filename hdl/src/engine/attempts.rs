@@ -11,7 +11,7 @@
 //! | `push`, `bundle` | out | 1, Bundle | visits to make |
 //! | `owner` | out | 5 | the context of all outputs below |
 //! | `sleeps`, `keeps` | out | 1 | none of its visits is out any more; it will try its point again |
-//! | `root_enable`, `root` | out | 1, 15 | where it will then start to walk |
+//! | `root_enable`, `root` | out | 1, 15 | a root's visit says where a walk for the same point would start next |
 //! | `entry_enable`, `entry_place`, `entry` | out | 1, 6, Entry | a final edge of the boundary |
 //! | `inner_enable`, `inner_place`, `inner_id` | out | 1, 6, 15 | an inner triangle |
 //! | `lock_enable`, `lock_place`, `lock_id` | out | 1, 7, 15 | a lock for the log |
@@ -29,11 +29,28 @@
 //!
 //! Latency: none from `done` to the outputs; the state is there for the visit of the next clock.
 //!
+//! A walk finds its triangle, the root is locked, and its three neighbours are tested; the second one joins the cavity, and the visits
+//! that this asks for find its two edges final. Visits take one clock here; the locks of the root and of its neighbours are places 0 to 3:
+//! ```text
+//! done            ___/^^\__/^^\__/^^^^^^^^^^^^^^\_____
+//! walk_visit      ___/^^\_____________________________
+//! root_visit      _________/^^\_______________________
+//! test            _______________/^^^^^^^^^^^^^^\_____
+//! push            ___/^^\__/^^\_____/^^\______________
+//! visits            .  1  .  3  .  .  2  .  .  .  .  .
+//! lock_enable     _________/^^\__/^^^^^^^^^^^^^^\_____
+//! lock_place        .  .  .  0  .  1  2  3  4  5  .  .
+//! entry_enable    _______________/^^\__/^^^^^^^^\_____
+//! entry_place       .  .  .  .  .  0  .  2  1  3  .  .
+//! sleeps          ___________________________/^^\_____
+//! commit_enable   ___________________________/^^\_____
+//! ```
+//!
 //! Source: Bowyer and Watson's cavity; the ring that is split in place is ours.
 
 use super::{
-    context_bits, ring_bits, Attempt, AttemptStep, Bundle, CommitJob, Entry, NextVisits, ReleaseJob, Token, Turned,
-    Verdict, VisitCase, ATTEMPT_BITS,
+    context_bits, ring_bits, Attempt, AttemptLists, AttemptStep, Bundle, CommitJob, Entry, NextVisits, ReleaseJob,
+    Token, Turned, Verdict, VisitCase, ATTEMPT_BITS,
 };
 use crate::leaf::{LutMemory, Unpack};
 use incircle_protocol::Config;
@@ -143,12 +160,12 @@ pub struct Attempts {
     meaning: VisitCase,
     step: AttemptStep,
     visits: NextVisits,
+    lists: AttemptLists,
     after_bits: Signal<Local, Bits<ATTEMPT_BITS>>,
     context_index: Signal<Local, Bits<5>>,
     fails: Signal<Local, Bit>,
     stops_at_root: Signal<Local, Bit>,
     count: Signal<Local, Bits<7>>,
-    inners: Signal<Local, Bits<7>>,
     two: Signal<Local, Bits<7>>,
 }
 
@@ -178,7 +195,6 @@ impl Logic for Attempts {
         self.states.read_address.next = self.token.val().owner;
         self.state.bits.next = self.states.read_data.val();
         self.count.next = self.state.value.val().count;
-        self.inners.next = self.state.value.val().inners;
         self.points.read_address.next = self.token.val().owner;
         self.times.read_address.next = self.token.val().owner;
         self.points.write_address.next = self.taker.val();
@@ -219,16 +235,13 @@ impl Logic for Attempts {
         self.visits.turned.next = self.turned.val();
         self.visits.walk_next.next = self.verdict.val().walk_next;
         self.visits.entry.next = self.count.val().get_bits::<6>(0);
+        self.visits.repeats.next = self.meaning.repeats.val();
         self.visits.walks_on.next = self.meaning.walks_on.val();
         self.visits.locates.next = self.meaning.locates.val();
         self.visits.opens.next = self.meaning.opens.val();
         self.visits.splits.next = self.meaning.splits.val();
+        self.push.next = self.visits.push.val();
         self.bundle.next = self.visits.bundle.val();
-        self.push.next = self.meaning.repeats.val()
-            | self.meaning.walks_on.val()
-            | self.meaning.locates.val()
-            | self.meaning.opens.val()
-            | self.meaning.splits.val();
 
         // What becomes of the context.
         self.fails.next = self.step.is_over.val() & (!self.step.succeeds.val());
@@ -253,34 +266,32 @@ impl Logic for Attempts {
         self.looks.next = self.meaning.looks.val();
 
         // What the lists take.
-        self.entry_enable.next = self.meaning.settles.val();
-        self.entry_place.next = self.token.val().x;
-        self.entry.next.a = self.turned.val().v2;
-        self.entry.next.u = self.token.val().u;
-        self.entry.next.slot = self.turned.val().slot;
-        self.entry.next.f = self.token.val().f;
-        self.entry.next.after = self.token.val().after;
-        self.inner_enable.next = self.step.finds_inner.val();
-        self.inner_place.next = self.inners.val().get_bits::<6>(0);
-        self.inner_id.next = self.token.val().f;
-        self.lock_enable.next = self.done.val() & self.turned.val().took;
-        self.lock_place.next = self.state.value.val().logged;
-        self.lock_id.next = self.token.val().u;
-        if self.meaning.is_root.val() {
-            self.lock_place.next = 0.into();
-        }
-        self.commit_enable.next = self.step.succeeds.val();
-        self.commit_job.next.owner = self.token.val().owner;
-        self.commit_job.next.p = self.points.read_data.val();
-        self.commit_job.next.inners = self.inners.val();
-        self.commit_job.next.locks = self.step.after.val().logged;
-        self.commit_job.next.since = self.times.read_data.val();
-        self.release_enable.next = self.fails.val() | self.stops_at_root.val();
-        self.release_job.next.owner = self.token.val().owner;
-        self.release_job.next.locks = self.step.after.val().logged;
-        if self.stops_at_root.val() {
-            self.release_job.next.locks = 1.into();
-        }
+        self.lists.done.next = self.done.val();
+        self.lists.token.next = self.token.val();
+        self.lists.turned.next = self.turned.val();
+        self.lists.attempt.next = self.state.value.val();
+        self.lists.after.next = self.step.after.val();
+        self.lists.p.next = self.points.read_data.val();
+        self.lists.since.next = self.times.read_data.val();
+        self.lists.is_root.next = self.meaning.is_root.val();
+        self.lists.settles.next = self.meaning.settles.val();
+        self.lists.finds_inner.next = self.step.finds_inner.val();
+        self.lists.succeeds.next = self.step.succeeds.val();
+        self.lists.fails.next = self.fails.val();
+        self.lists.stops_at_root.next = self.stops_at_root.val();
+        self.entry_enable.next = self.lists.entry_enable.val();
+        self.entry_place.next = self.lists.entry_place.val();
+        self.entry.next = self.lists.entry.val();
+        self.inner_enable.next = self.lists.inner_enable.val();
+        self.inner_place.next = self.lists.inner_place.val();
+        self.inner_id.next = self.lists.inner_id.val();
+        self.lock_enable.next = self.lists.lock_enable.val();
+        self.lock_place.next = self.lists.lock_place.val();
+        self.lock_id.next = self.lists.lock_id.val();
+        self.commit_enable.next = self.lists.commit_enable.val();
+        self.commit_job.next = self.lists.commit_job.val();
+        self.release_enable.next = self.lists.release_enable.val();
+        self.release_job.next = self.lists.release_job.val();
 
         // For the counters.
         self.walk_visit.next = self.meaning.is_walk.val();

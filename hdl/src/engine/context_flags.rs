@@ -25,22 +25,28 @@
 //!    8 foreign locks, nobody else tries again until its point is in. New points may start: they finish, or fail and then rest, so
 //!    something is always finished in the end.
 //! 2. The first to overflow is alone first; another that overflows meanwhile tries again later.
+//! 3. `sleeps` to `overflows` are of one visit: who asks for the token neither waits nor gives it back. None of them comes with `solo_ends`,
+//!    because then all visits are the insertion alone's. All other events may come together.
 //!
 //! Latency: 1 clock.
 //!
-//! Context 1 starts, gives up and takes the token, starts again, and hands over a ring:
+//! Of two contexts, 1 starts, gives up and takes the token, starts again, and hands over a ring:
 //! ```text
-//! starts          ___/^^\________/^^\_________________
-//! sleeps          _________/^^\________/^^\___________
-//! keeps           _________/^^\_______________________
-//! asks_to_wait    _________/^^\_______________________
-//! stops_waiting   _____________________/^^\___________
-//! hands_over      _____________________/^^\___________
-//! released        _________________________________/^^
-//! asleep            3  3  1  1  3  3  1  1  3  3  3  3
-//! keeping           0  0  0  0  2  2  0  0  0  0  0  0
-//! busy              0  0  0  0  0  0  0  0  2  2  2  2
-//! waiter_valid    ____________/^^^^^^^^^^^\___________
+//! starts          ___/^^\________/^^\_______________________
+//! sleeps          _________/^^\________/^^\_________________
+//! keeps           _________/^^\_____________________________
+//! asks_to_wait    _________/^^\_____________________________
+//! stops_waiting   _____________________/^^\_________________
+//! hands_over      _____________________/^^\_________________
+//! commit_ends     ___________________________/^^\___________
+//! released        _________________________________/^^\_____
+//! asleep            3  3  1  1  3  3  1  1  3  3  3  3  3  3
+//! keeping           0  0  0  0  2  2  0  0  0  0  0  0  0  0
+//! busy              0  0  0  0  0  0  0  0  2  2  2  2  0  0
+//! began             0  0  2  2  2  2  2  2  2  2  2  2  2  2
+//! hinted            0  0  0  0  0  0  0  0  0  0  2  2  2  2
+//! waiter_valid    ____________/^^^^^^^^^^^\_________________
+//! all_rest        /^^^^^\_____/^^^^^\_________________/^^^^^
 //! ```
 
 use rust_hdl_core::prelude::*;

@@ -1,5 +1,6 @@
 //! The insertion engine: visits, cavity, commit, and the phases of an insertion.
 
+mod attempt_lists;
 mod attempt_step;
 mod attempts;
 mod commit;
@@ -44,6 +45,7 @@ mod watchdog;
 mod write_port;
 mod write_request;
 
+pub use attempt_lists::AttemptLists;
 pub use attempt_step::AttemptStep;
 pub use attempts::Attempts;
 pub use commit::{Commit, CommitState};

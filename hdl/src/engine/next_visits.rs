@@ -5,7 +5,8 @@
 //! | `token`, `turned` | in | | the visit that completes, and its record |
 //! | `walk_next` | in | 15 | where a walk goes on |
 //! | `entry` | in | 6 | the entry that a split allocates |
-//! | `walks_on`, `locates`, `opens`, `splits` | in | 1 | from `VisitCase`; the same visit again if none is high |
+//! | `repeats`, `walks_on`, `locates`, `opens`, `splits` | in | 1 | from `VisitCase`, at most one of them high |
+//! | `push` | out | 1 | there are visits to make |
 //! | `bundle` | out | Bundle | the visits |
 //!
 //! ```text
@@ -32,6 +33,8 @@ pub struct NextVisits {
     pub walk_next: Signal<In, Bits<15>>,
     /// A new entry.
     pub entry: Signal<In, Bits<6>>,
+    /// The same visit again.
+    pub repeats: Signal<In, Bit>,
     /// The walk goes on.
     pub walks_on: Signal<In, Bit>,
     /// The root is visited under its lock.
@@ -40,6 +43,8 @@ pub struct NextVisits {
     pub opens: Signal<In, Bit>,
     /// Both halves of an edge go on.
     pub splits: Signal<In, Bit>,
+    /// There are visits.
+    pub push: Signal<Out, Bit>,
     /// The visits.
     pub bundle: Signal<Out, Bundle>,
 }
@@ -47,6 +52,9 @@ pub struct NextVisits {
 impl Logic for NextVisits {
     #[hdl_gen]
     fn update(&mut self) {
+        self.push.next =
+            self.repeats.val() | self.walks_on.val() | self.locates.val() | self.opens.val() | self.splits.val();
+        // The same visit again, but for what each case changes.
         self.bundle.next.is_pair = self.opens.val() | self.splits.val();
         self.bundle.next.is_triple = self.opens.val();
         self.bundle.next.owner = self.token.val().owner;

@@ -11,9 +11,23 @@
 //! | `is_quiet` | out | 1 | every point is finished or will never be, and nothing is at work |
 //! | `finishes` | out | 1 | a point is finished at this edge |
 //!
-//! Latency: 1 clock.
+//! 1. Two points may be finished in one clock: one by a commit or alone, and a duplicate.
+//! 2. Fewer than three points, or three collinear ones, are never finished: then there is nothing left to do as soon as no visit is
+//!    out, unless the first records are being written.
 //!
-//! Source: none is needed for a counter.
+//! Latency: 1 clock to the count; none from the other inputs.
+//!
+//! Three points come and make the first triangle. Two more come, of which one is a duplicate:
+//! ```text
+//! arrived           0  1  2  3  3  3  3  3  3  4  5  5  5  5  5  5
+//! all_rest        /^^^^^^^^^^^\_____/^^^^^^^^^^^^^^\________/^^^^^
+//! is_seeding      __________________/^^^^^\_______________________
+//! seeds           _____________________/^^\_______________________
+//! commit_ends     ____________________________________/^^\________
+//! duplicate       ____________________________________/^^\________
+//! finishes        _____________________/^^\___________/^^\________
+//! is_quiet        /^^^^^^^^\______________/^^\______________/^^^^^
+//! ```
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

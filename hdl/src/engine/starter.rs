@@ -28,6 +28,22 @@
 //!
 //! Latency: 2 clocks from the pointer to `starts`; `position_enable` comes 2 clocks after `takes`.
 //!
+//! Of two contexts, 0 takes vertex 2 when that has come and the queue is free. It falls asleep, keeps its point, and tries it again from
+//! record 9 in the next round that is a fourth one:
+//! ```text
+//! arrived           2  3  3  3  3  3  3  3  3  3  3  3  3  3  3  3
+//! came            ___/^^\_________________________________________
+//! is_blocked      _________/^^\___________________________________
+//! asleep            3  3  3  3  3  2  2  2  3  3  3  2  2  2  2  2
+//! keeping           0  0  0  0  0  0  0  0  1  1  1  0  0  0  0  0
+//! owner             .  0  1  0  0  1  0  1  0  1  0  1  0  1  0  1
+//! starts          ____________/^^\______________/^^\______________
+//! takes           ____________/^^\________________________________
+//! taken_id          .  .  .  .  2  .  .  .  .  .  .  .  .  .  .  .
+//! u                 .  .  .  .  0  .  .  .  .  .  9  .  .  .  .  .
+//! position_enable __________________/^^\__________________________
+//! ```
+//!
 //! Source: points dealt to contexts lie in the vertex memory, which is their queue.
 
 use super::{context_bits, NextPoint};

@@ -1,12 +1,15 @@
 //! The blocks that carry insertions through their phases, and the command streams.
 
-use incircle_protocol::{Config, MAX_RING, SMALL, TINY};
+use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
 use super::block;
 use crate::engine::{
     AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, Latencies, LatencyBucket,
     LatencyRange, NextPoint, NextVisits, Progress, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId,
     Starter, VisitCase, Watchdog, WideCounter,
+    AttemptLists, AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, NextPoint,
+    NextVisits, Progress, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase,
+    WideCounter,
 };
 use crate::link::{AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordWords, Responder};
 
@@ -16,6 +19,7 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
     let longest_list = Config { ring: MAX_RING, contexts: 24, ..TINY };
     vec![
         block(Attempts::new(SMALL), "attempts_small"),
+        block(AttemptLists::default(), "attempt_lists"),
         block(AttemptStep::default(), "attempt_step"),
         block(Commit::new(TINY), "commit_6"),
         block(Commit::new(longest_list), "commit_64"),
@@ -31,6 +35,7 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
         block(Release::new(longest_list), "release_64"),
         block(RingReader::new(TINY), "ring_reader_6"),
         block(RingReader::new(longest_list), "ring_reader_64"),
+        block(Starter::new(LARGE), "starter_large"),
         block(Starter::new(SMALL), "starter_small"),
         block(VisitCase::default(), "visit_case"),
         block(StarId::default(), "star_id"),
