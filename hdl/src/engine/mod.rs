@@ -1,4 +1,4 @@
-//! The insertion engine: visits, cavity, commit, and the phases of an insertion.
+//! The insertion engine: visits, contexts, cavities, commits, and what an insertion goes through.
 
 mod attempt_lists;
 mod attempt_step;

@@ -8,11 +8,12 @@
 //! | `v0..n2` | in | 15 | its record from the triangle memory, in clock 2 |
 //! | `took`, `foreign`, `again` | in | 1 | what became of its lock, and whether the record counts, in clock 2 |
 //! | `position0..2` | in | 32 | coordinates of `v0..v2`, in clock 4 |
-//! | `turned` | out | Turned | the record turned, in clock 4 |
+//! | `turned` | out | Turned | the record turned, in clock 5 |
 //! | `r0..r2` | out | 32 | coordinates of the turned vertices, in clock 5 |
 //!
 //! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does. The links of a record differ.
 //! 2. `took`, `foreign` and `again` pass unchanged into `turned`.
+//! 3. Nothing is computed between a memory's output and the first register: block RAM lies far from everything.
 //!
 //! Latency: see the clocks above; `LATENCY` is that of the corners.
 //!
@@ -23,9 +24,9 @@
 //! v0                .  . 11  .  .  .  .
 //! v1                .  . 12  .  .  .  .
 //! again           ______/^^\___________
-//! turned.v0         .  .  .  . 12  .  .
-//! turned.slot       .  .  .  .  1  .  .
-//! turned.again      .  .  .  ./^^  .  .
+//! turned.v0         .  .  .  .  . 12  .
+//! turned.slot       .  .  .  .  .  1  .
+//! turned.again      .  .  .  .  ./^^  .
 //! position0         .  .  .  . 51  .  .
 //! position1         .  .  .  . 52  .  .
 //! r0                .  .  .  .  . 52  .
@@ -81,6 +82,9 @@ pub struct VisitReader {
     pub r2: Signal<Out, Bits<32>>,
     token1: DFF<Token>,
     token2: DFF<Token>,
+    token3: DFF<Token>,
+    /// The record as it comes.
+    stored: DFF<Turned>,
     /// The record as stored; `slot` is the one that will come first.
     found: DFF<Turned>,
     rotated: DFF<Turned>,
@@ -95,14 +99,14 @@ pub struct VisitReader {
 impl VisitReader {
     /// Clocks from the token to the corners.
     pub const LATENCY: usize = TriangleStore::LATENCY + VertexStore::LATENCY + 1;
-    /// Clocks from the token to the turned record: the record, the slot, the rotation.
-    pub const TURNED_LATENCY: usize = TriangleStore::LATENCY + 2;
+    /// Clocks from the token to the turned record: the record, a register, the slot, the rotation.
+    pub const TURNED_LATENCY: usize = TriangleStore::LATENCY + 3;
 }
 
 impl Logic for VisitReader {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, token1, token2, found, rotated, corner0, corner1, corner2);
+        dff_setup!(self, clock, token1, token2, token3, stored, found, rotated, corner0, corner1, corner2);
         self.first_slot.next = 0.into();
         self.second_slot.next = 1.into();
         self.third_slot.next = 2.into();
@@ -110,28 +114,32 @@ impl Logic for VisitReader {
         self.token2.d.next = self.token1.q.val();
         self.token_at_record.next = self.token2.q.val();
 
-        // Clock 2: the slot that comes first, and the infinite vertex.
-        self.found.d.next.v0 = self.v0.val();
-        self.found.d.next.v1 = self.v1.val();
-        self.found.d.next.v2 = self.v2.val();
-        self.found.d.next.n0 = self.n0.val();
-        self.found.d.next.n1 = self.n1.val();
-        self.found.d.next.n2 = self.n2.val();
-        self.found.d.next.took = self.took.val();
-        self.found.d.next.foreign = self.foreign.val();
-        self.found.d.next.again = self.again.val();
-        self.found.d.next.infinite0 = self.v0.val() == self.infinite.val();
-        self.found.d.next.infinite1 = self.v1.val() == self.infinite.val();
-        self.found.d.next.infinite2 = self.v2.val() == self.infinite.val();
+        // Clock 2: the record as it comes.
+        self.token3.d.next = self.token2.q.val();
+        self.stored.d.next.v0 = self.v0.val();
+        self.stored.d.next.v1 = self.v1.val();
+        self.stored.d.next.v2 = self.v2.val();
+        self.stored.d.next.n0 = self.n0.val();
+        self.stored.d.next.n1 = self.n1.val();
+        self.stored.d.next.n2 = self.n2.val();
+        self.stored.d.next.took = self.took.val();
+        self.stored.d.next.foreign = self.foreign.val();
+        self.stored.d.next.again = self.again.val();
+
+        // Clock 3: the slot that comes first, and the infinite vertex.
+        self.found.d.next = self.stored.q.val();
+        self.found.d.next.infinite0 = self.stored.q.val().v0 == self.infinite.val();
+        self.found.d.next.infinite1 = self.stored.q.val().v1 == self.infinite.val();
+        self.found.d.next.infinite2 = self.stored.q.val().v2 == self.infinite.val();
         self.found.d.next.slot = self.first_slot.val();
-        if self.token2.q.val().rotates & (self.n1.val() == self.token2.q.val().f) {
+        if self.token3.q.val().rotates & (self.stored.q.val().n1 == self.token3.q.val().f) {
             self.found.d.next.slot = self.second_slot.val();
         }
-        if self.token2.q.val().rotates & (self.n2.val() == self.token2.q.val().f) {
+        if self.token3.q.val().rotates & (self.stored.q.val().n2 == self.token3.q.val().f) {
             self.found.d.next.slot = self.third_slot.val();
         }
 
-        // Clock 3: the record turned.
+        // Clock 4: the record turned.
         self.rotated.d.next = self.found.q.val();
         if self.found.q.val().slot == self.second_slot.val() {
             self.rotated.d.next.v0 = self.found.q.val().v1;
@@ -157,16 +165,16 @@ impl Logic for VisitReader {
         }
         self.turned.next = self.rotated.q.val();
 
-        // Clock 4: the corners turned alike.
+        // Clock 4, too: the corners turned alike.
         self.corner0.d.next = self.position0.val();
         self.corner1.d.next = self.position1.val();
         self.corner2.d.next = self.position2.val();
-        if self.rotated.q.val().slot == self.second_slot.val() {
+        if self.found.q.val().slot == self.second_slot.val() {
             self.corner0.d.next = self.position1.val();
             self.corner1.d.next = self.position2.val();
             self.corner2.d.next = self.position0.val();
         }
-        if self.rotated.q.val().slot == self.third_slot.val() {
+        if self.found.q.val().slot == self.third_slot.val() {
             self.corner0.d.next = self.position2.val();
             self.corner1.d.next = self.position0.val();
             self.corner2.d.next = self.position1.val();

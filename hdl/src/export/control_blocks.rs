@@ -4,12 +4,9 @@ use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
 use super::block;
 use crate::engine::{
-    AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, Latencies, LatencyBucket,
-    LatencyRange, NextPoint, NextVisits, Progress, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId,
-    Starter, VisitCase, Watchdog, WideCounter,
-    AttemptLists, AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, NextPoint,
-    NextVisits, Progress, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase,
-    WideCounter,
+    AttemptLists, AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, Latencies,
+    LatencyBucket, LatencyRange, NextPoint, NextVisits, Progress, Release, RingReader, Seeder, Solo, SoloVisit,
+    SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
 use crate::link::{AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordWords, Responder};
 
