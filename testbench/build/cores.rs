@@ -3,23 +3,84 @@
 use incircle_hdl::export;
 use incircle_protocol::{Config, FULL, LARGE, SMALL, TINY};
 
-/// A core with a fault that lock-step must find: name, and a piece of the Verilog that is replaced.
-const FAULTS: [(&str, &str, &str); 3] = [
+/// A core with a fault that lock-step must find: name, configuration, and the pieces of its Verilog that are replaced.
+struct Fault {
+    name: &'static str,
+    config: Config,
+    pieces: &'static [(&'static str, &'static str)],
+}
+
+const FAULTS: [Fault; 7] = [
     // One comparison reversed: which of two sides is lower, in the walk.
-    ("broken_comparison", "= e1_below_e0 & (~e2_below_e1);", "= (~e1_below_e0) & (~e2_below_e1);"),
-    // One link write dropped.
-    (
-        "broken_link",
-        "links$2$write_enable = write[(64'h0)+:(1)] & write[(64'h13)+:(1)];",
-        "links$2$write_enable = 1'b0;",
-    ),
+    Fault {
+        name: "broken_comparison",
+        config: SMALL,
+        pieces: &[("= e1_below_e0 & (~e2_below_e1);", "= (~e1_below_e0) & (~e2_below_e1);")],
+    },
+    // One link column never written.
+    Fault {
+        name: "broken_link",
+        config: SMALL,
+        pieces: &[(
+            "links$2$write_enable = write[(64'h0)+:(1)] & write[(64'h13)+:(1)];",
+            "links$2$write_enable = 1'b0;",
+        )],
+    },
     // One tie wrong: the apex is not asked.
-    (
-        "broken_tie",
-        "takes_tie = (p_before_r1 & p_before_r2) | (r0_before_r1 & r0_before_r2);",
-        "takes_tie = p_before_r1 & p_before_r2;",
-    ),
+    Fault {
+        name: "broken_tie",
+        config: SMALL,
+        pieces: &[(
+            "takes_tie = (p_before_r1 & p_before_r2) | (r0_before_r1 & r0_before_r2);",
+            "takes_tie = p_before_r1 & p_before_r2;",
+        )],
+    },
+    // A test does not mind that another context holds the lock.
+    Fault {
+        name: "broken_foreign_lock",
+        config: SMALL,
+        pieces: &[
+            ("is_tested = is_live & (~turned[(64'h5d)+:(1)]);", "is_tested = is_live;"),
+            ("gives_up = is_live & turned[(64'h5d)+:(1)] & (~is_waiter);", "gives_up = 1'b0;"),
+        ],
+    },
+    // Locks are released when the ring is finished, before the star is written.
+    Fault {
+        name: "broken_release",
+        config: SMALL,
+        pieces: &[
+            ("lock_release$commit_enable = commit$ends;", "lock_release$commit_enable = commit_enable;"),
+            (
+                "lock_release$commit_job[(64'h0)+:(5)] = commit$job[(64'h0)+:(5)];",
+                "lock_release$commit_job[(64'h0)+:(5)] = commit_job[(64'h0)+:(5)];",
+            ),
+            (
+                "lock_release$commit_job[(64'h5)+:(7)] = commit$job[(64'h1b)+:(7)];",
+                "lock_release$commit_job[(64'h5)+:(7)] = commit_job[(64'h1b)+:(7)];",
+            ),
+        ],
+    },
+    // A locked root is believed to hold the point still.
+    Fault {
+        name: "broken_root",
+        config: SMALL,
+        pieces: &[
+            ("opens = holds_root & is_located;", "opens = holds_root;"),
+            ("retries = holds_root & (~verdict[(64'h1)+:(1)]);", "retries = 1'b0;"),
+            ("root_duplicate = holds_root & is_corner;", "root_duplicate = 1'b0;"),
+        ],
+    },
+    // A walk does not mind that a record is not written yet.
+    Fault {
+        name: "broken_watermark",
+        config: ONE_CONTEXT_LONG_LIST,
+        pieces: &[("again1$d = is_torn | (~is_written);", "again1$d = is_torn;")],
+    },
 ];
+
+const ONE_CONTEXT: Config = Config { contexts: 1, ..SMALL };
+const ONE_CONTEXT_LONG_LIST: Config = Config { ring: 64, contexts: 1, ..SMALL };
+const SIXTEEN_CONTEXTS: Config = Config { contexts: 16, ..SMALL };
 
 /// Every core, with the probe.
 pub fn all() -> Vec<(&'static str, String)> {
@@ -32,14 +93,20 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("core_small", core(SMALL)),
         ("core_small_ring9", core(ring9)),
         ("core_small_ring64", core(ring64)),
+        ("core_small_one", core(ONE_CONTEXT)),
+        ("core_small_sixteen", core(SIXTEEN_CONTEXTS)),
+        ("core_long_list_one", core(ONE_CONTEXT_LONG_LIST)),
         ("core_full", core(FULL)),
         ("core_large", core(LARGE)),
     ];
-    for (name, sound, broken) in [] as [(&str, &str, &str); 0] {
-        let verilog = core(SMALL);
-        let places = verilog.matches(sound).count();
-        assert_eq!(places, 1, "{name}: the Verilog holds {sound:?} {places} times, not once");
-        cores.push((name, verilog.replace(sound, broken)));
+    for Fault { name, config, pieces } in FAULTS {
+        let mut verilog = core(config);
+        for (sound, broken) in pieces {
+            let places = verilog.matches(sound).count();
+            assert_eq!(places, 1, "{name}: the Verilog holds {sound:?} {places} times, not once");
+            verilog = verilog.replace(sound, broken);
+        }
+        cores.push((name, verilog));
     }
     cores
 }
