@@ -1,4 +1,5 @@
-//! The whole job beside two well-known libraries: 16,384 uniform points of 16 bits, one thread, fresh points each time.
+//! The whole job beside two well-known libraries: uniform points of 16 bits, one thread, fresh points each time. 16,384 of them, and as
+//! many as in the one paper on an FPGA before: `testbench/cycles.md` has the core's cycles for the same counts.
 //!
 //! `incircle/model` is the one-call door: duplicates, order, the software model behind its word stream, every answer
 //! checked, canonical triangles. `spade/bulk` builds its half-edge structure, `delaunator` its three arrays; both take
@@ -11,7 +12,7 @@
 use criterion::{criterion_group, criterion_main, BatchSize, Criterion, Throughput};
 use spade::Triangulation;
 
-const POINTS: usize = 16_384;
+const POINTS: [usize; 5] = [477, 953, 1_906, 3_811, 16_384];
 
 /// Uniform 16-bit points that never come twice in a run: a counter through the SplitMix64 output function.
 struct Uniform(u64);
@@ -25,18 +26,24 @@ impl Uniform {
         [bits as u16, (bits >> 16) as u16]
     }
 
-    fn points<P>(&mut self, make: impl Fn([u16; 2]) -> P) -> Vec<P> {
-        (0..POINTS).map(|_| make(self.point())).collect()
+    fn points<P>(&mut self, count: usize, make: impl Fn([u16; 2]) -> P) -> Vec<P> {
+        (0..count).map(|_| make(self.point())).collect()
     }
 }
 
 fn triangulate(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("uniform-16k");
-    group.throughput(Throughput::Elements(POINTS as u64));
+    for points in POINTS {
+        beside_the_others(criterion, points);
+    }
+}
+
+fn beside_the_others(criterion: &mut Criterion, count: usize) {
+    let mut group = criterion.benchmark_group(format!("uniform-{count}"));
+    group.throughput(Throughput::Elements(count as u64));
     group.bench_function("incircle/model", |bencher| {
         let mut source = Uniform(1);
         bencher.iter_batched(
-            || source.points(|[x, y]| incircle::Point::new(x.into(), y.into())),
+            || source.points(count, |[x, y]| incircle::Point::new(x.into(), y.into())),
             |points| incircle::triangulate(&points).expect("a mesh"),
             BatchSize::LargeInput,
         );
@@ -44,7 +51,7 @@ fn triangulate(criterion: &mut Criterion) {
     group.bench_function("spade/bulk", |bencher| {
         let mut source = Uniform(1);
         bencher.iter_batched(
-            || source.points(|[x, y]| spade::Point2::new(f64::from(x), f64::from(y))),
+            || source.points(count, |[x, y]| spade::Point2::new(f64::from(x), f64::from(y))),
             |points| spade::DelaunayTriangulation::<spade::Point2<f64>>::bulk_load(points).expect("a mesh"),
             BatchSize::LargeInput,
         );
@@ -52,7 +59,7 @@ fn triangulate(criterion: &mut Criterion) {
     group.bench_function("delaunator", |bencher| {
         let mut source = Uniform(1);
         bencher.iter_batched(
-            || source.points(|[x, y]| delaunator::Point { x: x.into(), y: y.into() }),
+            || source.points(count, |[x, y]| delaunator::Point { x: x.into(), y: y.into() }),
             |points| delaunator::triangulate(&points),
             BatchSize::LargeInput,
         );
