@@ -2,7 +2,7 @@
 
 #![allow(dead_code)] // Every test that includes this uses a part of it.
 
-use std::collections::BTreeMap;
+use std::collections::{btree_map::Entry, BTreeMap};
 
 use incircle_cli::generate::SplitMix64;
 
@@ -79,7 +79,8 @@ pub fn random_length(longest: u64, random: &mut SplitMix64) -> usize {
 fn new_triangle(edges: u32, edges_of: &mut BTreeMap<u64, u32>, random: &mut SplitMix64) -> u64 {
     loop {
         let id = OLD_IDS + random.below(OLD_IDS);
-        if edges_of.insert(id, edges).is_none() {
+        if let Entry::Vacant(place) = edges_of.entry(id) {
+            place.insert(edges);
             return id;
         }
     }
