@@ -55,6 +55,12 @@ impl Ring {
         commit_job(self.owner, self.p, self.inner.len() as u64, self.locks, self.since)
     }
 
+    /// The triangle behind the entry with this place in the order lies behind the one before it or the first one too.
+    pub fn shares(&self, place: usize) -> bool {
+        let order = self.in_order();
+        place > 0 && [order[place - 1].f, order[0].f].contains(&order[place].f)
+    }
+
     /// The entries from entry 0 on.
     pub fn in_order(&self) -> Vec<Edge> {
         let mut ring = vec![self.entries[0]];
