@@ -23,6 +23,7 @@ named_ports!(
         head_valid,
         head,
         head_is_last,
+        head_shares,
         head_job,
         inner_enable,
         inner_owner,
@@ -176,10 +177,12 @@ impl CommitRig {
         }
         let head = self.rings.front().filter(|ring| ring.inner.len() == self.listed[0]);
         self.is_offered = head.is_some() && (self.is_offered || drive.offers);
+        let shares = head.is_some_and(|ring| ring.shares(self.taken)) && self.is_offered;
         let edge = head.map(|ring| ring.in_order()[self.taken]).filter(|_| self.is_offered);
         block.set("head_valid", edge.is_some());
         block.set("head", Edge { after: 0, ..edge.unwrap_or_default() }.entry());
         block.set("head_is_last", edge.is_some_and(|edge| edge.after == 0));
+        block.set("head_shares", shares);
         block.set("head_job", head.map_or(0, Ring::job));
         block.set("inner_enable", false);
         let reader = self.work.as_ref().map(|(ring, _)| ring.owner);
@@ -201,7 +204,7 @@ impl CommitRig {
             return (None, self.is_offered);
         };
         let act = acts[0];
-        let waits = act.takes && !self.is_offered || act.gives_back && self.age < 2;
+        let waits = act.takes && !self.is_offered || act.gives_back && self.age < 3;
         match act {
             _ if waits => (None, false),
             Act { ends: true, .. } => (Some(act), self.is_offered),
@@ -219,7 +222,10 @@ impl CommitRig {
         let block = &mut self.block;
         block.settle();
         if block.clocks() > 0 {
-            block.expect("takes", takes);
+            // It says so before there is an entry.
+            if self.is_offered {
+                block.expect("takes", takes);
+            }
             block.expect("ends", ends);
             block.expect("fresh", fresh);
             block.expect("records", records);

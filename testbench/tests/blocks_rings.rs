@@ -17,7 +17,7 @@ use stepper::{named_ports, Cell, Stepper, Wave};
 named_ports!(
     RingReader,
     [reset, entry_enable, entry_owner, entry_place, entry, job_enable, job, takes],
-    [head_valid, head, head_is_last, head_job],
+    [head_valid, head, head_is_last, head_shares, head_job],
     clock
 );
 named_ports!([] JobQueue<6>, [reset, enable, job, takes], [waits, head], clock);
@@ -26,29 +26,38 @@ named_ports!([] JobQueue<6>, [reset, enable, job, takes], [waits, head], clock);
 #[derive(Clone, Copy, Debug, Default)]
 struct Item {
     entry: u128,
+    is_first: bool,
     is_last: bool,
+    /// The triangle behind it lies behind the one before it or the first one too.
+    shares: bool,
     job: u128,
     owner: u64,
 }
 
-/// What the reader does, as a list: three stages that all move when the last is free or taken.
+/// What the reader does, as a list: five stages that all move when the last is free or taken.
 #[derive(Default)]
 struct ReaderReference {
     coming: VecDeque<Item>,
-    stages: [Option<Item>; 3],
+    stages: [Option<Item>; 5],
 }
 
 impl ReaderReference {
+    fn head(&self) -> Option<Item> {
+        self.stages[4]
+    }
+
     fn edge(&mut self, takes: bool, finished: Option<&Ring>) {
-        let [pointer, array, head] = self.stages;
-        if head.is_none() || takes {
-            self.stages = [self.coming.pop_front(), pointer, array];
+        if self.head().is_none() || takes {
+            self.stages.rotate_right(1);
+            self.stages[0] = self.coming.pop_front();
         }
         if let Some(ring) = finished {
             let (order, job, owner) = (ring.in_order(), ring.job(), ring.owner);
-            self.coming.extend(order.into_iter().map(|edge| Item {
-                entry: Edge { after: 0, ..edge }.entry(),
+            self.coming.extend(order.iter().enumerate().map(|(place, edge)| Item {
+                entry: Edge { after: 0, ..*edge }.entry(),
+                is_first: place == 0,
                 is_last: edge.after == 0,
+                shares: ring.shares(place),
                 job,
                 owner,
             }));
@@ -71,6 +80,7 @@ struct ReaderRig {
     longest: u64,
     finished: usize,
     heads: usize,
+    shared: usize,
 }
 
 /// What happens at an edge.
@@ -93,6 +103,7 @@ impl ReaderRig {
             longest: config.ring.into(),
             finished: 0,
             heads: 0,
+            shared: 0,
         };
         rig.clock(&Drive { reset: true, ..Drive::default() });
         rig
@@ -111,15 +122,19 @@ impl ReaderRig {
         block.set("job", drive.finished.as_ref().map_or(0, Ring::job));
         block.set("takes", drive.takes);
         block.settle();
-        let head = self.reference.stages[2];
+        let head = self.reference.head();
         if block.clocks() > 0 {
             block.expect("head_valid", head.is_some());
         }
         if let Some(item) = head {
             block.expect("head", item.entry);
             block.expect("head_is_last", item.is_last);
-            block.expect("head_job", item.job);
+            block.expect("head_shares", item.shares);
+            if item.is_first {
+                block.expect("head_job", item.job);
+            }
             self.heads += usize::from(drive.takes);
+            self.shared += usize::from(drive.takes && item.shares);
         }
         block.edge();
         self.reference.edge(drive.takes, drive.finished.as_ref());
@@ -134,11 +149,7 @@ impl ReaderRig {
 
     /// Entries of any context become final in any order, and the head is taken in so many of 8 clocks.
     fn random_drive(&mut self, fills: u64, takes: u64, random: &mut SplitMix64) -> Drive {
-        let mut drive = Drive {
-            reset: random.below(900) == 0,
-            takes: self.reference.stages[2].is_some() && random.below(8) < takes,
-            ..Drive::default()
-        };
+        let mut drive = Drive { reset: random.below(900) == 0, takes: random.below(8) < takes, ..Drive::default() };
         let owner = random.below(self.contexts.len() as u64);
         let longest = self.longest;
         if random.below(8) >= fills {
@@ -171,16 +182,18 @@ fn reads_rings(name: &'static str, config: Config) {
         let drive = rig.random_drive(fills, takes, &mut random);
         rig.clock(&drive);
         most_waiting = most_waiting.max(rig.reference.coming.iter().filter(|item| item.is_last).count());
-        droughts += usize::from(rig.reference.stages[2].is_none());
+        droughts += usize::from(rig.reference.head().is_none());
     }
     assert!(
         rig.finished > 300
             && rig.heads > 3_000
+            && rig.shared * 8 > rig.heads
             && most_waiting + 1 >= config.contexts.min(12) as usize
             && droughts > 300,
-        "{} rings, {} heads, {most_waiting} waiting, {droughts} clocks without a head",
+        "{} rings, {} heads, {} of which share, {most_waiting} waiting, {droughts} clocks without a head",
         rig.finished,
-        rig.heads
+        rig.heads,
+        rig.shared
     );
 }
 
@@ -198,17 +211,17 @@ fn ring_reader_of_the_longest_list() {
 fn ring_reader_shows_the_wave_of_its_header() {
     let mut rig = ReaderRig::new("ring_reader_6", TINY);
     let ring = |owner: u64| {
-        let edge = |place: u64, after: u64| Edge { a: 20 - 10 * owner + place, after, ..Edge::default() };
-        Ring { owner, entries: vec![edge(0, 2), edge(1, 0), edge(2, 1)], ..Ring::default() }
+        let edge = |place: u64, after: u64, f: u64| Edge { a: 20 - 10 * owner + place, f, after, ..Edge::default() };
+        Ring { owner, entries: vec![edge(0, 2, 7), edge(1, 0, 8), edge(2, 1, 7)], ..Ring::default() }
     };
     let (one, zero) = (ring(1), ring(0));
     let mut wave = Wave::default();
-    for clock in 0..16 {
+    for clock in 0..17 {
         let of = |ring: &Ring, place: u64| Some((ring.owner, place, ring.entries[place as usize]));
-        let head = rig.reference.stages[2];
+        let head = rig.reference.head();
         let drive = Drive {
             reset: false,
-            takes: head.is_some() && clock != 8,
+            takes: head.is_some() && clock != 10,
             entry: match clock {
                 1..=3 => of(&one, clock - 1),
                 4..=6 => of(&zero, clock - 4),
@@ -225,7 +238,8 @@ fn ring_reader_shows_the_wave_of_its_header() {
             ("head_valid", Cell::Bit(head.is_some())),
             ("head.a", number(head.map(|item| item.entry as u64 & 0x7fff))),
             ("head_is_last", Cell::Bit(head.is_some_and(|item| item.is_last))),
-            ("head_job.owner", number(head.map(|item| item.owner))),
+            ("head_shares", Cell::Bit(head.is_some_and(|item| item.shares))),
+            ("head_job.owner", number(head.filter(|item| item.is_first).map(|item| item.owner))),
             ("takes", Cell::Bit(drive.takes)),
         ]);
     }

@@ -14,14 +14,14 @@ use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
     StarId,
-    [head, current, first, current_is_last, inner_id, inner_is_used_up, fresh],
+    [head, head_shares, first, current_is_last, inner_id, inner_is_used_up, fresh],
     [ahead, id, is_inner, is_fresh]
 );
 named_ports!(FreshIds, [reset, takes, ends, solo_inserts, seeds, clears], [fresh, records], clock);
 named_ports!(
     InnerList,
     [enable, owner, place, id, restarts, reader, inners, steps],
-    [is_used_up, is_there, inner_id],
+    [is_used_up, is_awaited, inner_id],
     clock
 );
 
@@ -36,25 +36,23 @@ fn star_id_takes_an_id_that_nobody_has() {
     let mut random = SplitMix64::new(20);
     let mut block = Stepper::new("star_id", StarId::default(), 1);
     for _ in 0..4_000 {
-        // Few triangles, so that they meet; ids that differ in one bit alone.
-        let base = random.below(1 << 15);
-        let [head, current, first] = [(); 3].map(|()| Edge {
+        let [head, first] = [(); 2].map(|()| Edge {
             a: random.below(1 << 15),
             u: random.below(1 << 15),
             slot: random.below(3),
-            f: base ^ (random.below(2) << random.below(15)),
+            f: random.below(1 << 15),
             after: random.below(64),
         });
-        let (closes, used_up) = (random.below(2) == 1, random.below(2) == 1);
+        let [closes, has_gone, used_up] = [(); 3].map(|()| random.below(2) == 1);
         let (inner, fresh) = (random.below(1 << 15), random.below(1 << 15));
-        for (port, edge) in [("head", head), ("current", current), ("first", first)] {
+        for (port, edge) in [("head", head), ("first", first)] {
             block.set(port, edge.entry());
         }
+        block.set("head_shares", has_gone);
         block.set("current_is_last", closes);
         block.set("inner_id", inner);
         block.set("inner_is_used_up", used_up);
         block.set("fresh", fresh);
-        let has_gone = [current.f, first.f].contains(&head.f);
         let (ahead, id) = match (closes, has_gone, used_up) {
             (true, _, _) => (first, first.f),
             (false, false, _) => (head, head.f),
@@ -154,12 +152,17 @@ impl ListRig {
         self.index == self.lists[self.reader].len()
     }
 
+    fn is_awaited(&self) -> bool {
+        self.age.is_some_and(|age| age < 3) && !self.is_used_up()
+    }
+
     fn can_step(&self) -> bool {
-        self.age.is_some_and(|age| age >= 2) && !self.is_used_up()
+        self.age.is_some() && !self.is_awaited() && !self.is_used_up()
     }
 
     /// One clock, in which a triangle may join a list, and another list may be the next to be read.
     fn clock(&mut self, joins: Option<(usize, u64)>, restarts: Option<usize>, steps: bool) {
+        let (is_awaited, can_step) = (self.is_awaited(), self.can_step());
         let block = &mut self.block;
         let (owner, id) = joins.unwrap_or_default();
         block.set("enable", joins.is_some());
@@ -167,15 +170,15 @@ impl ListRig {
         block.set("place", self.lists[owner].len() as u64 % 64);
         block.set("id", id);
         block.set("restarts", restarts.is_some());
-        block.set("reader", self.reader as u64);
-        block.set("inners", self.lists[self.reader].len() as u64);
+        block.set("reader", restarts.unwrap_or_default() as u64);
+        block.set("inners", restarts.map_or(1, |reader| self.lists[reader].len() as u64));
         block.set("steps", steps);
         block.settle();
-        if let Some(age) = self.age {
+        if self.age.is_some() {
             let next = self.lists[self.reader].get(self.index);
             block.expect("is_used_up", next.is_none());
-            block.expect("is_there", age >= 2);
-            if let Some(id) = next.filter(|_| age >= 2) {
+            block.expect("is_awaited", is_awaited);
+            if let Some(id) = next.filter(|_| can_step) {
                 block.expect("inner_id", *id);
             }
         }
@@ -229,16 +232,15 @@ fn inner_list_shows_the_wave_of_its_header() {
     rig.clock(Some((1, 20)), None, false);
     rig.clock(Some((1, 21)), Some(0), false);
     let mut wave = Wave::default();
-    for clock in 0..11 {
-        let (restarts, steps) = (clock == 1, clock == 5 || clock == 8);
+    for clock in 0..13 {
+        let (restarts, steps) = (clock == 1, clock == 6 || clock == 10);
         let is_read = clock > 1;
-        let is_there = is_read && rig.age.is_some_and(|age| age >= 2);
-        let next = rig.lists[1].get(rig.index).filter(|_| is_there);
+        let next = rig.lists[1].get(rig.index).filter(|_| is_read && rig.can_step());
         wave.take(&[
             ("restarts", Cell::Bit(restarts)),
             ("steps", Cell::Bit(steps)),
             ("is_used_up", if is_read { Cell::Bit(rig.is_used_up()) } else { Cell::Open }),
-            ("is_there", if is_read { Cell::Bit(is_there) } else { Cell::Open }),
+            ("is_awaited", if is_read { Cell::Bit(rig.is_awaited()) } else { Cell::Open }),
             ("inner_id", next.map_or(Cell::Open, |id| number(*id))),
         ]);
         rig.clock(None, restarts.then_some(1), steps);

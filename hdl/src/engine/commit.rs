@@ -4,8 +4,9 @@
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | reset drops the ring and forgets all records |
 //! | `head_valid`, `head`, `head_is_last` | in | 1, Entry, 1 | an entry of the list, and whether it ends its ring |
+//! | `head_shares` | in | 1 | the same cavity triangle lies behind the entry before it or the first one; low with the first |
 //! | `head_job` | in | CommitJob | its ring; looked at with the first entry |
-//! | `takes` | out | 1 | the entry is taken at this edge |
+//! | `takes` | out | 1 | the entry is taken at this edge, if there is one |
 //! | `inner_enable`, `inner_owner`, `inner_place`, `inner_id` | in | 1, 5, 6, 15 | an inner triangle joins the list of a context |
 //! | `solo_inserts`, `seeds`, `clears` | in | 1 | two records are written alone; the first four; all are forgotten |
 //! | `write` | out | Write | a record or a link, registered; its data count while it is valid |
@@ -22,7 +23,7 @@
 //! 4. A ring has three entries or more. Its inner triangles are listed before its first entry is offered.
 //! 5. `solo_inserts`, `seeds` and `clears` come only while nothing is at work.
 //!
-//! Latency: entries + links + 1 clocks from the first entry on the head to `ends`, and up to two more for each inner triangle
+//! Latency: entries + links + 1 clocks from the first entry on the head to `ends`, and up to three more for each inner triangle
 //! given back; `records` follows three clocks after `ends`.
 //!
 //! Four entries behind two triangles: ids 0, 10, 1, 11, of which 10 and 11 are new; 7 and 8 are triangles outside. The next
@@ -69,6 +70,8 @@ pub struct Commit {
     pub head: Signal<In, Entry>,
     /// It ends its ring.
     pub head_is_last: Signal<In, Bit>,
+    /// Its cavity triangle has a record already.
+    pub head_shares: Signal<In, Bit>,
     /// Its ring.
     pub head_job: Signal<In, CommitJob>,
     /// It is taken.
@@ -102,6 +105,8 @@ pub struct Commit {
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
     state: DFF<CommitState>,
+    /// The state is one that takes an entry, unless it must wait for an inner triangle.
+    wants: DFF<Bit>,
     ring: DFF<CommitJob>,
     first: DFF<Entry>,
     current: DFF<Entry>,
@@ -127,7 +132,7 @@ pub struct Commit {
     is_record: Signal<Local, Bit>,
     is_close: Signal<Local, Bit>,
     awaits_ring: Signal<Local, Bit>,
-    id_is_known: Signal<Local, Bit>,
+    waits: Signal<Local, Bit>,
     loads: Signal<Local, Bit>,
     advances: Signal<Local, Bit>,
 }
@@ -142,7 +147,7 @@ impl Commit {
 impl Logic for Commit {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, ring, first, current, current_id, current_is_last, needs_link, opens);
+        dff_setup!(self, clock, state, wants, ring, first, current, current_id, current_is_last, needs_link, opens);
         dff_setup!(self, clock, before_id, second_a, second_id, closes, link_u, link_slot, request);
         clock!(self, clock, fresh_ids, inner_list);
         self.is_record.next = self.state.q.val() == CommitState::Record;
@@ -161,20 +166,20 @@ impl Logic for Commit {
         self.inner_list.owner.next = self.inner_owner.val();
         self.inner_list.place.next = self.inner_place.val();
         self.inner_list.id.next = self.inner_id.val();
-        self.inner_list.reader.next = self.ring.q.val().owner;
-        self.inner_list.inners.next = self.ring.q.val().inners;
+        self.inner_list.reader.next = self.head_job.val().owner;
+        self.inner_list.inners.next = self.head_job.val().inners;
         self.star_id.head.next = self.head.val();
-        self.star_id.current.next = self.current.q.val();
+        self.star_id.head_shares.next = self.head_shares.val();
         self.star_id.first.next = self.first.q.val();
         self.star_id.current_is_last.next = self.current_is_last.q.val();
         self.star_id.inner_id.next = self.inner_list.inner_id.val();
         self.star_id.inner_is_used_up.next = self.inner_list.is_used_up.val();
         self.star_id.fresh.next = self.fresh_ids.fresh.val();
-        self.id_is_known.next = self.current_is_last.q.val()
-            | (self.head_valid.val() & ((!self.star_id.is_inner.val()) | self.inner_list.is_there.val()));
+        self.waits.next = self.head_shares.val() & self.inner_list.is_awaited.val();
+        self.takes.next = self.wants.q.val() & (!self.waits.val());
         self.loads.next = self.awaits_ring.val() & self.head_valid.val();
-        self.advances.next = self.is_record.val() & self.id_is_known.val();
-        self.takes.next = self.loads.val() | (self.advances.val() & (!self.current_is_last.q.val()));
+        self.advances.next =
+            self.is_record.val() & (self.current_is_last.q.val() | (self.head_valid.val() & (!self.waits.val())));
         self.inner_list.restarts.next = self.loads.val();
         self.inner_list.steps.next = self.advances.val() & self.star_id.is_inner.val();
         self.fresh_ids.reset.next = self.reset.val();
@@ -229,24 +234,27 @@ impl Logic for Commit {
         match self.state.q.val() {
             CommitState::Record => {
                 if self.advances.val() {
+                    self.wants.d.next = self.current_is_last.q.val() | (!self.head_is_last.val());
+                    if self.current_is_last.q.val() {
+                        self.state.d.next = CommitState::Close;
+                    }
                     if self.needs_link.q.val() {
                         self.state.d.next = CommitState::Link;
-                    } else {
-                        if self.current_is_last.q.val() {
-                            self.state.d.next = CommitState::Close;
-                        }
+                        self.wants.d.next = false;
                     }
                 }
             }
             CommitState::Link => {
                 self.request.d.next = self.link.write.val();
                 self.state.d.next = CommitState::Record;
+                self.wants.d.next = self.closes.q.val() | (!self.current_is_last.q.val());
                 if self.closes.q.val() {
                     self.state.d.next = CommitState::Close;
                 }
             }
             _ => {
                 self.state.d.next = CommitState::Idle;
+                self.wants.d.next = true;
                 if self.loads.val() {
                     self.state.d.next = CommitState::Record;
                 }
@@ -254,6 +262,7 @@ impl Logic for Commit {
         }
         if self.reset.val() {
             self.state.d.next = CommitState::Idle;
+            self.wants.d.next = true;
             self.request.d.next.valid = false;
         }
     }

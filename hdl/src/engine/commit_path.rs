@@ -136,6 +136,7 @@ impl Logic for CommitPath {
         self.commit.head_valid.next = self.rings.head_valid.val();
         self.commit.head.next = self.rings.head.val();
         self.commit.head_is_last.next = self.rings.head_is_last.val();
+        self.commit.head_shares.next = self.rings.head_shares.val();
         self.commit.head_job.next = self.rings.head_job.val();
         self.write.next = self.commit.write.val();
         self.ends.next = self.commit.ends.val();

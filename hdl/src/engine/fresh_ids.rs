@@ -77,15 +77,15 @@ impl Logic for FreshIds {
         self.fresh.next = self.taken.q.val();
         self.records.next = self.written.q.val();
 
-        self.step.next = self.none.val();
-        if self.takes.val() {
-            self.step.next = self.one.val();
-        }
+        // The sum does not wait for `takes`.
+        self.step.next = self.one.val();
         if self.solo_inserts.val() {
             self.step.next = self.two.val();
         }
         self.raised.next = self.taken.q.val() + self.step.val();
-        self.taken.d.next = self.raised.val();
+        if self.takes.val() | self.solo_inserts.val() {
+            self.taken.d.next = self.raised.val();
+        }
 
         // The write port takes a clock, the memory another.
         self.ended_before_1.d.next = self.ends.val();

@@ -2,8 +2,8 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `head` | in | Entry | the next entry of the list |
-//! | `current`, `first` | in | Entry | the entry before it, and the first one |
+//! | `head`, `head_shares` | in | Entry, 1 | the next entry of the list; rule 1 denies it its cavity triangle's id |
+//! | `first` | in | Entry | the first entry |
 //! | `current_is_last` | in | 1 | the ring closes: the first entry lies ahead |
 //! | `inner_id`, `inner_is_used_up` | in | 15, 1 | the next inner triangle, unless there is none left |
 //! | `fresh` | in | 15 | the next new id |
@@ -11,7 +11,7 @@
 //! | `is_inner`, `is_fresh` | out | 1 | the id is the inner triangle's, or the new one |
 //!
 //! 1. An entry takes the id of the cavity triangle behind it, unless the entry before or the first entry took that.
-//! 2. The ring entries behind which one cavity triangle lies follow each other, so two comparisons tell.
+//! 2. The ring entries behind which one cavity triangle lies follow each other, so these two tell all.
 //!
 //! Latency: none (combinational).
 
@@ -23,8 +23,8 @@ use rust_hdl_core::prelude::*;
 pub struct StarId {
     /// The next entry of the list.
     pub head: Signal<In, Entry>,
-    /// The entry before it.
-    pub current: Signal<In, Entry>,
+    /// Its cavity triangle has a record already.
+    pub head_shares: Signal<In, Bit>,
     /// The first entry.
     pub first: Signal<In, Entry>,
     /// The first entry lies ahead.
@@ -49,8 +49,7 @@ pub struct StarId {
 impl Logic for StarId {
     #[hdl_gen]
     fn update(&mut self) {
-        self.shares.next = (!self.current_is_last.val())
-            & ((self.head.val().f == self.current.val().f) | (self.head.val().f == self.first.val().f));
+        self.shares.next = self.head_shares.val() & (!self.current_is_last.val());
         self.is_inner.next = self.shares.val() & (!self.inner_is_used_up.val());
         self.is_fresh.next = self.shares.val() & self.inner_is_used_up.val();
         self.ahead.next = self.head.val();

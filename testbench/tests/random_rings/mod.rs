@@ -2,7 +2,7 @@
 
 #![allow(dead_code)] // Every test that includes this uses a part of it.
 
-use std::collections::BTreeMap;
+use std::collections::{btree_map::Entry, BTreeMap};
 
 use incircle_cli::generate::SplitMix64;
 
@@ -55,6 +55,12 @@ impl Ring {
         commit_job(self.owner, self.p, self.inner.len() as u64, self.locks, self.since)
     }
 
+    /// The triangle behind the entry with this place in the order lies behind the one before it or the first one too.
+    pub fn shares(&self, place: usize) -> bool {
+        let order = self.in_order();
+        place > 0 && [order[place - 1].f, order[0].f].contains(&order[place].f)
+    }
+
     /// The entries from entry 0 on.
     pub fn in_order(&self) -> Vec<Edge> {
         let mut ring = vec![self.entries[0]];
@@ -79,7 +85,8 @@ pub fn random_length(longest: u64, random: &mut SplitMix64) -> usize {
 fn new_triangle(edges: u32, edges_of: &mut BTreeMap<u64, u32>, random: &mut SplitMix64) -> u64 {
     loop {
         let id = OLD_IDS + random.below(OLD_IDS);
-        if edges_of.insert(id, edges).is_none() {
+        if let Entry::Vacant(place) = edges_of.entry(id) {
+            place.insert(edges);
             return id;
         }
     }

@@ -1,7 +1,7 @@
 //! The commit: one pass over a finished ring writes the star of the new point.
 
 use super::memory::{Entry, Memory, Write};
-use super::ring::{CommitJob, Link};
+use super::ring::{CommitJob, Head};
 use super::Registers;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub(super) enum State {
 }
 
 /// Clocks from the place of an inner triangle to its id.
-const INNER_LATENCY: u32 = 2;
+const INNER_LATENCY: u32 = 3;
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Commit {
@@ -62,7 +62,7 @@ impl Commit {
     }
 
     /// The head of the ring reader is taken at this edge.
-    pub(super) fn takes(&self, head: Option<(Link, Entry)>, memory: &Memory) -> bool {
+    pub(super) fn takes(&self, head: Option<Head>, memory: &Memory) -> bool {
         match self.state {
             State::Idle | State::Close => head.is_some(),
             State::Record => !self.current_is_last && self.step(head, memory).is_some(),
@@ -70,12 +70,11 @@ impl Commit {
         }
     }
 
-    fn step(&self, head: Option<(Link, Entry)>, memory: &Memory) -> Option<Step> {
+    fn step(&self, head: Option<Head>, memory: &Memory) -> Option<Step> {
         if self.current_is_last {
             return Some(Step { ahead: self.first, ahead_id: self.first.f, is_inner: false, is_fresh: false });
         }
-        let (_, ahead) = head?;
-        let shares = ahead.f == self.current.f || ahead.f == self.first.f;
+        let Head { entry: ahead, shares, .. } = head?;
         let is_inner = shares && self.inner_index != self.job.inners;
         let is_fresh = shares && !is_inner;
         let ahead_id = match (is_inner, is_fresh) {
@@ -90,7 +89,7 @@ impl Commit {
     pub(super) fn clock(
         &mut self,
         was: &Registers,
-        head: Option<(Link, Entry)>,
+        head: Option<Head>,
         memory: &mut Memory,
         solo_ends: bool,
         seeds: bool,
@@ -134,9 +133,9 @@ impl Commit {
         }
     }
 
-    fn load(&mut self, head: Option<(Link, Entry)>) {
-        if let Some((link, entry)) = head {
-            self.job = link.job;
+    fn load(&mut self, head: Option<Head>) {
+        if let Some(Head { job, entry, .. }) = head {
+            self.job = job;
             self.first = entry;
             self.current = entry;
             self.current_id = entry.f;
@@ -149,7 +148,7 @@ impl Commit {
     }
 
     /// Writes the current entry's record, now that the id of the one ahead is decided, and moves on.
-    fn advance(&mut self, step: &Step, head: Option<(Link, Entry)>) {
+    fn advance(&mut self, step: &Step, head: Option<Head>) {
         let Step { ahead, ahead_id, is_inner, is_fresh } = *step;
         if is_inner {
             self.inner_index += 1;
@@ -172,7 +171,7 @@ impl Commit {
         self.before_id = self.current_id;
         self.current = ahead;
         self.current_id = ahead_id;
-        self.current_is_last = !self.closes && head.is_some_and(|(link, _)| link.is_last);
+        self.current_is_last = !self.closes && head.is_some_and(|head| head.is_last);
         self.state = match (links, self.closes) {
             (true, _) => State::Link,
             (false, true) => State::Close,

@@ -20,38 +20,63 @@ pub(super) struct CommitJob {
 
 /// An entry on its way.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Link {
-    pub job: CommitJob,
+struct Link {
+    job: CommitJob,
     pointer: usize,
-    pub is_last: bool,
+    is_last: bool,
 }
 
-/// The queue of rings and the three stages: pointer, list memory, its output register.
+/// The entry at the head.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Head {
+    pub job: CommitJob,
+    pub entry: Entry,
+    /// It ends its ring.
+    pub is_last: bool,
+    /// The entry before it, or the first of its ring, has the same cavity triangle behind it.
+    pub shares: bool,
+}
+
+/// The queue of rings and the five stages: pointer, list memory, its output register, a register away from it, the head.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RingReader {
     queue: VecDeque<CommitJob>,
     pointer: Option<Link>,
     array: Option<Link>,
-    head: Option<Link>,
+    output: Option<Link>,
+    arrival: Option<Link>,
+    pub head: Option<Head>,
+    /// The triangles behind the entry that came to the head last, and behind the first of its ring.
+    last_f: u32,
+    first_f: u32,
 }
 
 impl RingReader {
-    /// The entry at the head.
-    pub(super) fn head(&self, memory: &Memory) -> Option<(Link, Entry)> {
-        self.head.map(|link| (link, memory.entries[link.job.context][link.pointer]))
-    }
-
     /// All stages move if the head is free or taken.
     pub(super) fn clock(&mut self, taken: bool, outcome: Option<&Outcome>, memory: &Memory) {
         if self.head.is_none() || taken {
-            self.head = self.array;
-            self.array = self.pointer.map(|link| Link { is_last: after(&link, memory) == 0, ..link });
+            self.head = self.arrival.map(|link| self.next_head(&link, memory));
+            self.arrival = self.output;
+            self.output = self.array;
+            self.array = self.pointer.map(|link| Link { is_last: entry_of(&link, memory).next == 0, ..link });
             self.pointer = match self.array {
-                Some(link) if !link.is_last => Some(Link { pointer: after(&link, memory), ..link }),
+                Some(link) if !link.is_last => Some(Link { pointer: entry_of(&link, memory).next, ..link }),
                 _ => self.queue.pop_front().map(|job| Link { job, pointer: 0, is_last: false }),
             };
         }
         self.queue.extend(outcome.and_then(|outcome| outcome.commit));
+    }
+
+    /// The entry that comes to the head, compared with those that have been there.
+    fn next_head(&mut self, link: &Link, memory: &Memory) -> Head {
+        let entry = entry_of(link, memory);
+        let is_first = link.pointer == 0;
+        let shares = !is_first && (entry.f == self.last_f || entry.f == self.first_f);
+        self.last_f = entry.f;
+        if is_first {
+            self.first_f = entry.f;
+        }
+        Head { job: link.job, entry, is_last: link.is_last, shares }
     }
 
     pub(super) fn reset(&mut self) {
@@ -59,6 +84,6 @@ impl RingReader {
     }
 }
 
-fn after(link: &Link, memory: &Memory) -> usize {
-    memory.entries[link.job.context][link.pointer].next
+fn entry_of(link: &Link, memory: &Memory) -> Entry {
+    memory.entries[link.job.context][link.pointer]
 }

@@ -2,9 +2,8 @@
 
 use super::attempts::{Around, Outcome};
 use super::command_port::State as CommandState;
-use super::memory::Entry;
 use super::pipeline::{Bundle, Completion};
-use super::ring::{CommitJob, Link};
+use super::ring::{CommitJob, Head};
 use super::starter::Start;
 use super::{ClockModel, Inputs};
 use crate::predicate::Point;
@@ -38,7 +37,7 @@ pub(super) struct Wires {
     /// The last record of the first triangle is written.
     pub seeds: bool,
     /// The entry at the head of the ring reader, and whether the commit takes it.
-    pub head: Option<(Link, Entry)>,
+    pub head: Option<Head>,
     pub head_is_taken: bool,
     /// The ring whose last record is written.
     pub committed: Option<CommitJob>,
@@ -79,7 +78,7 @@ impl ClockModel {
         let start_is_blocked = wanted.is_some_and(|start| start.id.is_some() && was.command.came)
             || wanted.is_some() && outcome.is_some_and(|outcome| outcome.push.is_some());
         let stored = was.command.state == CommandState::Points && was.command.stores_points(was, config);
-        let head = self.ring.head(&self.memory);
+        let head = self.ring.head;
         let rests = was.contexts.all_rest(config.contexts);
         let solo_inserts = was.solo.ends(done);
         let all_finished = was.contexts.finished == was.command.arrived
