@@ -21,10 +21,7 @@ const FAULTS: [Fault; 7] = [
     Fault {
         name: "broken_link",
         config: SMALL,
-        pieces: &[(
-            "links$2$write_enable = write[(64'h0)+:(1)] & write[(64'h13)+:(1)];",
-            "links$2$write_enable = 1'b0;",
-        )],
+        pieces: &[("links$2$write_enable = enables[(64'h3)+:(1)];", "links$2$write_enable = 1'b0;")],
     },
     // One tie wrong: the apex is not asked.
     Fault {

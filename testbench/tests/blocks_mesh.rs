@@ -17,12 +17,12 @@ use visit_model::Locks;
 named_ports!([const A: usize, const D: usize] SharedMemory<A, D>,
     [read_address, shared_address, write_data, write_enable], [read_data, shared_data], clock);
 named_ports!([] LockStore, [id, owner, takes, clear_id, clear_enable], [took, foreign, was_set], clock);
-named_ports!([] TriangleStore, [write, read_id, read_locks, owner, clear_id, clear_enable],
+named_ports!([] TriangleStore, [write, enables, read_id, vertices_id, links_id, read_locks, owner, clear_id, clear_enable],
     [v0, v1, v2, n0, n1, n2, took, foreign, was_set], clock);
 named_ports!([] VertexStore, [write_id, write_position, write_enable, id0, id1, id2, fetch_id],
     [position0, position1, position2, fetched], clock);
 named_ports!([] SeedWrites, [step, turns_left, infinite], [write]);
-named_ports!([] WritePort, [reset, commit, solo, seed], [write], clock);
+named_ports!([] WritePort, [reset, commit, solo, seed], [write, enables], clock);
 named_ports!([] RecordWrite, [id, v0, v1, v2, n0, n1, n2], [write]);
 named_ports!([] LinkWrite, [id, slot, value], [write]);
 
@@ -124,9 +124,8 @@ struct LockEvents {
     foreign: usize,
     own: usize,
     met_clear: usize,
-    /// The holder took the lock one clock before the visit, or two.
-    before: usize,
-    second_before: usize,
+    /// The holder took the lock one clock before the visit, two, or three.
+    before: [usize; 3],
 }
 
 /// Locks as a list of holders: what a visit finds, and then the clear of the same edge.
@@ -134,8 +133,8 @@ struct LockReference {
     locks: Locks,
     last: usize,
     last_context: u64,
-    /// The lock that the visit before took, and the one before that.
-    taken: [Option<usize>; 2],
+    /// The locks that the three visits before took, the latest first.
+    taken: [Option<usize>; 3],
     events: LockEvents,
 }
 
@@ -143,7 +142,7 @@ impl LockReference {
     fn new(id_bits: u32, context_bits: u32) -> Self {
         let last = (1 << id_bits) - 1;
         let last_context = (1 << context_bits) - 1;
-        Self { locks: Locks::new(last + 1), last, last_context, taken: [None; 2], events: LockEvents::default() }
+        Self { locks: Locks::new(last + 1), last, last_context, taken: [None; 3], events: LockEvents::default() }
     }
 
     /// took, foreign, `was_set`.
@@ -163,17 +162,38 @@ impl LockReference {
         events.own += usize::from(takes && !took && !foreign);
         events.met_clear += usize::from(takes && meets);
         let finds = takes && was_set && !meets;
-        events.before += usize::from(finds && self.taken[0] == Some(id));
-        events.second_before += usize::from(finds && self.taken[1] == Some(id));
-        self.taken = [took.then_some(id), self.taken[0]];
+        for (count, taken) in events.before.iter_mut().zip(self.taken) {
+            *count += usize::from(finds && taken == Some(id));
+        }
+        self.taken = [took.then_some(id), self.taken[0], self.taken[1]];
         let was_set = (!meets).then_some(was_set.into());
         [Some(took.into()), Some(foreign.into()), was_set]
     }
 
     fn assert_all_happened(&self) {
-        let LockEvents { took, foreign, own, met_clear, before, second_before } = self.events;
-        let counts = [took, foreign, own, met_clear, before, second_before];
-        assert!(counts.iter().all(|count| *count > CYCLES / 100), "{:?}", self.events);
+        let LockEvents { took, foreign, own, met_clear, before } = self.events;
+        let counts = [took, foreign, own, met_clear];
+        assert!(counts.iter().chain(&before).all(|count| *count > CYCLES / 100), "{:?}", self.events);
+    }
+}
+
+/// What a visit finds: the lock as it was, and a clock later what became of it.
+struct LockDelay {
+    was_set: Delay<Expected>,
+    became: Delay<[Expected; 2]>,
+}
+
+impl Default for LockDelay {
+    fn default() -> Self {
+        Self { was_set: Delay::new(LockStore::READ_LATENCY), became: Delay::new(LockStore::LATENCY) }
+    }
+}
+
+impl LockDelay {
+    /// took, foreign, `was_set`.
+    fn pass(&mut self, [took, foreign, was_set]: [Expected; 3]) -> [Expected; 3] {
+        let [took, foreign] = self.became.pass([took, foreign]).unwrap_or([None; 2]);
+        [took, foreign, self.was_set.pass(was_set).flatten()]
     }
 }
 
@@ -190,7 +210,7 @@ fn lock_store(name: &str, id_bits: u32, context_bits: u32) {
         })
         .collect();
     let mut reference = LockReference::new(id_bits, context_bits);
-    let mut delay = Delay::new(LockStore::LATENCY);
+    let mut delay = LockDelay::default();
     Cosimulation {
         name,
         rust: LockStore::new(id_bits as usize, context_bits as usize),
@@ -199,7 +219,7 @@ fn lock_store(name: &str, id_bits: u32, context_bits: u32) {
     }
     .run(stimuli, |values| {
         let found = reference.edge(values[0], values[1], values[2] == 1, (values[4] == 1).then_some(values[3]));
-        delay.pass(found.to_vec()).unwrap_or(vec![None; 3])
+        delay.pass(found).to_vec()
     });
     reference.assert_all_happened();
 }
@@ -222,7 +242,10 @@ fn triangle_stimuli(stored_bits: u32) -> Vec<Vec<u128>> {
             let mut write = random(WRITE, |bits| numbers.bits(bits));
             write[1] = id(&mut numbers, stored_bits);
             let (read, clear) = (id(&mut numbers, stored_bits), id(&mut numbers, stored_bits));
-            let numbers = [read, numbers.bits(1), numbers.bits(5), clear, numbers.bits(1)].map(u128::from);
+            // Only the enables say what is written.
+            let enables = numbers.bits(1) * numbers.bits(4);
+            let numbers =
+                [enables, read, read, read, numbers.bits(1), numbers.bits(5), clear, numbers.bits(1)].map(u128::from);
             [&[pack(WRITE, write)], &numbers[..]].concat()
         })
         .collect()
@@ -236,13 +259,13 @@ fn triangle_reference(
 ) -> impl FnMut(&[u128]) -> Vec<Expected> {
     let last = (1 << id_bits) - 1;
     let mut columns = vec![[None; 6]; last + 1];
+    let (mut column_delay, mut lock_delay) = (Delay::new(TriangleStore::LATENCY), LockDelay::default());
     move |values| {
         let write = unpack(WRITE, values[0]);
-        let [read, written] = [values[1], write[1].into()].map(|id| id as usize & last);
+        let [read, written] = [values[2], write[1].into()].map(|id| id as usize & last);
         let mut seen = columns[read];
         for column in 0..6 {
-            let enable = write[[2, 2, 2, 3, 4, 5][column]] & write[0];
-            if enable == 1 {
+            if values[1] >> [0, 0, 0, 1, 2, 3][column] & 1 == 1 {
                 let bits = if column < 3 { vertex_bits } else { id_bits };
                 columns[written][column] = Some(u128::from(write[6 + column]) & ((1 << bits) - 1));
                 if written == read {
@@ -250,23 +273,33 @@ fn triangle_reference(
                 }
             }
         }
-        let [id, takes, owner, cleared, clears] = [1, 2, 3, 4, 5].map(|input| values[input] as u64);
+        let [id, takes, owner, cleared, clears] = [2, 5, 6, 7, 8].map(|input| values[input] as u64);
         let lock = locks.edge(id, owner, takes == 1, (clears == 1).then_some(cleared));
-        [&seen[..], &lock].concat()
+        let seen = column_delay.pass(seen).unwrap_or([None; 6]);
+        [&seen[..], &lock_delay.pass(lock)].concat()
     }
 }
 
 fn triangle_store(name: &str, id_bits: u32, vertex_bits: u32, context_bits: u32) {
     let locks = LockReference::new(id_bits, context_bits);
     let mut reference = triangle_reference(id_bits, vertex_bits, locks);
-    let mut delay = Delay::new(TriangleStore::LATENCY);
     Cosimulation {
         name,
         rust: TriangleStore::new(id_bits as usize, vertex_bits as usize, context_bits as usize),
-        inputs: &["write", "read_id", "read_locks", "owner", "clear_id", "clear_enable"],
+        inputs: &[
+            "write",
+            "enables",
+            "read_id",
+            "vertices_id",
+            "links_id",
+            "read_locks",
+            "owner",
+            "clear_id",
+            "clear_enable",
+        ],
         outputs: &["v0", "v1", "v2", "n0", "n1", "n2", "took", "foreign", "was_set"],
     }
-    .run(triangle_stimuli(id_bits), |values| delay.pass(reference(values)).unwrap_or(vec![None; 9]));
+    .run(triangle_stimuli(id_bits), |values| reference(values));
 }
 
 #[test]
@@ -376,7 +409,7 @@ fn write_port_takes_the_request_there_is() {
         name: "write_port",
         rust: WritePort::default(),
         inputs: &["reset", "commit", "solo", "seed"],
-        outputs: &["write"],
+        outputs: &["write", "enables"],
     }
     .run(stimuli, |values| {
         let seen = port;
@@ -387,7 +420,9 @@ fn write_port_takes_the_request_there_is() {
             // Without a request the data stay and the write is over.
             request.copied().or(port.map(|write| write & !1))
         };
-        vec![seen]
+        // What is written of the write there is.
+        let enables = seen.map(|write| if write & 1 == 1 { write >> 16 & 0b1111 } else { 0 });
+        vec![seen, enables]
     });
 }
 

@@ -17,14 +17,14 @@ use cosimulation::{named_ports, Cosimulation, Delay, Expected, Numbers};
 use incircle_hdl::engine::VisitPipeline;
 use incircle_protocol::{infinite_vertex, Config, SMALL, TINY};
 use structures::{pack, random, unpack, BUNDLE, TOKEN, WRITE};
-use visit_model::{point, word, Locks, Point, Record};
+use visit_model::{point, verdict_parts, word, Locks, Point, Record, VERDICT_PARTS};
 
 named_ports!([] VisitPipeline,
-    [reset, infinite, records, push, bundle, position_owner, position, position_enable, read, read_id, write,
+    [reset, infinite, records, push, bundle, position_owner, position, position_enable, read, read_id, write, enables,
      vertex_id, vertex_position, vertex_enable, fetch_id, clear_id, clear_enable],
     [is_issuing, done, token, turned, verdict, read_done, v0, v1, v2, n0, n1, n2, was_set, fetched], clock);
 
-const INPUTS: [&str; 17] = [
+const INPUTS: [&str; 18] = [
     "reset",
     "infinite",
     "records",
@@ -42,16 +42,17 @@ const INPUTS: [&str; 17] = [
     "fetch_id",
     "clear_id",
     "clear_enable",
+    "enables",
 ];
-/// Of `turned` first what is arbitrary in a torn record, then took, foreign and again, then which vertex is infinite.
-const OUTPUTS: [&str; 16] = [
+/// Of `turned` first what is arbitrary in a torn record, then took, foreign and again, then which vertex is infinite. Of `verdict` the
+/// parts of `VERDICT_PARTS`.
+const OUTPUTS: [&str; 18] = [
     "is_issuing",
     "done",
     "token",
     "turned[0+:92]",
     "turned[92+:3]",
     "turned[95+:3]",
-    "verdict",
     "read_done",
     "v0",
     "v1",
@@ -61,6 +62,9 @@ const OUTPUTS: [&str; 16] = [
     "n2",
     "was_set",
     "fetched",
+    VERDICT_PARTS[0],
+    VERDICT_PARTS[1],
+    VERDICT_PARTS[2],
 ];
 /// Clocks from the issue register to `done`.
 const STAGES: usize = 16;
@@ -81,9 +85,11 @@ struct Flight {
     /// took, foreign, again.
     lock: [bool; 3],
     slot: usize,
+    /// As stored, like its corners.
     record: Option<Record>,
     corners: Option<[Point; 3]>,
     verdict: Expected,
+    parts: [Expected; 3],
 }
 
 /// What happened, so that a test can say that it all did.
@@ -267,6 +273,7 @@ impl Visits {
             self.vertex_id(fetch).into(),
             clear.0.into(),
             clear.1.into(),
+            if write & 1 == 1 { write >> 16 & 0b1111 } else { 0 },
         ]
     }
 
@@ -274,7 +281,7 @@ impl Visits {
     fn cycle(&mut self, values: &[u128]) -> Vec<Expected> {
         let mut shown = self.outputs();
         let fetched = (values[13] == 0).then(|| self.positions[values[14] as usize].into());
-        shown[15] = self.fetched.pass(fetched).flatten();
+        shown[14] = self.fetched.pass(fetched).flatten();
         self.read_vertices(values);
         self.judge();
         self.flights.pop_front();
@@ -292,15 +299,16 @@ impl Visits {
         let mut shown = vec![None; OUTPUTS.len()];
         shown[0] = Some(self.issued.is_some().into());
         shown[1] = Some(self.flights[0].is_some().into());
-        shown[7] = Some(self.read_outs[0].is_some().into());
+        shown[6] = Some(self.read_outs[0].is_some().into());
         if let Some(flight) = self.flights[0] {
-            let turned = |record: Record| record.pack_turned(flight.slot, flight.lock, self.infinite);
+            let turned =
+                |record: Record| record.turned(flight.slot).pack_turned(flight.slot, flight.lock, self.infinite);
             let lock = Record::default().pack_turned(0, flight.lock, self.infinite) >> 92 & 7;
             shown[2] = Some(flight.token);
             shown[3] = flight.record.map(|record| turned(record) & ((1 << 92) - 1));
             shown[4] = Some(lock);
             shown[5] = flight.record.map(|record| turned(record) >> 95);
-            shown[6] = flight.verdict;
+            shown[15..].copy_from_slice(&flight.parts);
             let verdict = flight.verdict.unwrap_or(0);
             self.seen.visits += 1;
             self.seen.conflicts += usize::from(verdict & 1 == 1);
@@ -308,10 +316,10 @@ impl Visits {
         }
         if let Some((record, was_set)) = self.read_outs[0] {
             let values = [record.v, record.n].concat();
-            for (place, value) in shown[8..].iter_mut().zip(values) {
+            for (place, value) in shown[7..].iter_mut().zip(values) {
                 *place = Some(value.into());
             }
-            shown[14] = Some(was_set.into());
+            shown[13] = Some(was_set.into());
             self.seen.read_outs += 1;
         }
         shown
@@ -338,9 +346,10 @@ impl Visits {
             owner: owner as usize,
             lock: [took, foreign, is_torn || !is_written],
             slot,
-            record: (!is_torn).then(|| stored.turned(slot)),
+            record: (!is_torn).then_some(stored),
             corners: None,
             verdict: None,
+            parts: [None; 3],
         });
     }
 
@@ -361,7 +370,9 @@ impl Visits {
         if let Some(flight) = &mut self.flights[STAGES - POINT_CLOCK] {
             let p = point(self.points[flight.owner]);
             if let (Some(record), Some(corners)) = (flight.record, flight.corners) {
-                flight.verdict = Some(record.verdict(corners, p, self.infinite));
+                let verdict = record.verdict(flight.slot, corners, p, self.infinite);
+                flight.verdict = Some(verdict);
+                flight.parts = verdict_parts(verdict, flight.slot, corners);
             }
         }
     }

@@ -19,11 +19,13 @@ named_ports!([] WideProduct, [a, b], [product], clock);
 named_ports!([] EdgeSigns, [e0, e1, e2],
     [e0_negative, e1_negative, e2_negative, e0_zero, e1_zero, e2_zero, e1_below_e0, e2_below_e0, e2_below_e1], clock);
 named_ports!([] VertexOrder, [r0, r1, r2, p],
-    [p_before_r0, p_before_r1, p_before_r2, p_equals_r0, p_equals_r1, p_equals_r2, r0_before_r1, r0_before_r2], clock);
+    [p_before_r0, p_before_r1, p_before_r2, p_equals_r0, p_equals_r1, p_equals_r2, r0_before_r1, r0_before_r2,
+     r1_before_r2], clock);
 named_ports!([] VisitPredicates, [r0, r1, r2, p],
     [e0_negative, e1_negative, e2_negative, e0_zero, e1_zero, e2_zero, e1_below_e0, e2_below_e0, e2_below_e1,
      incircle_positive, incircle_zero,
-     p_before_r0, p_before_r1, p_before_r2, p_equals_r0, p_equals_r1, p_equals_r2, r0_before_r1, r0_before_r2], clock);
+     p_before_r0, p_before_r1, p_before_r2, p_equals_r0, p_equals_r1, p_equals_r2, r0_before_r1, r0_before_r2,
+     r1_before_r2], clock);
 
 const CYCLES: usize = 10_000;
 const LARGEST: i64 = 65535;
@@ -39,7 +41,7 @@ const EDGE_FLAGS: [&str; 9] = [
     "e2_below_e1",
 ];
 const INCIRCLE_FLAGS: [&str; 2] = ["incircle_positive", "incircle_zero"];
-const ORDER_FLAGS: [&str; 8] = [
+const ORDER_FLAGS: [&str; 9] = [
     "p_before_r0",
     "p_before_r1",
     "p_before_r2",
@@ -48,6 +50,7 @@ const ORDER_FLAGS: [&str; 8] = [
     "p_equals_r2",
     "r0_before_r1",
     "r0_before_r2",
+    "r1_before_r2",
 ];
 const POINT_PORTS: [&str; 4] = ["r0", "r1", "r2", "p"];
 
@@ -91,7 +94,9 @@ fn edge_flags(e: [i128; 3]) -> Vec<u128> {
 }
 
 fn order_flags(r: [Point; 3], p: Point) -> Vec<u128> {
-    flags([p < r[0], p < r[1], p < r[2], p == r[0], p == r[1], p == r[2], r[0] < r[1], r[0] < r[2]])
+    let before = flags([p < r[0], p < r[1], p < r[2]]);
+    let equals = flags(r.map(|vertex| p == vertex));
+    [before, equals, flags([r[0] < r[1], r[0] < r[2], r[1] < r[2]])].concat()
 }
 
 fn all_flags(r: [Point; 3], p: Point) -> Vec<u128> {

@@ -11,9 +11,9 @@ use std::collections::VecDeque;
 use cosimulation::{named_ports, Cosimulation, Expected, Numbers};
 use incircle_hdl::engine::{Issue, VerdictLogic, VisitJudge, VisitReader};
 use structures::{pack, random, unpack, BUNDLE, TOKEN};
-use visit_model::{incircle, orientation, word, Point, Record};
+use visit_model::{incircle, orientation, verdict_parts, word, Point, Record, VERDICT_PARTS};
 
-named_ports!([] Issue, [reset, push, bundle, read, read_id], [token_valid, token, read_valid], clock);
+named_ports!([] Issue, [reset, push, bundle, read, read_id], [token_valid, token, vertices_id, links_id, read_valid], clock);
 named_ports!([] VisitReader,
     [infinite, token, v0, v1, v2, n0, n1, n2, took, foreign, again, position0, position1, position2],
     [turned, token_at_record, r0, r1, r2], clock);
@@ -21,7 +21,7 @@ named_ports!([] VisitJudge, [r0, r1, r2, p, turned], [verdict], clock);
 named_ports!([] VerdictLogic,
     [turned, e0_negative, e1_negative, e2_negative, e0_zero, e1_zero, e2_zero, e1_below_e0, e2_below_e0, e2_below_e1,
      incircle_positive, incircle_zero, p_before_r0, p_before_r1, p_before_r2, p_equals_r0, p_equals_r1, p_equals_r2,
-     r0_before_r1, r0_before_r2], [verdict]);
+     r0_before_r1, r0_before_r2, r1_before_r2], [verdict]);
 
 const CYCLES: usize = 6_000;
 const INFINITE: u64 = 0x7fff;
@@ -79,14 +79,15 @@ fn issue_makes_one_visit_a_clock_in_order() {
         name: "issue_5",
         rust: Issue::new(5),
         inputs: &["reset", "push", "bundle", "read", "read_id"],
-        outputs: &["token_valid", "token", "read_valid", "token[40+:15]"],
+        outputs: &["token_valid", "token", "read_valid", "token[40+:15]", "vertices_id", "links_id"],
     }
     .run(stimuli, |values| {
         let queue = &mut queue.borrow_mut().0;
         let token_valid = Some(queue.issued.is_some().into());
         let read_valid = Some(queue.read_id.is_some().into());
         let read_id = queue.read_id.map(u128::from);
-        let outputs = vec![token_valid, queue.issued, read_valid, read_id];
+        let record = queue.issued.map(|token| unpack(TOKEN, token)[7].into()).or(read_id);
+        let outputs = vec![token_valid, queue.issued, read_valid, read_id, record, record];
         if values[1] == 1 {
             queue.push(values[2]);
         }
@@ -96,7 +97,7 @@ fn issue_makes_one_visit_a_clock_in_order() {
             let fullest = queue.fullest;
             *queue = Queue { fullest, ..Queue::default() };
         }
-        let shown = if is_known { outputs } else { vec![None; 4] };
+        let shown = if is_known { outputs } else { vec![None; 6] };
         is_known |= values[0] == 1;
         shown
     });
@@ -163,24 +164,19 @@ fn visit_reader_turns_record_and_corners() {
     .run(stimuli, |values| {
         past.push(values.to_vec());
         let ago = |clocks: usize| past.len().checked_sub(1 + clocks).map(|at| &past[at]);
-        // The record that stood on the columns that long ago, and the slot that its visit puts first.
-        let visit = |clocks: usize| {
-            let (columns, token) = (ago(clocks)?, unpack(TOKEN, ago(clocks + 2)?[1]));
+        // The record that stood on the columns three clocks ago, the slot that its visit puts first, and its lock a clock later.
+        let visit = || {
+            let (columns, lock, token) = (ago(3)?, ago(2)?, unpack(TOKEN, ago(5)?[1]));
             let column = |port: usize| columns[port] as u64;
             let record = Record { v: [2, 3, 4].map(column), n: [5, 6, 7].map(column) };
-            let lock = [8, 9, 10].map(|port| columns[port] == 1);
-            Some((record, record.slot(token[1] == 1, token[6]), lock))
+            let found = [lock[8], lock[9], columns[10]].map(|flag| flag == 1);
+            Some((record, record.slot(token[1] == 1, token[6]), found))
         };
-        let turned = visit(2).map(|(record, slot, lock)| {
+        let turned = visit().map(|(record, slot, found)| {
             turns[slot] += 1;
-            record.turned(slot).pack_turned(slot, lock, INFINITE)
+            record.turned(slot).pack_turned(slot, found, INFINITE)
         });
-        let corners = visit(3).map(|(_, slot, _)| {
-            let mut corners = [11, 12, 13].map(|port| ago(1).map(|then| then[port]));
-            corners.rotate_left(slot);
-            corners
-        });
-        let corners = corners.unwrap_or([None; 3]);
+        let corners = [11, 12, 13].map(|port| ago(1).map(|then| then[port]));
         [&[ago(2).map(|then| then[1]), turned][..], &corners].concat()
     });
     assert!(turns.iter().all(|turn| *turn > CYCLES / 10), "{turns:?}");
@@ -203,7 +199,8 @@ fn verdict_logic_agrees_with_the_geometry() {
             let [r0, r1, r2, p] = points(&mut numbers);
             let r = [r0, r1, r2];
             let record = record(&mut numbers);
-            cases.push((record, r, p));
+            let slot = (numbers.next() % 3) as usize;
+            cases.push((record, slot, r, p));
             let e = [0, 1, 2].map(|k| orientation(r[(k + 1) % 3], r[(k + 2) % 3], p));
             let inside = incircle(r, p);
             let flags = [
@@ -226,13 +223,14 @@ fn verdict_logic_agrees_with_the_geometry() {
                 p == r2,
                 r0 < r1,
                 r0 < r2,
+                r1 < r2,
             ];
-            let turned = record.pack_turned(0, [false; 3], INFINITE);
+            let turned = record.turned(slot).pack_turned(slot, [false; 3], INFINITE);
             [&[turned][..], &flags.map(u128::from)].concat()
         })
         .collect();
     let mut cases = cases.into_iter();
-    let mut seen = [0; 4];
+    let mut seen = [0; 5];
     Cosimulation {
         name: "verdict_logic",
         rust: VerdictLogic::default(),
@@ -257,30 +255,37 @@ fn verdict_logic_agrees_with_the_geometry() {
             "p_equals_r2",
             "r0_before_r1",
             "r0_before_r2",
+            "r1_before_r2",
         ],
-        outputs: &["verdict"],
+        outputs: &VERDICT_PARTS,
     }
     .run(stimuli, |_| {
-        let (record, r, p) = cases.next().expect("a case for each stimulus");
-        let verdict = record.verdict(r, p, INFINITE);
+        let (record, slot, r, p) = cases.next().expect("a case for each stimulus");
+        let verdict = record.verdict(slot, r, p, INFINITE);
         seen[0] += usize::from(verdict & 1 == 1);
         seen[1] += usize::from(verdict >> 1 & 1 == 1);
         seen[2] += usize::from(incircle(r, p) == 0 && !r.contains(&p));
         seen[3] += usize::from(record.v.contains(&INFINITE));
-        vec![Some(verdict)]
+        seen[4] += usize::from(slot > 0 && incircle(r, p) == 0 && verdict & 1 == 1);
+        verdict_parts(verdict, slot, r).to_vec()
     });
-    assert!(seen.iter().all(|count| *count > CYCLES / 10), "conflicts, located, cocircular, ghosts: {seen:?}");
+    assert!(
+        seen.iter().all(|count| *count > CYCLES / 10),
+        "conflicts, located, cocircular, ghosts, turned ties: {seen:?}"
+    );
 }
 
 #[test]
 fn visit_judge_answers_ten_clocks_after_the_corners() {
     const LATENCY: usize = 10;
     let mut numbers = Numbers::new(35);
-    let cases: Vec<_> = (0..CYCLES).map(|_| (points(&mut numbers), record(&mut numbers))).collect();
-    let stimuli = cases.iter().enumerate().map(|(cycle, (points, _))| {
+    let cases: Vec<_> =
+        (0..CYCLES).map(|_| (points(&mut numbers), record(&mut numbers), (numbers.next() % 3) as usize)).collect();
+    let stimuli = cases.iter().enumerate().map(|(cycle, (points, ..))| {
         // The record of the visit whose corners came before.
-        let record = cycle.checked_sub(LATENCY).map_or(Record::default(), |before| cases[before].1);
-        let turned = record.pack_turned(0, [false; 3], INFINITE);
+        let before = cycle.checked_sub(LATENCY).map(|before| &cases[before]);
+        let (record, slot) = before.map_or((Record::default(), 0), |(_, record, slot)| (*record, *slot));
+        let turned = record.turned(slot).pack_turned(slot, [false; 3], INFINITE);
         [&points.map(|point| u128::from(word(point)))[..], &[turned]].concat()
     });
     let mut seen = [0; 3];
@@ -289,18 +294,19 @@ fn visit_judge_answers_ten_clocks_after_the_corners() {
         name: "visit_judge",
         rust: VisitJudge::default(),
         inputs: &["r0", "r1", "r2", "p", "turned"],
-        outputs: &["verdict"],
+        outputs: &VERDICT_PARTS,
     }
     .run(stimuli, |_| {
-        let verdict = cycle.checked_sub(LATENCY).map(|before| {
-            let ([r0, r1, r2, p], record) = cases[before];
-            record.verdict([r0, r1, r2], p, INFINITE)
+        let parts = cycle.checked_sub(LATENCY).map(|before| {
+            let ([r0, r1, r2, p], record, slot) = cases[before];
+            let verdict = record.verdict(slot, [r0, r1, r2], p, INFINITE);
+            for (bit, count) in seen.iter_mut().enumerate() {
+                *count += usize::from(verdict >> bit & 1 == 1);
+            }
+            verdict_parts(verdict, slot, [r0, r1, r2]).to_vec()
         });
         cycle += 1;
-        for (bit, count) in seen.iter_mut().enumerate() {
-            *count += usize::from(verdict.unwrap_or(0) >> bit & 1 == 1);
-        }
-        vec![verdict]
+        parts.unwrap_or(vec![None; VERDICT_PARTS.len()])
     });
     assert!(seen.iter().all(|count| *count > CYCLES / 50), "conflicts, located, on a corner: {seen:?}");
 }

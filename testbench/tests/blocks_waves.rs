@@ -15,13 +15,18 @@ use stepper::{named_ports, Cell, Stepper, Wave};
 use structures::{pack, BUNDLE, TOKEN, TURNED, WRITE};
 use verilated::Direction;
 
-named_ports!(Issue, [reset, push, bundle, read, read_id], [token_valid, token, read_valid], clock);
-named_ports!(WritePort, [reset, commit, solo, seed], [write], clock);
+named_ports!(
+    Issue,
+    [reset, push, bundle, read, read_id],
+    [token_valid, token, vertices_id, links_id, read_valid],
+    clock
+);
+named_ports!(WritePort, [reset, commit, solo, seed], [write, enables], clock);
 named_ports!(LockStore, [id, owner, takes, clear_id, clear_enable], [took, foreign, was_set], clock);
 named_ports!(VisitJudge, [r0, r1, r2, p, turned], [verdict], clock);
 named_ports!(
     TriangleStore,
-    [write, read_id, read_locks, owner, clear_id, clear_enable],
+    [write, enables, read_id, vertices_id, links_id, read_locks, owner, clear_id, clear_enable],
     [v0, v1, v2, n0, n1, n2, took, foreign, was_set],
     clock
 );
@@ -51,6 +56,7 @@ named_ports!(
         read,
         read_id,
         write,
+        enables,
         vertex_id,
         vertex_position,
         vertex_enable,
@@ -171,6 +177,7 @@ fn write_port_shows_the_wave_of_its_header() {
         ("solo.id", "solo", 1, 15, When::If("solo")),
         ("write.valid", "write", 0, 1, When::Always),
         ("write.id", "write", 1, 15, When::If("write")),
+        ("enables.link1", "enables", 2, 1, When::Always),
     ];
     draw("write_port", WritePort::default(), &stimuli, 7, &lanes)
         .assert_drawn_in(include_str!("../../hdl/src/engine/write_port.rs"));
@@ -179,7 +186,7 @@ fn write_port_shows_the_wave_of_its_header() {
 #[test]
 fn lock_store_shows_the_wave_of_its_header() {
     const VISITS: [usize; 5] = [0, 1, 2, 4, 5];
-    const KNOWN: [usize; 7] = [1, 2, 3, 4, 5, 6, 7];
+    const KNOWN: [usize; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
     let mut stimuli = vec![(4, "clear_id", 5), (4, "clear_enable", 1)];
     for (clock, owner) in VISITS.into_iter().zip([3, 4, 3, 4, 4]) {
         stimuli.extend([(clock, "id", 5), (clock, "owner", owner), (clock, "takes", 1)]);
@@ -192,7 +199,7 @@ fn lock_store_shows_the_wave_of_its_header() {
         ("took", "took", 0, 1, When::At(&KNOWN)),
         ("foreign", "foreign", 0, 1, When::At(&KNOWN)),
     ];
-    draw("lock_store_15_5", LockStore::new(15, 5), &stimuli, 8, &lanes)
+    draw("lock_store_15_5", LockStore::new(15, 5), &stimuli, 9, &lanes)
         .assert_drawn_in(include_str!("../../hdl/src/mesh/lock_store.rs"));
 }
 
@@ -203,15 +210,17 @@ fn triangle_store_shows_the_wave_of_its_header() {
     const KNOWN: [usize; 7] = [1, 2, 3, 4, 5, 6, 7];
     let stimuli = [
         (0, "write", write(5, 15, 7, 8)),
+        (0, "enables", 15),
         (1, "write", write(5, 4, 0, 9)),
-        (2, "read_id", 5),
-        (3, "read_id", 5),
+        (1, "enables", 4),
         (3, "read_locks", 1),
-        (4, "read_id", 5),
     ];
+    let ids = ["read_id", "vertices_id", "links_id"];
+    let reads = READS.iter().flat_map(|clock| ids.map(|port| (*clock, port, 5)));
+    let stimuli: Vec<_> = stimuli.into_iter().chain(reads).collect();
     let lanes = [
-        ("write.valid", "write", 0, 1, When::Always),
-        ("write.vertices", "write", 16, 1, When::Always),
+        ("vertex columns", "enables", 0, 1, When::Always),
+        ("link column 1", "enables", 2, 1, When::Always),
         ("write.n1", "write", 80, 15, When::If("write")),
         ("read_id", "read_id", 0, 15, When::At(&READS)),
         ("read_locks", "read_locks", 0, 1, When::Always),
@@ -251,8 +260,8 @@ fn visit_reader_shows_the_wave_of_its_header() {
         (2, "v1", 12),
         (2, "n1", 30),
         (2, "again", 1),
+        (3, "took", 1),
         (4, "position0", 51),
-        (4, "position1", 52),
     ];
     let lanes = [
         ("token.f", "token", 25, 15, When::At(&[0])),
@@ -260,11 +269,12 @@ fn visit_reader_shows_the_wave_of_its_header() {
         ("v0", "v0", 0, 15, When::At(&[2])),
         ("v1", "v1", 0, 15, When::At(&[2])),
         ("again", "again", 0, 1, When::Always),
-        ("turned.v0", "turned", 0, 15, When::At(&[4])),
-        ("turned.slot", "turned", 90, 2, When::At(&[4])),
-        ("turned.again", "turned", 94, 1, When::At(&[4])),
+        ("took", "took", 0, 1, When::Always),
+        ("turned.v0", "turned", 0, 15, When::At(&[5])),
+        ("turned.slot", "turned", 90, 2, When::At(&[5])),
+        ("turned.again", "turned", 94, 1, When::At(&[5])),
+        ("turned.took", "turned", 92, 1, When::At(&[5])),
         ("position0", "position0", 0, 32, When::At(&[4])),
-        ("position1", "position1", 0, 32, When::At(&[4])),
         ("r0", "r0", 0, 32, When::At(&[5])),
     ];
     let reader = VisitReader::default();

@@ -154,6 +154,7 @@ impl Logic for InsertionEngine {
         self.pipeline.read.next = self.read.val();
         self.pipeline.read_id.next = self.read_id.val();
         self.pipeline.write.next = self.write_port.write.val();
+        self.pipeline.enables.next = self.write_port.enables.val();
         self.pipeline.vertex_id.next = self.came_id.val();
         self.pipeline.vertex_position.next = self.point.val();
         self.pipeline.vertex_enable.next = self.came.val();

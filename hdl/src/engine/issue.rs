@@ -6,11 +6,14 @@
 //! | `push`, `bundle` | in | 1, Bundle | a bundle enters the queue |
 //! | `read`, `read_id` | in | 1, 15 | a read-out wants this record; only while the queue is empty |
 //! | `token_valid`, `token` | out | 1, Token | the visit issued; in a read-out `token.u` alone counts |
+//! | `vertices_id`, `links_id` | out | 15 | `token.u` from two more registers; arbitrary after a reset until the next visit or read-out |
 //! | `read_valid` | out | 1 | the issue register holds a read-out |
 //!
 //! 1. A bundle takes a clock for each of its one to three visits, the first visit first; see `Bundle` for what tells them apart.
 //! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring has entries,
 //!    so it never overflows.
+//! 3. The record's id goes to all block RAMs of the triangle memory. Three registers hold it, so that each may stand near the RAMs that it
+//!    drives; reset gives each another value, or synthesis would make one register of them.
 //!
 //! Latency: 1 clock from `push` to `token` when the queue is empty.
 //!
@@ -49,16 +52,24 @@ pub struct Issue {
     pub token_valid: Signal<Out, Bit>,
     /// The visit.
     pub token: Signal<Out, Token>,
+    /// Its record again, for the vertex columns.
+    pub vertices_id: Signal<Out, Bits<15>>,
+    /// Its record again, for the link columns.
+    pub links_id: Signal<Out, Bits<15>>,
     /// A read-out is issued.
     pub read_valid: Signal<Out, Bit>,
     queue: DeepFifo<RING_ADDRESS_BITS, BUNDLE_BITS>,
     head: Unpack<Bundle, BUNDLE_BITS>,
     bundle_bits: Signal<Local, Bits<BUNDLE_BITS>>,
     issued: DFF<Token>,
+    vertices_copy: DFF<Bits<15>>,
+    links_copy: DFF<Bits<15>>,
     issued_valid: DFF<Bit>,
     issued_read: DFF<Bit>,
     second_is_due: DFF<Bit>,
     third_is_due: DFF<Bit>,
+    record: Signal<Local, Bits<15>>,
+    no_record: Signal<Local, Bits<15>>,
     is_at_first: Signal<Local, Bit>,
     second_follows: Signal<Local, Bit>,
     third_follows: Signal<Local, Bit>,
@@ -80,7 +91,17 @@ impl Issue {
 impl Logic for Issue {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, issued, issued_valid, issued_read, second_is_due, third_is_due);
+        dff_setup!(
+            self,
+            clock,
+            issued,
+            vertices_copy,
+            links_copy,
+            issued_valid,
+            issued_read,
+            second_is_due,
+            third_is_due
+        );
         clock!(self, clock, queue);
         self.queue.reset.next = self.reset.val();
         self.queue.push.next = self.push.val();
@@ -89,6 +110,8 @@ impl Logic for Issue {
         self.head.bits.next = self.queue.data.val();
         self.token.next = self.issued.q.val();
         self.token_valid.next = self.issued_valid.q.val();
+        self.vertices_id.next = self.vertices_copy.q.val();
+        self.links_id.next = self.links_copy.q.val();
         self.read_valid.next = self.issued_read.q.val();
 
         self.is_at_first.next = (!self.second_is_due.q.val()) & (!self.third_is_due.q.val());
@@ -107,21 +130,27 @@ impl Logic for Issue {
         self.issued.d.next.f = self.head.value.val().f;
         self.issued.d.next.x = self.head.value.val().x;
         self.issued.d.next.after = self.head.value.val().after;
-        self.issued.d.next.u = self.head.value.val().u;
+        self.record.next = self.head.value.val().u;
         if self.second_is_due.q.val() {
             self.issued.d.next.x = self.head.value.val().after;
             self.issued.d.next.after = self.head.value.val().second_after;
-            self.issued.d.next.u = self.head.value.val().second_u;
+            self.record.next = self.head.value.val().second_u;
         }
         if self.third_is_due.q.val() {
             self.issued.d.next.x = self.head.value.val().second_after;
             self.issued.d.next.after = 0.into();
-            self.issued.d.next.u = self.head.value.val().third_u;
+            self.record.next = self.head.value.val().third_u;
         }
         if self.read.val() {
-            self.issued.d.next.u = self.read_id.val();
+            self.record.next = self.read_id.val();
         }
+        self.issued.d.next.u = self.record.val();
+        self.vertices_copy.d.next = self.record.val();
+        self.links_copy.d.next = self.record.val();
+        self.no_record.next = 0.into();
         if self.reset.val() {
+            self.vertices_copy.d.next = self.no_record.val();
+            self.links_copy.d.next = !self.no_record.val();
             self.issued_valid.d.next = false;
             self.issued_read.d.next = false;
             self.second_is_due.d.next = false;

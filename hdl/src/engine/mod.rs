@@ -87,5 +87,5 @@ pub use visit_judge::VisitJudge;
 pub use visit_pipeline::VisitPipeline;
 pub use visit_reader::VisitReader;
 pub use watchdog::Watchdog;
-pub use write_port::WritePort;
+pub use write_port::{WriteEnables, WritePort};
 pub use write_request::{LinkWrite, RecordWrite};

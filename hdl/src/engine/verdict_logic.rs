@@ -3,15 +3,18 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `turned` | in | Turned | the record turned |
-//! | `e0_negative` ... `r0_before_r2` | in | 1 | the flags of `VisitPredicates` for its corners |
+//! | `e0_negative` ... `r1_before_r2` | in | 1 | the flags of `VisitPredicates` for its corners as stored |
 //! | `verdict` | out | Verdict | what the visit found out |
 //!
 //! 1. A finite record is in conflict iff the point lies inside its circle, or on it and the tie rule says so: the
 //!    diagonal takes the lexicographically smallest of the four points.
 //! 2. A ghost is in conflict iff the point lies strictly beyond its hull edge, or on the line strictly between the edge's ends. (Of
 //!    the ends themselves the lower one counts as between; a point there is a duplicate, and no cavity is dug for it.)
-//! 3. A walk ends in a finite triangle with no negative side and in a ghost strictly beyond whose edge the point lies. It leaves a
-//!    finite triangle over the most negative side (the first of equals), a ghost over its finite side.
+//! 3. Corners come as stored and the record turned, since only one thing depends on the turn: the tie rule, of whose diagonals one ends in
+//!    the corner that comes first. The corners of a finite record differ.
+//! 4. A walk ends in a finite triangle with no negative side and in a ghost strictly beyond whose edge the point lies. It leaves a
+//!    finite triangle over the most negative side (the first of equals), a ghost over its finite side. No walk turns its records:
+//!    `walk_next` of a finite one, `is_left` and `is_straight` count only with slot 0.
 //!
 //! Latency: none (combinational).
 
@@ -61,9 +64,17 @@ pub struct VerdictLogic {
     pub r0_before_r1: Signal<In, Bit>,
     /// Before corner 2.
     pub r0_before_r2: Signal<In, Bit>,
+    /// Corner 1 comes before corner 2.
+    pub r1_before_r2: Signal<In, Bit>,
     /// What the visit found out.
     pub verdict: Signal<Out, Verdict>,
     is_ghost: Signal<Local, Bit>,
+    second_slot: Signal<Local, Bits<2>>,
+    third_slot: Signal<Local, Bits<2>>,
+    is_second: Signal<Local, Bit>,
+    is_third: Signal<Local, Bit>,
+    infinite1: Signal<Local, Bit>,
+    infinite2: Signal<Local, Bit>,
     is_beyond: Signal<Local, Bit>,
     is_on_hull_line: Signal<Local, Bit>,
     is_between: Signal<Local, Bit>,
@@ -78,24 +89,48 @@ impl Logic for VerdictLogic {
     fn update(&mut self) {
         self.is_ghost.next = self.turned.val().infinite0 | self.turned.val().infinite1 | self.turned.val().infinite2;
 
+        // The turn, undone: which corner is infinite as stored.
+        self.second_slot.next = 1.into();
+        self.third_slot.next = 2.into();
+        self.is_second.next = self.turned.val().slot == self.second_slot.val();
+        self.is_third.next = self.turned.val().slot == self.third_slot.val();
+        self.infinite1.next = self.turned.val().infinite1;
+        self.infinite2.next = self.turned.val().infinite2;
+        if self.is_second.val() {
+            self.infinite1.next = self.turned.val().infinite0;
+            self.infinite2.next = self.turned.val().infinite1;
+        }
+        if self.is_third.val() {
+            self.infinite1.next = self.turned.val().infinite2;
+            self.infinite2.next = self.turned.val().infinite0;
+        }
+
         // A ghost: where the point lies from its one finite side.
         self.is_beyond.next = (!self.e0_negative.val()) & (!self.e0_zero.val());
         self.is_on_hull_line.next = self.e0_zero.val();
         self.is_between.next = self.p_before_r1.val() ^ self.p_before_r2.val();
-        if self.turned.val().infinite1 {
+        if self.infinite1.val() {
             self.is_beyond.next = (!self.e1_negative.val()) & (!self.e1_zero.val());
             self.is_on_hull_line.next = self.e1_zero.val();
             self.is_between.next = self.p_before_r2.val() ^ self.p_before_r0.val();
         }
-        if self.turned.val().infinite2 {
+        if self.infinite2.val() {
             self.is_beyond.next = (!self.e2_negative.val()) & (!self.e2_zero.val());
             self.is_on_hull_line.next = self.e2_zero.val();
             self.is_between.next = self.p_before_r0.val() ^ self.p_before_r1.val();
         }
 
-        // min(p, r0) < min(r1, r2)
+        // min(p, r0) < min(r1, r2), with the corners turned.
         self.takes_tie.next =
             (self.p_before_r1.val() & self.p_before_r2.val()) | (self.r0_before_r1.val() & self.r0_before_r2.val());
+        if self.is_second.val() {
+            self.takes_tie.next = (self.p_before_r2.val() & self.p_before_r0.val())
+                | (self.r1_before_r2.val() & (!self.r0_before_r1.val()));
+        }
+        if self.is_third.val() {
+            self.takes_tie.next = (self.p_before_r0.val() & self.p_before_r1.val())
+                | ((!self.r0_before_r2.val()) & (!self.r1_before_r2.val()));
+        }
         if self.is_ghost.val() {
             self.verdict.next.conflict = self.is_beyond.val() | (self.is_on_hull_line.val() & self.is_between.val());
         } else {

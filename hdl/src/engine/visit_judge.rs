@@ -3,8 +3,8 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `r0`, `r1`, `r2`, `p` | in | 32 | corners of the turned record, and the point, in clock 0 |
-//! | `turned` | in | Turned | the record, when its signs are there, in clock 10 |
+//! | `r0`, `r1`, `r2`, `p` | in | 32 | corners of the record as stored, and the point, in clock 0 |
+//! | `turned` | in | Turned | the record turned, when its signs are there, straight from registers, in clock 10 |
 //! | `verdict` | out | Verdict | what the visit found out, in clock 10 |
 //!
 //! 1. Corners and point come straight from registers. New ones are taken at every edge; there is no reset.
@@ -80,6 +80,7 @@ impl Logic for VisitJudge {
         self.verdict_logic.p_equals_r2.next = self.predicates.p_equals_r2.val();
         self.verdict_logic.r0_before_r1.next = self.predicates.r0_before_r1.val();
         self.verdict_logic.r0_before_r2.next = self.predicates.r0_before_r2.val();
+        self.verdict_logic.r1_before_r2.next = self.predicates.r1_before_r2.val();
         self.verdict.next = self.verdict_logic.verdict.val();
     }
 }

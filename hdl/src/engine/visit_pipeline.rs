@@ -12,7 +12,7 @@
 //! | `token`, `turned`, `verdict` | out | | the visit, its record and what it found out |
 //! | `read`, `read_id` | in | 1, 15 | a read-out wants a record; only while no visit is out |
 //! | `read_done` | out | 1 | the record stands on `v0..n2` and `was_set` |
-//! | `write` | in | Write | a write into the triangle memory |
+//! | `write`, `enables` | in | Write, WriteEnables | a write into the triangle memory, and the columns that it writes |
 //! | `vertex_id`, `vertex_position`, `vertex_enable` | in | 15, 32, 1 | a write into the vertex memory |
 //! | `fetch_id`, `fetched` | in, out | 15, 32 | a vertex read, 2 clocks later; only at an edge without such a write |
 //! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear |
@@ -41,6 +41,7 @@
 //! read_done       __________________________________________________________________/^^\__
 //! ```
 
+use super::WriteEnables;
 use super::{context_bits, ring_bits, Bundle, Issue, Token, Turned, Verdict, VisitJudge, VisitReader, Write};
 use super::{CONTEXT_BITS, TOKEN_BITS, TURNED_BITS};
 use crate::leaf::{DelayLine, LutMemory, Unpack};
@@ -102,6 +103,8 @@ pub struct VisitPipeline {
     pub was_set: Signal<Out, Bit>,
     /// A write into the triangle memory.
     pub write: Signal<In, Write>,
+    /// The columns that it writes.
+    pub enables: Signal<In, WriteEnables>,
     /// Vertex to write.
     pub vertex_id: Signal<In, Bits<15>>,
     /// Its coordinates.
@@ -136,6 +139,8 @@ pub struct VisitPipeline {
     turned_delay: DelayLine<TURNED_BITS>,
     delayed_token: Unpack<Token, TOKEN_BITS>,
     delayed_turned: Unpack<Turned, TURNED_BITS>,
+    /// The record in clock 15.
+    judged: DFF<Turned>,
     point: DFF<Bits<32>>,
     /// Bit `k`: the visit issued `k + 1` clocks ago is valid.
     valid: DFF<Bits<16>>,
@@ -169,7 +174,7 @@ impl VisitPipeline {
             positions: LutMemory::new(context_bits(config), 32),
             vertices: VertexStore::new(vertex_id_bits(config.points) as usize - 1),
             token_delay: DelayLine::new(signs - TriangleStore::LATENCY),
-            turned_delay: DelayLine::new(signs - VisitReader::TURNED_LATENCY),
+            turned_delay: DelayLine::new(signs - VisitReader::TURNED_LATENCY - 1),
             ..Self::default()
         }
     }
@@ -189,6 +194,7 @@ impl Logic for VisitPipeline {
             valid,
             read_valid1,
             read_valid2,
+            judged,
             token_register,
             turned_register,
             verdict_register
@@ -211,9 +217,12 @@ impl Logic for VisitPipeline {
 
         // Clocks 0 to 2: the record.
         self.triangles.read_id.next = self.issue.token.val().u;
+        self.triangles.vertices_id.next = self.issue.vertices_id.val();
+        self.triangles.links_id.next = self.issue.links_id.val();
         self.triangles.read_locks.next = self.issue.token_valid.val() & self.issue.token.val().locks;
         self.triangles.owner.next = self.issue.token.val().owner;
         self.triangles.write.next = self.write.val();
+        self.triangles.enables.next = self.enables.val();
         self.triangles.clear_id.next = self.clear_id.val();
         self.triangles.clear_enable.next = self.clear_enable.val();
         self.reader.token.next = self.issue.token.val();
@@ -269,10 +278,11 @@ impl Logic for VisitPipeline {
         self.turned_delay.data_in.next = self.turned_bits.val();
         self.delayed_turned.bits.next = self.turned_delay.data_out.val();
 
-        // Clock 15: the verdict.
-        self.judge.turned.next = self.delayed_turned.value.val();
+        // Clock 14: the record comes out of the delay. Clock 15: the verdict.
+        self.judged.d.next = self.delayed_turned.value.val();
+        self.judge.turned.next = self.judged.q.val();
         self.token_register.d.next = self.delayed_token.value.val();
-        self.turned_register.d.next = self.delayed_turned.value.val();
+        self.turned_register.d.next = self.judged.q.val();
         self.verdict_register.d.next = self.judge.verdict.val();
         self.token.next = self.token_register.q.val();
         self.turned.next = self.turned_register.q.val();

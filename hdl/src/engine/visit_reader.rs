@@ -1,4 +1,4 @@
-//! Reads the record of a visit, turns it, and fetches the coordinates of its corners.
+//! Reads the record of a visit, turns it, and takes in the coordinates of its corners.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
@@ -6,30 +6,33 @@
 //! | `infinite` | in | 15 | the id of the infinite vertex, a constant |
 //! | `token` | in | Token | the visit, in clock 0 |
 //! | `v0..n2` | in | 15 | its record from the triangle memory, in clock 2 |
-//! | `took`, `foreign`, `again` | in | 1 | what became of its lock, and whether the record counts, in clock 2 |
+//! | `again` | in | 1 | whether the record counts, in clock 2 |
+//! | `took`, `foreign` | in | 1 | what became of its lock, in clock 3 |
 //! | `position0..2` | in | 32 | coordinates of `v0..v2`, in clock 4 |
 //! | `turned` | out | Turned | the record turned, in clock 5 |
-//! | `r0..r2` | out | 32 | coordinates of the turned vertices, in clock 5 |
+//! | `r0..r2` | out | 32 | coordinates of its vertices, not turned, in clock 5 |
 //!
 //! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does. The links of a record differ.
 //! 2. `took`, `foreign` and `again` pass unchanged into `turned`.
-//! 3. Nothing is computed between a memory's output and the first register: block RAM lies far from everything.
+//! 3. Nothing is computed between a memory's output and the first register: block RAM lies far from everything. That is why the corners
+//!    stay as stored; what of the verdict depends on the turn is turned there.
 //!
 //! Latency: see the clocks above; `LATENCY` is that of the corners.
 //!
-//! A visit that comes through link 1, so that vertex 1 comes first:
+//! A visit that comes through link 1, so that vertex 1 comes first, and takes the lock:
 //! ```text
 //! token.f          30  .  .  .  .  .  .
 //! n1                .  . 30  .  .  .  .
 //! v0                .  . 11  .  .  .  .
 //! v1                .  . 12  .  .  .  .
 //! again           ______/^^\___________
+//! took            _________/^^\________
 //! turned.v0         .  .  .  .  . 12  .
 //! turned.slot       .  .  .  .  .  1  .
 //! turned.again      .  .  .  .  ./^^  .
+//! turned.took       .  .  .  .  ./^^  .
 //! position0         .  .  .  . 51  .  .
-//! position1         .  .  .  . 52  .  .
-//! r0                .  .  .  .  . 52  .
+//! r0                .  .  .  .  . 51  .
 //! ```
 
 use super::{Token, Turned};
@@ -37,7 +40,7 @@ use crate::mesh::{TriangleStore, VertexStore};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// Slot search and rotation; see the top of this file.
+/// Slot search, rotation and corners; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitReader {
     /// Clock.
@@ -74,11 +77,11 @@ pub struct VisitReader {
     pub turned: Signal<Out, Turned>,
     /// The token of the record on the columns, for the delay to the verdict.
     pub token_at_record: Signal<Out, Token>,
-    /// Corner of the turned record.
+    /// Corner of the record as stored.
     pub r0: Signal<Out, Bits<32>>,
-    /// Corner of the turned record.
+    /// Corner of the record as stored.
     pub r1: Signal<Out, Bits<32>>,
-    /// Corner of the turned record.
+    /// Corner of the record as stored.
     pub r2: Signal<Out, Bits<32>>,
     token1: DFF<Token>,
     token2: DFF<Token>,
@@ -122,12 +125,12 @@ impl Logic for VisitReader {
         self.stored.d.next.n0 = self.n0.val();
         self.stored.d.next.n1 = self.n1.val();
         self.stored.d.next.n2 = self.n2.val();
-        self.stored.d.next.took = self.took.val();
-        self.stored.d.next.foreign = self.foreign.val();
         self.stored.d.next.again = self.again.val();
 
-        // Clock 3: the slot that comes first, and the infinite vertex.
+        // Clock 3: the slot that comes first, the infinite vertex, and what became of the lock.
         self.found.d.next = self.stored.q.val();
+        self.found.d.next.took = self.took.val();
+        self.found.d.next.foreign = self.foreign.val();
         self.found.d.next.infinite0 = self.stored.q.val().v0 == self.infinite.val();
         self.found.d.next.infinite1 = self.stored.q.val().v1 == self.infinite.val();
         self.found.d.next.infinite2 = self.stored.q.val().v2 == self.infinite.val();
@@ -165,20 +168,10 @@ impl Logic for VisitReader {
         }
         self.turned.next = self.rotated.q.val();
 
-        // Clock 4, too: the corners turned alike.
+        // Clock 4, too: the corners as they come.
         self.corner0.d.next = self.position0.val();
         self.corner1.d.next = self.position1.val();
         self.corner2.d.next = self.position2.val();
-        if self.found.q.val().slot == self.second_slot.val() {
-            self.corner0.d.next = self.position1.val();
-            self.corner1.d.next = self.position2.val();
-            self.corner2.d.next = self.position0.val();
-        }
-        if self.found.q.val().slot == self.third_slot.val() {
-            self.corner0.d.next = self.position2.val();
-            self.corner1.d.next = self.position0.val();
-            self.corner2.d.next = self.position1.val();
-        }
         self.r0.next = self.corner0.q.val();
         self.r1.next = self.corner1.q.val();
         self.r2.next = self.corner2.q.val();

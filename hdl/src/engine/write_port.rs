@@ -5,8 +5,10 @@
 //! | `clock`, `reset` | in | 1 | reset drops a write |
 //! | `commit`, `solo`, `seed` | in | Write | requests; at most one is valid: the last two come only while nothing else is at work |
 //! | `write` | out | Write | the write made at the next edge |
+//! | `enables` | out | WriteEnables | the columns that it writes, none without a write |
 //!
-//! 1. Without a request the data are held and `write.valid` is low.
+//! 1. Without a request the data are held, and `write.valid` and all `enables` are low.
+//! 2. The enables are registers of their own, so that no logic stands between this port and the many block RAMs that it drives.
 //!
 //! Latency: 1 clock; the memory shows the write from the clock after.
 //! ```text
@@ -16,11 +18,26 @@
 //! solo.id           .  .  .  .  7  .  .
 //! write.valid     ______/^^^^^\__/^^\__
 //! write.id          .  .  5  6  .  7  .
+//! enables.link1   ______/^^^^^\__/^^\__
 //! ```
 
 use super::Write;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
+
+crate::packed! {
+    /// What of a [`Write`] is written into the memories.
+    pub struct WriteEnables {
+        /// The vertex columns.
+        pub vertices: bool,
+        /// Link column 0.
+        pub link0: bool,
+        /// Link column 1.
+        pub link1: bool,
+        /// Link column 2.
+        pub link2: bool,
+    }
+}
 
 /// The write port; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -37,25 +54,49 @@ pub struct WritePort {
     pub seed: Signal<In, Write>,
     /// The write.
     pub write: Signal<Out, Write>,
+    /// The columns that it writes.
+    pub enables: Signal<Out, WriteEnables>,
     port: DFF<Write>,
+    enabled: DFF<WriteEnables>,
 }
 
 impl Logic for WritePort {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, port);
+        dff_setup!(self, clock, port, enabled);
         self.write.next = self.port.q.val();
+        self.enables.next = self.enabled.q.val();
         self.port.d.next.valid = false;
+        self.enabled.d.next.vertices = false;
+        self.enabled.d.next.link0 = false;
+        self.enabled.d.next.link1 = false;
+        self.enabled.d.next.link2 = false;
         if self.seed.val().valid {
             self.port.d.next = self.seed.val();
+            self.enabled.d.next.vertices = self.seed.val().vertices;
+            self.enabled.d.next.link0 = self.seed.val().link0;
+            self.enabled.d.next.link1 = self.seed.val().link1;
+            self.enabled.d.next.link2 = self.seed.val().link2;
         }
         if self.solo.val().valid {
             self.port.d.next = self.solo.val();
+            self.enabled.d.next.vertices = self.solo.val().vertices;
+            self.enabled.d.next.link0 = self.solo.val().link0;
+            self.enabled.d.next.link1 = self.solo.val().link1;
+            self.enabled.d.next.link2 = self.solo.val().link2;
         }
         if self.commit.val().valid {
             self.port.d.next = self.commit.val();
+            self.enabled.d.next.vertices = self.commit.val().vertices;
+            self.enabled.d.next.link0 = self.commit.val().link0;
+            self.enabled.d.next.link1 = self.commit.val().link1;
+            self.enabled.d.next.link2 = self.commit.val().link2;
         }
         if self.reset.val() {
+            self.enabled.d.next.vertices = false;
+            self.enabled.d.next.link0 = false;
+            self.enabled.d.next.link1 = false;
+            self.enabled.d.next.link2 = false;
             self.port.d.next.valid = false;
             self.port.d.next.id = 0.into();
             self.port.d.next.vertices = false;

@@ -12,7 +12,7 @@
 //!
 //! 1. Empty: `valid = push` and `data = push_data` in the same cycle. Otherwise `data` is the oldest entry.
 //! 2. `pop` only while `valid`. Without it `valid` stays and `data` is held.
-//! 3. Push and pop at one edge are allowed in every state; on an empty buffer the entry passes without being stored.
+//! 3. Push and pop at one edge are allowed in every state; on an empty buffer the entry passes.
 //! 4. The user never holds more than `2^address_bits` entries: there is no full flag and no check.
 //!
 //! Latency: none from push to output when empty.
@@ -28,6 +28,9 @@
 //! A fetch takes three clocks. It begins only with 15 entries in the window before it, and the window never holds fewer while anything
 //! is spilled, since a clock that takes one away fetches another; so an entry is there long before it is the oldest. A fetched and a new
 //! entry may enter the window at one edge, hence two banks of it, and a bit per place that tells which bank counts.
+//!
+//! An entry that passes is stored, too, and its place is given up at once: `pop` often follows from the entry itself, so it comes late and
+//! moves nothing but the end of the oldest entry.
 //!
 //! Source: [`Fifo`](super::Fifo) around a [`BlockMemory`].
 
@@ -67,13 +70,10 @@ pub struct DeepFifo<const A: usize, const D: usize> {
     fetch_in_output: DFF<Bit>,
     place_in_array: DFF<Bits<4>>,
     place_in_output: DFF<Bits<4>>,
-    passes: Signal<Local, Bit>,
-    stores: Signal<Local, Bit>,
     spills: Signal<Local, Bit>,
     enters: Signal<Local, Bit>,
     fetches: Signal<Local, Bit>,
     advances: Signal<Local, Bit>,
-    leaves: Signal<Local, Bit>,
     after_newest: Signal<Local, Bits<A>>,
     after_fetched: Signal<Local, Bits<A>>,
     after_oldest: Signal<Local, Bits<4>>,
@@ -121,13 +121,10 @@ impl<const A: usize, const D: usize> DeepFifo<A, D> {
             fetch_in_output: DFF::default(),
             place_in_array: DFF::default(),
             place_in_output: DFF::default(),
-            passes: Signal::default(),
-            stores: Signal::default(),
             spills: Signal::default(),
             enters: Signal::default(),
             fetches: Signal::default(),
             advances: Signal::default(),
-            leaves: Signal::default(),
             after_newest: Signal::default(),
             after_fetched: Signal::default(),
             after_oldest: Signal::default(),
@@ -175,14 +172,11 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
             }
         }
 
-        // What happens at this edge. An entry that is popped while it is pushed into an empty buffer passes.
-        self.passes.next = (!self.holds_entries.q.val()) & self.pop.val();
-        self.stores.next = self.push.val() & (!self.passes.val());
-        self.spills.next = self.stores.val() & (self.holds_spilled.q.val() | self.window_is_full.q.val());
-        self.enters.next = self.stores.val() & (!self.spills.val());
+        // What happens at this edge, whatever is popped.
+        self.spills.next = self.push.val() & (self.holds_spilled.q.val() | self.window_is_full.q.val());
+        self.enters.next = self.push.val() & (!self.spills.val());
         self.fetches.next = self.holds_spilled.q.val() & (!self.window_is_full.q.val());
         self.advances.next = self.enters.val() | self.fetches.val();
-        self.leaves.next = self.pop.val() & self.holds_entries.q.val();
 
         // The ring, and the way from it into the window.
         self.ring.write_address.next = self.newest.q.val();
@@ -209,13 +203,13 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         self.was_fetched.write_enable.next = self.advances.val();
 
         // Pointers, and the three flags that follow from them.
-        if self.stores.val() {
+        if self.push.val() {
             self.newest.d.next = self.after_newest.val();
         }
         if self.advances.val() {
             self.fetched.d.next = self.after_fetched.val();
         }
-        if self.leaves.val() {
+        if self.pop.val() {
             self.oldest.d.next = self.after_oldest.val();
         }
         if self.fetches.val() {
@@ -224,11 +218,11 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         if self.spills.val() {
             self.holds_spilled.d.next = true;
         }
-        if self.advances.val() & (!self.leaves.val()) {
+        if self.advances.val() & (!self.pop.val()) {
             self.holds_entries.d.next = true;
             self.window_is_full.d.next = self.after_place.val() == self.oldest.q.val();
         }
-        if self.leaves.val() & (!self.advances.val()) {
+        if self.pop.val() & (!self.advances.val()) {
             self.holds_entries.d.next = self.after_oldest.val() != self.place.val();
             self.window_is_full.d.next = false;
         }

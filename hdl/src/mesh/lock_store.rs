@@ -6,8 +6,8 @@
 //! | `id` | in | 15 | the lock that a visit comes to, in clock 0 |
 //! | `owner` | in | 5 | the visit's context, in clock 0 |
 //! | `takes` | in | 1 | the visit wants the lock, in clock 0 |
-//! | `took` | out | 1 | it has it now, and had it not before, in clock 2 |
-//! | `foreign` | out | 1 | it wants it, but another context holds it or it was just being cleared, in clock 2 |
+//! | `took` | out | 1 | it has it now, and had it not before, in clock 3 |
+//! | `foreign` | out | 1 | it wants it, but another context holds it or it was just being cleared, in clock 3 |
 //! | `was_set` | out | 1 | the lock was set before the visit, in clock 2 |
 //! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear at this edge |
 //!
@@ -19,17 +19,19 @@
 //! 4. Visits may come at every clock, and to the same lock: each sees what those before it did.
 //! 5. Only the low `id_bits` of an id and the low `context_bits` of a context count.
 //!
-//! Latency: 2 clocks. A lock taken or cleared at an edge is seen by visits from the next edge on. The owner is written two edges
-//! later, when the visit knows that it took the lock; until then a visit that comes after it compares itself with it.
+//! Latency: 3 clocks to `took` and `foreign`, 2 to `was_set`. A lock taken or cleared at an edge is seen by visits from the next edge on.
+//! Nothing is computed between the memories and the first register behind them, so the owner is written in clock 3, when the visit
+//! knows that it took the lock. The up to three visits that have read the owner by then, or read it at that edge, are told instead:
+//! neighbours compare themselves in clock 1, and what follows for the visit is settled in clock 2.
 //!
 //! Context 3 takes lock 5, context 4 wants it, context 3 comes again; context 4 wants it while it is cleared, and then gets it:
 //! ```text
-//! id                5  5  5  .  5  5  .  .
-//! owner             3  4  3  .  4  4  .  .
-//! takes           /^^^^^^^^\__/^^^^^\_____
-//! clear_enable    ____________/^^\________
-//! took              .___/^^\___________/^^
-//! foreign           .______/^^\_____/^^\__
+//! id                5  5  5  .  5  5  .  .  .
+//! owner             3  4  3  .  4  4  .  .  .
+//! takes           /^^^^^^^^\__/^^^^^\________
+//! clear_enable    ____________/^^\___________
+//! took              .______/^^\___________/^^
+//! foreign           ._________/^^\_____/^^\__
 //! ```
 
 use crate::leaf::{BlockMemory, LockMemory};
@@ -63,33 +65,52 @@ pub struct LockStore {
     cleared: Signal<Local, Bits<15>>,
     visitor: Signal<Local, Bits<5>>,
     meets_clear: Signal<Local, Bit>,
-    /// The visit in clocks 1 to 3.
+    /// The visit in clocks 1 to 4.
     id1: DFF<Bits<15>>,
     id2: DFF<Bits<15>>,
     id3: DFF<Bits<15>>,
+    id4: DFF<Bits<15>>,
     owner1: DFF<Bits<5>>,
     owner2: DFF<Bits<5>>,
     owner3: DFF<Bits<5>>,
+    owner4: DFF<Bits<5>>,
+    /// It wants a lock that was not being cleared, or one that was.
     takes1: DFF<Bit>,
     takes2: DFF<Bit>,
+    takes3: DFF<Bit>,
     met_clear1: DFF<Bit>,
     met_clear2: DFF<Bit>,
-    took3: DFF<Bit>,
+    met_clear3: DFF<Bit>,
+    /// The visit in clock 2 has the lock, or the context, of the first, second or third visit before it.
+    is_lock_before1: DFF<Bit>,
+    is_lock_before2: DFF<Bit>,
+    is_lock_before3: DFF<Bit>,
+    is_owner_before1: DFF<Bit>,
+    is_owner_before2: DFF<Bit>,
+    is_owner_before3: DFF<Bit>,
+    /// What the memories gave the visit in clock 3.
+    found_set: DFF<Bit>,
+    found_owner: DFF<Bits<5>>,
+    /// One of the three before it took its lock; if so, whether the latest that did is of its context.
+    is_told: DFF<Bit>,
+    told_is_owner: DFF<Bit>,
+    /// The visits in clocks 4 and 5 took their locks.
     took4: DFF<Bit>,
-    /// The visit in clock 2 has the lock, or the context, of the one before it, or of that before this.
-    is_lock_before: DFF<Bit>,
-    is_lock_second_before: DFF<Bit>,
-    is_owner_before: DFF<Bit>,
-    is_owner_second_before: DFF<Bit>,
-    takes_free_lock: Signal<Local, Bit>,
+    took5: DFF<Bit>,
+    takes_lock: Signal<Local, Bit>,
+    was_taken1: Signal<Local, Bit>,
+    was_taken2: Signal<Local, Bit>,
+    was_taken3: Signal<Local, Bit>,
     holder_is_owner: Signal<Local, Bit>,
     kept_id_bits: Constant<Bits<15>>,
     kept_owner_bits: Constant<Bits<5>>,
 }
 
 impl LockStore {
-    /// Clocks from a visit to what it finds.
-    pub const LATENCY: usize = LockMemory::<15>::LATENCY;
+    /// Clocks from a visit to `was_set`.
+    pub const READ_LATENCY: usize = LockMemory::<15>::LATENCY;
+    /// Clocks from a visit to `took` and `foreign`.
+    pub const LATENCY: usize = Self::READ_LATENCY + 1;
 
     /// A store of `2^id_bits` locks for `2^context_bits` contexts.
     ///
@@ -115,20 +136,33 @@ impl LockStore {
             id1: DFF::default(),
             id2: DFF::default(),
             id3: DFF::default(),
+            id4: DFF::default(),
             owner1: DFF::default(),
             owner2: DFF::default(),
             owner3: DFF::default(),
+            owner4: DFF::default(),
             takes1: DFF::default(),
             takes2: DFF::default(),
+            takes3: DFF::default(),
             met_clear1: DFF::default(),
             met_clear2: DFF::default(),
-            took3: DFF::default(),
+            met_clear3: DFF::default(),
+            is_lock_before1: DFF::default(),
+            is_lock_before2: DFF::default(),
+            is_lock_before3: DFF::default(),
+            is_owner_before1: DFF::default(),
+            is_owner_before2: DFF::default(),
+            is_owner_before3: DFF::default(),
+            found_set: DFF::default(),
+            found_owner: DFF::default(),
+            is_told: DFF::default(),
+            told_is_owner: DFF::default(),
             took4: DFF::default(),
-            is_lock_before: DFF::default(),
-            is_lock_second_before: DFF::default(),
-            is_owner_before: DFF::default(),
-            is_owner_second_before: DFF::default(),
-            takes_free_lock: Signal::default(),
+            took5: DFF::default(),
+            takes_lock: Signal::default(),
+            was_taken1: Signal::default(),
+            was_taken2: Signal::default(),
+            was_taken3: Signal::default(),
             holder_is_owner: Signal::default(),
             kept_id_bits: Constant::new(Bits::<15>::mask() >> (15 - id_bits) as u64),
             kept_owner_bits: Constant::new(Bits::<5>::mask() >> (5 - context_bits) as u64),
@@ -145,9 +179,11 @@ impl Default for LockStore {
 impl Logic for LockStore {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, id1, id2, id3, owner1, owner2, owner3, takes1, takes2, met_clear1, met_clear2);
-        dff_setup!(self, clock, took3, took4, is_lock_before, is_lock_second_before);
-        dff_setup!(self, clock, is_owner_before, is_owner_second_before);
+        dff_setup!(self, clock, id1, id2, id3, id4, owner1, owner2, owner3, owner4);
+        dff_setup!(self, clock, takes1, takes2, takes3, met_clear1, met_clear2, met_clear3);
+        dff_setup!(self, clock, is_lock_before1, is_lock_before2, is_lock_before3);
+        dff_setup!(self, clock, is_owner_before1, is_owner_before2, is_owner_before3);
+        dff_setup!(self, clock, found_set, found_owner, is_told, told_is_owner, took4, took5);
         clock!(self, clock, locks, owners);
         self.lock.next = self.id.val() & self.kept_id_bits.val();
         self.cleared.next = self.clear_id.val() & self.kept_id_bits.val();
@@ -162,38 +198,56 @@ impl Logic for LockStore {
         self.owners.read_address.next = self.lock.val();
         self.id1.d.next = self.lock.val();
         self.owner1.d.next = self.visitor.val();
-        self.takes1.d.next = self.takes.val();
-        self.met_clear1.d.next = self.meets_clear.val();
+        self.takes1.d.next = self.locks.test_set.val();
+        self.met_clear1.d.next = self.takes.val() & self.meets_clear.val();
 
-        // Clock 1: is it the lock, or the context, of one of the two visits before?
+        // Clock 1: is it the lock, or the context, of one of the three visits before?
         self.id2.d.next = self.id1.q.val();
         self.owner2.d.next = self.owner1.q.val();
         self.takes2.d.next = self.takes1.q.val();
         self.met_clear2.d.next = self.met_clear1.q.val();
-        self.is_lock_before.d.next = self.id1.q.val() == self.id2.q.val();
-        self.is_lock_second_before.d.next = self.id1.q.val() == self.id3.q.val();
-        self.is_owner_before.d.next = self.owner1.q.val() == self.owner2.q.val();
-        self.is_owner_second_before.d.next = self.owner1.q.val() == self.owner3.q.val();
+        self.is_lock_before1.d.next = self.id1.q.val() == self.id2.q.val();
+        self.is_lock_before2.d.next = self.id1.q.val() == self.id3.q.val();
+        self.is_lock_before3.d.next = self.id1.q.val() == self.id4.q.val();
+        self.is_owner_before1.d.next = self.owner1.q.val() == self.owner2.q.val();
+        self.is_owner_before2.d.next = self.owner1.q.val() == self.owner3.q.val();
+        self.is_owner_before3.d.next = self.owner1.q.val() == self.owner4.q.val();
 
-        // Clock 2: the holder is the latest visit that took the lock; the memory does not know yet of the two before this one.
-        self.takes_free_lock.next = self.takes2.q.val() & (!self.met_clear2.q.val()) & (!self.locks.was_set.val());
-        self.holder_is_owner.next = self.owners.read_data.val() == self.owner2.q.val();
-        if self.is_lock_second_before.q.val() & self.took4.q.val() {
-            self.holder_is_owner.next = self.is_owner_second_before.q.val();
-        }
-        if self.is_lock_before.q.val() & self.took3.q.val() {
-            self.holder_is_owner.next = self.is_owner_before.q.val();
-        }
-        self.took.next = self.takes_free_lock.val();
-        self.foreign.next = self.takes2.q.val()
-            & (self.met_clear2.q.val() | (self.locks.was_set.val() & (!self.holder_is_owner.val())));
-        self.was_set.next = self.locks.was_set.val();
-        self.owners.write_address.next = self.id2.q.val();
-        self.owners.write_data.next = self.owner2.q.val();
-        self.owners.write_enable.next = self.takes_free_lock.val();
+        // Clock 2: what the memories give, and what the visits before know better; the latest of them that took the lock counts.
         self.id3.d.next = self.id2.q.val();
         self.owner3.d.next = self.owner2.q.val();
-        self.took3.d.next = self.takes_free_lock.val();
-        self.took4.d.next = self.took3.q.val();
+        self.found_set.d.next = self.locks.was_set.val();
+        self.found_owner.d.next = self.owners.read_data.val();
+        self.takes3.d.next = self.takes2.q.val();
+        self.met_clear3.d.next = self.met_clear2.q.val();
+        self.was_set.next = self.locks.was_set.val();
+        self.takes_lock.next = self.takes3.q.val() & (!self.found_set.q.val());
+        self.was_taken1.next = self.is_lock_before1.q.val() & self.takes_lock.val();
+        self.was_taken2.next = self.is_lock_before2.q.val() & self.took4.q.val();
+        self.was_taken3.next = self.is_lock_before3.q.val() & self.took5.q.val();
+        self.is_told.d.next = self.was_taken1.val() | self.was_taken2.val() | self.was_taken3.val();
+        self.told_is_owner.d.next = self.is_owner_before3.q.val();
+        if self.was_taken2.val() {
+            self.told_is_owner.d.next = self.is_owner_before2.q.val();
+        }
+        if self.was_taken1.val() {
+            self.told_is_owner.d.next = self.is_owner_before1.q.val();
+        }
+
+        // Clock 3: the visit takes the lock, or compares itself with the holder.
+        self.id4.d.next = self.id3.q.val();
+        self.owner4.d.next = self.owner3.q.val();
+        self.took4.d.next = self.takes_lock.val();
+        self.took5.d.next = self.took4.q.val();
+        self.owners.write_address.next = self.id3.q.val();
+        self.owners.write_data.next = self.owner3.q.val();
+        self.owners.write_enable.next = self.takes_lock.val();
+        self.holder_is_owner.next = self.found_owner.q.val() == self.owner3.q.val();
+        if self.is_told.q.val() {
+            self.holder_is_owner.next = self.told_is_owner.q.val();
+        }
+        self.took.next = self.takes_lock.val();
+        self.foreign.next =
+            self.met_clear3.q.val() | (self.takes3.q.val() & self.found_set.q.val() & (!self.holder_is_owner.val()));
     }
 }

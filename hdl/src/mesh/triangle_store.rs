@@ -3,11 +3,11 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `write` | in | Write | a record or one link, written at this edge |
-//! | `read_id` | in | 15 | record to read |
+//! | `write`, `enables` | in | Write, WriteEnables | a record or one link, written at this edge; only `enables` says what of it |
+//! | `read_id`, `vertices_id`, `links_id` | in | 15 | record to read: its lock, its vertex and its link columns |
 //! | `read_locks`, `owner` | in | 1, 5 | take its lock at this edge, for this context |
 //! | `v0..v2`, `n0..n2` | out | 15 | its columns |
-//! | `took`, `foreign`, `was_set` | out | 1 | what became of that; see `LockStore` |
+//! | `was_set`, `took`, `foreign` | out | 1 | what became of that, the last two a clock after the columns; see `LockStore` |
 //! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear at this edge |
 //!
 //! 1. A write is seen by every read from the next edge on. A record that is read and written at the same edge comes out torn: every
@@ -15,25 +15,25 @@
 //!    only the holder writes.
 //! 2. A lock is taken whether or not the record is torn. A clear may meet anything at a lock.
 //!
-//! Latency: 2 clocks from `read_id` to the columns and what became of the lock.
+//! Latency: 2 clocks from `read_id` to the columns and `was_set`, 3 to `took` and `foreign`.
 //!
 //! Record 5 and then its link 1 alone; three reads of it, the second of which takes its lock:
 //! ```text
-//! write.valid     /^^^^^\_________________
-//! write.vertices  /^^\____________________
+//! vertex columns  /^^\____________________
+//! link column 1   /^^^^^\_________________
 //! write.n1          8  9  .  .  .  .  .  .
 //! read_id           .  .  5  5  5  .  .  .
 //! read_locks      _________/^^\___________
 //! v0                .  .  .  .  7  7  7  .
 //! n1                .  .  .  .  9  9  9  .
-//! took              .____________/^^\_____
+//! took              ._______________/^^\__
 //! was_set           .  .  .  .______/^^  .
 //! ```
 //!
 //! Source: Cline and Renka's triangle-based structure: three vertices and three neighbours for each triangle.
 
 use super::LockStore;
-use crate::engine::Write;
+use crate::engine::{Write, WriteEnables};
 use crate::leaf::BlockMemory;
 use rust_hdl_core::prelude::*;
 
@@ -44,8 +44,14 @@ pub struct TriangleStore {
     pub clock: Signal<In, Clock>,
     /// A record or one link to write.
     pub write: Signal<In, Write>,
-    /// Record to read.
+    /// What of it is written.
+    pub enables: Signal<In, WriteEnables>,
+    /// Record to read: its lock.
     pub read_id: Signal<In, Bits<15>>,
+    /// The same for the vertex columns, from a register of its own.
+    pub vertices_id: Signal<In, Bits<15>>,
+    /// The same for the link columns, from a register of its own.
+    pub links_id: Signal<In, Bits<15>>,
     /// Take its lock.
     pub read_locks: Signal<In, Bit>,
     /// The context that takes it.
@@ -97,11 +103,11 @@ impl Logic for TriangleStore {
     fn update(&mut self) {
         for i in 0..3 {
             self.vertices[i].clock.next = self.clock.val();
-            self.vertices[i].read_address.next = self.read_id.val();
+            self.vertices[i].read_address.next = self.vertices_id.val();
             self.vertices[i].write_address.next = self.write.val().id;
-            self.vertices[i].write_enable.next = self.write.val().valid & self.write.val().vertices;
+            self.vertices[i].write_enable.next = self.enables.val().vertices;
             self.links[i].clock.next = self.clock.val();
-            self.links[i].read_address.next = self.read_id.val();
+            self.links[i].read_address.next = self.links_id.val();
             self.links[i].write_address.next = self.write.val().id;
         }
         self.vertices[0].write_data.next = self.write.val().v0;
@@ -110,9 +116,9 @@ impl Logic for TriangleStore {
         self.links[0].write_data.next = self.write.val().n0;
         self.links[1].write_data.next = self.write.val().n1;
         self.links[2].write_data.next = self.write.val().n2;
-        self.links[0].write_enable.next = self.write.val().valid & self.write.val().link0;
-        self.links[1].write_enable.next = self.write.val().valid & self.write.val().link1;
-        self.links[2].write_enable.next = self.write.val().valid & self.write.val().link2;
+        self.links[0].write_enable.next = self.enables.val().link0;
+        self.links[1].write_enable.next = self.enables.val().link1;
+        self.links[2].write_enable.next = self.enables.val().link2;
         self.v0.next = self.vertices[0].read_data.val();
         self.v1.next = self.vertices[1].read_data.val();
         self.v2.next = self.vertices[2].read_data.val();

@@ -6,7 +6,7 @@
 //! | `r0`, `r1`, `r2`, `p` | in | 32 | points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned |
 //! | `p_before_r0`, `p_before_r1`, `p_before_r2` | out | 1 | `p` comes before that vertex: by `x`, then by `y` |
 //! | `p_equals_r0`, `p_equals_r1`, `p_equals_r2` | out | 1 | `p` is that vertex |
-//! | `r0_before_r1`, `r0_before_r2` | out | 1 | `r0` comes before that vertex |
+//! | `r0_before_r1`, `r0_before_r2`, `r1_before_r2` | out | 1 | the one vertex comes before the other |
 //!
 //! 1. New points are taken at every edge. There is no reset.
 //!
@@ -47,6 +47,8 @@ pub struct VertexOrder {
     pub r0_before_r1: Signal<Out, Bit>,
     /// `r0` comes before `r2`.
     pub r0_before_r2: Signal<Out, Bit>,
+    /// `r1` comes before `r2`.
+    pub r1_before_r2: Signal<Out, Bit>,
     key_r0: SortKey,
     key_r1: SortKey,
     key_r2: SortKey,
@@ -59,6 +61,7 @@ pub struct VertexOrder {
     delay_equals_r2: FlagDelay,
     delay_r0_before_r1: FlagDelay,
     delay_r0_before_r2: FlagDelay,
+    delay_r1_before_r2: FlagDelay,
 }
 
 impl VertexOrder {
@@ -82,6 +85,7 @@ impl VertexOrder {
             p_equals_r2: Signal::default(),
             r0_before_r1: Signal::default(),
             r0_before_r2: Signal::default(),
+            r1_before_r2: Signal::default(),
             key_r0: SortKey::default(),
             key_r1: SortKey::default(),
             key_r2: SortKey::default(),
@@ -94,6 +98,7 @@ impl VertexOrder {
             delay_equals_r2: delay(),
             delay_r0_before_r1: delay(),
             delay_r0_before_r2: delay(),
+            delay_r1_before_r2: delay(),
         }
     }
 }
@@ -103,7 +108,7 @@ impl Logic for VertexOrder {
     fn update(&mut self) {
         clock!(self, clock, delay_before_r0, delay_before_r1, delay_before_r2);
         clock!(self, clock, delay_equals_r0, delay_equals_r1, delay_equals_r2);
-        clock!(self, clock, delay_r0_before_r1, delay_r0_before_r2);
+        clock!(self, clock, delay_r0_before_r1, delay_r0_before_r2, delay_r1_before_r2);
         self.key_r0.point.next = self.r0.val();
         self.key_r1.point.next = self.r1.val();
         self.key_r2.point.next = self.r2.val();
@@ -116,6 +121,7 @@ impl Logic for VertexOrder {
         self.delay_equals_r2.flag_in.next = self.p.val() == self.r2.val();
         self.delay_r0_before_r1.flag_in.next = self.key_r0.key.val() < self.key_r1.key.val();
         self.delay_r0_before_r2.flag_in.next = self.key_r0.key.val() < self.key_r2.key.val();
+        self.delay_r1_before_r2.flag_in.next = self.key_r1.key.val() < self.key_r2.key.val();
         self.p_before_r0.next = self.delay_before_r0.flag_out.val();
         self.p_before_r1.next = self.delay_before_r1.flag_out.val();
         self.p_before_r2.next = self.delay_before_r2.flag_out.val();
@@ -124,6 +130,7 @@ impl Logic for VertexOrder {
         self.p_equals_r2.next = self.delay_equals_r2.flag_out.val();
         self.r0_before_r1.next = self.delay_r0_before_r1.flag_out.val();
         self.r0_before_r2.next = self.delay_r0_before_r2.flag_out.val();
+        self.r1_before_r2.next = self.delay_r1_before_r2.flag_out.val();
     }
 }
 

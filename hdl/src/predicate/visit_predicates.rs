@@ -11,7 +11,7 @@
 //! | `incircle_positive`, `incircle_zero` | out | 1 | sign of `I` |
 //! | `p_before_r0`, `p_before_r1`, `p_before_r2` | out | 1 | `p` comes before that vertex: by `x`, then by `y` |
 //! | `p_equals_r0`, `p_equals_r1`, `p_equals_r2` | out | 1 | `p` is that vertex |
-//! | `r0_before_r1`, `r0_before_r2` | out | 1 | `r0` comes before that vertex |
+//! | `r0_before_r1`, `r0_before_r2`, `r1_before_r2` | out | 1 | the one vertex comes before the other |
 //!
 //! 1. Inputs come straight from registers. New ones are taken at every edge; there is no reset.
 //! 2. `E_k = orient2d(r[k+1], r[k+2], p)`, indices modulo 3: edge `k` is opposite vertex `k`.
@@ -81,6 +81,8 @@ pub struct VisitPredicates {
     pub r0_before_r1: Signal<Out, Bit>,
     /// `r0` comes before `r2`.
     pub r0_before_r2: Signal<Out, Bit>,
+    /// `r1` comes before `r2`.
+    pub r1_before_r2: Signal<Out, Bit>,
     p_to_r0: PointDifference,
     p_to_r1: PointDifference,
     p_to_r2: PointDifference,
@@ -137,6 +139,7 @@ impl Default for VisitPredicates {
             p_equals_r2: Signal::default(),
             r0_before_r1: Signal::default(),
             r0_before_r2: Signal::default(),
+            r1_before_r2: Signal::default(),
             p_to_r0: PointDifference::default(),
             p_to_r1: PointDifference::default(),
             p_to_r2: PointDifference::default(),
@@ -243,5 +246,6 @@ impl Logic for VisitPredicates {
         self.p_equals_r2.next = self.order.p_equals_r2.val();
         self.r0_before_r1.next = self.order.r0_before_r1.val();
         self.r0_before_r2.next = self.order.r0_before_r2.val();
+        self.r1_before_r2.next = self.order.r1_before_r2.val();
     }
 }

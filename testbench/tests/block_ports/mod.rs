@@ -3,7 +3,9 @@
 
 #![allow(dead_code)] // Every test that includes this uses a part of it.
 
-use incircle_hdl::engine::{Attempt, Bundle, CommitJob, Entry, ReleaseJob, Token, Turned, Verdict, Write};
+use incircle_hdl::engine::{
+    Attempt, Bundle, CommitJob, Entry, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
+};
 use incircle_hdl::leaf::Unpacked;
 use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
@@ -54,7 +56,7 @@ macro_rules! packed_values {
         }
     )*};
 }
-packed_values!(Token, Bundle, Turned, Attempt, CommitJob, ReleaseJob, Verdict, Entry, Write);
+packed_values!(Token, Bundle, Turned, Attempt, CommitJob, ReleaseJob, Verdict, Entry, Write, WriteEnables);
 
 /// A block whose ports are reached by name.
 pub trait NamedPorts: Block {

@@ -4,6 +4,15 @@
 
 use crate::structures::{pack, TURNED, VERDICT};
 
+/// A verdict as outputs: conflict, what holds however the record is turned, what holds only where it is not.
+pub const VERDICT_PARTS: [&str; 3] = ["verdict[0+:1]", "verdict[1+:2]", "verdict[3+:17]"];
+
+/// Those parts, nothing where they are arbitrary: ties of corners that fall together, and what no turned record is visited for.
+pub fn verdict_parts(verdict: u128, slot: usize, r: [Point; 3]) -> [Option<u128>; 3] {
+    let differ = r[0] != r[1] && r[1] != r[2] && r[2] != r[0];
+    [differ.then_some(verdict & 1), Some(verdict >> 1 & 3), (slot == 0).then_some(verdict >> 3)]
+}
+
 /// A point; compared by `x`, then by `y`.
 pub type Point = (i64, i64);
 
@@ -92,8 +101,14 @@ impl Record {
         pack(TURNED, fields)
     }
 
-    /// What a visit of this turned record finds out about `p`; `r` are its corners, any word for the infinite one.
-    pub fn verdict(&self, r: [Point; 3], p: Point, infinite: u64) -> u128 {
+    /// What a visit of this record, as stored, finds out about `p` if it turns it by `slot`; `r` are its corners, any word for the infinite
+    /// one.
+    pub fn verdict(&self, slot: usize, mut r: [Point; 3], p: Point, infinite: u64) -> u128 {
+        r.rotate_left(slot);
+        self.turned(slot).verdict_turned(r, p, infinite)
+    }
+
+    fn verdict_turned(&self, r: [Point; 3], p: Point, infinite: u64) -> u128 {
         let side = [0, 1, 2].map(|k| orientation(r[(k + 1) % 3], r[(k + 2) % 3], p));
         let (conflict, located, falls_onto_corner, next);
         if let Some(k) = self.v.iter().position(|vertex| *vertex == infinite) {
