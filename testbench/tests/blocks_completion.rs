@@ -5,7 +5,8 @@ mod block_ports;
 mod stepper;
 
 use incircle_cli::generate::SplitMix64;
-use incircle_hdl::engine::{AttemptLists, AttemptStep, NextVisits, VisitCase};
+use incircle_hdl::engine::{AttemptLists, AttemptStep, AttemptStore, NextVisits, VisitCase};
+use incircle_protocol::SMALL;
 use stepper::bundles::{commit_job, pack, release_job, turned, Edge, Finding, LockFinding, Visit};
 use stepper::{named_ports, Stepper};
 
@@ -34,8 +35,14 @@ named_ports!(
 );
 named_ports!(
     AttemptStep,
-    [attempt, f_entry, took, is_test, opens, splits, repeats, gives_up, overflows],
-    [after, is_over, succeeds, finds_inner]
+    [attempt, is_last, edge_was_passed, f_entry, took, is_test, opens, splits, repeats, gives_up, overflows],
+    [after, is_over, succeeds, finds_inner, passes_root]
+);
+named_ports!(
+    AttemptStore,
+    [ring, early_owner, early_entry, owner, f_entry, opens, splits, repeats, writes, passes_root, after],
+    [attempt, is_last, is_full, edge_was_passed],
+    clock
 );
 named_ports!(NextVisits, [token, turned, walk_next, entry, repeats, walks_on, locates, opens, splits], [push, bundle]);
 named_ports!(
@@ -276,6 +283,8 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         let took = flip(&mut random);
         block.set("attempt", before.packed());
         block.set("f_entry", y);
+        block.set("is_last", before.outstanding == 1);
+        block.set("edge_was_passed", before.half_open >> y & 1 == 1);
         for (port, value) in [
             ("took", took),
             ("is_test", is_test),
@@ -289,6 +298,7 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         }
         let mut after = before;
         let mut finds_inner = false;
+        let passes_root = splits && y == 0 && before.half_open & 3 == 1;
         if opens {
             after = State { outstanding: 3, count: 3, logged: 1, ..State::default() };
         } else {
@@ -307,6 +317,7 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         block.expect("is_over", is_over);
         block.expect("succeeds", is_over && !after.drains);
         block.expect("finds_inner", finds_inner);
+        block.expect("passes_root", passes_root);
         // What is neither a test nor opens changes no state.
         if !no_test {
             block.expect("after", after.packed());
@@ -315,6 +326,70 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         ends[usize::from(after.drains)] += usize::from(is_over);
     }
     assert!(inners > 200 && ends[0] > 200 && ends[1] > 200, "{inners} {ends:?}");
+}
+
+#[test]
+fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
+    let mut random = SplitMix64::new(54);
+    let mut block = Stepper::new("attempt_store_small", AttemptStore::new(SMALL), 2);
+    let ring = u64::from(SMALL.ring);
+    // Whatever the memory holds at first, these are written before they are read.
+    let mut states = [(); 4].map(|()| None::<State>);
+    let (mut owner, mut f_entry, mut seen) = (0, 0, [0; 4]);
+    block.set("ring", ring);
+    for _ in 0..4 * ROUNDS {
+        let (early_owner, early_entry) = (random.below(4), random.below([2, ring][random.below(2) as usize]));
+        for (port, value) in
+            [("early_owner", early_owner), ("early_entry", early_entry), ("owner", owner), ("f_entry", f_entry)]
+        {
+            block.set(port, value);
+        }
+        let before = states[owner as usize];
+        let opens = random.below(12) == 0 || before.is_none_or(|state| state.outstanding == 0);
+        let splits = !opens && flip(&mut random) && before.is_some_and(|state| state.count < ring);
+        let repeats = !opens && !splits && random.below(4) == 0;
+        let writes = opens || splits || random.below(4) > 0;
+        let mut after = before.unwrap_or_default();
+        let passes_root = splits && f_entry == 0 && after.half_open & 3 == 1;
+        if opens {
+            after = State { outstanding: 3, count: 3, logged: 1, ..State::default() };
+        } else {
+            after.outstanding += if splits { 2 } else { u64::from(repeats) };
+            after.outstanding = after.outstanding.saturating_sub(1);
+            after.count += u64::from(splits);
+            after.logged = random.below(64);
+            if splits {
+                after.passes(f_entry);
+            }
+        }
+        block.set("after", after.packed());
+        for (port, value) in [
+            ("opens", opens),
+            ("splits", splits),
+            ("repeats", repeats),
+            ("writes", writes),
+            ("passes_root", passes_root),
+        ] {
+            block.set(port, value);
+        }
+        block.settle();
+        if let Some(state) = before {
+            let flags = [state.outstanding == 1, state.count == ring, state.half_open >> f_entry & 1 == 1];
+            block.expect("attempt", state.packed());
+            for ((port, flag), seen) in ["is_last", "is_full", "edge_was_passed"].into_iter().zip(flags).zip(&mut seen)
+            {
+                block.expect(port, flag);
+                *seen += usize::from(flag);
+            }
+            seen[3] += usize::from(writes && early_owner == owner);
+        }
+        block.edge();
+        if writes {
+            states[owner as usize] = Some(after);
+        }
+        (owner, f_entry) = (early_owner, early_entry);
+    }
+    assert!(seen.iter().all(|times| *times > 200), "{seen:?}");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod attempt_lists;
 mod attempt_step;
+mod attempt_store;
 mod attempts;
 mod commit;
 mod commit_path;
@@ -47,6 +48,7 @@ mod write_request;
 
 pub use attempt_lists::AttemptLists;
 pub use attempt_step::AttemptStep;
+pub use attempt_store::AttemptStore;
 pub use attempts::Attempts;
 pub use commit::{Commit, CommitState};
 pub use commit_path::CommitPath;
