@@ -338,7 +338,8 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
     let (mut owner, mut f_entry, mut seen) = (0, 0, [0; 4]);
     block.set("ring", ring);
     for _ in 0..4 * ROUNDS {
-        let (early_owner, early_entry) = (random.below(4), random.below([2, ring][random.below(2) as usize]));
+        let entries = [2, ring][random.below(2) as usize];
+        let (early_owner, early_entry) = (random.below(4), random.below(entries));
         for (port, value) in
             [("early_owner", early_owner), ("early_entry", early_entry), ("owner", owner), ("f_entry", f_entry)]
         {

@@ -100,7 +100,7 @@ pub struct CommitPath {
     list_owner: DFF<Bits<5>>,
     edge_comes: DFF<Bit>,
     edge_place: DFF<Bits<6>>,
-    edge: DFF<Entry>,
+    found_edge: DFF<Entry>,
     inner_comes: DFF<Bit>,
     inner_at: DFF<Bits<6>>,
     inner: DFF<Bits<15>>,
@@ -124,13 +124,13 @@ impl CommitPath {
 impl Logic for CommitPath {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, list_owner, edge_comes, edge_place, edge, inner_comes, inner_at, inner);
+        dff_setup!(self, clock, list_owner, edge_comes, edge_place, found_edge, inner_comes, inner_at, inner);
         dff_setup!(self, clock, lock_comes, lock_at, lock);
         clock!(self, clock, rings, commit, lock_release);
         self.list_owner.d.next = self.owner.val();
         self.edge_comes.d.next = self.entry_enable.val();
         self.edge_place.d.next = self.entry_place.val();
-        self.edge.d.next = self.entry.val();
+        self.found_edge.d.next = self.entry.val();
         self.inner_comes.d.next = self.inner_enable.val();
         self.inner_at.d.next = self.inner_place.val();
         self.inner.d.next = self.inner_id.val();
@@ -145,7 +145,7 @@ impl Logic for CommitPath {
         self.rings.entry_enable.next = self.edge_comes.q.val();
         self.rings.entry_owner.next = self.list_owner.q.val();
         self.rings.entry_place.next = self.edge_place.q.val();
-        self.rings.entry.next = self.edge.q.val();
+        self.rings.entry.next = self.found_edge.q.val();
         self.rings.job_enable.next = self.commit_enable.val();
         self.rings.job.next = self.commit_job.val();
         self.rings.takes.next = self.commit.takes.val();
