@@ -50,10 +50,9 @@
 //! Source: Bowyer and Watson's cavity; the ring that is split in place is ours.
 
 use super::{
-    context_bits, AttemptLists, AttemptStep, AttemptStore, Bundle, CommitJob, Entry, NextVisits, ReleaseJob, Token,
+    AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Bundle, CommitJob, Entry, NextVisits, ReleaseJob, Token,
     Turned, Verdict, VisitCase,
 };
-use crate::leaf::LutMemory;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
@@ -159,8 +158,7 @@ pub struct Attempts {
     /// Triangles of a finished ring.
     pub cavity_triangles: Signal<Out, Bits<7>>,
     store: AttemptStore,
-    points: LutMemory<5, 15>,
-    times: LutMemory<5, 22>,
+    points: AttemptPoints,
     meaning: VisitCase,
     step: AttemptStep,
     visits: NextVisits,
@@ -175,20 +173,14 @@ pub struct Attempts {
 impl Attempts {
     /// The attempts of a configuration.
     pub fn new(config: Config) -> Self {
-        let bits = context_bits(config);
-        Self {
-            store: AttemptStore::new(config),
-            points: LutMemory::new(bits, 15),
-            times: LutMemory::new(bits, 22),
-            ..Self::default()
-        }
+        Self { store: AttemptStore::new(config), points: AttemptPoints::new(config), ..Self::default() }
     }
 }
 
 impl Logic for Attempts {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, store, points, times);
+        clock!(self, clock, store, points);
         self.two.next = 2.into();
         self.context_index.next = self.token.val().owner;
         self.owner.next = self.token.val().owner;
@@ -200,14 +192,11 @@ impl Logic for Attempts {
         self.store.owner.next = self.token.val().owner;
         self.store.f_entry.next = self.token.val().f_entry;
         self.count.next = self.store.attempt.val().count;
-        self.points.read_address.next = self.token.val().owner;
-        self.times.read_address.next = self.token.val().owner;
-        self.points.write_address.next = self.taker.val();
-        self.points.write_data.next = self.taken_id.val();
-        self.points.write_enable.next = self.takes.val();
-        self.times.write_address.next = self.taker.val();
-        self.times.write_data.next = self.now.val();
-        self.times.write_enable.next = self.takes.val();
+        self.points.owner.next = self.token.val().owner;
+        self.points.takes.next = self.takes.val();
+        self.points.taker.next = self.taker.val();
+        self.points.taken_id.next = self.taken_id.val();
+        self.points.now.next = self.now.val();
 
         // What the visit means.
         self.meaning.done.next = self.done.val();
@@ -280,8 +269,8 @@ impl Logic for Attempts {
         self.lists.turned.next = self.turned.val();
         self.lists.attempt.next = self.store.attempt.val();
         self.lists.after.next = self.step.after.val();
-        self.lists.p.next = self.points.read_data.val();
-        self.lists.since.next = self.times.read_data.val();
+        self.lists.p.next = self.points.p.val();
+        self.lists.since.next = self.points.since.val();
         self.lists.is_root.next = self.meaning.is_root.val();
         self.lists.settles.next = self.meaning.settles.val();
         self.lists.finds_inner.next = self.step.finds_inner.val();

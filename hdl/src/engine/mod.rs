@@ -1,6 +1,7 @@
 //! The insertion engine: visits, contexts, cavities, commits, and what an insertion goes through.
 
 mod attempt_lists;
+mod attempt_points;
 mod attempt_step;
 mod attempt_store;
 mod attempts;
@@ -47,6 +48,7 @@ mod write_port;
 mod write_request;
 
 pub use attempt_lists::AttemptLists;
+pub use attempt_points::AttemptPoints;
 pub use attempt_step::AttemptStep;
 pub use attempt_store::AttemptStore;
 pub use attempts::Attempts;
