@@ -18,7 +18,23 @@ use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
     Attempts,
-    [ring, done, token, turned, verdict, seeded, busy, waiter_valid, waiter, takes, taker, taken_id, now],
+    [
+        ring,
+        done,
+        token,
+        turned,
+        verdict,
+        early_owner,
+        early_entry,
+        seeded,
+        busy,
+        waiter_valid,
+        waiter,
+        takes,
+        taker,
+        taken_id,
+        now
+    ],
     [
         push,
         bundle,
@@ -278,19 +294,39 @@ impl Rig {
         }
     }
 
-    /// Some visit that is out, of some context.
+    /// Some visit that is out, of some context: it completes in the next clock.
     fn any_visit(&mut self) -> Option<Visit> {
         let life = self.random.below(CONTEXTS) as usize;
         let place = self.random.below(self.lives[life].context.out.len() as u64) as usize;
-        let is_out = place < self.lives[life].context.out.len();
-        is_out.then(|| self.lives[life].context.out.swap_remove(place))
+        self.lives[life].context.out.get(place).copied()
+    }
+
+    /// Says which visit completes in the next clock; anything if none does.
+    fn announce(&mut self, visit: Option<Visit>) {
+        let anything = Visit { owner: self.random.below(CONTEXTS), f_entry: self.random.below(64), ..Visit::look(0) };
+        let visit = visit.unwrap_or(anything);
+        self.block.set("early_owner", visit.owner);
+        self.block.set("early_entry", visit.f_entry);
+    }
+
+    /// The visit completes now.
+    fn complete(&mut self, visit: Visit) {
+        let out = &mut self.lives[visit.owner as usize].context.out;
+        let place = out.iter().position(|other| *other == visit).expect("the visit is out");
+        out.swap_remove(place);
     }
 
     fn run(&mut self, clocks: usize) {
+        let mut visit = None;
         for _ in 0..clocks {
-            let visit = self.any_visit();
+            if let Some(visit) = visit {
+                self.complete(visit);
+            }
+            let upcoming = self.any_visit();
+            self.announce(upcoming);
             self.start();
             self.clock(visit);
+            visit = upcoming;
         }
     }
 }
@@ -385,11 +421,13 @@ fn attempts_show_the_wave_of_their_header() {
     let root = rig.targets[target].places[0];
     rig.lives[1].context.out.push(Visit { owner: 1, ..Visit::look(root) });
     let mut wave = Wave::default();
+    // The visits in their order; the pipeline between is left out.
+    let completes = |clock: usize| clock % 2 == 1 || clock > 4;
     for clock in 0..12 {
-        // The visits in their order; the pipeline between is left out.
-        let out = &mut rig.lives[1].context.out;
-        let visit = (clock % 2 == 1 || clock > 4).then(|| out.first().copied()).flatten();
-        out.drain(..usize::from(visit.is_some()));
+        let visit = rig.lives[1].context.out.first().copied().filter(|_| completes(clock));
+        rig.lives[1].context.out.drain(..usize::from(visit.is_some()));
+        let upcoming = rig.lives[1].context.out.first().copied().filter(|_| completes(clock + 1));
+        rig.announce(upcoming);
         let seen = rig.clock(visit);
         let nothing = Outcome::default();
         let outcome = seen.as_ref().map_or(&nothing, |(_, outcome)| outcome);

@@ -1,12 +1,14 @@
 //! What a visit that completes means, and what follows from it: Rust, Verilog and a statement of each rule agree, over all inputs
 //! where these are single bits, and over random ones.
 
+mod attempt_state;
 mod block_ports;
 mod stepper;
 
+use attempt_state::State;
 use incircle_cli::generate::SplitMix64;
-use incircle_hdl::engine::{AttemptLists, AttemptStep, NextVisits, VisitCase};
-use stepper::bundles::{commit_job, pack, release_job, turned, Edge, Finding, LockFinding, Visit};
+use incircle_hdl::engine::{AttemptLists, NextVisits, VisitCase};
+use stepper::bundles::{commit_job, release_job, turned, Edge, Finding, LockFinding, Visit};
 use stepper::{named_ports, Stepper};
 
 named_ports!(
@@ -31,11 +33,6 @@ named_ports!(
         walk_duplicate,
         root_duplicate
     ]
-);
-named_ports!(
-    AttemptStep,
-    [attempt, f_entry, took, is_test, opens, splits, repeats, gives_up, overflows],
-    [after, is_over, succeeds, finds_inner]
 );
 named_ports!(NextVisits, [token, turned, walk_next, entry, repeats, walks_on, locates, opens, splits], [push, bundle]);
 named_ports!(
@@ -208,113 +205,6 @@ fn visit_case_decides_every_case_by_its_rules() {
         }
     }
     assert!(seen.iter().all(|seen| *seen > 0), "{seen:?}");
-}
-
-/// An attempt's state.
-#[derive(Clone, Copy, Debug, Default)]
-struct State {
-    drains: bool,
-    outstanding: u64,
-    count: u64,
-    inners: u64,
-    logged: u64,
-    half_open: u64,
-}
-
-impl State {
-    fn random(random: &mut SplitMix64) -> Self {
-        let most = [1, 3, 126][random.below(3) as usize];
-        Self {
-            drains: random.below(4) == 0,
-            outstanding: 1 + random.below(most),
-            count: random.below(64),
-            inners: random.below(64),
-            logged: random.below(127),
-            half_open: random.next_u64(),
-        }
-    }
-
-    /// As an `Attempt`.
-    fn packed(self) -> u128 {
-        pack(&[
-            (self.drains.into(), 1),
-            (self.outstanding, 7),
-            (self.count, 7),
-            (self.inners, 7),
-            (self.logged, 7),
-            (self.half_open & 0xffff_ffff, 32),
-            (self.half_open >> 32, 32),
-        ])
-    }
-
-    /// An edge of entry `y`'s triangle is passed: whether it was its last.
-    fn passes(&mut self, y: u64) -> bool {
-        // The root brings three edges, all other triangles two.
-        let places: &[u64] = if y == 0 { &[0, 1] } else { &[y] };
-        match places.iter().find(|place| self.half_open >> **place & 1 == 0) {
-            Some(place) => {
-                self.half_open |= 1 << place;
-                false
-            }
-            None => true,
-        }
-    }
-}
-
-#[test]
-fn attempt_step_counts_visits_entries_triangles_and_locks() {
-    let mut random = SplitMix64::new(51);
-    let mut block = Stepper::new("attempt_step", AttemptStep::default(), 1);
-    let (mut inners, mut ends) = (0, [0; 2]);
-    for _ in 0..ROUNDS {
-        let before = State::random(&mut random);
-        let entries = [2, 64][random.below(2) as usize];
-        let y = random.below(entries);
-        let case = random.below(7);
-        let [no_test, opens, splits, repeats, gives_up, overflows] = [0, 1, 2, 3, 4, 5].map(|code| case == code);
-        let is_test = !no_test && !opens;
-        let took = flip(&mut random);
-        block.set("attempt", before.packed());
-        block.set("f_entry", y);
-        for (port, value) in [
-            ("took", took),
-            ("is_test", is_test),
-            ("opens", opens),
-            ("splits", splits),
-            ("repeats", repeats),
-            ("gives_up", gives_up),
-            ("overflows", overflows),
-        ] {
-            block.set(port, value);
-        }
-        let mut after = before;
-        let mut finds_inner = false;
-        if opens {
-            after = State { outstanding: 3, count: 3, logged: 1, ..State::default() };
-        } else {
-            after.drains |= gives_up || overflows;
-            after.logged += u64::from(took);
-            after.outstanding -= 1;
-            after.outstanding += if splits { 2 } else { u64::from(repeats) };
-            if splits {
-                after.count += 1;
-                finds_inner = after.passes(y);
-                after.inners += u64::from(finds_inner);
-            }
-        }
-        let is_over = is_test && after.outstanding == 0;
-        block.settle();
-        block.expect("is_over", is_over);
-        block.expect("succeeds", is_over && !after.drains);
-        block.expect("finds_inner", finds_inner);
-        // What is neither a test nor opens changes no state.
-        if !no_test {
-            block.expect("after", after.packed());
-        }
-        inners += usize::from(finds_inner);
-        ends[usize::from(after.drains)] += usize::from(is_over);
-    }
-    assert!(inners > 200 && ends[0] > 200 && ends[1] > 200, "{inners} {ends:?}");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use incircle_hdl::engine::{NextPoint, Starter};
 use incircle_protocol::{Config, FIRST_ROUND, LARGE, MAX_CONTEXTS, SMALL};
 use stepper::{named_ports, Cell, Stepper, Wave};
 
-named_ports!(NextPoint, [turn, has_begun, id, contexts], [next_id]);
+named_ports!(NextPoint, [turn, has_begun, planned, taken, contexts], [next_id, after_taken]);
 named_ports!(
     Starter,
     [
@@ -58,24 +58,26 @@ fn next_point_deals_every_vertex_to_one_context() {
         let mut owners = vec![0; 400];
         for turn in 0..contexts {
             block.set("turn", turn);
-            let mut last = None;
-            for vertex in dealt(turn, contexts).take_while(|vertex| *vertex < 400) {
-                // Before the first point the last one is anything.
-                block.set("has_begun", last.is_some());
-                block.set("id", last.unwrap_or(vertex * 77));
+            let mut planned = None;
+            let vertices: Vec<u64> = dealt(turn, contexts).take_while(|vertex| *vertex < 450).collect();
+            for pair in vertices.windows(2).filter(|pair| pair[0] < 400) {
+                // Before the first point the plan is anything.
+                block.set("has_begun", planned.is_some());
+                block.set("planned", planned.unwrap_or(pair[0] * 77));
+                block.set("taken", pair[0]);
                 block.settle();
-                block.expect("next_id", vertex);
-                owners[vertex as usize] += 1;
-                last = Some(vertex);
+                block.expect("next_id", pair[0]);
+                block.expect("after_taken", pair[1]);
+                owners[pair[0] as usize] += 1;
+                planned = Some(pair[1]);
             }
         }
         assert_eq!(owners[..2], [0; 2]);
         assert!(owners[2..].iter().all(|owners| *owners == 1), "{contexts} contexts: {owners:?}");
-        block.set("has_begun", true);
         for id in (1 << 14) - 40..1 << 14 {
-            block.set("id", id as u64);
+            block.set("taken", id as u64);
             block.settle();
-            block.expect("next_id", id as u64 + contexts);
+            block.expect("after_taken", id as u64 + contexts);
         }
     }
 }

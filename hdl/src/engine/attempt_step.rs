@@ -3,6 +3,7 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `attempt` | in | Attempt | the state before |
+//! | `is_last`, `edge_was_passed` | in | 1 | of that state: one visit is out; `half_open` at `f_entry` |
 //! | `f_entry` | in | 6 | the entry that names the cavity triangle the test came from |
 //! | `took` | in | 1 | the visit took a lock |
 //! | `is_test`, `opens`, `splits`, `repeats`, `gives_up`, `overflows` | in | 1 | from `VisitCase` |
@@ -10,6 +11,7 @@
 //! | `is_over` | out | 1 | no visit of the attempt is out any more |
 //! | `succeeds` | out | 1 | and it has not failed: the ring is finished |
 //! | `finds_inner` | out | 1 | the cavity triangle behind the edge has no boundary edge left |
+//! | `passes_root` | out | 1 | the second edge of the root is passed |
 //!
 //! 1. An attempt begins with the three tests of the root's neighbours and its one lock.
 //! 2. A test is one visit less; if it passes through its edge, two more and one more entry.
@@ -25,6 +27,10 @@ use rust_hdl_core::prelude::*;
 pub struct AttemptStep {
     /// The state before.
     pub attempt: Signal<In, Attempt>,
+    /// One visit is out.
+    pub is_last: Signal<In, Bit>,
+    /// One edge of the cavity triangle has been passed.
+    pub edge_was_passed: Signal<In, Bit>,
     /// Entry of the cavity triangle.
     pub f_entry: Signal<In, Bits<6>>,
     /// A lock was taken.
@@ -49,10 +55,11 @@ pub struct AttemptStep {
     pub succeeds: Signal<Out, Bit>,
     /// An inner triangle.
     pub finds_inner: Signal<Out, Bit>,
+    /// The second edge of the root is passed.
+    pub passes_root: Signal<Out, Bit>,
     fails: Signal<Local, Bit>,
-    is_last: Signal<Local, Bit>,
     ends_here: Signal<Local, Bit>,
-    edge_was_passed: Signal<Local, Bit>,
+    passes_second: Signal<Local, Bit>,
     root_keeps_an_edge: Signal<Local, Bit>,
     passes_last_edge: Signal<Local, Bit>,
     half_open: Signal<Local, Bits<64>>,
@@ -78,16 +85,16 @@ impl Logic for AttemptStep {
         self.entry.next = self.f_entry.val();
 
         self.fails.next = self.attempt.val().drains | self.gives_up.val() | self.overflows.val();
-        self.is_last.next = self.outstanding.val() == self.one.val();
         self.ends_here.next = self.is_test.val() & self.is_last.val() & (!self.splits.val()) & (!self.repeats.val());
         self.is_over.next = self.ends_here.val();
         self.succeeds.next = self.ends_here.val() & (!self.fails.val());
 
         // Does the cavity triangle behind the edge keep another one?
-        self.edge_was_passed.next = self.half_open.val().get_bit(self.entry.val().index());
         self.root_keeps_an_edge.next = (self.entry.val() == self.root_entry.val()) & (!self.half_open.val().get_bit(1));
         self.passes_last_edge.next = self.splits.val() & self.edge_was_passed.val() & (!self.root_keeps_an_edge.val());
         self.finds_inner.next = self.passes_last_edge.val();
+        self.passes_second.next = self.splits.val() & self.edge_was_passed.val() & self.root_keeps_an_edge.val();
+        self.passes_root.next = self.passes_second.val();
 
         self.after.next = self.attempt.val();
         self.after.next.drains = self.fails.val();
@@ -102,7 +109,7 @@ impl Logic for AttemptStep {
             self.after.next.outstanding = self.outstanding.val() + self.one.val();
             self.after.next.count = self.count.val() + self.one.val();
             self.after.next.half_open = self.half_open.val().replace_bit(self.entry.val().index(), true);
-            if self.edge_was_passed.val() & self.root_keeps_an_edge.val() {
+            if self.passes_second.val() {
                 self.after.next.half_open = self.half_open.val().replace_bit(1, true);
             }
         }

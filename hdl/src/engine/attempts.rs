@@ -5,6 +5,7 @@
 //! | `clock` | in | 1 | everything happens at its rising edge |
 //! | `ring` | in | 7 | entries a boundary list holds, a constant |
 //! | `done`, `token`, `turned`, `verdict` | in | | a visit completes that is no insertion alone's |
+//! | `early_owner`, `early_entry` | in | 5, 6 | the visit that completes in the next clock: its context, and the entry that names its `f` |
 //! | `seeded` | in | 1 | the first triangle stands |
 //! | `busy`, `waiter_valid`, `waiter` | in | 24, 1, 5 | contexts with a commit or release due; who holds the waiting token |
 //! | `takes`, `taker`, `taken_id`, `now` | in | 1, 5, 15, 22 | a context takes a point at this edge; the time |
@@ -22,8 +23,8 @@
 //! | `walk_visit`, `root_visit`, `test`, `revisit`, `gives_up`, `retries` | out | 1 | events for the counters |
 //! | `cavity_triangles` | out | 7 | triangles of the ring that is finished |
 //!
-//! 1. A visit changes the state of its own context only, which is read, changed and written back in one clock; so visits of all
-//!    contexts complete in any order, one a clock.
+//! 1. A visit changes the state of its own context only, which is read a clock ahead, and changed and written back in one clock; so
+//!    visits of all contexts complete in any order, one a clock.
 //! 2. A failed attempt drains: its visits run out, locks that they take are logged, and then all its locks are released.
 //! 3. All outputs belong to the visit of this clock.
 //!
@@ -49,10 +50,9 @@
 //! Source: Bowyer and Watson's cavity; the ring that is split in place is ours.
 
 use super::{
-    context_bits, ring_bits, Attempt, AttemptLists, AttemptStep, Bundle, CommitJob, Entry, NextVisits, ReleaseJob,
-    Token, Turned, Verdict, VisitCase, ATTEMPT_BITS,
+    AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Bundle, CommitJob, Entry, NextVisits, ReleaseJob, Token,
+    Turned, Verdict, VisitCase,
 };
-use crate::leaf::{LutMemory, Unpack};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
@@ -71,6 +71,10 @@ pub struct Attempts {
     pub turned: Signal<In, Turned>,
     /// What it found out.
     pub verdict: Signal<In, Verdict>,
+    /// The context whose visit completes in the next clock.
+    pub early_owner: Signal<In, Bits<5>>,
+    /// The entry that names the visit's `f`.
+    pub early_entry: Signal<In, Bits<6>>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
     /// Contexts with a commit or release due.
@@ -153,15 +157,12 @@ pub struct Attempts {
     pub retries: Signal<Out, Bit>,
     /// Triangles of a finished ring.
     pub cavity_triangles: Signal<Out, Bits<7>>,
-    states: LutMemory<5, ATTEMPT_BITS>,
-    state: Unpack<Attempt, ATTEMPT_BITS>,
-    points: LutMemory<5, 15>,
-    times: LutMemory<5, 22>,
+    store: AttemptStore,
+    points: AttemptPoints,
     meaning: VisitCase,
     step: AttemptStep,
     visits: NextVisits,
     lists: AttemptLists,
-    after_bits: Signal<Local, Bits<ATTEMPT_BITS>>,
     context_index: Signal<Local, Bits<5>>,
     fails: Signal<Local, Bit>,
     stops_at_root: Signal<Local, Bit>,
@@ -172,37 +173,30 @@ pub struct Attempts {
 impl Attempts {
     /// The attempts of a configuration.
     pub fn new(config: Config) -> Self {
-        let bits = context_bits(config);
-        let kept = ATTEMPT_BITS - (1 << 6) + (1 << ring_bits(config));
-        Self {
-            states: LutMemory::new(bits, kept),
-            points: LutMemory::new(bits, 15),
-            times: LutMemory::new(bits, 22),
-            ..Self::default()
-        }
+        Self { store: AttemptStore::new(config), points: AttemptPoints::new(config), ..Self::default() }
     }
 }
 
 impl Logic for Attempts {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, states, points, times);
+        clock!(self, clock, store, points);
         self.two.next = 2.into();
         self.context_index.next = self.token.val().owner;
         self.owner.next = self.token.val().owner;
 
         // The context's state.
-        self.states.read_address.next = self.token.val().owner;
-        self.state.bits.next = self.states.read_data.val();
-        self.count.next = self.state.value.val().count;
-        self.points.read_address.next = self.token.val().owner;
-        self.times.read_address.next = self.token.val().owner;
-        self.points.write_address.next = self.taker.val();
-        self.points.write_data.next = self.taken_id.val();
-        self.points.write_enable.next = self.takes.val();
-        self.times.write_address.next = self.taker.val();
-        self.times.write_data.next = self.now.val();
-        self.times.write_enable.next = self.takes.val();
+        self.store.ring.next = self.ring.val();
+        self.store.early_owner.next = self.early_owner.val();
+        self.store.early_entry.next = self.early_entry.val();
+        self.store.owner.next = self.token.val().owner;
+        self.store.f_entry.next = self.token.val().f_entry;
+        self.count.next = self.store.attempt.val().count;
+        self.points.owner.next = self.token.val().owner;
+        self.points.takes.next = self.takes.val();
+        self.points.taker.next = self.taker.val();
+        self.points.taken_id.next = self.taken_id.val();
+        self.points.now.next = self.now.val();
 
         // What the visit means.
         self.meaning.done.next = self.done.val();
@@ -212,11 +206,13 @@ impl Logic for Attempts {
         self.meaning.seeded.next = self.seeded.val();
         self.meaning.is_busy.next = self.busy.val().get_bit(self.context_index.val().index());
         self.meaning.is_waiter.next = self.waiter_valid.val() & (self.waiter.val() == self.token.val().owner);
-        self.meaning.drains.next = self.state.value.val().drains;
-        self.meaning.is_full.next = self.count.val() == self.ring.val();
+        self.meaning.drains.next = self.store.attempt.val().drains;
+        self.meaning.is_full.next = self.store.is_full.val();
 
         // The state afterwards.
-        self.step.attempt.next = self.state.value.val();
+        self.step.attempt.next = self.store.attempt.val();
+        self.step.is_last.next = self.store.is_last.val();
+        self.step.edge_was_passed.next = self.store.edge_was_passed.val();
         self.step.f_entry.next = self.token.val().f_entry;
         self.step.took.next = self.turned.val().took;
         self.step.is_test.next = self.meaning.is_test.val();
@@ -225,10 +221,12 @@ impl Logic for Attempts {
         self.step.repeats.next = self.meaning.repeats.val();
         self.step.gives_up.next = self.meaning.gives_up.val();
         self.step.overflows.next = self.meaning.overflows.val();
-        self.after_bits.next = self.step.after.val().into();
-        self.states.write_address.next = self.token.val().owner;
-        self.states.write_data.next = self.after_bits.val();
-        self.states.write_enable.next = self.meaning.opens.val() | self.meaning.is_test.val();
+        self.store.opens.next = self.meaning.opens.val();
+        self.store.splits.next = self.meaning.splits.val();
+        self.store.repeats.next = self.meaning.repeats.val();
+        self.store.writes.next = self.meaning.opens.val() | self.meaning.is_test.val();
+        self.store.passes_root.next = self.step.passes_root.val();
+        self.store.after.next = self.step.after.val();
 
         // The visits that follow.
         self.visits.token.next = self.token.val();
@@ -269,10 +267,10 @@ impl Logic for Attempts {
         self.lists.done.next = self.done.val();
         self.lists.token.next = self.token.val();
         self.lists.turned.next = self.turned.val();
-        self.lists.attempt.next = self.state.value.val();
+        self.lists.attempt.next = self.store.attempt.val();
         self.lists.after.next = self.step.after.val();
-        self.lists.p.next = self.points.read_data.val();
-        self.lists.since.next = self.times.read_data.val();
+        self.lists.p.next = self.points.p.val();
+        self.lists.since.next = self.points.since.val();
         self.lists.is_root.next = self.meaning.is_root.val();
         self.lists.settles.next = self.meaning.settles.val();
         self.lists.finds_inner.next = self.step.finds_inner.val();

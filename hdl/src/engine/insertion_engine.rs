@@ -175,6 +175,8 @@ impl Logic for InsertionEngine {
         self.insertions.token.next = self.pipeline.token.val();
         self.insertions.turned.next = self.pipeline.turned.val();
         self.insertions.verdict.next = self.pipeline.verdict.val();
+        self.insertions.early_owner.next = self.pipeline.early_owner.val();
+        self.insertions.early_entry.next = self.pipeline.early_entry.val();
         self.insertions.seeded.next = self.seeder.seeded.val();
         self.insertions.collinear.next = self.seeder.collinear.val();
         self.insertions.seeds.next = self.seeder.seeds.val();

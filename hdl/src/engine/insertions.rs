@@ -6,6 +6,7 @@
 //! | `ring`, `last_id`, `all`, `patience` | in | 7, 15, 24, 22 | parameters, constants |
 //! | `contexts`, `arrived`, `came`, `now` | in | 5, 15, 1, 22 | contexts that work; points that have come; one is being stored; the time |
 //! | `done`, `token`, `turned`, `verdict` | in | | the visit that completes; none while an insertion alone is at work |
+//! | `early_owner`, `early_entry` | in | 5, 6 | the visit that completes in the next clock, whosever it is: its context, the entry that names its `f` |
 //! | `seeded`, `collinear`, `is_seeding`, `seeds` | in | 1 | the first triangle |
 //! | `solo_is_at_work`, `solo_ends`, `solo_inserts` | in | 1 | the insertion alone |
 //! | `push`, `bundle` | out | 1, Bundle | visits to make: those of the visit that completes, else of a context that starts |
@@ -56,6 +57,10 @@ pub struct Insertions {
     pub turned: Signal<In, Turned>,
     /// What it found out.
     pub verdict: Signal<In, Verdict>,
+    /// The context whose visit completes in the next clock.
+    pub early_owner: Signal<In, Bits<5>>,
+    /// The entry that names the visit's `f`.
+    pub early_entry: Signal<In, Bits<6>>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
     /// It never will.
@@ -138,6 +143,8 @@ impl Logic for Insertions {
         self.attempts.token.next = self.token.val();
         self.attempts.turned.next = self.turned.val();
         self.attempts.verdict.next = self.verdict.val();
+        self.attempts.early_owner.next = self.early_owner.val();
+        self.attempts.early_entry.next = self.early_entry.val();
         self.attempts.seeded.next = self.seeded.val();
         self.attempts.now.next = self.now.val();
         self.attempts.busy.next = self.dispatcher.busy.val();

@@ -1,7 +1,9 @@
 //! The insertion engine: visits, contexts, cavities, commits, and what an insertion goes through.
 
 mod attempt_lists;
+mod attempt_points;
 mod attempt_step;
+mod attempt_store;
 mod attempts;
 mod commit;
 mod commit_path;
@@ -46,7 +48,9 @@ mod write_port;
 mod write_request;
 
 pub use attempt_lists::AttemptLists;
+pub use attempt_points::AttemptPoints;
 pub use attempt_step::AttemptStep;
+pub use attempt_store::AttemptStore;
 pub use attempts::Attempts;
 pub use commit::{Commit, CommitState};
 pub use commit_path::CommitPath;

@@ -1,11 +1,13 @@
-//! The vertex that a context takes next.
+//! The vertex that a context takes next, and the one after a vertex that is taken.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `turn` | in | 5 | the context |
-//! | `has_begun`, `id` | in | 1, 15 | it has had a point, and which one last |
+//! | `has_begun`, `planned` | in | 1, 15 | it has had a point; what then stood on `after_taken` |
+//! | `next_id` | out | 15 | the vertex it takes next |
+//! | `taken` | in | 15 | a vertex that some context takes |
 //! | `contexts` | in | 5 | contexts that work |
-//! | `next_id` | out | 15 | the vertex |
+//! | `after_taken` | out | 15 | the vertex that this context takes after it |
 //!
 //! 1. Context 0 takes vertex 2, whose arrival completes the first triangle, and then those below 16 one by one.
 //! 2. From there on points are dealt: vertex `j` belongs to context `(j - 16) mod contexts`.
@@ -22,12 +24,16 @@ pub struct NextPoint {
     pub turn: Signal<In, Bits<5>>,
     /// It has had a point.
     pub has_begun: Signal<In, Bit>,
-    /// The last one.
-    pub id: Signal<In, Bits<15>>,
+    /// The one after that.
+    pub planned: Signal<In, Bits<15>>,
+    /// The vertex it takes next.
+    pub next_id: Signal<Out, Bits<15>>,
+    /// A vertex that is taken.
+    pub taken: Signal<In, Bits<15>>,
     /// Contexts that work.
     pub contexts: Signal<In, Bits<5>>,
-    /// The next one.
-    pub next_id: Signal<Out, Bits<15>>,
+    /// The one after it.
+    pub after_taken: Signal<Out, Bits<15>>,
     step: Signal<Local, Bits<15>>,
     wide_turn: Signal<Local, Bits<15>>,
     first_round: Signal<Local, Bits<15>>,
@@ -44,10 +50,11 @@ impl Logic for NextPoint {
         self.first_context.next = 0.into();
         self.wide_turn.next = bit_cast::<15, 5>(self.turn.val());
         self.step.next = bit_cast::<15, 5>(self.contexts.val());
-        if self.id.val() < self.first_round.val() {
+        if self.taken.val() < self.first_round.val() {
             self.step.next = 1.into();
         }
-        self.next_id.next = self.id.val() + self.step.val();
+        self.after_taken.next = self.taken.val() + self.step.val();
+        self.next_id.next = self.planned.val();
         if !self.has_begun.val() {
             self.next_id.next = self.wide_turn.val() + self.first_round.val();
             if self.turn.val() == self.first_context.val() {

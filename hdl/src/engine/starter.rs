@@ -135,6 +135,7 @@ pub struct Starter {
     taken1: DFF<Bit>,
     taken2: DFF<Bit>,
     points: LutMemory<5, 15>,
+    plans: LutMemory<5, 15>,
     roots: LutMemory<5, 15>,
     hints: LutMemory<5, 15>,
     following: NextPoint,
@@ -164,7 +165,7 @@ impl Starter {
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         let table = || LutMemory::new(bits, 15);
-        Self { points: table(), roots: table(), hints: table(), ..Self::default() }
+        Self { points: table(), plans: table(), roots: table(), hints: table(), ..Self::default() }
     }
 }
 
@@ -174,7 +175,7 @@ impl Logic for Starter {
         dff_setup!(self, clock, turn, round, candidate, candidate_id, candidate_is_there, all_work);
         dff_setup!(self, clock, candidate_point);
         dff_setup!(self, clock, owner1, owner2, taken1, taken2);
-        clock!(self, clock, points, roots, hints);
+        clock!(self, clock, points, plans, roots, hints);
         self.one_turn.next = 1.into();
         self.one_round.next = 1.into();
         self.resting_round.next = 0.into();
@@ -186,7 +187,9 @@ impl Logic for Starter {
         self.points.read_address.next = self.turn.q.val();
         self.following.turn.next = self.turn.q.val();
         self.following.has_begun.next = self.began.val().get_bit(self.turn_index.val().index());
-        self.following.id.next = self.points.read_data.val();
+        self.plans.read_address.next = self.turn.q.val();
+        self.following.planned.next = self.plans.read_data.val();
+        self.following.taken.next = self.candidate_id.q.val();
         self.following.contexts.next = self.contexts.val();
 
         // The one before: does it start?
@@ -231,6 +234,9 @@ impl Logic for Starter {
         self.points.write_address.next = self.candidate.q.val();
         self.points.write_data.next = self.candidate_id.q.val();
         self.points.write_enable.next = self.is_taken.val();
+        self.plans.write_address.next = self.candidate.q.val();
+        self.plans.write_data.next = self.following.after_taken.val();
+        self.plans.write_enable.next = self.is_taken.val();
         self.roots.write_address.next = self.root_owner.val();
         self.roots.write_data.next = self.root.val();
         self.roots.write_enable.next = self.root_enable.val();

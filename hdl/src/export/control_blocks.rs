@@ -4,9 +4,9 @@ use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
 use super::block;
 use crate::engine::{
-    AttemptLists, AttemptStep, Attempts, Commit, ContextFlags, Counters, FreshIds, InnerList, JobQueue, Latencies,
-    LatencyBucket, LatencyRange, NextPoint, NextVisits, Progress, Release, RingReader, Seeder, Solo, SoloVisit,
-    SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
+    AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FreshIds,
+    InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, Progress, Release, RingReader,
+    Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
 use crate::link::{AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordWords, Responder};
 
@@ -17,7 +17,9 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
     vec![
         block(Attempts::new(SMALL), "attempts_small"),
         block(AttemptLists::default(), "attempt_lists"),
+        block(AttemptPoints::new(SMALL), "attempt_points_small"),
         block(AttemptStep::default(), "attempt_step"),
+        block(AttemptStore::new(SMALL), "attempt_store_small"),
         block(Commit::new(TINY), "commit_6"),
         block(Commit::new(longest_list), "commit_64"),
         block(ContextFlags::default(), "context_flags"),

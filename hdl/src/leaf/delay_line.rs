@@ -1,4 +1,4 @@
-//! Data delayed by a fixed number of clocks, kept in a ring buffer of block RAM.
+//! Data delayed by a few clocks, kept in a ring buffer of LUTs.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
@@ -10,15 +10,16 @@
 //!
 //! Latency: data that stands before edge 1 is on the output after edge `stages`.
 //!
-//! Source: a counter writes; the same counter less `stages - 2` reads, since the memory itself takes two edges.
+//! Source: a counter writes, and another one `stages - 1` behind it reads into a register. Up to 16 stages a slice in an ECP5 keeps 4 bits;
+//! block RAM is dear, lies far from everything, and would be nearly empty.
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::BlockMemory;
+use super::LutMemory;
 
 /// Bits of the counter; the ring uses as many of them as it needs.
-const COUNTER_BITS: usize = 10;
+const COUNTER_BITS: usize = 6;
 
 /// A delay; see the top of this file.
 #[derive(LogicBlock)]
@@ -29,14 +30,16 @@ pub struct DelayLine<const D: usize> {
     pub data_in: Signal<In, Bits<D>>,
     /// The same, `stages` edges later.
     pub data_out: Signal<Out, Bits<D>>,
-    ring: BlockMemory<COUNTER_BITS, D>,
+    ring: LutMemory<COUNTER_BITS, D>,
     position: DFF<Bits<COUNTER_BITS>>,
+    oldest: DFF<Bits<COUNTER_BITS>>,
+    delayed: DFF<Bits<D>>,
     one: Constant<Bits<COUNTER_BITS>>,
-    distance: Constant<Bits<COUNTER_BITS>>,
+    distance_before: Constant<Bits<COUNTER_BITS>>,
 }
 
 impl<const D: usize> DelayLine<D> {
-    /// Fewest stages: the read must not meet the write of the same edge.
+    /// Fewest stages; plain registers do for fewer.
     pub const MIN_STAGES: usize = 3;
     /// Most stages that the counter can tell apart.
     pub const MAX_STAGES: usize = 1 << COUNTER_BITS;
@@ -48,15 +51,18 @@ impl<const D: usize> DelayLine<D> {
     pub fn new(stages: usize) -> Self {
         let (fewest, most) = (Self::MIN_STAGES, Self::MAX_STAGES);
         assert!((fewest..=most).contains(&stages), "a delay line has {fewest} to {most} stages, not {stages}");
-        let distance = stages - BlockMemory::<COUNTER_BITS, D>::LATENCY;
+        // The register behind the memory is one stage; the word read is this far behind the one written.
+        let distance = stages - 1;
         Self {
             clock: Signal::default(),
             data_in: Signal::default(),
             data_out: Signal::default(),
-            ring: BlockMemory::new(clog2(distance + 1), D),
+            ring: LutMemory::new(clog2(distance + 1), D),
             position: DFF::default(),
+            oldest: DFF::default(),
+            delayed: DFF::default(),
             one: Constant::new(Bits::from(1)),
-            distance: Constant::new(Bits::from(distance as u64)),
+            distance_before: Constant::new(Bits::from(distance as u64 - 1)),
         }
     }
 }
@@ -70,12 +76,16 @@ impl<const D: usize> Default for DelayLine<D> {
 impl<const D: usize> Logic for DelayLine<D> {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, ring, position);
+        dff_setup!(self, clock, position, oldest, delayed);
+        clock!(self, clock, ring);
         self.position.d.next = self.position.q.val() + self.one.val();
+        // The counter will be one further when this is used.
+        self.oldest.d.next = self.position.q.val() - self.distance_before.val();
         self.ring.write_address.next = self.position.q.val();
         self.ring.write_data.next = self.data_in.val();
         self.ring.write_enable.next = true;
-        self.ring.read_address.next = self.position.q.val() - self.distance.val();
-        self.data_out.next = self.ring.read_data.val();
+        self.ring.read_address.next = self.oldest.q.val();
+        self.delayed.d.next = self.ring.read_data.val();
+        self.data_out.next = self.delayed.q.val();
     }
 }

@@ -1,0 +1,57 @@
+//! The state of an attempt in plain numbers.
+
+#![allow(dead_code)] // Every test that includes this uses a part of it.
+
+use super::stepper::bundles::pack;
+use incircle_cli::generate::SplitMix64;
+
+/// An attempt's state.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct State {
+    pub drains: bool,
+    pub outstanding: u64,
+    pub count: u64,
+    pub inners: u64,
+    pub logged: u64,
+    pub half_open: u64,
+}
+
+impl State {
+    pub fn random(random: &mut SplitMix64) -> Self {
+        let most = [1, 3, 126][random.below(3) as usize];
+        Self {
+            drains: random.below(4) == 0,
+            outstanding: 1 + random.below(most),
+            count: random.below(64),
+            inners: random.below(64),
+            logged: random.below(127),
+            half_open: random.next_u64(),
+        }
+    }
+
+    /// As an `Attempt`.
+    pub fn packed(self) -> u128 {
+        pack(&[
+            (self.drains.into(), 1),
+            (self.outstanding, 7),
+            (self.count, 7),
+            (self.inners, 7),
+            (self.logged, 7),
+            (self.half_open & 0xffff_ffff, 32),
+            (self.half_open >> 32, 32),
+        ])
+    }
+
+    /// An edge of entry `y`'s triangle is passed: whether it was its last.
+    pub fn passes(&mut self, y: u64) -> bool {
+        // The root brings three edges, all other triangles two.
+        let places: &[u64] = if y == 0 { &[0, 1] } else { &[y] };
+        match places.iter().find(|place| self.half_open >> **place & 1 == 0) {
+            Some(place) => {
+                self.half_open |= 1 << place;
+                false
+            }
+            None => true,
+        }
+    }
+}
