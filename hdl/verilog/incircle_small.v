@@ -3578,6 +3578,8 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  [54:0] insertions$token;
     reg  [97:0] insertions$turned;
     reg  [19:0] insertions$verdict;
+    reg  [4:0] insertions$early_owner;
+    reg  [5:0] insertions$early_entry;
     reg  insertions$seeded;
     reg  insertions$collinear;
     reg  insertions$is_seeding;
@@ -3617,6 +3619,8 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     wire  [54:0] pipeline$token;
     wire  [97:0] pipeline$turned;
     wire  [19:0] pipeline$verdict;
+    wire  [4:0] pipeline$early_owner;
+    wire  [5:0] pipeline$early_entry;
     reg  pipeline$read;
     reg  [14:0] pipeline$read_id;
     wire  pipeline$read_done;
@@ -3628,6 +3632,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     wire  [14:0] pipeline$n2;
     wire  pipeline$was_set;
     reg  [109:0] pipeline$write;
+    reg  [3:0] pipeline$enables;
     reg  [14:0] pipeline$vertex_id;
     reg  [31:0] pipeline$vertex_position;
     reg  pipeline$vertex_enable;
@@ -3672,6 +3677,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  [109:0] write_port$solo;
     reg  [109:0] write_port$seed;
     wire  [109:0] write_port$write;
+    wire  [3:0] write_port$enables;
     reg  pushes$d;
     wire  pushes$q;
     reg  pushes$clock;
@@ -3699,6 +3705,8 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .token(insertions$token),
         .turned(insertions$turned),
         .verdict(insertions$verdict),
+        .early_owner(insertions$early_owner),
+        .early_entry(insertions$early_entry),
         .seeded(insertions$seeded),
         .collinear(insertions$collinear),
         .is_seeding(insertions$is_seeding),
@@ -3740,6 +3748,8 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .token(pipeline$token),
         .turned(pipeline$turned),
         .verdict(pipeline$verdict),
+        .early_owner(pipeline$early_owner),
+        .early_entry(pipeline$early_entry),
         .read(pipeline$read),
         .read_id(pipeline$read_id),
         .read_done(pipeline$read_done),
@@ -3751,6 +3761,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .n2(pipeline$n2),
         .was_set(pipeline$was_set),
         .write(pipeline$write),
+        .enables(pipeline$enables),
         .vertex_id(pipeline$vertex_id),
         .vertex_position(pipeline$vertex_position),
         .vertex_enable(pipeline$vertex_enable),
@@ -3800,7 +3811,8 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .commit(write_port$commit),
         .solo(write_port$solo),
         .seed(write_port$seed),
-        .write(write_port$write)
+        .write(write_port$write),
+        .enables(write_port$enables)
     );
     incircle_core_logic$engine$pushes pushes(
         .d(pushes$d),
@@ -3857,6 +3869,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         pipeline$read = read;
         pipeline$read_id = read_id;
         pipeline$write = write_port$write;
+        pipeline$enables = write_port$enables;
         pipeline$vertex_id = came_id;
         pipeline$vertex_position = point;
         pipeline$vertex_enable = came;
@@ -3875,6 +3888,8 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         insertions$token = pipeline$token;
         insertions$turned = pipeline$turned;
         insertions$verdict = pipeline$verdict;
+        insertions$early_owner = pipeline$early_owner;
+        insertions$early_entry = pipeline$early_entry;
         insertions$seeded = seeder$seeded;
         insertions$collinear = seeder$collinear;
         insertions$seeds = seeder$seeds;
@@ -3916,7 +3931,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
 endmodule // incircle_core_logic$engine
 
 
-module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,contexts,arrived,came,now,done,token,turned,verdict,seeded,collinear,is_seeding,seeds,solo_is_at_work,solo_ends,solo_inserts,push,bundle,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,solo_u,write,records,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
+module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,contexts,arrived,came,now,done,token,turned,verdict,early_owner,early_entry,seeded,collinear,is_seeding,seeds,solo_is_at_work,solo_ends,solo_inserts,push,bundle,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,solo_u,write,records,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
     
     // Module arguments
     input wire  clock;
@@ -3934,6 +3949,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     input wire  [54:0] token;
     input wire  [97:0] turned;
     input wire  [19:0] verdict;
+    input wire  [4:0] early_owner;
+    input wire  [5:0] early_entry;
     input wire  seeded;
     input wire  collinear;
     input wire  is_seeding;
@@ -4014,6 +4031,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     reg  [54:0] attempts$token;
     reg  [97:0] attempts$turned;
     reg  [19:0] attempts$verdict;
+    reg  [4:0] attempts$early_owner;
+    reg  [5:0] attempts$early_entry;
     reg  attempts$seeded;
     reg  [23:0] attempts$busy;
     reg  attempts$waiter_valid;
@@ -4144,6 +4163,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         .token(attempts$token),
         .turned(attempts$turned),
         .verdict(attempts$verdict),
+        .early_owner(attempts$early_owner),
+        .early_entry(attempts$early_entry),
         .seeded(attempts$seeded),
         .busy(attempts$busy),
         .waiter_valid(attempts$waiter_valid),
@@ -4234,6 +4255,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         attempts$token = token;
         attempts$turned = turned;
         attempts$verdict = verdict;
+        attempts$early_owner = early_owner;
+        attempts$early_entry = early_entry;
         attempts$seeded = seeded;
         attempts$now = now;
         attempts$busy = dispatcher$busy;
@@ -4339,7 +4362,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
 endmodule // incircle_core_logic$engine$insertions
 
 
-module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turned,verdict,seeded,busy,waiter_valid,waiter,takes,taker,taken_id,now,push,bundle,owner,sleeps,keeps,root_enable,root,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job,asks_to_wait,waits,stops_waiting,overflows,duplicate,looks,walk_visit,root_visit,test,revisit,gives_up,retries,cavity_triangles);
+module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turned,verdict,early_owner,early_entry,seeded,busy,waiter_valid,waiter,takes,taker,taken_id,now,push,bundle,owner,sleeps,keeps,root_enable,root,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job,asks_to_wait,waits,stops_waiting,overflows,duplicate,looks,walk_visit,root_visit,test,revisit,gives_up,retries,cavity_triangles);
     
     // Module arguments
     input wire  clock;
@@ -4348,6 +4371,8 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     input wire  [54:0] token;
     input wire  [97:0] turned;
     input wire  [19:0] verdict;
+    input wire  [4:0] early_owner;
+    input wire  [5:0] early_entry;
     input wire  seeded;
     input wire  [23:0] busy;
     input wire  waiter_valid;
@@ -4391,26 +4416,30 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     output reg  [6:0] cavity_triangles;
     
     // Stub signals
-    reg  states$clock;
-    reg  [4:0] states$write_address;
-    reg  [92:0] states$write_data;
-    reg  states$write_enable;
-    reg  [4:0] states$read_address;
-    wire  [92:0] states$read_data;
-    reg  [92:0] state$bits;
-    wire  [92:0] state$value;
+    reg  store$clock;
+    reg  [6:0] store$ring;
+    reg  [4:0] store$early_owner;
+    reg  [5:0] store$early_entry;
+    reg  [4:0] store$owner;
+    reg  [5:0] store$f_entry;
+    wire  [92:0] store$attempt;
+    wire  store$is_last;
+    wire  store$is_full;
+    wire  store$edge_was_passed;
+    reg  store$opens;
+    reg  store$splits;
+    reg  store$repeats;
+    reg  store$writes;
+    reg  store$passes_root;
+    reg  [92:0] store$after;
     reg  points$clock;
-    reg  [4:0] points$write_address;
-    reg  [14:0] points$write_data;
-    reg  points$write_enable;
-    reg  [4:0] points$read_address;
-    wire  [14:0] points$read_data;
-    reg  times$clock;
-    reg  [4:0] times$write_address;
-    reg  [21:0] times$write_data;
-    reg  times$write_enable;
-    reg  [4:0] times$read_address;
-    wire  [21:0] times$read_data;
+    reg  points$takes;
+    reg  [4:0] points$taker;
+    reg  [14:0] points$taken_id;
+    reg  [21:0] points$now;
+    reg  [4:0] points$owner;
+    wire  [14:0] points$p;
+    wire  [21:0] points$since;
     reg  meaning$done;
     reg  [54:0] meaning$token;
     reg  [97:0] meaning$turned;
@@ -4438,6 +4467,8 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     wire  meaning$walk_duplicate;
     wire  meaning$root_duplicate;
     reg  [92:0] step$attempt;
+    reg  step$is_last;
+    reg  step$edge_was_passed;
     reg  [5:0] step$f_entry;
     reg  step$took;
     reg  step$is_test;
@@ -4450,53 +4481,80 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     wire  step$is_over;
     wire  step$succeeds;
     wire  step$finds_inner;
+    wire  step$passes_root;
     reg  [54:0] visits$token;
     reg  [97:0] visits$turned;
     reg  [14:0] visits$walk_next;
     reg  [5:0] visits$entry;
+    reg  visits$repeats;
     reg  visits$walks_on;
     reg  visits$locates;
     reg  visits$opens;
     reg  visits$splits;
+    wire  visits$push;
     wire  [92:0] visits$bundle;
+    reg  lists$done;
+    reg  [54:0] lists$token;
+    reg  [97:0] lists$turned;
+    reg  [92:0] lists$attempt;
+    reg  [92:0] lists$after;
+    reg  [14:0] lists$p;
+    reg  [21:0] lists$since;
+    reg  lists$is_root;
+    reg  lists$settles;
+    reg  lists$finds_inner;
+    reg  lists$succeeds;
+    reg  lists$fails;
+    reg  lists$stops_at_root;
+    wire  lists$entry_enable;
+    wire  [5:0] lists$entry_place;
+    wire  [52:0] lists$entry;
+    wire  lists$inner_enable;
+    wire  [5:0] lists$inner_place;
+    wire  [14:0] lists$inner_id;
+    wire  lists$lock_enable;
+    wire  [6:0] lists$lock_place;
+    wire  [14:0] lists$lock_id;
+    wire  lists$commit_enable;
+    wire  [55:0] lists$commit_job;
+    wire  lists$release_enable;
+    wire  [11:0] lists$release_job;
     
     // Local signals
-    reg  [92:0] after_bits;
     reg  [4:0] context_index;
     reg  fails;
     reg  stops_at_root;
     reg  [6:0] count;
-    reg  [6:0] inners;
     reg  [6:0] two;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$attempts$states states(
-        .clock(states$clock),
-        .write_address(states$write_address),
-        .write_data(states$write_data),
-        .write_enable(states$write_enable),
-        .read_address(states$read_address),
-        .read_data(states$read_data)
-    );
-    incircle_core_logic$engine$insertions$attempts$state state(
-        .bits(state$bits),
-        .value(state$value)
+    incircle_core_logic$engine$insertions$attempts$store store(
+        .clock(store$clock),
+        .ring(store$ring),
+        .early_owner(store$early_owner),
+        .early_entry(store$early_entry),
+        .owner(store$owner),
+        .f_entry(store$f_entry),
+        .attempt(store$attempt),
+        .is_last(store$is_last),
+        .is_full(store$is_full),
+        .edge_was_passed(store$edge_was_passed),
+        .opens(store$opens),
+        .splits(store$splits),
+        .repeats(store$repeats),
+        .writes(store$writes),
+        .passes_root(store$passes_root),
+        .after(store$after)
     );
     incircle_core_logic$engine$insertions$attempts$points points(
         .clock(points$clock),
-        .write_address(points$write_address),
-        .write_data(points$write_data),
-        .write_enable(points$write_enable),
-        .read_address(points$read_address),
-        .read_data(points$read_data)
-    );
-    incircle_core_logic$engine$insertions$attempts$times times(
-        .clock(times$clock),
-        .write_address(times$write_address),
-        .write_data(times$write_data),
-        .write_enable(times$write_enable),
-        .read_address(times$read_address),
-        .read_data(times$read_data)
+        .takes(points$takes),
+        .taker(points$taker),
+        .taken_id(points$taken_id),
+        .now(points$now),
+        .owner(points$owner),
+        .p(points$p),
+        .since(points$since)
     );
     incircle_core_logic$engine$insertions$attempts$meaning meaning(
         .done(meaning$done),
@@ -4528,6 +4586,8 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     );
     incircle_core_logic$engine$insertions$attempts$step step(
         .attempt(step$attempt),
+        .is_last(step$is_last),
+        .edge_was_passed(step$edge_was_passed),
         .f_entry(step$f_entry),
         .took(step$took),
         .is_test(step$is_test),
@@ -4539,40 +4599,69 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         .after(step$after),
         .is_over(step$is_over),
         .succeeds(step$succeeds),
-        .finds_inner(step$finds_inner)
+        .finds_inner(step$finds_inner),
+        .passes_root(step$passes_root)
     );
     incircle_core_logic$engine$insertions$attempts$visits visits(
         .token(visits$token),
         .turned(visits$turned),
         .walk_next(visits$walk_next),
         .entry(visits$entry),
+        .repeats(visits$repeats),
         .walks_on(visits$walks_on),
         .locates(visits$locates),
         .opens(visits$opens),
         .splits(visits$splits),
+        .push(visits$push),
         .bundle(visits$bundle)
+    );
+    incircle_core_logic$engine$insertions$attempts$lists lists(
+        .done(lists$done),
+        .token(lists$token),
+        .turned(lists$turned),
+        .attempt(lists$attempt),
+        .after(lists$after),
+        .p(lists$p),
+        .since(lists$since),
+        .is_root(lists$is_root),
+        .settles(lists$settles),
+        .finds_inner(lists$finds_inner),
+        .succeeds(lists$succeeds),
+        .fails(lists$fails),
+        .stops_at_root(lists$stops_at_root),
+        .entry_enable(lists$entry_enable),
+        .entry_place(lists$entry_place),
+        .entry(lists$entry),
+        .inner_enable(lists$inner_enable),
+        .inner_place(lists$inner_place),
+        .inner_id(lists$inner_id),
+        .lock_enable(lists$lock_enable),
+        .lock_place(lists$lock_place),
+        .lock_id(lists$lock_id),
+        .commit_enable(lists$commit_enable),
+        .commit_job(lists$commit_job),
+        .release_enable(lists$release_enable),
+        .release_job(lists$release_job)
     );
     
     // Update code
     always @(*) begin
-        states$clock = clock;
+        store$clock = clock;
         points$clock = clock;
-        times$clock = clock;
         two = 32'h2;
         context_index = token[(64'h0)+:(5)];
         owner = token[(64'h0)+:(5)];
-        states$read_address = token[(64'h0)+:(5)];
-        state$bits = states$read_data;
-        count = state$value[(64'h8)+:(7)];
-        inners = state$value[(64'hf)+:(7)];
-        points$read_address = token[(64'h0)+:(5)];
-        times$read_address = token[(64'h0)+:(5)];
-        points$write_address = taker;
-        points$write_data = taken_id;
-        points$write_enable = takes;
-        times$write_address = taker;
-        times$write_data = now;
-        times$write_enable = takes;
+        store$ring = ring;
+        store$early_owner = early_owner;
+        store$early_entry = early_entry;
+        store$owner = token[(64'h0)+:(5)];
+        store$f_entry = token[(64'h13)+:(6)];
+        count = store$attempt[(64'h8)+:(7)];
+        points$owner = token[(64'h0)+:(5)];
+        points$takes = takes;
+        points$taker = taker;
+        points$taken_id = taken_id;
+        points$now = now;
         meaning$done = done;
         meaning$token = token;
         meaning$turned = turned;
@@ -4580,9 +4669,11 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         meaning$seeded = seeded;
         meaning$is_busy = busy[context_index];
         meaning$is_waiter = waiter_valid & (waiter == token[(64'h0)+:(5)]);
-        meaning$drains = state$value[(64'h0)+:(1)];
-        meaning$is_full = count == ring;
-        step$attempt = state$value;
+        meaning$drains = store$attempt[(64'h0)+:(1)];
+        meaning$is_full = store$is_full;
+        step$attempt = store$attempt;
+        step$is_last = store$is_last;
+        step$edge_was_passed = store$edge_was_passed;
         step$f_entry = token[(64'h13)+:(6)];
         step$took = turned[(64'h5c)+:(1)];
         step$is_test = meaning$is_test;
@@ -4591,20 +4682,23 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         step$repeats = meaning$repeats;
         step$gives_up = meaning$gives_up;
         step$overflows = meaning$overflows;
-        after_bits = step$after;
-        states$write_address = token[(64'h0)+:(5)];
-        states$write_data = after_bits;
-        states$write_enable = meaning$opens | meaning$is_test;
+        store$opens = meaning$opens;
+        store$splits = meaning$splits;
+        store$repeats = meaning$repeats;
+        store$writes = meaning$opens | meaning$is_test;
+        store$passes_root = step$passes_root;
+        store$after = step$after;
         visits$token = token;
         visits$turned = turned;
         visits$walk_next = verdict[(64'h5)+:(15)];
         visits$entry = count[(32'h0)+:(6)];
+        visits$repeats = meaning$repeats;
         visits$walks_on = meaning$walks_on;
         visits$locates = meaning$locates;
         visits$opens = meaning$opens;
         visits$splits = meaning$splits;
+        push = visits$push;
         bundle = visits$bundle;
-        push = meaning$repeats | meaning$walks_on | meaning$locates | meaning$opens | meaning$splits;
         fails = step$is_over & (~step$succeeds);
         stops_at_root = meaning$root_duplicate | meaning$retries;
         sleeps = meaning$looks | meaning$walk_duplicate | meaning$gives_up_root | stops_at_root | step$is_over;
@@ -4620,34 +4714,32 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         overflows = meaning$overflows;
         duplicate = meaning$walk_duplicate | meaning$root_duplicate;
         looks = meaning$looks;
-        entry_enable = meaning$settles;
-        entry_place = token[(64'h7)+:(6)];
-        entry[(64'h0)+:(15)] = turned[(64'h1e)+:(15)];
-        entry[(64'hf)+:(15)] = token[(64'h28)+:(15)];
-        entry[(64'h1e)+:(2)] = turned[(64'h5a)+:(2)];
-        entry[(64'h20)+:(15)] = token[(64'h19)+:(15)];
-        entry[(64'h2f)+:(6)] = token[(64'hd)+:(6)];
-        inner_enable = step$finds_inner;
-        inner_place = inners[(32'h0)+:(6)];
-        inner_id = token[(64'h19)+:(15)];
-        lock_enable = done & turned[(64'h5c)+:(1)];
-        lock_place = state$value[(64'h16)+:(7)];
-        lock_id = token[(64'h28)+:(15)];
-        if (meaning$is_root) begin
-            lock_place = 32'h0;
-        end
-        commit_enable = step$succeeds;
-        commit_job[(64'h0)+:(5)] = token[(64'h0)+:(5)];
-        commit_job[(64'h5)+:(15)] = points$read_data;
-        commit_job[(64'h14)+:(7)] = inners;
-        commit_job[(64'h1b)+:(7)] = step$after[(64'h16)+:(7)];
-        commit_job[(64'h22)+:(22)] = times$read_data;
-        release_enable = fails | stops_at_root;
-        release_job[(64'h0)+:(5)] = token[(64'h0)+:(5)];
-        release_job[(64'h5)+:(7)] = step$after[(64'h16)+:(7)];
-        if (stops_at_root) begin
-            release_job[(64'h5)+:(7)] = 32'h1;
-        end
+        lists$done = done;
+        lists$token = token;
+        lists$turned = turned;
+        lists$attempt = store$attempt;
+        lists$after = step$after;
+        lists$p = points$p;
+        lists$since = points$since;
+        lists$is_root = meaning$is_root;
+        lists$settles = meaning$settles;
+        lists$finds_inner = step$finds_inner;
+        lists$succeeds = step$succeeds;
+        lists$fails = fails;
+        lists$stops_at_root = stops_at_root;
+        entry_enable = lists$entry_enable;
+        entry_place = lists$entry_place;
+        entry = lists$entry;
+        inner_enable = lists$inner_enable;
+        inner_place = lists$inner_place;
+        inner_id = lists$inner_id;
+        lock_enable = lists$lock_enable;
+        lock_place = lists$lock_place;
+        lock_id = lists$lock_id;
+        commit_enable = lists$commit_enable;
+        commit_job = lists$commit_job;
+        release_enable = lists$release_enable;
+        release_job = lists$release_job;
         walk_visit = meaning$is_walk;
         root_visit = meaning$is_root;
         test = meaning$is_test;
@@ -4658,6 +4750,75 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     end
     
 endmodule // incircle_core_logic$engine$insertions$attempts
+
+
+module incircle_core_logic$engine$insertions$attempts$lists(done,token,turned,attempt,after,p,since,is_root,settles,finds_inner,succeeds,fails,stops_at_root,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job);
+    
+    // Module arguments
+    input wire  done;
+    input wire  [54:0] token;
+    input wire  [97:0] turned;
+    input wire  [92:0] attempt;
+    input wire  [92:0] after;
+    input wire  [14:0] p;
+    input wire  [21:0] since;
+    input wire  is_root;
+    input wire  settles;
+    input wire  finds_inner;
+    input wire  succeeds;
+    input wire  fails;
+    input wire  stops_at_root;
+    output reg  entry_enable;
+    output reg  [5:0] entry_place;
+    output reg  [52:0] entry;
+    output reg  inner_enable;
+    output reg  [5:0] inner_place;
+    output reg  [14:0] inner_id;
+    output reg  lock_enable;
+    output reg  [6:0] lock_place;
+    output reg  [14:0] lock_id;
+    output reg  commit_enable;
+    output reg  [55:0] commit_job;
+    output reg  release_enable;
+    output reg  [11:0] release_job;
+    
+    // Local signals
+    reg  [6:0] inners;
+    
+    // Update code
+    always @(*) begin
+        inners = attempt[(64'hf)+:(7)];
+        entry_enable = settles;
+        entry_place = token[(64'h7)+:(6)];
+        entry[(64'h0)+:(15)] = turned[(64'h1e)+:(15)];
+        entry[(64'hf)+:(15)] = token[(64'h28)+:(15)];
+        entry[(64'h1e)+:(2)] = turned[(64'h5a)+:(2)];
+        entry[(64'h20)+:(15)] = token[(64'h19)+:(15)];
+        entry[(64'h2f)+:(6)] = token[(64'hd)+:(6)];
+        inner_enable = finds_inner;
+        inner_place = inners[(32'h0)+:(6)];
+        inner_id = token[(64'h19)+:(15)];
+        lock_enable = done & turned[(64'h5c)+:(1)];
+        lock_place = attempt[(64'h16)+:(7)];
+        lock_id = token[(64'h28)+:(15)];
+        if (is_root) begin
+            lock_place = 32'h0;
+        end
+        commit_enable = succeeds;
+        commit_job[(64'h0)+:(5)] = token[(64'h0)+:(5)];
+        commit_job[(64'h5)+:(15)] = p;
+        commit_job[(64'h14)+:(7)] = inners;
+        commit_job[(64'h1b)+:(7)] = after[(64'h16)+:(7)];
+        commit_job[(64'h22)+:(22)] = since;
+        release_enable = fails | stops_at_root;
+        release_job[(64'h0)+:(5)] = token[(64'h0)+:(5)];
+        release_job[(64'h5)+:(7)] = after[(64'h16)+:(7)];
+        if (stops_at_root) begin
+            release_job[(64'h5)+:(7)] = 32'h1;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$attempts$lists
 
 
 module incircle_core_logic$engine$insertions$attempts$meaning(done,token,turned,verdict,seeded,is_busy,is_waiter,drains,is_full,is_walk,is_root,is_test,looks,repeats,waits,walks_on,locates,opens,retries,splits,settles,overflows,gives_up_root,gives_up,walk_duplicate,root_duplicate);
@@ -4740,7 +4901,171 @@ module incircle_core_logic$engine$insertions$attempts$meaning(done,token,turned,
 endmodule // incircle_core_logic$engine$insertions$attempts$meaning
 
 
-module incircle_core_logic$engine$insertions$attempts$points(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$attempts$points(clock,takes,taker,taken_id,now,owner,p,since);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  takes;
+    input wire  [4:0] taker;
+    input wire  [14:0] taken_id;
+    input wire  [21:0] now;
+    input wire  [4:0] owner;
+    output reg  [14:0] p;
+    output reg  [21:0] since;
+    
+    // Stub signals
+    reg  points$clock;
+    reg  [4:0] points$write_address;
+    reg  [14:0] points$write_data;
+    reg  points$write_enable;
+    reg  [4:0] points$read_address;
+    wire  [14:0] points$read_data;
+    reg  times$clock;
+    reg  [4:0] times$write_address;
+    reg  [21:0] times$write_data;
+    reg  times$write_enable;
+    reg  [4:0] times$read_address;
+    wire  [21:0] times$read_data;
+    reg  has_taken$d;
+    wire  has_taken$q;
+    reg  has_taken$clock;
+    reg  [4:0] last_taker$d;
+    wire  [4:0] last_taker$q;
+    reg  last_taker$clock;
+    reg  [14:0] last_taken$d;
+    wire  [14:0] last_taken$q;
+    reg  last_taken$clock;
+    reg  [21:0] taken_at$d;
+    wire  [21:0] taken_at$q;
+    reg  taken_at$clock;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$attempts$points$points points(
+        .clock(points$clock),
+        .write_address(points$write_address),
+        .write_data(points$write_data),
+        .write_enable(points$write_enable),
+        .read_address(points$read_address),
+        .read_data(points$read_data)
+    );
+    incircle_core_logic$engine$insertions$attempts$points$times times(
+        .clock(times$clock),
+        .write_address(times$write_address),
+        .write_data(times$write_data),
+        .write_enable(times$write_enable),
+        .read_address(times$read_address),
+        .read_data(times$read_data)
+    );
+    incircle_core_logic$engine$insertions$attempts$points$has_taken has_taken(
+        .d(has_taken$d),
+        .q(has_taken$q),
+        .clock(has_taken$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$points$last_taker last_taker(
+        .d(last_taker$d),
+        .q(last_taker$q),
+        .clock(last_taker$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$points$last_taken last_taken(
+        .d(last_taken$d),
+        .q(last_taken$q),
+        .clock(last_taken$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$points$taken_at taken_at(
+        .d(taken_at$d),
+        .q(taken_at$q),
+        .clock(taken_at$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        has_taken$clock = clock;
+        last_taker$clock = clock;
+        last_taken$clock = clock;
+        taken_at$clock = clock;
+        has_taken$d = has_taken$q;
+        last_taker$d = last_taker$q;
+        last_taken$d = last_taken$q;
+        taken_at$d = taken_at$q;
+        points$clock = clock;
+        times$clock = clock;
+        has_taken$d = takes;
+        last_taker$d = taker;
+        last_taken$d = taken_id;
+        taken_at$d = now;
+        points$write_address = last_taker$q;
+        points$write_data = last_taken$q;
+        points$write_enable = has_taken$q;
+        times$write_address = last_taker$q;
+        times$write_data = taken_at$q;
+        times$write_enable = has_taken$q;
+        points$read_address = owner;
+        times$read_address = owner;
+        p = points$read_data;
+        since = times$read_data;
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$attempts$points
+
+
+module incircle_core_logic$engine$insertions$attempts$points$has_taken(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$points$has_taken
+
+
+module incircle_core_logic$engine$insertions$attempts$points$last_taken(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$points$last_taken
+
+
+module incircle_core_logic$engine$insertions$attempts$points$last_taker(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$points$last_taker
+
+
+module incircle_core_logic$engine$insertions$attempts$points$points(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -4760,48 +5085,57 @@ module incircle_core_logic$engine$insertions$attempts$points(clock,write_address
         if (write_enable) memory[write_address[1:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$attempts$points
+endmodule // incircle_core_logic$engine$insertions$attempts$points$points
 
 
-module incircle_core_logic$engine$insertions$attempts$state(bits,value);
+module incircle_core_logic$engine$insertions$attempts$points$taken_at(d,q,clock);
     
     // Module arguments
-    input wire  [92:0] bits;
-    output reg  [92:0] value;
+    input wire  [21:0] d;
+    output reg  [21:0] q;
+    input wire  clock;
     
     // Update code (custom)
-    always @(*) value = bits;
-endmodule // incircle_core_logic$engine$insertions$attempts$state
+    initial begin
+       q = 22'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$points$taken_at
 
 
-module incircle_core_logic$engine$insertions$attempts$states(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$attempts$points$times(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
     input wire  [4:0] write_address;
-    input wire  [92:0] write_data;
+    input wire  [21:0] write_data;
     input wire  write_enable;
     input wire  [4:0] read_address;
-    output reg  [92:0] read_data;
+    output reg  [21:0] read_data;
     
     // Update code (custom)
     wire unused_write_address = &{1'b0, write_address[4:2]};
     wire unused_read_address = &{1'b0, read_address[4:2]};
-    wire unused_write_data = &{1'b0, write_data[92:61]};
     (* ram_style = "distributed" *)
-    reg [60:0] memory [0:3];
-    wire [60:0] word = memory[read_address[1:0]];
+    reg [21:0] memory [0:3];
+    wire [21:0] word = memory[read_address[1:0]];
     always @(posedge clock) begin
-        if (write_enable) memory[write_address[1:0]] <= write_data[60:0];
+        if (write_enable) memory[write_address[1:0]] <= write_data;
     end
-    always @(*) read_data = {{32{1'b0}}, word};
-endmodule // incircle_core_logic$engine$insertions$attempts$states
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$insertions$attempts$points$times
 
 
-module incircle_core_logic$engine$insertions$attempts$step(attempt,f_entry,took,is_test,opens,splits,repeats,gives_up,overflows,after,is_over,succeeds,finds_inner);
+module incircle_core_logic$engine$insertions$attempts$step(attempt,is_last,edge_was_passed,f_entry,took,is_test,opens,splits,repeats,gives_up,overflows,after,is_over,succeeds,finds_inner,passes_root);
     
     // Module arguments
     input wire  [92:0] attempt;
+    input wire  is_last;
+    input wire  edge_was_passed;
     input wire  [5:0] f_entry;
     input wire  took;
     input wire  is_test;
@@ -4814,12 +5148,12 @@ module incircle_core_logic$engine$insertions$attempts$step(attempt,f_entry,took,
     output reg  is_over;
     output reg  succeeds;
     output reg  finds_inner;
+    output reg  passes_root;
     
     // Local signals
     reg  fails;
-    reg  is_last;
     reg  ends_here;
-    reg  edge_was_passed;
+    reg  passes_second;
     reg  root_keeps_an_edge;
     reg  passes_last_edge;
     reg  [63:0] half_open;
@@ -4842,14 +5176,14 @@ module incircle_core_logic$engine$insertions$attempts$step(attempt,f_entry,took,
         half_open = attempt[(64'h1d)+:(64)];
         entry = f_entry;
         fails = attempt[(64'h0)+:(1)] | gives_up | overflows;
-        is_last = outstanding == one;
         ends_here = is_test & is_last & (~splits) & (~repeats);
         is_over = ends_here;
         succeeds = ends_here & (~fails);
-        edge_was_passed = half_open[entry];
         root_keeps_an_edge = (entry == root_entry) & (~half_open[32'h1]);
         passes_last_edge = splits & edge_was_passed & (~root_keeps_an_edge);
         finds_inner = passes_last_edge;
+        passes_second = splits & edge_was_passed & root_keeps_an_edge;
+        passes_root = passes_second;
         after = attempt;
         after[(64'h0)+:(1)] = fails;
         after[(64'h1)+:(7)] = outstanding - one;
@@ -4863,7 +5197,7 @@ module incircle_core_logic$engine$insertions$attempts$step(attempt,f_entry,took,
             after[(64'h1)+:(7)] = outstanding + one;
             after[(64'h8)+:(7)] = count + one;
             after[(64'h1d)+:(64)] = (half_open & ~(1 << (entry)) | ((1'b1) << (entry)));
-            if (edge_was_passed & root_keeps_an_edge) begin
+            if (passes_second) begin
                 after[(64'h1d)+:(64)] = (half_open & ~(1 << (32'h1)) | ((1'b1) << (32'h1)));
             end
         end
@@ -4883,44 +5217,316 @@ module incircle_core_logic$engine$insertions$attempts$step(attempt,f_entry,took,
 endmodule // incircle_core_logic$engine$insertions$attempts$step
 
 
-module incircle_core_logic$engine$insertions$attempts$times(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_owner,early_entry,owner,f_entry,attempt,is_last,is_full,edge_was_passed,opens,splits,repeats,writes,passes_root,after);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [6:0] ring;
+    input wire  [4:0] early_owner;
+    input wire  [5:0] early_entry;
+    input wire  [4:0] owner;
+    input wire  [5:0] f_entry;
+    output reg  [92:0] attempt;
+    output reg  is_last;
+    output reg  is_full;
+    output reg  edge_was_passed;
+    input wire  opens;
+    input wire  splits;
+    input wire  repeats;
+    input wire  writes;
+    input wire  passes_root;
+    input wire  [92:0] after;
+    
+    // Stub signals
+    reg  states$clock;
+    reg  [4:0] states$write_address;
+    reg  [92:0] states$write_data;
+    reg  states$write_enable;
+    reg  [4:0] states$read_address;
+    wire  [92:0] states$read_data;
+    reg  flags$clock;
+    reg  [4:0] flags$write_address;
+    reg  [1:0] flags$write_data;
+    reg  flags$write_enable;
+    reg  [4:0] flags$read_address;
+    wire  [1:0] flags$read_data;
+    reg  [92:0] stored$bits;
+    wire  [92:0] stored$value;
+    reg  [92:0] state$d;
+    wire  [92:0] state$q;
+    reg  state$clock;
+    reg  [1:0] flag_bits$d;
+    wire  [1:0] flag_bits$q;
+    reg  flag_bits$clock;
+    reg  passed$d;
+    wire  passed$q;
+    reg  passed$clock;
+    
+    // Local signals
+    reg  [92:0] after_bits;
+    reg  goes_round;
+    reg  is_same_entry;
+    reg  is_second_entry;
+    reg  [63:0] kept_edges;
+    reg  [63:0] stored_edges;
+    reg  [5:0] entry;
+    reg  becomes_last;
+    reg  becomes_full;
+    reg  [1:0] last_flag;
+    reg  [1:0] full_flag;
+    reg  becomes_passed;
+    reg  [1:0] flags_after;
+    reg  [6:0] outstanding;
+    reg  [6:0] count;
+    reg  [6:0] before_full;
+    reg  [6:0] two;
+    reg  [6:0] three;
+    reg  [6:0] one;
+    reg  [5:0] second_entry;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$attempts$store$states states(
+        .clock(states$clock),
+        .write_address(states$write_address),
+        .write_data(states$write_data),
+        .write_enable(states$write_enable),
+        .read_address(states$read_address),
+        .read_data(states$read_data)
+    );
+    incircle_core_logic$engine$insertions$attempts$store$flags flags(
+        .clock(flags$clock),
+        .write_address(flags$write_address),
+        .write_data(flags$write_data),
+        .write_enable(flags$write_enable),
+        .read_address(flags$read_address),
+        .read_data(flags$read_data)
+    );
+    incircle_core_logic$engine$insertions$attempts$store$stored stored(
+        .bits(stored$bits),
+        .value(stored$value)
+    );
+    incircle_core_logic$engine$insertions$attempts$store$state state(
+        .d(state$d),
+        .q(state$q),
+        .clock(state$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$store$flag_bits flag_bits(
+        .d(flag_bits$d),
+        .q(flag_bits$q),
+        .clock(flag_bits$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$store$passed passed(
+        .d(passed$d),
+        .q(passed$q),
+        .clock(passed$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        state$clock = clock;
+        flag_bits$clock = clock;
+        passed$clock = clock;
+        state$d = state$q;
+        flag_bits$d = flag_bits$q;
+        passed$d = passed$q;
+        states$clock = clock;
+        flags$clock = clock;
+        one = 32'h1;
+        two = 32'h2;
+        three = 32'h3;
+        second_entry = 32'h1;
+        attempt = state$q;
+        is_last = flag_bits$q[32'h0];
+        is_full = flag_bits$q[32'h1];
+        edge_was_passed = passed$q;
+        outstanding = state$q[(64'h1)+:(7)];
+        count = state$q[(64'h8)+:(7)];
+        before_full = ring - one;
+        becomes_last = outstanding == two;
+        becomes_full = flag_bits$q[32'h1];
+        if (repeats) begin
+            becomes_last = flag_bits$q[32'h0];
+        end
+        if (splits) begin
+            becomes_last = 1'b0;
+            becomes_full = count == before_full;
+        end
+        if (opens) begin
+            becomes_last = 1'b0;
+            becomes_full = ring == three;
+        end
+        last_flag = 32'h0;
+        full_flag = 32'h0;
+        if (becomes_last) begin
+            last_flag = 32'h1;
+        end
+        if (becomes_full) begin
+            full_flag = 32'h2;
+        end
+        flags_after = last_flag | full_flag;
+        after_bits = after;
+        states$write_address = owner;
+        states$write_data = after_bits;
+        states$write_enable = writes;
+        states$read_address = early_owner;
+        flags$write_address = owner;
+        flags$write_data = flags_after;
+        flags$write_enable = writes;
+        flags$read_address = early_owner;
+        stored$bits = states$read_data;
+        entry = early_entry;
+        kept_edges = state$q[(64'h1d)+:(64)];
+        stored_edges = stored$value[(64'h1d)+:(64)];
+        is_same_entry = early_entry == f_entry;
+        is_second_entry = early_entry == second_entry;
+        becomes_passed = (~opens) & (kept_edges[entry] | (splits & is_same_entry) | (passes_root & is_second_entry));
+        goes_round = writes & (early_owner == owner);
+        state$d = stored$value;
+        flag_bits$d = flags$read_data;
+        passed$d = stored_edges[entry];
+        if (goes_round) begin
+            state$d = after;
+            flag_bits$d = flags_after;
+            passed$d = becomes_passed;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$attempts$store
+
+
+module incircle_core_logic$engine$insertions$attempts$store$flag_bits(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$store$flag_bits
+
+
+module incircle_core_logic$engine$insertions$attempts$store$flags(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
     input wire  [4:0] write_address;
-    input wire  [21:0] write_data;
+    input wire  [1:0] write_data;
     input wire  write_enable;
     input wire  [4:0] read_address;
-    output reg  [21:0] read_data;
+    output reg  [1:0] read_data;
     
     // Update code (custom)
     wire unused_write_address = &{1'b0, write_address[4:2]};
     wire unused_read_address = &{1'b0, read_address[4:2]};
     (* ram_style = "distributed" *)
-    reg [21:0] memory [0:3];
-    wire [21:0] word = memory[read_address[1:0]];
+    reg [1:0] memory [0:3];
+    wire [1:0] word = memory[read_address[1:0]];
     always @(posedge clock) begin
         if (write_enable) memory[write_address[1:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$attempts$times
+endmodule // incircle_core_logic$engine$insertions$attempts$store$flags
 
 
-module incircle_core_logic$engine$insertions$attempts$visits(token,turned,walk_next,entry,walks_on,locates,opens,splits,bundle);
+module incircle_core_logic$engine$insertions$attempts$store$passed(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$store$passed
+
+
+module incircle_core_logic$engine$insertions$attempts$store$state(d,q,clock);
+    
+    // Module arguments
+    input wire  [92:0] d;
+    output reg  [92:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 93'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$store$state
+
+
+module incircle_core_logic$engine$insertions$attempts$store$states(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [92:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [92:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:2]};
+    wire unused_read_address = &{1'b0, read_address[4:2]};
+    wire unused_write_data = &{1'b0, write_data[92:61]};
+    (* ram_style = "distributed" *)
+    reg [60:0] memory [0:3];
+    wire [60:0] word = memory[read_address[1:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[1:0]] <= write_data[60:0];
+    end
+    always @(*) read_data = {{32{1'b0}}, word};
+endmodule // incircle_core_logic$engine$insertions$attempts$store$states
+
+
+module incircle_core_logic$engine$insertions$attempts$store$stored(bits,value);
+    
+    // Module arguments
+    input wire  [92:0] bits;
+    output reg  [92:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$engine$insertions$attempts$store$stored
+
+
+module incircle_core_logic$engine$insertions$attempts$visits(token,turned,walk_next,entry,repeats,walks_on,locates,opens,splits,push,bundle);
     
     // Module arguments
     input wire  [54:0] token;
     input wire  [97:0] turned;
     input wire  [14:0] walk_next;
     input wire  [5:0] entry;
+    input wire  repeats;
     input wire  walks_on;
     input wire  locates;
     input wire  opens;
     input wire  splits;
+    output reg  push;
     output reg  [92:0] bundle;
     
     // Update code
     always @(*) begin
+        push = repeats | walks_on | locates | opens | splits;
         bundle[(64'h0)+:(1)] = opens | splits;
         bundle[(64'h1)+:(1)] = opens;
         bundle[(64'h2)+:(5)] = token[(64'h0)+:(5)];
@@ -5005,12 +5611,14 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
     wire  rings$head_valid;
     wire  [52:0] rings$head;
     wire  rings$head_is_last;
+    wire  rings$head_shares;
     wire  [55:0] rings$head_job;
     reg  commit$clock;
     reg  commit$reset;
     reg  commit$head_valid;
     reg  [52:0] commit$head;
     reg  commit$head_is_last;
+    reg  commit$head_shares;
     reg  [55:0] commit$head_job;
     wire  commit$takes;
     reg  commit$inner_enable;
@@ -5043,6 +5651,36 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
     wire  [14:0] lock_release$clear_id;
     wire  lock_release$released;
     wire  [4:0] lock_release$released_owner;
+    reg  [4:0] list_owner$d;
+    wire  [4:0] list_owner$q;
+    reg  list_owner$clock;
+    reg  edge_comes$d;
+    wire  edge_comes$q;
+    reg  edge_comes$clock;
+    reg  [5:0] edge_place$d;
+    wire  [5:0] edge_place$q;
+    reg  edge_place$clock;
+    reg  [52:0] found_edge$d;
+    wire  [52:0] found_edge$q;
+    reg  found_edge$clock;
+    reg  inner_comes$d;
+    wire  inner_comes$q;
+    reg  inner_comes$clock;
+    reg  [5:0] inner_at$d;
+    wire  [5:0] inner_at$q;
+    reg  inner_at$clock;
+    reg  [14:0] inner$d;
+    wire  [14:0] inner$q;
+    reg  inner$clock;
+    reg  lock_comes$d;
+    wire  lock_comes$q;
+    reg  lock_comes$clock;
+    reg  [6:0] lock_at$d;
+    wire  [6:0] lock_at$q;
+    reg  lock_at$clock;
+    reg  [14:0] lock$d;
+    wire  [14:0] lock$q;
+    reg  lock$clock;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$commits$rings rings(
@@ -5058,6 +5696,7 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
         .head_valid(rings$head_valid),
         .head(rings$head),
         .head_is_last(rings$head_is_last),
+        .head_shares(rings$head_shares),
         .head_job(rings$head_job)
     );
     incircle_core_logic$engine$insertions$commits$commit commit(
@@ -5066,6 +5705,7 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
         .head_valid(commit$head_valid),
         .head(commit$head),
         .head_is_last(commit$head_is_last),
+        .head_shares(commit$head_shares),
         .head_job(commit$head_job),
         .takes(commit$takes),
         .inner_enable(commit$inner_enable),
@@ -5101,32 +5741,113 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
         .released(lock_release$released),
         .released_owner(lock_release$released_owner)
     );
+    incircle_core_logic$engine$insertions$commits$list_owner list_owner(
+        .d(list_owner$d),
+        .q(list_owner$q),
+        .clock(list_owner$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$edge_comes edge_comes(
+        .d(edge_comes$d),
+        .q(edge_comes$q),
+        .clock(edge_comes$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$edge_place edge_place(
+        .d(edge_place$d),
+        .q(edge_place$q),
+        .clock(edge_place$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$found_edge found_edge(
+        .d(found_edge$d),
+        .q(found_edge$q),
+        .clock(found_edge$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$inner_comes inner_comes(
+        .d(inner_comes$d),
+        .q(inner_comes$q),
+        .clock(inner_comes$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$inner_at inner_at(
+        .d(inner_at$d),
+        .q(inner_at$q),
+        .clock(inner_at$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$inner inner(
+        .d(inner$d),
+        .q(inner$q),
+        .clock(inner$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$lock_comes lock_comes(
+        .d(lock_comes$d),
+        .q(lock_comes$q),
+        .clock(lock_comes$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$lock_at lock_at(
+        .d(lock_at$d),
+        .q(lock_at$q),
+        .clock(lock_at$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$lock lock(
+        .d(lock$d),
+        .q(lock$q),
+        .clock(lock$clock)
+    );
     
     // Update code
     always @(*) begin
+        list_owner$clock = clock;
+        edge_comes$clock = clock;
+        edge_place$clock = clock;
+        found_edge$clock = clock;
+        inner_comes$clock = clock;
+        inner_at$clock = clock;
+        inner$clock = clock;
+        list_owner$d = list_owner$q;
+        edge_comes$d = edge_comes$q;
+        edge_place$d = edge_place$q;
+        found_edge$d = found_edge$q;
+        inner_comes$d = inner_comes$q;
+        inner_at$d = inner_at$q;
+        inner$d = inner$q;
+        lock_comes$clock = clock;
+        lock_at$clock = clock;
+        lock$clock = clock;
+        lock_comes$d = lock_comes$q;
+        lock_at$d = lock_at$q;
+        lock$d = lock$q;
         rings$clock = clock;
         commit$clock = clock;
         lock_release$clock = clock;
+        list_owner$d = owner;
+        edge_comes$d = entry_enable;
+        edge_place$d = entry_place;
+        found_edge$d = entry;
+        inner_comes$d = inner_enable;
+        inner_at$d = inner_place;
+        inner$d = inner_id;
+        lock_comes$d = lock_enable;
+        lock_at$d = lock_place;
+        lock$d = lock_id;
         rings$reset = reset;
         commit$reset = reset;
         lock_release$reset = reset;
-        rings$entry_enable = entry_enable;
-        rings$entry_owner = owner;
-        rings$entry_place = entry_place;
-        rings$entry = entry;
+        rings$entry_enable = edge_comes$q;
+        rings$entry_owner = list_owner$q;
+        rings$entry_place = edge_place$q;
+        rings$entry = found_edge$q;
         rings$job_enable = commit_enable;
         rings$job = commit_job;
         rings$takes = commit$takes;
         commit$clears = clears;
         commit$seeds = seeds;
         commit$solo_inserts = solo_inserts;
-        commit$inner_enable = inner_enable;
-        commit$inner_owner = owner;
-        commit$inner_place = inner_place;
-        commit$inner_id = inner_id;
+        commit$inner_enable = inner_comes$q;
+        commit$inner_owner = list_owner$q;
+        commit$inner_place = inner_at$q;
+        commit$inner_id = inner$q;
         commit$head_valid = rings$head_valid;
         commit$head = rings$head;
         commit$head_is_last = rings$head_is_last;
+        commit$head_shares = rings$head_shares;
         commit$head_job = rings$head_job;
         write = commit$write;
         ends = commit$ends;
@@ -5135,10 +5856,10 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
         records = commit$records;
         is_at_work = commit$is_at_work;
         lock_release$last_id = last_id;
-        lock_release$lock_enable = lock_enable;
-        lock_release$lock_owner = owner;
-        lock_release$lock_place = lock_place;
-        lock_release$lock_id = lock_id;
+        lock_release$lock_enable = lock_comes$q;
+        lock_release$lock_owner = list_owner$q;
+        lock_release$lock_place = lock_at$q;
+        lock_release$lock_id = lock$q;
         lock_release$commit_enable = commit$ends;
         lock_release$commit_job[(64'h0)+:(5)] = commit$job[(64'h0)+:(5)];
         lock_release$commit_job[(64'h5)+:(7)] = commit$job[(64'h1b)+:(7)];
@@ -5154,7 +5875,7 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
 endmodule // incircle_core_logic$engine$insertions$commits
 
 
-module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_valid,head,head_is_last,head_job,takes,inner_enable,inner_owner,inner_place,inner_id,solo_inserts,seeds,clears,write,ends,job,hint,fresh,records,is_at_work);
+module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_valid,head,head_is_last,head_shares,head_job,takes,inner_enable,inner_owner,inner_place,inner_id,solo_inserts,seeds,clears,write,ends,job,hint,fresh,records,is_at_work);
     
     // Module arguments
     input wire  clock;
@@ -5162,6 +5883,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
     input wire  head_valid;
     input wire  [52:0] head;
     input wire  head_is_last;
+    input wire  head_shares;
     input wire  [55:0] head_job;
     output reg  takes;
     input wire  inner_enable;
@@ -5189,6 +5911,9 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
     reg  [1:0] state$d;
     wire  [1:0] state$q;
     reg  state$clock;
+    reg  wants$d;
+    wire  wants$q;
+    reg  wants$clock;
     reg  [55:0] ring$d;
     wire  [55:0] ring$q;
     reg  ring$clock;
@@ -5232,7 +5957,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
     wire  [109:0] request$q;
     reg  request$clock;
     reg  [52:0] star_id$head;
-    reg  [52:0] star_id$current;
+    reg  star_id$head_shares;
     reg  [52:0] star_id$first;
     reg  star_id$current_is_last;
     reg  [14:0] star_id$inner_id;
@@ -5261,7 +5986,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
     reg  [6:0] inner_list$inners;
     reg  inner_list$steps;
     wire  inner_list$is_used_up;
-    wire  inner_list$is_there;
+    wire  inner_list$is_awaited;
     wire  [14:0] inner_list$inner_id;
     reg  [14:0] record$id;
     reg  [14:0] record$v0;
@@ -5280,7 +6005,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
     reg  is_record;
     reg  is_close;
     reg  awaits_ring;
-    reg  id_is_known;
+    reg  waits;
     reg  loads;
     reg  advances;
     
@@ -5289,6 +6014,11 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
         .d(state$d),
         .q(state$q),
         .clock(state$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$commit$wants wants(
+        .d(wants$d),
+        .q(wants$q),
+        .clock(wants$clock)
     );
     incircle_core_logic$engine$insertions$commits$commit$ring ring(
         .d(ring$d),
@@ -5362,7 +6092,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
     );
     incircle_core_logic$engine$insertions$commits$commit$star_id star_id(
         .head(star_id$head),
-        .current(star_id$current),
+        .head_shares(star_id$head_shares),
         .first(star_id$first),
         .current_is_last(star_id$current_is_last),
         .inner_id(star_id$inner_id),
@@ -5395,7 +6125,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
         .inners(inner_list$inners),
         .steps(inner_list$steps),
         .is_used_up(inner_list$is_used_up),
-        .is_there(inner_list$is_there),
+        .is_awaited(inner_list$is_awaited),
         .inner_id(inner_list$inner_id)
     );
     incircle_core_logic$engine$insertions$commits$commit$record record(
@@ -5418,6 +6148,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
     // Update code
     always @(*) begin
         state$clock = clock;
+        wants$clock = clock;
         ring$clock = clock;
         first$clock = clock;
         current$clock = clock;
@@ -5426,6 +6157,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
         needs_link$clock = clock;
         opens$clock = clock;
         state$d = state$q;
+        wants$d = wants$q;
         ring$d = ring$q;
         first$d = first$q;
         current$d = current$q;
@@ -5463,19 +6195,19 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
         inner_list$owner = inner_owner;
         inner_list$place = inner_place;
         inner_list$id = inner_id;
-        inner_list$reader = ring$q[(64'h0)+:(5)];
-        inner_list$inners = ring$q[(64'h14)+:(7)];
+        inner_list$reader = head_job[(64'h0)+:(5)];
+        inner_list$inners = head_job[(64'h14)+:(7)];
         star_id$head = head;
-        star_id$current = current$q;
+        star_id$head_shares = head_shares;
         star_id$first = first$q;
         star_id$current_is_last = current_is_last$q;
         star_id$inner_id = inner_list$inner_id;
         star_id$inner_is_used_up = inner_list$is_used_up;
         star_id$fresh = fresh_ids$fresh;
-        id_is_known = current_is_last$q | (head_valid & ((~star_id$is_inner) | inner_list$is_there));
+        waits = head_shares & inner_list$is_awaited;
+        takes = wants$q & (~waits);
         loads = awaits_ring & head_valid;
-        advances = is_record & id_is_known;
-        takes = loads | (advances & (~current_is_last$q));
+        advances = is_record & (current_is_last$q | (head_valid & (~waits)));
         inner_list$restarts = loads;
         inner_list$steps = advances & star_id$is_inner;
         fresh_ids$reset = reset;
@@ -5528,13 +6260,13 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
             CommitState$Record:
                 begin
                     if (advances) begin
+                        wants$d = current_is_last$q | (~head_is_last);
+                        if (current_is_last$q) begin
+                            state$d = CommitState$Close;
+                        end
                         if (needs_link$q) begin
                             state$d = CommitState$Link;
-                        end
-                        else begin
-                            if (current_is_last$q) begin
-                                state$d = CommitState$Close;
-                            end
+                            wants$d = 1'b0;
                         end
                     end
                 end
@@ -5542,6 +6274,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
                 begin
                     request$d = link$write;
                     state$d = CommitState$Record;
+                    wants$d = closes$q | (~current_is_last$q);
                     if (closes$q) begin
                         state$d = CommitState$Close;
                     end
@@ -5549,6 +6282,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
             default:
                 begin
                     state$d = CommitState$Idle;
+                    wants$d = 1'b1;
                     if (loads) begin
                         state$d = CommitState$Record;
                     end
@@ -5556,6 +6290,7 @@ module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_val
         endcase
         if (reset) begin
             state$d = CommitState$Idle;
+            wants$d = 1'b1;
             request$d[(64'h0)+:(1)] = 1'b0;
         end
     end
@@ -5760,15 +6495,14 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids(clock,rese
         seed_records = 32'h4;
         fresh = taken$q;
         records = written$q;
-        step = none;
-        if (takes) begin
-            step = one;
-        end
+        step = one;
         if (solo_inserts) begin
             step = two;
         end
         raised = taken$q + step;
-        taken$d = raised;
+        if (takes | solo_inserts) begin
+            taken$d = raised;
+        end
         ended_before_1$d = ends;
         ended_before_2$d = ended_before_1$q;
         if (ends) begin
@@ -5892,7 +6626,7 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$written(d,
 endmodule // incircle_core_logic$engine$insertions$commits$commit$fresh_ids$written
 
 
-module incircle_core_logic$engine$insertions$commits$commit$inner_list(clock,enable,owner,place,id,restarts,reader,inners,steps,is_used_up,is_there,inner_id);
+module incircle_core_logic$engine$insertions$commits$commit$inner_list(clock,enable,owner,place,id,restarts,reader,inners,steps,is_used_up,is_awaited,inner_id);
     
     // Module arguments
     input wire  clock;
@@ -5905,7 +6639,7 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list(clock,ena
     input wire  [6:0] inners;
     input wire  steps;
     output reg  is_used_up;
-    output reg  is_there;
+    output reg  is_awaited;
     output reg  [14:0] inner_id;
     
     // Stub signals
@@ -5915,15 +6649,45 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list(clock,ena
     reg  memory$write_enable;
     reg  [10:0] memory$read_address;
     wire  [14:0] memory$read_data;
+    reg  written$d;
+    wire  written$q;
+    reg  written$clock;
+    reg  [4:0] written_owner$d;
+    wire  [4:0] written_owner$q;
+    reg  written_owner$clock;
+    reg  [5:0] written_place$d;
+    wire  [5:0] written_place$q;
+    reg  written_place$clock;
+    reg  [14:0] written_id$d;
+    wire  [14:0] written_id$q;
+    reg  written_id$clock;
+    reg  [4:0] list_owner$d;
+    wire  [4:0] list_owner$q;
+    reg  list_owner$clock;
+    reg  [6:0] list_inners$d;
+    wire  [6:0] list_inners$q;
+    reg  list_inners$clock;
     reg  [6:0] index$d;
     wire  [6:0] index$q;
     reg  index$clock;
+    reg  one_is_left$d;
+    wire  one_is_left$q;
+    reg  one_is_left$clock;
+    reg  used_up$d;
+    wire  used_up$q;
+    reg  used_up$clock;
+    reg  awaited$d;
+    wire  awaited$q;
+    reg  awaited$clock;
     reg  stood_1$d;
     wire  stood_1$q;
     reg  stood_1$clock;
     reg  stood_2$d;
     wire  stood_2$q;
     reg  stood_2$clock;
+    reg  [14:0] arrival$d;
+    wire  [14:0] arrival$q;
+    reg  arrival$clock;
     reg  [4:0] write_at$owner;
     reg  [5:0] write_at$place;
     wire  [10:0] write_at$address;
@@ -5934,6 +6698,7 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list(clock,ena
     // Local signals
     reg  [6:0] first_place;
     reg  [6:0] one;
+    reg  [6:0] after_index;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$commits$commit$inner_list$memory memory(
@@ -5944,10 +6709,55 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list(clock,ena
         .read_address(memory$read_address),
         .read_data(memory$read_data)
     );
+    incircle_core_logic$engine$insertions$commits$commit$inner_list$written written(
+        .d(written$d),
+        .q(written$q),
+        .clock(written$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$commit$inner_list$written_owner written_owner(
+        .d(written_owner$d),
+        .q(written_owner$q),
+        .clock(written_owner$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$commit$inner_list$written_place written_place(
+        .d(written_place$d),
+        .q(written_place$q),
+        .clock(written_place$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$commit$inner_list$written_id written_id(
+        .d(written_id$d),
+        .q(written_id$q),
+        .clock(written_id$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$commit$inner_list$list_owner list_owner(
+        .d(list_owner$d),
+        .q(list_owner$q),
+        .clock(list_owner$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$commit$inner_list$list_inners list_inners(
+        .d(list_inners$d),
+        .q(list_inners$q),
+        .clock(list_inners$clock)
+    );
     incircle_core_logic$engine$insertions$commits$commit$inner_list$index index(
         .d(index$d),
         .q(index$q),
         .clock(index$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$commit$inner_list$one_is_left one_is_left(
+        .d(one_is_left$d),
+        .q(one_is_left$q),
+        .clock(one_is_left$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$commit$inner_list$used_up used_up(
+        .d(used_up$d),
+        .q(used_up$q),
+        .clock(used_up$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$commit$inner_list$awaited awaited(
+        .d(awaited$d),
+        .q(awaited$q),
+        .clock(awaited$clock)
     );
     incircle_core_logic$engine$insertions$commits$commit$inner_list$stood_1 stood_1(
         .d(stood_1$d),
@@ -5958,6 +6768,11 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list(clock,ena
         .d(stood_2$d),
         .q(stood_2$q),
         .clock(stood_2$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$commit$inner_list$arrival arrival(
+        .d(arrival$d),
+        .q(arrival$q),
+        .clock(arrival$clock)
     );
     incircle_core_logic$engine$insertions$commits$commit$inner_list$write_at write_at(
         .owner(write_at$owner),
@@ -5972,33 +6787,67 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list(clock,ena
     
     // Update code
     always @(*) begin
+        written$clock = clock;
+        written_owner$clock = clock;
+        written_place$clock = clock;
+        written_id$clock = clock;
+        list_owner$clock = clock;
+        list_inners$clock = clock;
+        written$d = written$q;
+        written_owner$d = written_owner$q;
+        written_place$d = written_place$q;
+        written_id$d = written_id$q;
+        list_owner$d = list_owner$q;
+        list_inners$d = list_inners$q;
         index$clock = clock;
+        one_is_left$clock = clock;
+        used_up$clock = clock;
+        awaited$clock = clock;
         stood_1$clock = clock;
         stood_2$clock = clock;
+        arrival$clock = clock;
         index$d = index$q;
+        one_is_left$d = one_is_left$q;
+        used_up$d = used_up$q;
+        awaited$d = awaited$q;
         stood_1$d = stood_1$q;
         stood_2$d = stood_2$q;
+        arrival$d = arrival$q;
         memory$clock = clock;
         one = 32'h1;
         first_place = 32'h0;
-        write_at$owner = owner;
-        write_at$place = place;
+        written$d = enable;
+        written_owner$d = owner;
+        written_place$d = place;
+        written_id$d = id;
+        write_at$owner = written_owner$q;
+        write_at$place = written_place$q;
         memory$write_address = write_at$address;
-        memory$write_data = id;
-        memory$write_enable = enable;
-        read_at$owner = reader;
+        memory$write_data = written_id$q;
+        memory$write_enable = written$q;
+        read_at$owner = list_owner$q;
         read_at$place = index$q[(32'h0)+:(6)];
         memory$read_address = read_at$address;
-        inner_id = memory$read_data;
-        is_used_up = index$q == inners;
-        is_there = stood_2$q;
+        arrival$d = memory$read_data;
+        inner_id = arrival$q;
+        is_used_up = used_up$q;
+        is_awaited = awaited$q;
+        after_index = index$q + one;
+        one_is_left$d = after_index == list_inners$q;
         stood_1$d = 1'b1;
         stood_2$d = stood_1$q;
+        awaited$d = awaited$q & (~stood_2$q);
         if (steps) begin
-            index$d = index$q + one;
+            index$d = after_index;
+            used_up$d = one_is_left$q;
+            awaited$d = ~one_is_left$q;
         end
         if (restarts) begin
             index$d = first_place;
+            list_owner$d = reader;
+            list_inners$d = inners;
+            used_up$d = inners == first_place;
+            awaited$d = inners != first_place;
         end
         if (steps | restarts) begin
             stood_1$d = 1'b0;
@@ -6007,6 +6856,44 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list(clock,ena
     end
     
 endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list
+
+
+module incircle_core_logic$engine$insertions$commits$commit$inner_list$arrival(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$arrival
+
+
+module incircle_core_logic$engine$insertions$commits$commit$inner_list$awaited(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$awaited
 
 
 module incircle_core_logic$engine$insertions$commits$commit$inner_list$index(d,q,clock);
@@ -6026,6 +6913,44 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list$index(d,q
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$index
+
+
+module incircle_core_logic$engine$insertions$commits$commit$inner_list$list_inners(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$list_inners
+
+
+module incircle_core_logic$engine$insertions$commits$commit$inner_list$list_owner(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$list_owner
 
 
 module incircle_core_logic$engine$insertions$commits$commit$inner_list$memory(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -6094,6 +7019,25 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list$memory(cl
 endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$memory
 
 
+module incircle_core_logic$engine$insertions$commits$commit$inner_list$one_is_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$one_is_left
+
+
 module incircle_core_logic$engine$insertions$commits$commit$inner_list$read_at(owner,place,address);
     
     // Module arguments
@@ -6158,6 +7102,25 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list$stood_2(d
 endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$stood_2
 
 
+module incircle_core_logic$engine$insertions$commits$commit$inner_list$used_up(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$used_up
+
+
 module incircle_core_logic$engine$insertions$commits$commit$inner_list$write_at(owner,place,address);
     
     // Module arguments
@@ -6182,6 +7145,82 @@ module incircle_core_logic$engine$insertions$commits$commit$inner_list$write_at(
     end
     
 endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$write_at
+
+
+module incircle_core_logic$engine$insertions$commits$commit$inner_list$written(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$written
+
+
+module incircle_core_logic$engine$insertions$commits$commit$inner_list$written_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$written_id
+
+
+module incircle_core_logic$engine$insertions$commits$commit$inner_list$written_owner(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$written_owner
+
+
+module incircle_core_logic$engine$insertions$commits$commit$inner_list$written_place(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$written_place
 
 
 module incircle_core_logic$engine$insertions$commits$commit$link(id,slot,value,write);
@@ -6402,11 +7441,11 @@ module incircle_core_logic$engine$insertions$commits$commit$second_id(d,q,clock)
 endmodule // incircle_core_logic$engine$insertions$commits$commit$second_id
 
 
-module incircle_core_logic$engine$insertions$commits$commit$star_id(head,current,first,current_is_last,inner_id,inner_is_used_up,fresh,ahead,id,is_inner,is_fresh);
+module incircle_core_logic$engine$insertions$commits$commit$star_id(head,head_shares,first,current_is_last,inner_id,inner_is_used_up,fresh,ahead,id,is_inner,is_fresh);
     
     // Module arguments
     input wire  [52:0] head;
-    input wire  [52:0] current;
+    input wire  head_shares;
     input wire  [52:0] first;
     input wire  current_is_last;
     input wire  [14:0] inner_id;
@@ -6422,7 +7461,7 @@ module incircle_core_logic$engine$insertions$commits$commit$star_id(head,current
     
     // Update code
     always @(*) begin
-        shares = (~current_is_last) & ((head[(64'h20)+:(15)] == current[(64'h20)+:(15)]) | (head[(64'h20)+:(15)] == first[(64'h20)+:(15)]));
+        shares = head_shares & (~current_is_last);
         is_inner = shares & (~inner_is_used_up);
         is_fresh = shares & inner_is_used_up;
         ahead = head;
@@ -6465,6 +7504,215 @@ module incircle_core_logic$engine$insertions$commits$commit$state(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$commit$state
+
+
+module incircle_core_logic$engine$insertions$commits$commit$wants(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$commit$wants
+
+
+module incircle_core_logic$engine$insertions$commits$edge_comes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$edge_comes
+
+
+module incircle_core_logic$engine$insertions$commits$edge_place(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$edge_place
+
+
+module incircle_core_logic$engine$insertions$commits$found_edge(d,q,clock);
+    
+    // Module arguments
+    input wire  [52:0] d;
+    output reg  [52:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 53'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$found_edge
+
+
+module incircle_core_logic$engine$insertions$commits$inner(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$inner
+
+
+module incircle_core_logic$engine$insertions$commits$inner_at(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$inner_at
+
+
+module incircle_core_logic$engine$insertions$commits$inner_comes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$inner_comes
+
+
+module incircle_core_logic$engine$insertions$commits$list_owner(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$list_owner
+
+
+module incircle_core_logic$engine$insertions$commits$lock(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$lock
+
+
+module incircle_core_logic$engine$insertions$commits$lock_at(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$lock_at
+
+
+module incircle_core_logic$engine$insertions$commits$lock_comes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$lock_comes
 
 
 module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,last_id,lock_enable,lock_owner,lock_place,lock_id,commit_enable,commit_job,failure_enable,failure_job,sweeps,clear_enable,clear_id,released,released_owner);
@@ -7768,7 +9016,7 @@ module incircle_core_logic$engine$insertions$commits$lock_release$write_at(owner
 endmodule // incircle_core_logic$engine$insertions$commits$lock_release$write_at
 
 
-module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_enable,entry_owner,entry_place,entry,job_enable,job,takes,head_valid,head,head_is_last,head_job);
+module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_enable,entry_owner,entry_place,entry,job_enable,job,takes,head_valid,head,head_is_last,head_shares,head_job);
     
     // Module arguments
     input wire  clock;
@@ -7783,6 +9031,7 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
     output reg  head_valid;
     output reg  [52:0] head;
     output reg  head_is_last;
+    output reg  head_shares;
     output reg  [55:0] head_job;
     
     // Stub signals
@@ -7804,7 +9053,8 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
     reg  [5:0] list$read_place;
     reg  list$moves;
     wire  [5:0] list$after;
-    wire  [52:0] list$head;
+    wire  list$is_last;
+    wire  [52:0] list$read;
     reg  [55:0] ring$d;
     wire  [55:0] ring$q;
     reg  ring$clock;
@@ -7829,18 +9079,49 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
     reg  output_valid$d;
     wire  output_valid$q;
     reg  output_valid$clock;
+    reg  output_is_first$d;
+    wire  output_is_first$q;
+    reg  output_is_first$clock;
     reg  output_is_last$d;
     wire  output_is_last$q;
     reg  output_is_last$clock;
     reg  [55:0] output_ring$d;
     wire  [55:0] output_ring$q;
     reg  output_ring$clock;
+    reg  arrival_valid$d;
+    wire  arrival_valid$q;
+    reg  arrival_valid$clock;
+    reg  arrival_is_first$d;
+    wire  arrival_is_first$q;
+    reg  arrival_is_first$clock;
+    reg  arrival_is_last$d;
+    wire  arrival_is_last$q;
+    reg  arrival_is_last$clock;
+    reg  [52:0] arrival$d;
+    wire  [52:0] arrival$q;
+    reg  arrival$clock;
+    reg  entry_valid$d;
+    wire  entry_valid$q;
+    reg  entry_valid$clock;
+    reg  entry_is_last$d;
+    wire  entry_is_last$q;
+    reg  entry_is_last$clock;
+    reg  entry_shares$d;
+    wire  entry_shares$q;
+    reg  entry_shares$clock;
+    reg  [52:0] last_entry$d;
+    wire  [52:0] last_entry$q;
+    reg  last_entry$clock;
+    reg  [14:0] first_f$d;
+    wire  [14:0] first_f$q;
+    reg  first_f$clock;
     
     // Local signals
     reg  [55:0] job_bits;
     reg  moves;
-    reg  is_last;
     reg  ring_is_through;
+    reg  shares_with_last;
+    reg  shares_with_first;
     reg  [5:0] first_place;
     
     // Sub module instances
@@ -7867,7 +9148,8 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         .read_place(list$read_place),
         .moves(list$moves),
         .after(list$after),
-        .head(list$head)
+        .is_last(list$is_last),
+        .read(list$read)
     );
     incircle_core_logic$engine$insertions$commits$rings$ring ring(
         .d(ring$d),
@@ -7909,6 +9191,11 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         .q(output_valid$q),
         .clock(output_valid$clock)
     );
+    incircle_core_logic$engine$insertions$commits$rings$output_is_first output_is_first(
+        .d(output_is_first$d),
+        .q(output_is_first$q),
+        .clock(output_is_first$clock)
+    );
     incircle_core_logic$engine$insertions$commits$rings$output_is_last output_is_last(
         .d(output_is_last$d),
         .q(output_is_last$q),
@@ -7919,6 +9206,51 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         .q(output_ring$q),
         .clock(output_ring$clock)
     );
+    incircle_core_logic$engine$insertions$commits$rings$arrival_valid arrival_valid(
+        .d(arrival_valid$d),
+        .q(arrival_valid$q),
+        .clock(arrival_valid$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$arrival_is_first arrival_is_first(
+        .d(arrival_is_first$d),
+        .q(arrival_is_first$q),
+        .clock(arrival_is_first$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$arrival_is_last arrival_is_last(
+        .d(arrival_is_last$d),
+        .q(arrival_is_last$q),
+        .clock(arrival_is_last$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$arrival arrival(
+        .d(arrival$d),
+        .q(arrival$q),
+        .clock(arrival$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$entry_valid entry_valid(
+        .d(entry_valid$d),
+        .q(entry_valid$q),
+        .clock(entry_valid$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$entry_is_last entry_is_last(
+        .d(entry_is_last$d),
+        .q(entry_is_last$q),
+        .clock(entry_is_last$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$entry_shares entry_shares(
+        .d(entry_shares$d),
+        .q(entry_shares$q),
+        .clock(entry_shares$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$last_entry last_entry(
+        .d(last_entry$d),
+        .q(last_entry$q),
+        .clock(last_entry$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$first_f first_f(
+        .d(first_f$d),
+        .q(first_f$q),
+        .clock(first_f$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -7926,30 +9258,51 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         pointer_valid$clock = clock;
         pointer_is_first$clock = clock;
         pointer$clock = clock;
+        array_valid$clock = clock;
+        array_is_first$clock = clock;
         ring$d = ring$q;
         pointer_valid$d = pointer_valid$q;
         pointer_is_first$d = pointer_is_first$q;
         pointer$d = pointer$q;
-        array_valid$clock = clock;
-        array_is_first$clock = clock;
-        array_is_last$clock = clock;
-        output_valid$clock = clock;
-        output_is_last$clock = clock;
-        output_ring$clock = clock;
         array_valid$d = array_valid$q;
         array_is_first$d = array_is_first$q;
+        array_is_last$clock = clock;
+        output_valid$clock = clock;
+        output_is_first$clock = clock;
+        output_is_last$clock = clock;
+        output_ring$clock = clock;
         array_is_last$d = array_is_last$q;
         output_valid$d = output_valid$q;
+        output_is_first$d = output_is_first$q;
         output_is_last$d = output_is_last$q;
         output_ring$d = output_ring$q;
+        arrival_valid$clock = clock;
+        arrival_is_first$clock = clock;
+        arrival_is_last$clock = clock;
+        arrival$clock = clock;
+        arrival_valid$d = arrival_valid$q;
+        arrival_is_first$d = arrival_is_first$q;
+        arrival_is_last$d = arrival_is_last$q;
+        arrival$d = arrival$q;
+        entry_valid$clock = clock;
+        entry_is_last$clock = clock;
+        entry_shares$clock = clock;
+        last_entry$clock = clock;
+        first_f$clock = clock;
+        entry_valid$d = entry_valid$q;
+        entry_is_last$d = entry_is_last$q;
+        entry_shares$d = entry_shares$q;
+        last_entry$d = last_entry$q;
+        first_f$d = first_f$q;
         rings$clock = clock;
         list$clock = clock;
         first_place = 32'h0;
-        head_valid = output_valid$q;
-        head = list$head;
-        head_is_last = output_is_last$q;
+        head_valid = entry_valid$q;
+        head = last_entry$q;
+        head_is_last = entry_is_last$q;
+        head_shares = entry_shares$q;
         head_job = output_ring$q;
-        moves = (~output_valid$q) | takes;
+        moves = (~entry_valid$q) | takes;
         list$enable = entry_enable;
         list$owner = entry_owner;
         list$place = entry_place;
@@ -7957,37 +9310,52 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         list$reader = ring$q[(64'h0)+:(5)];
         list$read_place = pointer$q;
         list$moves = moves;
-        is_last = list$after == first_place;
-        ring_is_through = (~pointer_valid$q) | is_last;
+        ring_is_through = (~pointer_valid$q) | list$is_last;
         job_bits = job;
         rings$reset = reset;
         rings$enable = job_enable;
         rings$job = job_bits;
         rings$takes = moves & ring_is_through;
         oldest$bits = rings$head;
+        shares_with_last = arrival$q[(64'h20)+:(15)] == last_entry$q[(64'h20)+:(15)];
+        shares_with_first = arrival$q[(64'h20)+:(15)] == first_f$q;
         if (moves) begin
             pointer_is_first$d = ring_is_through;
             if (ring_is_through) begin
                 pointer_valid$d = rings$waits;
-                pointer$d = first_place;
                 ring$d = oldest$value;
             end
-            else begin
+            pointer$d = first_place;
+            if (pointer_valid$q) begin
                 pointer$d = list$after;
             end
             array_valid$d = pointer_valid$q;
             array_is_first$d = pointer_is_first$q;
-            array_is_last$d = is_last;
+            array_is_last$d = list$is_last;
             output_valid$d = array_valid$q;
+            output_is_first$d = array_is_first$q;
             output_is_last$d = array_is_last$q;
             if (array_is_first$q) begin
                 output_ring$d = ring$q;
+            end
+            arrival_valid$d = output_valid$q;
+            arrival_is_first$d = output_is_first$q;
+            arrival_is_last$d = output_is_last$q;
+            arrival$d = list$read;
+            entry_valid$d = arrival_valid$q;
+            entry_is_last$d = arrival_is_last$q;
+            entry_shares$d = (~arrival_is_first$q) & (shares_with_last | shares_with_first);
+            last_entry$d = arrival$q;
+            if (arrival_is_first$q) begin
+                first_f$d = arrival$q[(64'h20)+:(15)];
             end
         end
         if (reset) begin
             pointer_valid$d = 1'b0;
             array_valid$d = 1'b0;
             output_valid$d = 1'b0;
+            arrival_valid$d = 1'b0;
+            entry_valid$d = 1'b0;
         end
     end
     
@@ -8051,7 +9419,178 @@ module incircle_core_logic$engine$insertions$commits$rings$array_valid(d,q,clock
 endmodule // incircle_core_logic$engine$insertions$commits$rings$array_valid
 
 
-module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,owner,place,entry,reader,read_place,moves,after,head);
+module incircle_core_logic$engine$insertions$commits$rings$arrival(d,q,clock);
+    
+    // Module arguments
+    input wire  [52:0] d;
+    output reg  [52:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 53'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$arrival
+
+
+module incircle_core_logic$engine$insertions$commits$rings$arrival_is_first(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$arrival_is_first
+
+
+module incircle_core_logic$engine$insertions$commits$rings$arrival_is_last(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$arrival_is_last
+
+
+module incircle_core_logic$engine$insertions$commits$rings$arrival_valid(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$arrival_valid
+
+
+module incircle_core_logic$engine$insertions$commits$rings$entry_is_last(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$entry_is_last
+
+
+module incircle_core_logic$engine$insertions$commits$rings$entry_shares(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$entry_shares
+
+
+module incircle_core_logic$engine$insertions$commits$rings$entry_valid(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$entry_valid
+
+
+module incircle_core_logic$engine$insertions$commits$rings$first_f(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$first_f
+
+
+module incircle_core_logic$engine$insertions$commits$rings$last_entry(d,q,clock);
+    
+    // Module arguments
+    input wire  [52:0] d;
+    output reg  [52:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 53'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$last_entry
+
+
+module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,owner,place,entry,reader,read_place,moves,after,is_last,read);
     
     // Module arguments
     input wire  clock;
@@ -8063,15 +9602,28 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
     input wire  [5:0] read_place;
     input wire  moves;
     output reg  [5:0] after;
-    output reg  [52:0] head;
+    output reg  is_last;
+    output reg  [52:0] read;
     
     // Stub signals
+    reg  written$d;
+    wire  written$q;
+    reg  written$clock;
+    reg  [4:0] written_owner$d;
+    wire  [4:0] written_owner$q;
+    reg  written_owner$clock;
+    reg  [5:0] written_place$d;
+    wire  [5:0] written_place$q;
+    reg  written_place$clock;
+    reg  [52:0] written_entry$d;
+    wire  [52:0] written_entry$q;
+    reg  written_entry$clock;
     reg  followers$clock;
     reg  [10:0] followers$write_address;
-    reg  [5:0] followers$write_data;
+    reg  [6:0] followers$write_data;
     reg  followers$write_enable;
     reg  [10:0] followers$read_address;
-    wire  [5:0] followers$read_data;
+    wire  [6:0] followers$read_data;
     reg  edges$clock;
     reg  [10:0] edges$write_address;
     reg  [52:0] edges$write_data;
@@ -8090,8 +9642,33 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
     
     // Local signals
     reg  [52:0] entry_bits;
+    reg  [5:0] first_place;
+    reg  [6:0] wide_after;
+    reg  [6:0] raised_after;
+    reg  [6:0] last_bit;
+    reg  [6:0] one;
     
     // Sub module instances
+    incircle_core_logic$engine$insertions$commits$rings$list$written written(
+        .d(written$d),
+        .q(written$q),
+        .clock(written$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$list$written_owner written_owner(
+        .d(written_owner$d),
+        .q(written_owner$q),
+        .clock(written_owner$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$list$written_place written_place(
+        .d(written_place$d),
+        .q(written_place$q),
+        .clock(written_place$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$list$written_entry written_entry(
+        .d(written_entry$d),
+        .q(written_entry$q),
+        .clock(written_entry$clock)
+    );
     incircle_core_logic$engine$insertions$commits$rings$list$followers followers(
         .clock(followers$clock),
         .write_address(followers$write_address),
@@ -8126,25 +9703,46 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
     
     // Update code
     always @(*) begin
+        written$clock = clock;
+        written_owner$clock = clock;
+        written_place$clock = clock;
+        written_entry$clock = clock;
+        written$d = written$q;
+        written_owner$d = written_owner$q;
+        written_place$d = written_place$q;
+        written_entry$d = written_entry$q;
         followers$clock = clock;
         edges$clock = clock;
-        write_at$owner = owner;
-        write_at$place = place;
-        entry_bits = entry;
+        first_place = 32'h0;
+        written$d = enable;
+        written_owner$d = owner;
+        written_place$d = place;
+        written_entry$d = entry;
+        write_at$owner = written_owner$q;
+        write_at$place = written_place$q;
+        entry_bits = written_entry$q;
+        one = 32'h1;
+        wide_after = ((written_entry$q[(64'h2f)+:(6)]) & 7'h7f);
+        raised_after = wide_after << one;
+        last_bit = 32'h0;
+        if (written_entry$q[(64'h2f)+:(6)] == first_place) begin
+            last_bit = 32'h1;
+        end
         followers$write_address = write_at$address;
-        followers$write_data = entry[(64'h2f)+:(6)];
-        followers$write_enable = enable;
+        followers$write_data = raised_after | last_bit;
+        followers$write_enable = written$q;
         edges$write_address = write_at$address;
         edges$write_data = entry_bits;
-        edges$write_enable = enable;
+        edges$write_enable = written$q;
         read_at$owner = reader;
         read_at$place = read_place;
         followers$read_address = read_at$address;
-        after = followers$read_data;
+        after = followers$read_data[(32'h1)+:(6)];
+        is_last = followers$read_data[32'h0];
         edges$read_address = read_at$address;
         edges$read_enable = moves;
         read_entry$bits = edges$read_data;
-        head = read_entry$value;
+        read = read_entry$value;
     end
     
 endmodule // incircle_core_logic$engine$insertions$commits$rings$list
@@ -8225,20 +9823,20 @@ module incircle_core_logic$engine$insertions$commits$rings$list$followers(clock,
     // Module arguments
     input wire  clock;
     input wire  [10:0] write_address;
-    input wire  [5:0] write_data;
+    input wire  [6:0] write_data;
     input wire  write_enable;
     input wire  [10:0] read_address;
-    output reg  [5:0] read_data;
+    output reg  [6:0] read_data;
     
     // Update code (custom)
     wire unused_write_address = &{1'b0, write_address[10:7]};
     wire unused_read_address = &{1'b0, read_address[10:7]};
-    wire unused_write_data = &{1'b0, write_data[5:5]};
+    wire unused_write_data = &{1'b0, write_data[6:6]};
     (* ram_style = "distributed" *)
-    reg [4:0] memory [0:127];
-    wire [4:0] word = memory[read_address[6:0]];
+    reg [5:0] memory [0:127];
+    wire [5:0] word = memory[read_address[6:0]];
     always @(posedge clock) begin
-        if (write_enable) memory[write_address[6:0]] <= write_data[4:0];
+        if (write_enable) memory[write_address[6:0]] <= write_data[5:0];
     end
     always @(*) read_data = {{1{1'b0}}, word};
 endmodule // incircle_core_logic$engine$insertions$commits$rings$list$followers
@@ -8307,6 +9905,82 @@ module incircle_core_logic$engine$insertions$commits$rings$list$write_at(owner,p
 endmodule // incircle_core_logic$engine$insertions$commits$rings$list$write_at
 
 
+module incircle_core_logic$engine$insertions$commits$rings$list$written(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$list$written
+
+
+module incircle_core_logic$engine$insertions$commits$rings$list$written_entry(d,q,clock);
+    
+    // Module arguments
+    input wire  [52:0] d;
+    output reg  [52:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 53'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$list$written_entry
+
+
+module incircle_core_logic$engine$insertions$commits$rings$list$written_owner(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$list$written_owner
+
+
+module incircle_core_logic$engine$insertions$commits$rings$list$written_place(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$list$written_place
+
+
 module incircle_core_logic$engine$insertions$commits$rings$oldest(bits,value);
     
     // Module arguments
@@ -8316,6 +9990,25 @@ module incircle_core_logic$engine$insertions$commits$rings$oldest(bits,value);
     // Update code (custom)
     always @(*) value = bits;
 endmodule // incircle_core_logic$engine$insertions$commits$rings$oldest
+
+
+module incircle_core_logic$engine$insertions$commits$rings$output_is_first(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$output_is_first
 
 
 module incircle_core_logic$engine$insertions$commits$rings$output_is_last(d,q,clock);
@@ -9677,6 +11370,12 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  points$write_enable;
     reg  [4:0] points$read_address;
     wire  [14:0] points$read_data;
+    reg  plans$clock;
+    reg  [4:0] plans$write_address;
+    reg  [14:0] plans$write_data;
+    reg  plans$write_enable;
+    reg  [4:0] plans$read_address;
+    wire  [14:0] plans$read_data;
     reg  roots$clock;
     reg  [4:0] roots$write_address;
     reg  [14:0] roots$write_data;
@@ -9691,9 +11390,11 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     wire  [14:0] hints$read_data;
     reg  [4:0] following$turn;
     reg  following$has_begun;
-    reg  [14:0] following$id;
-    reg  [4:0] following$contexts;
+    reg  [14:0] following$planned;
     wire  [14:0] following$next_id;
+    reg  [14:0] following$taken;
+    reg  [4:0] following$contexts;
+    wire  [14:0] following$after_taken;
     
     // Local signals
     reg  [4:0] turn_index;
@@ -9780,6 +11481,14 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .read_address(points$read_address),
         .read_data(points$read_data)
     );
+    incircle_core_logic$engine$insertions$dispatcher$start$plans plans(
+        .clock(plans$clock),
+        .write_address(plans$write_address),
+        .write_data(plans$write_data),
+        .write_enable(plans$write_enable),
+        .read_address(plans$read_address),
+        .read_data(plans$read_data)
+    );
     incircle_core_logic$engine$insertions$dispatcher$start$roots roots(
         .clock(roots$clock),
         .write_address(roots$write_address),
@@ -9799,9 +11508,11 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     incircle_core_logic$engine$insertions$dispatcher$start$following following(
         .turn(following$turn),
         .has_begun(following$has_begun),
-        .id(following$id),
+        .planned(following$planned),
+        .next_id(following$next_id),
+        .taken(following$taken),
         .contexts(following$contexts),
-        .next_id(following$next_id)
+        .after_taken(following$after_taken)
     );
     
     // Update code
@@ -9829,6 +11540,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         taken1$d = taken1$q;
         taken2$d = taken2$q;
         points$clock = clock;
+        plans$clock = clock;
         roots$clock = clock;
         hints$clock = clock;
         one_turn = 32'h1;
@@ -9840,7 +11552,9 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         points$read_address = turn$q;
         following$turn = turn$q;
         following$has_begun = began[turn_index];
-        following$id = points$read_data;
+        plans$read_address = turn$q;
+        following$planned = plans$read_data;
+        following$taken = candidate_id$q;
         following$contexts = contexts;
         index = candidate$q;
         is_first = candidate$q == first_context;
@@ -9875,6 +11589,9 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         points$write_address = candidate$q;
         points$write_data = candidate_id$q;
         points$write_enable = is_taken;
+        plans$write_address = candidate$q;
+        plans$write_data = following$after_taken;
+        plans$write_enable = is_taken;
         roots$write_address = root_owner;
         roots$write_data = root;
         roots$write_enable = root_enable;
@@ -10013,14 +11730,16 @@ module incircle_core_logic$engine$insertions$dispatcher$start$candidate_point(d,
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$following(turn,has_begun,id,contexts,next_id);
+module incircle_core_logic$engine$insertions$dispatcher$start$following(turn,has_begun,planned,next_id,taken,contexts,after_taken);
     
     // Module arguments
     input wire  [4:0] turn;
     input wire  has_begun;
-    input wire  [14:0] id;
-    input wire  [4:0] contexts;
+    input wire  [14:0] planned;
     output reg  [14:0] next_id;
+    input wire  [14:0] taken;
+    input wire  [4:0] contexts;
+    output reg  [14:0] after_taken;
     
     // Local signals
     reg  [14:0] step;
@@ -10034,10 +11753,11 @@ module incircle_core_logic$engine$insertions$dispatcher$start$following(turn,has
         first_context = 32'h0;
         wide_turn = ((turn) & 15'h7fff);
         step = ((contexts) & 15'h7fff);
-        if (id < first_round) begin
+        if (taken < first_round) begin
             step = 32'h1;
         end
-        next_id = id + step;
+        after_taken = taken + step;
+        next_id = planned;
         if (~has_begun) begin
             next_id = wide_turn + first_round;
             if (turn == first_context) begin
@@ -10108,6 +11828,29 @@ module incircle_core_logic$engine$insertions$dispatcher$start$owner2(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$owner2
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [14:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [14:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:2]};
+    wire unused_read_address = &{1'b0, read_address[4:2]};
+    (* ram_style = "distributed" *)
+    reg [14:0] memory [0:3];
+    wire [14:0] word = memory[read_address[1:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[1:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$points(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -10327,7 +12070,7 @@ module incircle_core_logic$engine$insertions$dispatcher$watchdog$is_stuck(d,q,cl
 endmodule // incircle_core_logic$engine$insertions$dispatcher$watchdog$is_stuck
 
 
-module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,records,position_owner,position,position_enable,is_issuing,done,token,turned,verdict,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,write,vertex_id,vertex_position,vertex_enable,fetch_id,fetched,clear_id,clear_enable);
+module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,records,position_owner,position,position_enable,is_issuing,done,token,turned,verdict,early_owner,early_entry,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,write,enables,vertex_id,vertex_position,vertex_enable,fetch_id,fetched,clear_id,clear_enable);
     
     // Module arguments
     input wire  clock;
@@ -10344,6 +12087,8 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
     output reg  [54:0] token;
     output reg  [97:0] turned;
     output reg  [19:0] verdict;
+    output reg  [4:0] early_owner;
+    output reg  [5:0] early_entry;
     input wire  read;
     input wire  [14:0] read_id;
     output reg  read_done;
@@ -10355,6 +12100,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
     output reg  [14:0] n2;
     output reg  was_set;
     input wire  [109:0] write;
+    input wire  [3:0] enables;
     input wire  [14:0] vertex_id;
     input wire  [31:0] vertex_position;
     input wire  vertex_enable;
@@ -10372,10 +12118,15 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
     reg  [14:0] issue$read_id;
     wire  issue$token_valid;
     wire  [54:0] issue$token;
+    wire  [14:0] issue$vertices_id;
+    wire  [14:0] issue$links_id;
     wire  issue$read_valid;
     reg  triangles$clock;
     reg  [109:0] triangles$write;
+    reg  [3:0] triangles$enables;
     reg  [14:0] triangles$read_id;
+    reg  [14:0] triangles$vertices_id;
+    reg  [14:0] triangles$links_id;
     reg  triangles$read_locks;
     reg  [4:0] triangles$owner;
     wire  [14:0] triangles$v0;
@@ -10456,6 +12207,9 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
     wire  [54:0] delayed_token$value;
     reg  [97:0] delayed_turned$bits;
     wire  [97:0] delayed_turned$value;
+    reg  [97:0] judged$d;
+    wire  [97:0] judged$q;
+    reg  judged$clock;
     reg  [31:0] point$d;
     wire  [31:0] point$q;
     reg  point$clock;
@@ -10496,12 +12250,17 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         .read_id(issue$read_id),
         .token_valid(issue$token_valid),
         .token(issue$token),
+        .vertices_id(issue$vertices_id),
+        .links_id(issue$links_id),
         .read_valid(issue$read_valid)
     );
     incircle_core_logic$engine$pipeline$triangles triangles(
         .clock(triangles$clock),
         .write(triangles$write),
+        .enables(triangles$enables),
         .read_id(triangles$read_id),
+        .vertices_id(triangles$vertices_id),
+        .links_id(triangles$links_id),
         .read_locks(triangles$read_locks),
         .owner(triangles$owner),
         .v0(triangles$v0),
@@ -10607,6 +12366,11 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         .bits(delayed_turned$bits),
         .value(delayed_turned$value)
     );
+    incircle_core_logic$engine$pipeline$judged judged(
+        .d(judged$d),
+        .q(judged$q),
+        .clock(judged$clock)
+    );
     incircle_core_logic$engine$pipeline$point point(
         .d(point$d),
         .q(point$q),
@@ -10653,6 +12417,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         valid$clock = clock;
         read_valid1$clock = clock;
         read_valid2$clock = clock;
+        judged$clock = clock;
         token_register$clock = clock;
         turned_register$clock = clock;
         verdict_register$clock = clock;
@@ -10664,6 +12429,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         valid$d = valid$q;
         read_valid1$d = read_valid1$q;
         read_valid2$d = read_valid2$q;
+        judged$d = judged$q;
         token_register$d = token_register$q;
         turned_register$d = turned_register$q;
         verdict_register$d = verdict_register$q;
@@ -10688,9 +12454,12 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         again1$d = is_torn | (~is_written);
         again2$d = again1$q;
         triangles$read_id = issue$token[(64'h28)+:(15)];
+        triangles$vertices_id = issue$vertices_id;
+        triangles$links_id = issue$links_id;
         triangles$read_locks = issue$token_valid & issue$token[(64'h6)+:(1)];
         triangles$owner = issue$token[(64'h0)+:(5)];
         triangles$write = write;
+        triangles$enables = enables;
         triangles$clear_id = clear_id;
         triangles$clear_enable = clear_enable;
         reader$token = issue$token;
@@ -10741,10 +12510,13 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         turned_bits = reader$turned;
         turned_delay$data_in = turned_bits;
         delayed_turned$bits = turned_delay$data_out;
-        judge$turned = delayed_turned$value;
+        judged$d = delayed_turned$value;
+        judge$turned = judged$q;
         token_register$d = delayed_token$value;
-        turned_register$d = delayed_turned$value;
+        turned_register$d = judged$q;
         verdict_register$d = judge$verdict;
+        early_owner = delayed_token$value[(64'h0)+:(5)];
+        early_entry = delayed_token$value[(64'h13)+:(6)];
         token = token_register$q;
         turned = turned_register$q;
         verdict = verdict_register$q;
@@ -10824,7 +12596,7 @@ module incircle_core_logic$engine$pipeline$delayed_turned(bits,value);
 endmodule // incircle_core_logic$engine$pipeline$delayed_turned
 
 
-module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,read_id,token_valid,token,read_valid);
+module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,read_id,token_valid,token,vertices_id,links_id,read_valid);
     
     // Module arguments
     input wire  clock;
@@ -10835,6 +12607,8 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
     input wire  [14:0] read_id;
     output reg  token_valid;
     output reg  [54:0] token;
+    output reg  [14:0] vertices_id;
+    output reg  [14:0] links_id;
     output reg  read_valid;
     
     // Stub signals
@@ -10850,6 +12624,12 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
     reg  [54:0] issued$d;
     wire  [54:0] issued$q;
     reg  issued$clock;
+    reg  [14:0] vertices_copy$d;
+    wire  [14:0] vertices_copy$q;
+    reg  vertices_copy$clock;
+    reg  [14:0] links_copy$d;
+    wire  [14:0] links_copy$q;
+    reg  links_copy$clock;
     reg  issued_valid$d;
     wire  issued_valid$q;
     reg  issued_valid$clock;
@@ -10865,6 +12645,8 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
     
     // Local signals
     reg  [92:0] bundle_bits;
+    reg  [14:0] record;
+    reg  [14:0] no_record;
     reg  is_at_first;
     reg  second_follows;
     reg  third_follows;
@@ -10887,6 +12669,16 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
         .d(issued$d),
         .q(issued$q),
         .clock(issued$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$vertices_copy vertices_copy(
+        .d(vertices_copy$d),
+        .q(vertices_copy$q),
+        .clock(vertices_copy$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$links_copy links_copy(
+        .d(links_copy$d),
+        .q(links_copy$q),
+        .clock(links_copy$clock)
     );
     incircle_core_logic$engine$pipeline$issue$issued_valid issued_valid(
         .d(issued_valid$d),
@@ -10912,11 +12704,15 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
     // Update code
     always @(*) begin
         issued$clock = clock;
+        vertices_copy$clock = clock;
+        links_copy$clock = clock;
         issued_valid$clock = clock;
         issued_read$clock = clock;
         second_is_due$clock = clock;
         third_is_due$clock = clock;
         issued$d = issued$q;
+        vertices_copy$d = vertices_copy$q;
+        links_copy$d = links_copy$q;
         issued_valid$d = issued_valid$q;
         issued_read$d = issued_read$q;
         second_is_due$d = second_is_due$q;
@@ -10929,6 +12725,8 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
         head$bits = queue$data;
         token = issued$q;
         token_valid = issued_valid$q;
+        vertices_id = vertices_copy$q;
+        links_id = links_copy$q;
         read_valid = issued_read$q;
         is_at_first = (~second_is_due$q) & (~third_is_due$q);
         second_follows = head$value[(64'h0)+:(1)] & is_at_first;
@@ -10945,21 +12743,27 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
         issued$d[(64'h19)+:(15)] = head$value[(64'h1b)+:(15)];
         issued$d[(64'h7)+:(6)] = head$value[(64'h9)+:(6)];
         issued$d[(64'hd)+:(6)] = head$value[(64'hf)+:(6)];
-        issued$d[(64'h28)+:(15)] = head$value[(64'h2a)+:(15)];
+        record = head$value[(64'h2a)+:(15)];
         if (second_is_due$q) begin
             issued$d[(64'h7)+:(6)] = head$value[(64'hf)+:(6)];
             issued$d[(64'hd)+:(6)] = head$value[(64'h39)+:(6)];
-            issued$d[(64'h28)+:(15)] = head$value[(64'h3f)+:(15)];
+            record = head$value[(64'h3f)+:(15)];
         end
         if (third_is_due$q) begin
             issued$d[(64'h7)+:(6)] = head$value[(64'h39)+:(6)];
             issued$d[(64'hd)+:(6)] = 32'h0;
-            issued$d[(64'h28)+:(15)] = head$value[(64'h4e)+:(15)];
+            record = head$value[(64'h4e)+:(15)];
         end
         if (read) begin
-            issued$d[(64'h28)+:(15)] = read_id;
+            record = read_id;
         end
+        issued$d[(64'h28)+:(15)] = record;
+        vertices_copy$d = record;
+        links_copy$d = record;
+        no_record = 32'h0;
         if (reset) begin
+            vertices_copy$d = no_record;
+            links_copy$d = ~no_record;
             issued_valid$d = 1'b0;
             issued_read$d = 1'b0;
             second_is_due$d = 1'b0;
@@ -11036,6 +12840,25 @@ module incircle_core_logic$engine$pipeline$issue$issued_valid(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$pipeline$issue$issued_valid
+
+
+module incircle_core_logic$engine$pipeline$issue$links_copy(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$issue$links_copy
 
 
 module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_data,pop,valid,data);
@@ -11115,13 +12938,10 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     reg  place_in_output$clock;
     
     // Local signals
-    reg  passes;
-    reg  stores;
     reg  spills;
     reg  enters;
     reg  fetches;
     reg  advances;
-    reg  leaves;
     reg  [10:0] after_newest;
     reg  [10:0] after_fetched;
     reg  [3:0] after_oldest;
@@ -11254,13 +13074,10 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
                 data = fetched_bank$read_data;
             end
         end
-        passes = (~holds_entries$q) & pop;
-        stores = push & (~passes);
-        spills = stores & (holds_spilled$q | window_is_full$q);
-        enters = stores & (~spills);
+        spills = push & (holds_spilled$q | window_is_full$q);
+        enters = push & (~spills);
         fetches = holds_spilled$q & (~window_is_full$q);
         advances = enters | fetches;
-        leaves = pop & holds_entries$q;
         ring$write_address = newest$q;
         ring$write_data = push_data;
         ring$write_enable = spills;
@@ -11281,13 +13098,13 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
             was_fetched$write_data = from_ring;
         end
         was_fetched$write_enable = advances;
-        if (stores) begin
+        if (push) begin
             newest$d = after_newest;
         end
         if (advances) begin
             fetched$d = after_fetched;
         end
-        if (leaves) begin
+        if (pop) begin
             oldest$d = after_oldest;
         end
         if (fetches) begin
@@ -11296,11 +13113,11 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         if (spills) begin
             holds_spilled$d = 1'b1;
         end
-        if (advances & (~leaves)) begin
+        if (advances & (~pop)) begin
             holds_entries$d = 1'b1;
             window_is_full$d = after_place == oldest$q;
         end
-        if (leaves & (~advances)) begin
+        if (pop & (~advances)) begin
             holds_entries$d = after_oldest != place;
             window_is_full$d = 1'b0;
         end
@@ -11676,6 +13493,25 @@ module incircle_core_logic$engine$pipeline$issue$third_is_due(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$issue$third_is_due
 
 
+module incircle_core_logic$engine$pipeline$issue$vertices_copy(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$issue$vertices_copy
+
+
 module incircle_core_logic$engine$pipeline$judge(clock,r0,r1,r2,p,turned,verdict);
     
     // Module arguments
@@ -11712,6 +13548,7 @@ module incircle_core_logic$engine$pipeline$judge(clock,r0,r1,r2,p,turned,verdict
     wire  predicates$p_equals_r2;
     wire  predicates$r0_before_r1;
     wire  predicates$r0_before_r2;
+    wire  predicates$r1_before_r2;
     reg  [97:0] verdict_logic$turned;
     reg  verdict_logic$e0_negative;
     reg  verdict_logic$e1_negative;
@@ -11732,6 +13569,7 @@ module incircle_core_logic$engine$pipeline$judge(clock,r0,r1,r2,p,turned,verdict
     reg  verdict_logic$p_equals_r2;
     reg  verdict_logic$r0_before_r1;
     reg  verdict_logic$r0_before_r2;
+    reg  verdict_logic$r1_before_r2;
     wire  [19:0] verdict_logic$verdict;
     
     // Sub module instances
@@ -11759,7 +13597,8 @@ module incircle_core_logic$engine$pipeline$judge(clock,r0,r1,r2,p,turned,verdict
         .p_equals_r1(predicates$p_equals_r1),
         .p_equals_r2(predicates$p_equals_r2),
         .r0_before_r1(predicates$r0_before_r1),
-        .r0_before_r2(predicates$r0_before_r2)
+        .r0_before_r2(predicates$r0_before_r2),
+        .r1_before_r2(predicates$r1_before_r2)
     );
     incircle_core_logic$engine$pipeline$judge$verdict_logic verdict_logic(
         .turned(verdict_logic$turned),
@@ -11782,6 +13621,7 @@ module incircle_core_logic$engine$pipeline$judge(clock,r0,r1,r2,p,turned,verdict
         .p_equals_r2(verdict_logic$p_equals_r2),
         .r0_before_r1(verdict_logic$r0_before_r1),
         .r0_before_r2(verdict_logic$r0_before_r2),
+        .r1_before_r2(verdict_logic$r1_before_r2),
         .verdict(verdict_logic$verdict)
     );
     
@@ -11812,13 +13652,14 @@ module incircle_core_logic$engine$pipeline$judge(clock,r0,r1,r2,p,turned,verdict
         verdict_logic$p_equals_r2 = predicates$p_equals_r2;
         verdict_logic$r0_before_r1 = predicates$r0_before_r1;
         verdict_logic$r0_before_r2 = predicates$r0_before_r2;
+        verdict_logic$r1_before_r2 = predicates$r1_before_r2;
         verdict = verdict_logic$verdict;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$judge
 
 
-module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1,incircle_positive,incircle_zero,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2);
+module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1,incircle_positive,incircle_zero,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2,r1_before_r2);
     
     // Module arguments
     input wire  clock;
@@ -11845,6 +13686,7 @@ module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_
     output reg  p_equals_r2;
     output reg  r0_before_r1;
     output reg  r0_before_r2;
+    output reg  r1_before_r2;
     
     // Constant declarations
     localparam  sign = 68'h80000000000000000;
@@ -11932,6 +13774,7 @@ module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_
     wire  order$p_equals_r2;
     wire  order$r0_before_r1;
     wire  order$r0_before_r2;
+    wire  order$r1_before_r2;
     reg  point_by_apex$clock;
     reg  [35:0] point_by_apex$a;
     reg  [35:0] point_by_apex$b;
@@ -12058,7 +13901,8 @@ module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_
         .p_equals_r1(order$p_equals_r1),
         .p_equals_r2(order$p_equals_r2),
         .r0_before_r1(order$r0_before_r1),
-        .r0_before_r2(order$r0_before_r2)
+        .r0_before_r2(order$r0_before_r2),
+        .r1_before_r2(order$r1_before_r2)
     );
     incircle_core_logic$engine$pipeline$judge$predicates$point_by_apex point_by_apex(
         .clock(point_by_apex$clock),
@@ -12165,6 +14009,7 @@ module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_
         p_equals_r2 = order$p_equals_r2;
         r0_before_r1 = order$r0_before_r1;
         r0_before_r2 = order$r0_before_r2;
+        r1_before_r2 = order$r1_before_r2;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates
@@ -14228,7 +16073,7 @@ module incircle_core_logic$engine$pipeline$judge$predicates$edges$zero_2(d,q,clo
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates$edges$zero_2
 
 
-module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,r0,r1,r2,p,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2);
+module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,r0,r1,r2,p,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2,r1_before_r2);
     
     // Module arguments
     input wire  clock;
@@ -14244,6 +16089,7 @@ module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,r0,r1,r2
     output reg  p_equals_r2;
     output reg  r0_before_r1;
     output reg  r0_before_r2;
+    output reg  r1_before_r2;
     
     // Stub signals
     reg  [31:0] key_r0$point;
@@ -14278,6 +16124,9 @@ module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,r0,r1,r2
     reg  delay_r0_before_r2$clock;
     reg  delay_r0_before_r2$flag_in;
     wire  delay_r0_before_r2$flag_out;
+    reg  delay_r1_before_r2$clock;
+    reg  delay_r1_before_r2$flag_in;
+    wire  delay_r1_before_r2$flag_out;
     
     // Sub module instances
     incircle_core_logic$engine$pipeline$judge$predicates$order$key_r0 key_r0(
@@ -14336,6 +16185,11 @@ module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,r0,r1,r2
         .flag_in(delay_r0_before_r2$flag_in),
         .flag_out(delay_r0_before_r2$flag_out)
     );
+    incircle_core_logic$engine$pipeline$judge$predicates$order$delay_r1_before_r2 delay_r1_before_r2(
+        .clock(delay_r1_before_r2$clock),
+        .flag_in(delay_r1_before_r2$flag_in),
+        .flag_out(delay_r1_before_r2$flag_out)
+    );
     
     // Update code
     always @(*) begin
@@ -14347,6 +16201,7 @@ module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,r0,r1,r2
         delay_equals_r2$clock = clock;
         delay_r0_before_r1$clock = clock;
         delay_r0_before_r2$clock = clock;
+        delay_r1_before_r2$clock = clock;
         key_r0$point = r0;
         key_r1$point = r1;
         key_r2$point = r2;
@@ -14359,6 +16214,7 @@ module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,r0,r1,r2
         delay_equals_r2$flag_in = p == r2;
         delay_r0_before_r1$flag_in = key_r0$key < key_r1$key;
         delay_r0_before_r2$flag_in = key_r0$key < key_r2$key;
+        delay_r1_before_r2$flag_in = key_r1$key < key_r2$key;
         p_before_r0 = delay_before_r0$flag_out;
         p_before_r1 = delay_before_r1$flag_out;
         p_before_r2 = delay_before_r2$flag_out;
@@ -14367,6 +16223,7 @@ module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,r0,r1,r2
         p_equals_r2 = delay_equals_r2$flag_out;
         r0_before_r1 = delay_r0_before_r1$flag_out;
         r0_before_r2 = delay_r0_before_r2$flag_out;
+        r1_before_r2 = delay_r1_before_r2$flag_out;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates$order
@@ -14474,6 +16331,19 @@ module incircle_core_logic$engine$pipeline$judge$predicates$order$delay_r0_befor
     reg [8:0] line;
     always @(posedge clock) {flag_out, line} <= {line, flag_in};
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates$order$delay_r0_before_r2
+
+
+module incircle_core_logic$engine$pipeline$judge$predicates$order$delay_r1_before_r2(clock,flag_in,flag_out);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  flag_in;
+    output reg  flag_out;
+    
+    // Update code (custom)
+    reg [8:0] line;
+    always @(posedge clock) {flag_out, line} <= {line, flag_in};
+endmodule // incircle_core_logic$engine$pipeline$judge$predicates$order$delay_r1_before_r2
 
 
 module incircle_core_logic$engine$pipeline$judge$predicates$order$key_p(point,key);
@@ -15252,7 +17122,7 @@ module incircle_core_logic$engine$pipeline$judge$predicates$zero(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates$zero
 
 
-module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1,incircle_positive,incircle_zero,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2,verdict);
+module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1,incircle_positive,incircle_zero,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2,r1_before_r2,verdict);
     
     // Module arguments
     input wire  [97:0] turned;
@@ -15275,10 +17145,17 @@ module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,e0_negativ
     input wire  p_equals_r2;
     input wire  r0_before_r1;
     input wire  r0_before_r2;
+    input wire  r1_before_r2;
     output reg  [19:0] verdict;
     
     // Local signals
     reg  is_ghost;
+    reg  [1:0] second_slot;
+    reg  [1:0] third_slot;
+    reg  is_second;
+    reg  is_third;
+    reg  infinite1;
+    reg  infinite2;
     reg  is_beyond;
     reg  is_on_hull_line;
     reg  is_between;
@@ -15290,20 +17167,40 @@ module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,e0_negativ
     // Update code
     always @(*) begin
         is_ghost = turned[(64'h5f)+:(1)] | turned[(64'h60)+:(1)] | turned[(64'h61)+:(1)];
+        second_slot = 32'h1;
+        third_slot = 32'h2;
+        is_second = turned[(64'h5a)+:(2)] == second_slot;
+        is_third = turned[(64'h5a)+:(2)] == third_slot;
+        infinite1 = turned[(64'h60)+:(1)];
+        infinite2 = turned[(64'h61)+:(1)];
+        if (is_second) begin
+            infinite1 = turned[(64'h5f)+:(1)];
+            infinite2 = turned[(64'h60)+:(1)];
+        end
+        if (is_third) begin
+            infinite1 = turned[(64'h61)+:(1)];
+            infinite2 = turned[(64'h5f)+:(1)];
+        end
         is_beyond = (~e0_negative) & (~e0_zero);
         is_on_hull_line = e0_zero;
         is_between = p_before_r1 ^ p_before_r2;
-        if (turned[(64'h60)+:(1)]) begin
+        if (infinite1) begin
             is_beyond = (~e1_negative) & (~e1_zero);
             is_on_hull_line = e1_zero;
             is_between = p_before_r2 ^ p_before_r0;
         end
-        if (turned[(64'h61)+:(1)]) begin
+        if (infinite2) begin
             is_beyond = (~e2_negative) & (~e2_zero);
             is_on_hull_line = e2_zero;
             is_between = p_before_r0 ^ p_before_r1;
         end
         takes_tie = (p_before_r1 & p_before_r2) | (r0_before_r1 & r0_before_r2);
+        if (is_second) begin
+            takes_tie = (p_before_r2 & p_before_r0) | (r1_before_r2 & (~r0_before_r1));
+        end
+        if (is_third) begin
+            takes_tie = (p_before_r0 & p_before_r1) | ((~r0_before_r2) & (~r1_before_r2));
+        end
         if (is_ghost) begin
             verdict[(64'h0)+:(1)] = is_beyond | (is_on_hull_line & is_between);
         end
@@ -15339,6 +17236,25 @@ module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,e0_negativ
     end
     
 endmodule // incircle_core_logic$engine$pipeline$judge$verdict_logic
+
+
+module incircle_core_logic$engine$pipeline$judged(d,q,clock);
+    
+    // Module arguments
+    input wire  [97:0] d;
+    output reg  [97:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 98'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$judged
 
 
 module incircle_core_logic$engine$pipeline$owner3(d,q,clock);
@@ -15490,6 +17406,12 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
     reg  [54:0] token2$d;
     wire  [54:0] token2$q;
     reg  token2$clock;
+    reg  [54:0] token3$d;
+    wire  [54:0] token3$q;
+    reg  token3$clock;
+    reg  [97:0] stored$d;
+    wire  [97:0] stored$q;
+    reg  stored$clock;
     reg  [97:0] found$d;
     wire  [97:0] found$q;
     reg  found$clock;
@@ -15522,6 +17444,16 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
         .q(token2$q),
         .clock(token2$clock)
     );
+    incircle_core_logic$engine$pipeline$reader$token3 token3(
+        .d(token3$d),
+        .q(token3$q),
+        .clock(token3$clock)
+    );
+    incircle_core_logic$engine$pipeline$reader$stored stored(
+        .d(stored$d),
+        .q(stored$q),
+        .clock(stored$clock)
+    );
     incircle_core_logic$engine$pipeline$reader$found found(
         .d(found$d),
         .q(found$q),
@@ -15552,6 +17484,8 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
     always @(*) begin
         token1$clock = clock;
         token2$clock = clock;
+        token3$clock = clock;
+        stored$clock = clock;
         found$clock = clock;
         rotated$clock = clock;
         corner0$clock = clock;
@@ -15559,6 +17493,8 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
         corner2$clock = clock;
         token1$d = token1$q;
         token2$d = token2$q;
+        token3$d = token3$q;
+        stored$d = stored$q;
         found$d = found$q;
         rotated$d = rotated$q;
         corner0$d = corner0$q;
@@ -15570,23 +17506,25 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
         token1$d = token;
         token2$d = token1$q;
         token_at_record = token2$q;
-        found$d[(64'h0)+:(15)] = v0;
-        found$d[(64'hf)+:(15)] = v1;
-        found$d[(64'h1e)+:(15)] = v2;
-        found$d[(64'h2d)+:(15)] = n0;
-        found$d[(64'h3c)+:(15)] = n1;
-        found$d[(64'h4b)+:(15)] = n2;
+        token3$d = token2$q;
+        stored$d[(64'h0)+:(15)] = v0;
+        stored$d[(64'hf)+:(15)] = v1;
+        stored$d[(64'h1e)+:(15)] = v2;
+        stored$d[(64'h2d)+:(15)] = n0;
+        stored$d[(64'h3c)+:(15)] = n1;
+        stored$d[(64'h4b)+:(15)] = n2;
+        stored$d[(64'h5e)+:(1)] = again;
+        found$d = stored$q;
         found$d[(64'h5c)+:(1)] = took;
         found$d[(64'h5d)+:(1)] = foreign;
-        found$d[(64'h5e)+:(1)] = again;
-        found$d[(64'h5f)+:(1)] = v0 == infinite;
-        found$d[(64'h60)+:(1)] = v1 == infinite;
-        found$d[(64'h61)+:(1)] = v2 == infinite;
+        found$d[(64'h5f)+:(1)] = stored$q[(64'h0)+:(15)] == infinite;
+        found$d[(64'h60)+:(1)] = stored$q[(64'hf)+:(15)] == infinite;
+        found$d[(64'h61)+:(1)] = stored$q[(64'h1e)+:(15)] == infinite;
         found$d[(64'h5a)+:(2)] = first_slot;
-        if (token2$q[(64'h5)+:(1)] & (n1 == token2$q[(64'h19)+:(15)])) begin
+        if (token3$q[(64'h5)+:(1)] & (stored$q[(64'h3c)+:(15)] == token3$q[(64'h19)+:(15)])) begin
             found$d[(64'h5a)+:(2)] = second_slot;
         end
-        if (token2$q[(64'h5)+:(1)] & (n2 == token2$q[(64'h19)+:(15)])) begin
+        if (token3$q[(64'h5)+:(1)] & (stored$q[(64'h4b)+:(15)] == token3$q[(64'h19)+:(15)])) begin
             found$d[(64'h5a)+:(2)] = third_slot;
         end
         rotated$d = found$q;
@@ -15616,16 +17554,6 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
         corner0$d = position0;
         corner1$d = position1;
         corner2$d = position2;
-        if (rotated$q[(64'h5a)+:(2)] == second_slot) begin
-            corner0$d = position1;
-            corner1$d = position2;
-            corner2$d = position0;
-        end
-        if (rotated$q[(64'h5a)+:(2)] == third_slot) begin
-            corner0$d = position2;
-            corner1$d = position0;
-            corner2$d = position1;
-        end
         r0 = corner0$q;
         r1 = corner1$q;
         r2 = corner2$q;
@@ -15729,6 +17657,25 @@ module incircle_core_logic$engine$pipeline$reader$rotated(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$reader$rotated
 
 
+module incircle_core_logic$engine$pipeline$reader$stored(d,q,clock);
+    
+    // Module arguments
+    input wire  [97:0] d;
+    output reg  [97:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 98'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$reader$stored
+
+
 module incircle_core_logic$engine$pipeline$reader$token1(d,q,clock);
     
     // Module arguments
@@ -15767,6 +17714,25 @@ module incircle_core_logic$engine$pipeline$reader$token2(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$reader$token2
 
 
+module incircle_core_logic$engine$pipeline$reader$token3(d,q,clock);
+    
+    // Module arguments
+    input wire  [54:0] d;
+    output reg  [54:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 55'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$reader$token3
+
+
 module incircle_core_logic$engine$pipeline$token_delay(clock,data_in,data_out);
     
     // Module arguments
@@ -15775,19 +17741,25 @@ module incircle_core_logic$engine$pipeline$token_delay(clock,data_in,data_out);
     output reg  [54:0] data_out;
     
     // Constant declarations
-    localparam  one = 10'b1;
-    localparam  distance = 10'b1011;
+    localparam  one = 6'b1;
+    localparam  distance_before = 6'b1011;
     
     // Stub signals
     reg  ring$clock;
-    reg  [9:0] ring$write_address;
+    reg  [5:0] ring$write_address;
     reg  [54:0] ring$write_data;
     reg  ring$write_enable;
-    reg  [9:0] ring$read_address;
+    reg  [5:0] ring$read_address;
     wire  [54:0] ring$read_data;
-    reg  [9:0] position$d;
-    wire  [9:0] position$q;
+    reg  [5:0] position$d;
+    wire  [5:0] position$q;
     reg  position$clock;
+    reg  [5:0] oldest$d;
+    wire  [5:0] oldest$q;
+    reg  oldest$clock;
+    reg  [54:0] delayed$d;
+    wire  [54:0] delayed$q;
+    reg  delayed$clock;
     
     // Sub module instances
     incircle_core_logic$engine$pipeline$token_delay$ring ring(
@@ -15803,32 +17775,87 @@ module incircle_core_logic$engine$pipeline$token_delay(clock,data_in,data_out);
         .q(position$q),
         .clock(position$clock)
     );
+    incircle_core_logic$engine$pipeline$token_delay$oldest oldest(
+        .d(oldest$d),
+        .q(oldest$q),
+        .clock(oldest$clock)
+    );
+    incircle_core_logic$engine$pipeline$token_delay$delayed delayed(
+        .d(delayed$d),
+        .q(delayed$q),
+        .clock(delayed$clock)
+    );
     
     // Update code
     always @(*) begin
-        ring$clock = clock;
         position$clock = clock;
+        oldest$clock = clock;
+        delayed$clock = clock;
+        position$d = position$q;
+        oldest$d = oldest$q;
+        delayed$d = delayed$q;
+        ring$clock = clock;
         position$d = position$q + one;
+        oldest$d = position$q - distance_before;
         ring$write_address = position$q;
         ring$write_data = data_in;
         ring$write_enable = 1'b1;
-        ring$read_address = position$q - distance;
-        data_out = ring$read_data;
+        ring$read_address = oldest$q;
+        delayed$d = ring$read_data;
+        data_out = delayed$q;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$token_delay
 
 
-module incircle_core_logic$engine$pipeline$token_delay$position(d,q,clock);
+module incircle_core_logic$engine$pipeline$token_delay$delayed(d,q,clock);
     
     // Module arguments
-    input wire  [9:0] d;
-    output reg  [9:0] q;
+    input wire  [54:0] d;
+    output reg  [54:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 10'h0;
+       q = 55'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$token_delay$delayed
+
+
+module incircle_core_logic$engine$pipeline$token_delay$oldest(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$token_delay$oldest
+
+
+module incircle_core_logic$engine$pipeline$token_delay$position(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
     end
     
     always @(posedge clock) begin
@@ -15842,65 +17869,22 @@ module incircle_core_logic$engine$pipeline$token_delay$ring(clock,write_address,
     
     // Module arguments
     input wire  clock;
-    input wire  [9:0] write_address;
+    input wire  [5:0] write_address;
     input wire  [54:0] write_data;
     input wire  write_enable;
-    input wire  [9:0] read_address;
+    input wire  [5:0] read_address;
     output reg  [54:0] read_data;
     
     // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[9:4]};
-    wire unused_read_address = &{1'b0, read_address[9:4]};
-    `ifdef INCIRCLE_ECP5
-    wire [13:0] write_pins = {{6{1'b0}}, write_address[3:0], 4'b0011};
-    wire [13:0] read_pins = {{6{1'b0}}, read_address[3:0], 4'b0011};
-    wire [17:0] nothing = 18'b0;
-    wire [71:0] all_taken = {{17{1'b0}}, write_data};
-    wire [71:0] all_given;
-    wire [54:0] word = all_given[54:0];
-    genvar slice;
-    generate for (slice = 0; slice < 4; slice = slice + 1) begin : slices
-    wire [17:0] taken = all_taken[slice*18 +: 18];
-    wire [17:0] given;
-    assign all_given[slice*18 +: 18] = given[17:0];
-    DP16KD #(
-        .DATA_WIDTH_A(18), .DATA_WIDTH_B(18), .REGMODE_A("OUTREG"), .REGMODE_B("OUTREG"),
-        .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .RESETMODE("SYNC"), .GSR("AUTO"),
-        .CSDECODE_A("0b000"), .CSDECODE_B("0b000")
-    ) block_ram (
-    .CLKA(clock), .CEA(1'b1), .OCEA(1'b1), .WEA(write_enable), .RSTA(1'b0),
-        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
-        .ADA0(write_pins[0]), .ADA1(write_pins[1]), .ADA2(write_pins[2]), .ADA3(write_pins[3]), .ADA4(write_pins[4]), .ADA5(write_pins[5]), .ADA6(write_pins[6]), .ADA7(write_pins[7]),
-        .ADA8(write_pins[8]), .ADA9(write_pins[9]), .ADA10(write_pins[10]), .ADA11(write_pins[11]), .ADA12(write_pins[12]), .ADA13(write_pins[13]),
-        .DIA0(taken[0]), .DIA1(taken[1]), .DIA2(taken[2]), .DIA3(taken[3]), .DIA4(taken[4]), .DIA5(taken[5]), .DIA6(taken[6]), .DIA7(taken[7]),
-        .DIA8(taken[8]), .DIA9(taken[9]), .DIA10(taken[10]), .DIA11(taken[11]), .DIA12(taken[12]), .DIA13(taken[13]), .DIA14(taken[14]), .DIA15(taken[15]),
-        .DIA16(taken[16]), .DIA17(taken[17]),
-        .DOA0(), .DOA1(), .DOA2(), .DOA3(), .DOA4(), .DOA5(), .DOA6(), .DOA7(),
-        .DOA8(), .DOA9(), .DOA10(), .DOA11(), .DOA12(), .DOA13(), .DOA14(), .DOA15(),
-        .DOA16(), .DOA17(),
-    .CLKB(clock), .CEB(1'b1), .OCEB(1'b1), .WEB(1'b0), .RSTB(1'b0),
-        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
-        .ADB0(read_pins[0]), .ADB1(read_pins[1]), .ADB2(read_pins[2]), .ADB3(read_pins[3]), .ADB4(read_pins[4]), .ADB5(read_pins[5]), .ADB6(read_pins[6]), .ADB7(read_pins[7]),
-        .ADB8(read_pins[8]), .ADB9(read_pins[9]), .ADB10(read_pins[10]), .ADB11(read_pins[11]), .ADB12(read_pins[12]), .ADB13(read_pins[13]),
-        .DIB0(nothing[0]), .DIB1(nothing[1]), .DIB2(nothing[2]), .DIB3(nothing[3]), .DIB4(nothing[4]), .DIB5(nothing[5]), .DIB6(nothing[6]), .DIB7(nothing[7]),
-        .DIB8(nothing[8]), .DIB9(nothing[9]), .DIB10(nothing[10]), .DIB11(nothing[11]), .DIB12(nothing[12]), .DIB13(nothing[13]), .DIB14(nothing[14]), .DIB15(nothing[15]),
-        .DIB16(nothing[16]), .DIB17(nothing[17]),
-        .DOB0(given[0]), .DOB1(given[1]), .DOB2(given[2]), .DOB3(given[3]), .DOB4(given[4]), .DOB5(given[5]), .DOB6(given[6]), .DOB7(given[7]),
-        .DOB8(given[8]), .DOB9(given[9]), .DOB10(given[10]), .DOB11(given[11]), .DOB12(given[12]), .DOB13(given[13]), .DOB14(given[14]), .DOB15(given[15]),
-        .DOB16(given[16]), .DOB17(given[17])
-    );
-    end endgenerate
-    always @(*) read_data = word;
-    `else
-    (* ram_style = "block", no_rw_check *)
+    wire unused_write_address = &{1'b0, write_address[5:4]};
+    wire unused_read_address = &{1'b0, read_address[5:4]};
+    (* ram_style = "distributed" *)
     reg [54:0] memory [0:15];
-    reg [54:0] word;
+    wire [54:0] word = memory[read_address[3:0]];
     always @(posedge clock) begin
         if (write_enable) memory[write_address[3:0]] <= write_data;
-        word <= memory[read_address[3:0]];
-        read_data <= word;
     end
-    `endif
+    always @(*) read_data = word;
 endmodule // incircle_core_logic$engine$pipeline$token_delay$ring
 
 
@@ -15923,12 +17907,15 @@ module incircle_core_logic$engine$pipeline$token_register(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$token_register
 
 
-module incircle_core_logic$engine$pipeline$triangles(clock,write,read_id,read_locks,owner,v0,v1,v2,n0,n1,n2,took,foreign,was_set,clear_id,clear_enable);
+module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id,vertices_id,links_id,read_locks,owner,v0,v1,v2,n0,n1,n2,took,foreign,was_set,clear_id,clear_enable);
     
     // Module arguments
     input wire  clock;
     input wire  [109:0] write;
+    input wire  [3:0] enables;
     input wire  [14:0] read_id;
+    input wire  [14:0] vertices_id;
+    input wire  [14:0] links_id;
     input wire  read_locks;
     input wire  [4:0] owner;
     output reg  [14:0] v0;
@@ -16054,25 +18041,25 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,read_id,read_lo
     // Update code
     always @(*) begin
         vertices$0$clock = clock;
-        vertices$0$read_address = read_id;
+        vertices$0$read_address = vertices_id;
         vertices$0$write_address = write[(64'h1)+:(15)];
-        vertices$0$write_enable = write[(64'h0)+:(1)] & write[(64'h10)+:(1)];
+        vertices$0$write_enable = enables[(64'h0)+:(1)];
         links$0$clock = clock;
-        links$0$read_address = read_id;
+        links$0$read_address = links_id;
         links$0$write_address = write[(64'h1)+:(15)];
         vertices$1$clock = clock;
-        vertices$1$read_address = read_id;
+        vertices$1$read_address = vertices_id;
         vertices$1$write_address = write[(64'h1)+:(15)];
-        vertices$1$write_enable = write[(64'h0)+:(1)] & write[(64'h10)+:(1)];
+        vertices$1$write_enable = enables[(64'h0)+:(1)];
         links$1$clock = clock;
-        links$1$read_address = read_id;
+        links$1$read_address = links_id;
         links$1$write_address = write[(64'h1)+:(15)];
         vertices$2$clock = clock;
-        vertices$2$read_address = read_id;
+        vertices$2$read_address = vertices_id;
         vertices$2$write_address = write[(64'h1)+:(15)];
-        vertices$2$write_enable = write[(64'h0)+:(1)] & write[(64'h10)+:(1)];
+        vertices$2$write_enable = enables[(64'h0)+:(1)];
         links$2$clock = clock;
-        links$2$read_address = read_id;
+        links$2$read_address = links_id;
         links$2$write_address = write[(64'h1)+:(15)];
         vertices$0$write_data = write[(64'h14)+:(15)];
         vertices$1$write_data = write[(64'h23)+:(15)];
@@ -16080,9 +18067,9 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,read_id,read_lo
         links$0$write_data = write[(64'h41)+:(15)];
         links$1$write_data = write[(64'h50)+:(15)];
         links$2$write_data = write[(64'h5f)+:(15)];
-        links$0$write_enable = write[(64'h0)+:(1)] & write[(64'h11)+:(1)];
-        links$1$write_enable = write[(64'h0)+:(1)] & write[(64'h12)+:(1)];
-        links$2$write_enable = write[(64'h0)+:(1)] & write[(64'h13)+:(1)];
+        links$0$write_enable = enables[(64'h1)+:(1)];
+        links$1$write_enable = enables[(64'h2)+:(1)];
+        links$2$write_enable = enables[(64'h3)+:(1)];
         v0 = vertices$0$read_data;
         v1 = vertices$1$read_data;
         v2 = vertices$2$read_data;
@@ -16343,6 +18330,9 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
     reg  [14:0] id3$d;
     wire  [14:0] id3$q;
     reg  id3$clock;
+    reg  [14:0] id4$d;
+    wire  [14:0] id4$q;
+    reg  id4$clock;
     reg  [4:0] owner1$d;
     wire  [4:0] owner1$q;
     reg  owner1$clock;
@@ -16352,43 +18342,73 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
     reg  [4:0] owner3$d;
     wire  [4:0] owner3$q;
     reg  owner3$clock;
+    reg  [4:0] owner4$d;
+    wire  [4:0] owner4$q;
+    reg  owner4$clock;
     reg  takes1$d;
     wire  takes1$q;
     reg  takes1$clock;
     reg  takes2$d;
     wire  takes2$q;
     reg  takes2$clock;
+    reg  takes3$d;
+    wire  takes3$q;
+    reg  takes3$clock;
     reg  met_clear1$d;
     wire  met_clear1$q;
     reg  met_clear1$clock;
     reg  met_clear2$d;
     wire  met_clear2$q;
     reg  met_clear2$clock;
-    reg  took3$d;
-    wire  took3$q;
-    reg  took3$clock;
+    reg  met_clear3$d;
+    wire  met_clear3$q;
+    reg  met_clear3$clock;
+    reg  is_lock_before1$d;
+    wire  is_lock_before1$q;
+    reg  is_lock_before1$clock;
+    reg  is_lock_before2$d;
+    wire  is_lock_before2$q;
+    reg  is_lock_before2$clock;
+    reg  is_lock_before3$d;
+    wire  is_lock_before3$q;
+    reg  is_lock_before3$clock;
+    reg  is_owner_before1$d;
+    wire  is_owner_before1$q;
+    reg  is_owner_before1$clock;
+    reg  is_owner_before2$d;
+    wire  is_owner_before2$q;
+    reg  is_owner_before2$clock;
+    reg  is_owner_before3$d;
+    wire  is_owner_before3$q;
+    reg  is_owner_before3$clock;
+    reg  found_set$d;
+    wire  found_set$q;
+    reg  found_set$clock;
+    reg  [4:0] found_owner$d;
+    wire  [4:0] found_owner$q;
+    reg  found_owner$clock;
+    reg  is_told$d;
+    wire  is_told$q;
+    reg  is_told$clock;
+    reg  told_is_owner$d;
+    wire  told_is_owner$q;
+    reg  told_is_owner$clock;
     reg  took4$d;
     wire  took4$q;
     reg  took4$clock;
-    reg  is_lock_before$d;
-    wire  is_lock_before$q;
-    reg  is_lock_before$clock;
-    reg  is_lock_second_before$d;
-    wire  is_lock_second_before$q;
-    reg  is_lock_second_before$clock;
-    reg  is_owner_before$d;
-    wire  is_owner_before$q;
-    reg  is_owner_before$clock;
-    reg  is_owner_second_before$d;
-    wire  is_owner_second_before$q;
-    reg  is_owner_second_before$clock;
+    reg  took5$d;
+    wire  took5$q;
+    reg  took5$clock;
     
     // Local signals
     reg  [14:0] lock;
     reg  [14:0] cleared;
     reg  [4:0] visitor;
     reg  meets_clear;
-    reg  takes_free_lock;
+    reg  takes_lock;
+    reg  was_taken1;
+    reg  was_taken2;
+    reg  was_taken3;
     reg  holder_is_owner;
     
     // Sub module instances
@@ -16423,6 +18443,11 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         .q(id3$q),
         .clock(id3$clock)
     );
+    incircle_core_logic$engine$pipeline$triangles$locks$id4 id4(
+        .d(id4$d),
+        .q(id4$q),
+        .clock(id4$clock)
+    );
     incircle_core_logic$engine$pipeline$triangles$locks$owner1 owner1(
         .d(owner1$d),
         .q(owner1$q),
@@ -16438,6 +18463,11 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         .q(owner3$q),
         .clock(owner3$clock)
     );
+    incircle_core_logic$engine$pipeline$triangles$locks$owner4 owner4(
+        .d(owner4$d),
+        .q(owner4$q),
+        .clock(owner4$clock)
+    );
     incircle_core_logic$engine$pipeline$triangles$locks$takes1 takes1(
         .d(takes1$d),
         .q(takes1$q),
@@ -16447,6 +18477,11 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         .d(takes2$d),
         .q(takes2$q),
         .clock(takes2$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$takes3 takes3(
+        .d(takes3$d),
+        .q(takes3$q),
+        .clock(takes3$clock)
     );
     incircle_core_logic$engine$pipeline$triangles$locks$met_clear1 met_clear1(
         .d(met_clear1$d),
@@ -16458,35 +18493,70 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         .q(met_clear2$q),
         .clock(met_clear2$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$took3 took3(
-        .d(took3$d),
-        .q(took3$q),
-        .clock(took3$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$met_clear3 met_clear3(
+        .d(met_clear3$d),
+        .q(met_clear3$q),
+        .clock(met_clear3$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before1 is_lock_before1(
+        .d(is_lock_before1$d),
+        .q(is_lock_before1$q),
+        .clock(is_lock_before1$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before2 is_lock_before2(
+        .d(is_lock_before2$d),
+        .q(is_lock_before2$q),
+        .clock(is_lock_before2$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before3 is_lock_before3(
+        .d(is_lock_before3$d),
+        .q(is_lock_before3$q),
+        .clock(is_lock_before3$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before1 is_owner_before1(
+        .d(is_owner_before1$d),
+        .q(is_owner_before1$q),
+        .clock(is_owner_before1$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before2 is_owner_before2(
+        .d(is_owner_before2$d),
+        .q(is_owner_before2$q),
+        .clock(is_owner_before2$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before3 is_owner_before3(
+        .d(is_owner_before3$d),
+        .q(is_owner_before3$q),
+        .clock(is_owner_before3$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$found_set found_set(
+        .d(found_set$d),
+        .q(found_set$q),
+        .clock(found_set$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$found_owner found_owner(
+        .d(found_owner$d),
+        .q(found_owner$q),
+        .clock(found_owner$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$is_told is_told(
+        .d(is_told$d),
+        .q(is_told$q),
+        .clock(is_told$clock)
+    );
+    incircle_core_logic$engine$pipeline$triangles$locks$told_is_owner told_is_owner(
+        .d(told_is_owner$d),
+        .q(told_is_owner$q),
+        .clock(told_is_owner$clock)
     );
     incircle_core_logic$engine$pipeline$triangles$locks$took4 took4(
         .d(took4$d),
         .q(took4$q),
         .clock(took4$clock)
     );
-    incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before is_lock_before(
-        .d(is_lock_before$d),
-        .q(is_lock_before$q),
-        .clock(is_lock_before$clock)
-    );
-    incircle_core_logic$engine$pipeline$triangles$locks$is_lock_second_before is_lock_second_before(
-        .d(is_lock_second_before$d),
-        .q(is_lock_second_before$q),
-        .clock(is_lock_second_before$clock)
-    );
-    incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before is_owner_before(
-        .d(is_owner_before$d),
-        .q(is_owner_before$q),
-        .clock(is_owner_before$clock)
-    );
-    incircle_core_logic$engine$pipeline$triangles$locks$is_owner_second_before is_owner_second_before(
-        .d(is_owner_second_before$d),
-        .q(is_owner_second_before$q),
-        .clock(is_owner_second_before$clock)
+    incircle_core_logic$engine$pipeline$triangles$locks$took5 took5(
+        .d(took5$d),
+        .q(took5$q),
+        .clock(took5$clock)
     );
     
     // Update code
@@ -16494,35 +18564,55 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         id1$clock = clock;
         id2$clock = clock;
         id3$clock = clock;
+        id4$clock = clock;
         owner1$clock = clock;
         owner2$clock = clock;
         owner3$clock = clock;
-        takes1$clock = clock;
-        takes2$clock = clock;
-        met_clear1$clock = clock;
-        met_clear2$clock = clock;
+        owner4$clock = clock;
         id1$d = id1$q;
         id2$d = id2$q;
         id3$d = id3$q;
+        id4$d = id4$q;
         owner1$d = owner1$q;
         owner2$d = owner2$q;
         owner3$d = owner3$q;
+        owner4$d = owner4$q;
+        takes1$clock = clock;
+        takes2$clock = clock;
+        takes3$clock = clock;
+        met_clear1$clock = clock;
+        met_clear2$clock = clock;
+        met_clear3$clock = clock;
         takes1$d = takes1$q;
         takes2$d = takes2$q;
+        takes3$d = takes3$q;
         met_clear1$d = met_clear1$q;
         met_clear2$d = met_clear2$q;
-        took3$clock = clock;
+        met_clear3$d = met_clear3$q;
+        is_lock_before1$clock = clock;
+        is_lock_before2$clock = clock;
+        is_lock_before3$clock = clock;
+        is_lock_before1$d = is_lock_before1$q;
+        is_lock_before2$d = is_lock_before2$q;
+        is_lock_before3$d = is_lock_before3$q;
+        is_owner_before1$clock = clock;
+        is_owner_before2$clock = clock;
+        is_owner_before3$clock = clock;
+        is_owner_before1$d = is_owner_before1$q;
+        is_owner_before2$d = is_owner_before2$q;
+        is_owner_before3$d = is_owner_before3$q;
+        found_set$clock = clock;
+        found_owner$clock = clock;
+        is_told$clock = clock;
+        told_is_owner$clock = clock;
         took4$clock = clock;
-        is_lock_before$clock = clock;
-        is_lock_second_before$clock = clock;
-        took3$d = took3$q;
+        took5$clock = clock;
+        found_set$d = found_set$q;
+        found_owner$d = found_owner$q;
+        is_told$d = is_told$q;
+        told_is_owner$d = told_is_owner$q;
         took4$d = took4$q;
-        is_lock_before$d = is_lock_before$q;
-        is_lock_second_before$d = is_lock_second_before$q;
-        is_owner_before$clock = clock;
-        is_owner_second_before$clock = clock;
-        is_owner_before$d = is_owner_before$q;
-        is_owner_second_before$d = is_owner_second_before$q;
+        took5$d = took5$q;
         locks$clock = clock;
         owners$clock = clock;
         lock = id & kept_id_bits;
@@ -16536,37 +18626,91 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         owners$read_address = lock;
         id1$d = lock;
         owner1$d = visitor;
-        takes1$d = takes;
-        met_clear1$d = meets_clear;
+        takes1$d = locks$test_set;
+        met_clear1$d = takes & meets_clear;
         id2$d = id1$q;
         owner2$d = owner1$q;
         takes2$d = takes1$q;
         met_clear2$d = met_clear1$q;
-        is_lock_before$d = id1$q == id2$q;
-        is_lock_second_before$d = id1$q == id3$q;
-        is_owner_before$d = owner1$q == owner2$q;
-        is_owner_second_before$d = owner1$q == owner3$q;
-        takes_free_lock = takes2$q & (~met_clear2$q) & (~locks$was_set);
-        holder_is_owner = owners$read_data == owner2$q;
-        if (is_lock_second_before$q & took4$q) begin
-            holder_is_owner = is_owner_second_before$q;
-        end
-        if (is_lock_before$q & took3$q) begin
-            holder_is_owner = is_owner_before$q;
-        end
-        took = takes_free_lock;
-        foreign = takes2$q & (met_clear2$q | (locks$was_set & (~holder_is_owner)));
-        was_set = locks$was_set;
-        owners$write_address = id2$q;
-        owners$write_data = owner2$q;
-        owners$write_enable = takes_free_lock;
+        is_lock_before1$d = id1$q == id2$q;
+        is_lock_before2$d = id1$q == id3$q;
+        is_lock_before3$d = id1$q == id4$q;
+        is_owner_before1$d = owner1$q == owner2$q;
+        is_owner_before2$d = owner1$q == owner3$q;
+        is_owner_before3$d = owner1$q == owner4$q;
         id3$d = id2$q;
         owner3$d = owner2$q;
-        took3$d = takes_free_lock;
-        took4$d = took3$q;
+        found_set$d = locks$was_set;
+        found_owner$d = owners$read_data;
+        takes3$d = takes2$q;
+        met_clear3$d = met_clear2$q;
+        was_set = locks$was_set;
+        takes_lock = takes3$q & (~found_set$q);
+        was_taken1 = is_lock_before1$q & takes_lock;
+        was_taken2 = is_lock_before2$q & took4$q;
+        was_taken3 = is_lock_before3$q & took5$q;
+        is_told$d = was_taken1 | was_taken2 | was_taken3;
+        told_is_owner$d = is_owner_before3$q;
+        if (was_taken2) begin
+            told_is_owner$d = is_owner_before2$q;
+        end
+        if (was_taken1) begin
+            told_is_owner$d = is_owner_before1$q;
+        end
+        id4$d = id3$q;
+        owner4$d = owner3$q;
+        took4$d = takes_lock;
+        took5$d = took4$q;
+        owners$write_address = id3$q;
+        owners$write_data = owner3$q;
+        owners$write_enable = takes_lock;
+        holder_is_owner = found_owner$q == owner3$q;
+        if (is_told$q) begin
+            holder_is_owner = told_is_owner$q;
+        end
+        took = takes_lock;
+        foreign = met_clear3$q | (takes3$q & found_set$q & (~holder_is_owner));
     end
     
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$found_owner(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$found_owner
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$found_set(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$found_set
 
 
 module incircle_core_logic$engine$pipeline$triangles$locks$id1(d,q,clock);
@@ -16626,7 +18770,26 @@ module incircle_core_logic$engine$pipeline$triangles$locks$id3(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks$id3
 
 
-module incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before(d,q,clock);
+module incircle_core_logic$engine$pipeline$triangles$locks$id4(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$id4
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before1(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -16642,10 +18805,10 @@ module incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before(d,q,cl
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before1
 
 
-module incircle_core_logic$engine$pipeline$triangles$locks$is_lock_second_before(d,q,clock);
+module incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before2(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -16661,10 +18824,10 @@ module incircle_core_logic$engine$pipeline$triangles$locks$is_lock_second_before
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_lock_second_before
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before2
 
 
-module incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before(d,q,clock);
+module incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before3(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -16680,10 +18843,10 @@ module incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before(d,q,c
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_lock_before3
 
 
-module incircle_core_logic$engine$pipeline$triangles$locks$is_owner_second_before(d,q,clock);
+module incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before1(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -16699,7 +18862,64 @@ module incircle_core_logic$engine$pipeline$triangles$locks$is_owner_second_befor
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_owner_second_before
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before1
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before2(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before2
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before3(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_owner_before3
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$is_told(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$is_told
 
 
 module incircle_core_logic$engine$pipeline$triangles$locks$locks(clock,test_address,test_set,was_set,clear_address,clear_enable);
@@ -16806,6 +19026,25 @@ module incircle_core_logic$engine$pipeline$triangles$locks$met_clear2(d,q,clock)
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks$met_clear2
 
 
+module incircle_core_logic$engine$pipeline$triangles$locks$met_clear3(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$met_clear3
+
+
 module incircle_core_logic$engine$pipeline$triangles$locks$owner1(d,q,clock);
     
     // Module arguments
@@ -16861,6 +19100,25 @@ module incircle_core_logic$engine$pipeline$triangles$locks$owner3(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks$owner3
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$owner4(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$owner4
 
 
 module incircle_core_logic$engine$pipeline$triangles$locks$owners(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -16968,7 +19226,7 @@ module incircle_core_logic$engine$pipeline$triangles$locks$takes2(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks$takes2
 
 
-module incircle_core_logic$engine$pipeline$triangles$locks$took3(d,q,clock);
+module incircle_core_logic$engine$pipeline$triangles$locks$takes3(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -16984,7 +19242,26 @@ module incircle_core_logic$engine$pipeline$triangles$locks$took3(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$triangles$locks$took3
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$takes3
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$told_is_owner(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$told_is_owner
 
 
 module incircle_core_logic$engine$pipeline$triangles$locks$took4(d,q,clock);
@@ -17004,6 +19281,25 @@ module incircle_core_logic$engine$pipeline$triangles$locks$took4(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$pipeline$triangles$locks$took4
+
+
+module incircle_core_logic$engine$pipeline$triangles$locks$took5(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$triangles$locks$took5
 
 
 module incircle_core_logic$engine$pipeline$triangles$vertices$0(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -17215,19 +19511,25 @@ module incircle_core_logic$engine$pipeline$turned_delay(clock,data_in,data_out);
     output reg  [97:0] data_out;
     
     // Constant declarations
-    localparam  one = 10'b1;
-    localparam  distance = 10'b1001;
+    localparam  one = 6'b1;
+    localparam  distance_before = 6'b111;
     
     // Stub signals
     reg  ring$clock;
-    reg  [9:0] ring$write_address;
+    reg  [5:0] ring$write_address;
     reg  [97:0] ring$write_data;
     reg  ring$write_enable;
-    reg  [9:0] ring$read_address;
+    reg  [5:0] ring$read_address;
     wire  [97:0] ring$read_data;
-    reg  [9:0] position$d;
-    wire  [9:0] position$q;
+    reg  [5:0] position$d;
+    wire  [5:0] position$q;
     reg  position$clock;
+    reg  [5:0] oldest$d;
+    wire  [5:0] oldest$q;
+    reg  oldest$clock;
+    reg  [97:0] delayed$d;
+    wire  [97:0] delayed$q;
+    reg  delayed$clock;
     
     // Sub module instances
     incircle_core_logic$engine$pipeline$turned_delay$ring ring(
@@ -17243,32 +19545,87 @@ module incircle_core_logic$engine$pipeline$turned_delay(clock,data_in,data_out);
         .q(position$q),
         .clock(position$clock)
     );
+    incircle_core_logic$engine$pipeline$turned_delay$oldest oldest(
+        .d(oldest$d),
+        .q(oldest$q),
+        .clock(oldest$clock)
+    );
+    incircle_core_logic$engine$pipeline$turned_delay$delayed delayed(
+        .d(delayed$d),
+        .q(delayed$q),
+        .clock(delayed$clock)
+    );
     
     // Update code
     always @(*) begin
-        ring$clock = clock;
         position$clock = clock;
+        oldest$clock = clock;
+        delayed$clock = clock;
+        position$d = position$q;
+        oldest$d = oldest$q;
+        delayed$d = delayed$q;
+        ring$clock = clock;
         position$d = position$q + one;
+        oldest$d = position$q - distance_before;
         ring$write_address = position$q;
         ring$write_data = data_in;
         ring$write_enable = 1'b1;
-        ring$read_address = position$q - distance;
-        data_out = ring$read_data;
+        ring$read_address = oldest$q;
+        delayed$d = ring$read_data;
+        data_out = delayed$q;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$turned_delay
 
 
-module incircle_core_logic$engine$pipeline$turned_delay$position(d,q,clock);
+module incircle_core_logic$engine$pipeline$turned_delay$delayed(d,q,clock);
     
     // Module arguments
-    input wire  [9:0] d;
-    output reg  [9:0] q;
+    input wire  [97:0] d;
+    output reg  [97:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 10'h0;
+       q = 98'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$turned_delay$delayed
+
+
+module incircle_core_logic$engine$pipeline$turned_delay$oldest(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$turned_delay$oldest
+
+
+module incircle_core_logic$engine$pipeline$turned_delay$position(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
     end
     
     always @(posedge clock) begin
@@ -17282,65 +19639,22 @@ module incircle_core_logic$engine$pipeline$turned_delay$ring(clock,write_address
     
     // Module arguments
     input wire  clock;
-    input wire  [9:0] write_address;
+    input wire  [5:0] write_address;
     input wire  [97:0] write_data;
     input wire  write_enable;
-    input wire  [9:0] read_address;
+    input wire  [5:0] read_address;
     output reg  [97:0] read_data;
     
     // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[9:4]};
-    wire unused_read_address = &{1'b0, read_address[9:4]};
-    `ifdef INCIRCLE_ECP5
-    wire [13:0] write_pins = {{6{1'b0}}, write_address[3:0], 4'b0011};
-    wire [13:0] read_pins = {{6{1'b0}}, read_address[3:0], 4'b0011};
-    wire [17:0] nothing = 18'b0;
-    wire [107:0] all_taken = {{10{1'b0}}, write_data};
-    wire [107:0] all_given;
-    wire [97:0] word = all_given[97:0];
-    genvar slice;
-    generate for (slice = 0; slice < 6; slice = slice + 1) begin : slices
-    wire [17:0] taken = all_taken[slice*18 +: 18];
-    wire [17:0] given;
-    assign all_given[slice*18 +: 18] = given[17:0];
-    DP16KD #(
-        .DATA_WIDTH_A(18), .DATA_WIDTH_B(18), .REGMODE_A("OUTREG"), .REGMODE_B("OUTREG"),
-        .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .RESETMODE("SYNC"), .GSR("AUTO"),
-        .CSDECODE_A("0b000"), .CSDECODE_B("0b000")
-    ) block_ram (
-    .CLKA(clock), .CEA(1'b1), .OCEA(1'b1), .WEA(write_enable), .RSTA(1'b0),
-        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
-        .ADA0(write_pins[0]), .ADA1(write_pins[1]), .ADA2(write_pins[2]), .ADA3(write_pins[3]), .ADA4(write_pins[4]), .ADA5(write_pins[5]), .ADA6(write_pins[6]), .ADA7(write_pins[7]),
-        .ADA8(write_pins[8]), .ADA9(write_pins[9]), .ADA10(write_pins[10]), .ADA11(write_pins[11]), .ADA12(write_pins[12]), .ADA13(write_pins[13]),
-        .DIA0(taken[0]), .DIA1(taken[1]), .DIA2(taken[2]), .DIA3(taken[3]), .DIA4(taken[4]), .DIA5(taken[5]), .DIA6(taken[6]), .DIA7(taken[7]),
-        .DIA8(taken[8]), .DIA9(taken[9]), .DIA10(taken[10]), .DIA11(taken[11]), .DIA12(taken[12]), .DIA13(taken[13]), .DIA14(taken[14]), .DIA15(taken[15]),
-        .DIA16(taken[16]), .DIA17(taken[17]),
-        .DOA0(), .DOA1(), .DOA2(), .DOA3(), .DOA4(), .DOA5(), .DOA6(), .DOA7(),
-        .DOA8(), .DOA9(), .DOA10(), .DOA11(), .DOA12(), .DOA13(), .DOA14(), .DOA15(),
-        .DOA16(), .DOA17(),
-    .CLKB(clock), .CEB(1'b1), .OCEB(1'b1), .WEB(1'b0), .RSTB(1'b0),
-        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
-        .ADB0(read_pins[0]), .ADB1(read_pins[1]), .ADB2(read_pins[2]), .ADB3(read_pins[3]), .ADB4(read_pins[4]), .ADB5(read_pins[5]), .ADB6(read_pins[6]), .ADB7(read_pins[7]),
-        .ADB8(read_pins[8]), .ADB9(read_pins[9]), .ADB10(read_pins[10]), .ADB11(read_pins[11]), .ADB12(read_pins[12]), .ADB13(read_pins[13]),
-        .DIB0(nothing[0]), .DIB1(nothing[1]), .DIB2(nothing[2]), .DIB3(nothing[3]), .DIB4(nothing[4]), .DIB5(nothing[5]), .DIB6(nothing[6]), .DIB7(nothing[7]),
-        .DIB8(nothing[8]), .DIB9(nothing[9]), .DIB10(nothing[10]), .DIB11(nothing[11]), .DIB12(nothing[12]), .DIB13(nothing[13]), .DIB14(nothing[14]), .DIB15(nothing[15]),
-        .DIB16(nothing[16]), .DIB17(nothing[17]),
-        .DOB0(given[0]), .DOB1(given[1]), .DOB2(given[2]), .DOB3(given[3]), .DOB4(given[4]), .DOB5(given[5]), .DOB6(given[6]), .DOB7(given[7]),
-        .DOB8(given[8]), .DOB9(given[9]), .DOB10(given[10]), .DOB11(given[11]), .DOB12(given[12]), .DOB13(given[13]), .DOB14(given[14]), .DOB15(given[15]),
-        .DOB16(given[16]), .DOB17(given[17])
-    );
-    end endgenerate
-    always @(*) read_data = word;
-    `else
-    (* ram_style = "block", no_rw_check *)
+    wire unused_write_address = &{1'b0, write_address[5:4]};
+    wire unused_read_address = &{1'b0, read_address[5:4]};
+    (* ram_style = "distributed" *)
     reg [97:0] memory [0:15];
-    reg [97:0] word;
+    wire [97:0] word = memory[read_address[3:0]];
     always @(posedge clock) begin
         if (write_enable) memory[write_address[3:0]] <= write_data;
-        word <= memory[read_address[3:0]];
-        read_data <= word;
     end
-    `endif
+    always @(*) read_data = word;
 endmodule // incircle_core_logic$engine$pipeline$turned_delay$ring
 
 
@@ -19281,7 +21595,7 @@ module incircle_core_logic$engine$solo$vertex(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$vertex
 
 
-module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write);
+module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write,enables);
     
     // Module arguments
     input wire  clock;
@@ -19290,11 +21604,15 @@ module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write)
     input wire  [109:0] solo;
     input wire  [109:0] seed;
     output reg  [109:0] write;
+    output reg  [3:0] enables;
     
     // Stub signals
     reg  [109:0] port$d;
     wire  [109:0] port$q;
     reg  port$clock;
+    reg  [3:0] enabled$d;
+    wire  [3:0] enabled$q;
+    reg  enabled$clock;
     
     // Sub module instances
     incircle_core_logic$engine$write_port$port port(
@@ -19302,23 +21620,51 @@ module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write)
         .q(port$q),
         .clock(port$clock)
     );
+    incircle_core_logic$engine$write_port$enabled enabled(
+        .d(enabled$d),
+        .q(enabled$q),
+        .clock(enabled$clock)
+    );
     
     // Update code
     always @(*) begin
         port$clock = clock;
+        enabled$clock = clock;
         port$d = port$q;
+        enabled$d = enabled$q;
         write = port$q;
+        enables = enabled$q;
         port$d[(64'h0)+:(1)] = 1'b0;
+        enabled$d[(64'h0)+:(1)] = 1'b0;
+        enabled$d[(64'h1)+:(1)] = 1'b0;
+        enabled$d[(64'h2)+:(1)] = 1'b0;
+        enabled$d[(64'h3)+:(1)] = 1'b0;
         if (seed[(64'h0)+:(1)]) begin
             port$d = seed;
+            enabled$d[(64'h0)+:(1)] = seed[(64'h10)+:(1)];
+            enabled$d[(64'h1)+:(1)] = seed[(64'h11)+:(1)];
+            enabled$d[(64'h2)+:(1)] = seed[(64'h12)+:(1)];
+            enabled$d[(64'h3)+:(1)] = seed[(64'h13)+:(1)];
         end
         if (solo[(64'h0)+:(1)]) begin
             port$d = solo;
+            enabled$d[(64'h0)+:(1)] = solo[(64'h10)+:(1)];
+            enabled$d[(64'h1)+:(1)] = solo[(64'h11)+:(1)];
+            enabled$d[(64'h2)+:(1)] = solo[(64'h12)+:(1)];
+            enabled$d[(64'h3)+:(1)] = solo[(64'h13)+:(1)];
         end
         if (commit[(64'h0)+:(1)]) begin
             port$d = commit;
+            enabled$d[(64'h0)+:(1)] = commit[(64'h10)+:(1)];
+            enabled$d[(64'h1)+:(1)] = commit[(64'h11)+:(1)];
+            enabled$d[(64'h2)+:(1)] = commit[(64'h12)+:(1)];
+            enabled$d[(64'h3)+:(1)] = commit[(64'h13)+:(1)];
         end
         if (reset) begin
+            enabled$d[(64'h0)+:(1)] = 1'b0;
+            enabled$d[(64'h1)+:(1)] = 1'b0;
+            enabled$d[(64'h2)+:(1)] = 1'b0;
+            enabled$d[(64'h3)+:(1)] = 1'b0;
             port$d[(64'h0)+:(1)] = 1'b0;
             port$d[(64'h1)+:(15)] = 32'h0;
             port$d[(64'h10)+:(1)] = 1'b0;
@@ -19335,6 +21681,25 @@ module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write)
     end
     
 endmodule // incircle_core_logic$engine$write_port
+
+
+module incircle_core_logic$engine$write_port$enabled(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$write_port$enabled
 
 
 module incircle_core_logic$engine$write_port$port(d,q,clock);
