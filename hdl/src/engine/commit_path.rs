@@ -19,8 +19,8 @@
 //! | `sweeps` | out | 1 | the lock memory is being cleared after reset |
 //!
 //! 1. The locks of a ring are released when its last record is on its way to the memory: it is there before the first lock is clear.
-//! 2. Edges, inner triangles and locks are written a clock after they come: their memories lie far from the logic that finds them. The
-//!    job that comes with the last of them is not read from until two clocks later.
+//! 2. Locks are logged a clock after they come: the log lies far from the logic that finds them. The job that comes with the last of
+//!    them is not read from until two clocks later.
 //!
 //! Latency: see the blocks.
 
@@ -98,12 +98,6 @@ pub struct CommitPath {
     commit: Commit,
     lock_release: Release,
     list_owner: DFF<Bits<5>>,
-    edge_comes: DFF<Bit>,
-    edge_place: DFF<Bits<6>>,
-    found_edge: DFF<Entry>,
-    inner_comes: DFF<Bit>,
-    inner_at: DFF<Bits<6>>,
-    inner: DFF<Bits<15>>,
     lock_comes: DFF<Bit>,
     lock_at: DFF<Bits<7>>,
     lock: DFF<Bits<15>>,
@@ -124,16 +118,10 @@ impl CommitPath {
 impl Logic for CommitPath {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, list_owner, edge_comes, edge_place, found_edge, inner_comes, inner_at, inner);
+        dff_setup!(self, clock, list_owner);
         dff_setup!(self, clock, lock_comes, lock_at, lock);
         clock!(self, clock, rings, commit, lock_release);
         self.list_owner.d.next = self.owner.val();
-        self.edge_comes.d.next = self.entry_enable.val();
-        self.edge_place.d.next = self.entry_place.val();
-        self.found_edge.d.next = self.entry.val();
-        self.inner_comes.d.next = self.inner_enable.val();
-        self.inner_at.d.next = self.inner_place.val();
-        self.inner.d.next = self.inner_id.val();
         self.lock_comes.d.next = self.lock_enable.val();
         self.lock_at.d.next = self.lock_place.val();
         self.lock.d.next = self.lock_id.val();
@@ -142,10 +130,10 @@ impl Logic for CommitPath {
         self.lock_release.reset.next = self.reset.val();
 
         // Entry by entry into the ring reader, whole rings out of it.
-        self.rings.entry_enable.next = self.edge_comes.q.val();
-        self.rings.entry_owner.next = self.list_owner.q.val();
-        self.rings.entry_place.next = self.edge_place.q.val();
-        self.rings.entry.next = self.found_edge.q.val();
+        self.rings.entry_enable.next = self.entry_enable.val();
+        self.rings.entry_owner.next = self.owner.val();
+        self.rings.entry_place.next = self.entry_place.val();
+        self.rings.entry.next = self.entry.val();
         self.rings.job_enable.next = self.commit_enable.val();
         self.rings.job.next = self.commit_job.val();
         self.rings.takes.next = self.commit.takes.val();
@@ -154,10 +142,10 @@ impl Logic for CommitPath {
         self.commit.clears.next = self.clears.val();
         self.commit.seeds.next = self.seeds.val();
         self.commit.solo_inserts.next = self.solo_inserts.val();
-        self.commit.inner_enable.next = self.inner_comes.q.val();
-        self.commit.inner_owner.next = self.list_owner.q.val();
-        self.commit.inner_place.next = self.inner_at.q.val();
-        self.commit.inner_id.next = self.inner.q.val();
+        self.commit.inner_enable.next = self.inner_enable.val();
+        self.commit.inner_owner.next = self.owner.val();
+        self.commit.inner_place.next = self.inner_place.val();
+        self.commit.inner_id.next = self.inner_id.val();
         self.commit.head_valid.next = self.rings.head_valid.val();
         self.commit.head.next = self.rings.head.val();
         self.commit.head_is_last.next = self.rings.head_is_last.val();
