@@ -9,7 +9,8 @@
 //!
 //! 1. Every context has one job here at most, so there is a place for each.
 //!
-//! Latency: 1 clock. The job stands in a register first: those who find out that there is one need all of their clock.
+//! Latency: 1 clock. The job stands in a register first: those who find out that there is one need all of their clock. `takes` may
+//! come as late: a job is stored even if it is taken at once, so only the pointer to the oldest one waits for that.
 //! ```text
 //! enable          ___/^^\__/^^^^^\______________
 //! job               .  5  .  6  7  .  .  .  .  .
@@ -19,7 +20,7 @@
 //! ```
 
 use super::CONTEXT_BITS;
-use crate::leaf::Fifo;
+use crate::leaf::LutMemory;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -42,7 +43,17 @@ pub struct JobQueue<const D: usize> {
     pub head: Signal<Out, Bits<D>>,
     arrived: DFF<Bit>,
     arrival: DFF<Bits<D>>,
-    queue: Fifo<CONTEXT_BITS, D>,
+    jobs: LutMemory<CONTEXT_BITS, D>,
+    /// A job that came earlier waits.
+    holds_jobs: DFF<Bit>,
+    newest: DFF<Bits<CONTEXT_BITS>>,
+    oldest: DFF<Bits<CONTEXT_BITS>>,
+    pops: Signal<Local, Bit>,
+    after_newest: Signal<Local, Bits<CONTEXT_BITS>>,
+    after_oldest: Signal<Local, Bits<CONTEXT_BITS>>,
+    more_wait: Signal<Local, Bit>,
+    one: Constant<Bits<CONTEXT_BITS>>,
+    nothing: Constant<Bits<CONTEXT_BITS>>,
 }
 
 impl<const D: usize> JobQueue<D> {
@@ -61,7 +72,16 @@ impl<const D: usize> JobQueue<D> {
             head: Signal::default(),
             arrived: DFF::default(),
             arrival: DFF::default(),
-            queue: Fifo::new(context_bits, D),
+            jobs: LutMemory::new(context_bits, D),
+            holds_jobs: DFF::default(),
+            newest: DFF::default(),
+            oldest: DFF::default(),
+            pops: Signal::default(),
+            after_newest: Signal::default(),
+            after_oldest: Signal::default(),
+            more_wait: Signal::default(),
+            one: Constant::new(Bits::from(1)),
+            nothing: Constant::new(Bits::default()),
         }
     }
 }
@@ -75,15 +95,38 @@ impl<const D: usize> Default for JobQueue<D> {
 impl<const D: usize> Logic for JobQueue<D> {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, arrived, arrival);
-        clock!(self, clock, queue);
+        dff_setup!(self, clock, arrived, arrival, holds_jobs, newest, oldest);
+        clock!(self, clock, jobs);
         self.arrived.d.next = self.enable.val() & (!self.reset.val());
         self.arrival.d.next = self.job.val();
-        self.queue.reset.next = self.reset.val();
-        self.queue.push.next = self.arrived.q.val();
-        self.queue.push_data.next = self.arrival.q.val();
-        self.waits.next = self.queue.valid.val();
-        self.head.next = self.queue.data.val();
-        self.queue.pop.next = self.takes.val() & self.queue.valid.val();
+        self.after_newest.next = self.newest.q.val() + self.one.val();
+        self.after_oldest.next = self.oldest.q.val() + self.one.val();
+        self.more_wait.next = self.after_oldest.val() != self.newest.q.val();
+        self.waits.next = self.holds_jobs.q.val() | self.arrived.q.val();
+        self.pops.next = self.takes.val() & self.waits.val();
+        self.jobs.read_address.next = self.oldest.q.val();
+        self.head.next = self.arrival.q.val();
+        if self.holds_jobs.q.val() {
+            self.head.next = self.jobs.read_data.val();
+        }
+
+        self.jobs.write_address.next = self.newest.q.val();
+        self.jobs.write_data.next = self.arrival.q.val();
+        self.jobs.write_enable.next = self.arrived.q.val();
+        if self.arrived.q.val() {
+            self.newest.d.next = self.after_newest.val();
+            self.holds_jobs.d.next = self.holds_jobs.q.val() | (!self.pops.val());
+        }
+        if self.pops.val() {
+            self.oldest.d.next = self.after_oldest.val();
+            if !self.arrived.q.val() {
+                self.holds_jobs.d.next = self.more_wait.val();
+            }
+        }
+        if self.reset.val() {
+            self.holds_jobs.d.next = false;
+            self.newest.d.next = self.nothing.val();
+            self.oldest.d.next = self.nothing.val();
+        }
     }
 }
