@@ -301,7 +301,7 @@ fn watchdog_loses_its_patience_and_not_before() {
     let mut random = SplitMix64::new(34);
     let mut block = Stepper::new("watchdog", Watchdog::default(), 1);
     for given in [0, 1, 5, 40] {
-        let (mut idle_since, mut stuck, mut times) = (0, false, 0);
+        let (mut idle_since, mut rested, mut is_over, mut stuck, mut times) = (0, false, false, false, 0);
         for clock in 0..2000 {
             let reset = clock == 0 || random.below(if stuck { 10 } else { 200 }) == 0;
             let [finishes, is_quiet] = [(); 2].map(|()| random.below(2 * given + 8) == 0);
@@ -314,12 +314,14 @@ fn watchdog_loses_its_patience_and_not_before() {
                 block.expect("stuck", stuck);
             }
             block.edge();
-            times += usize::from(!stuck && clock - idle_since == given);
-            stuck |= clock - idle_since == given;
-            if finishes || is_quiet || reset {
+            // Each is known a clock later: that the core rests, that it has been too long, that it is stuck.
+            times += usize::from(!stuck && is_over);
+            stuck = !reset && (stuck || is_over);
+            is_over = !reset && clock - idle_since == given;
+            if rested || reset {
                 idle_since = clock + 1;
             }
-            stuck &= !reset;
+            rested = !reset && (finishes || is_quiet);
         }
         assert!(times > 5, "{times}");
     }

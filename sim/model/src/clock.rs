@@ -37,7 +37,7 @@ use ring::RingReader;
 use seeder::Seeder;
 use solo::Solo;
 use starter::Starter;
-use watchdog::Watchdog;
+use watchdog::{Progress, Watchdog};
 
 pub use defect::Defect;
 pub use memory::Write;
@@ -78,6 +78,7 @@ struct Registers {
     seeder: Seeder,
     commit: Commit,
     solo: Solo,
+    progress: Progress,
     watchdog: Watchdog,
     counters: Counters,
     /// The bundle that enters the queue in this clock.
@@ -197,6 +198,7 @@ impl ClockModel {
         now.contexts.clock(&was, &wires, self.config.contexts, self.defect);
         now.seeder.clock(&was, &wires);
         now.solo.clock(&was, &wires, &self.tables, &self.memory);
+        now.progress.clock(&was);
         now.watchdog.clock(&was, &wires, self.config);
         now.counters.clock(&was, &wires, &self.pipeline);
         now.push =
