@@ -6,6 +6,7 @@
 //! there (memories, predicates) is computed at the clock its record is read and handed over when the hardware is done.
 //! Nothing is shared with the hardware but the protocol.
 
+mod answer;
 mod attempts;
 mod command_port;
 mod commit;
@@ -81,6 +82,8 @@ struct Registers {
     progress: Progress,
     watchdog: Watchdog,
     counters: Counters,
+    /// The counters as they were a clock ago: the hardware counts an event a clock after it.
+    counted: Counters,
     /// The bundle that enters the queue in this clock.
     push: Option<Bundle>,
     write: Write,
@@ -201,6 +204,7 @@ impl ClockModel {
         now.progress.clock(&was);
         now.watchdog.clock(&was, &wires, self.config);
         now.counters.clock(&was, &wires, &self.pipeline);
+        now.counted = was.counters;
         now.push =
             wires.outcome.and_then(|outcome| outcome.push).or(wires.solo_push).or(wires.start.map(|start| start.push));
         self.latencies.clock(&was, &wires);
