@@ -1,10 +1,11 @@
-//! What answers say: Rust, Verilog and the protocol as `incircle-protocol` states it agree, over random commands and counts of a mesh.
+//! What answers say: Rust, Verilog and the protocol as `incircle-protocol` states it agree, over random commands and counts of a mesh
+//! that change in every clock.
 
 mod block_ports;
 mod stepper;
 
 use incircle_cli::generate::SplitMix64;
-use incircle_hdl::link::AnswerWords;
+use incircle_hdl::link::{AnswerHead, AnswerWords};
 use incircle_protocol::{
     answer_header, Identity, InsertReport, Layout, Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS,
     LATENCY_BUCKETS, MAGIC, MAX_CONTEXTS, PROTOCOL_VERSION,
@@ -12,12 +13,16 @@ use incircle_protocol::{
 use stepper::{named_ports, Stepper};
 
 named_ports!(
+    AnswerHead,
+    [opcode, first, count, is_refused, records, collinear, stuck, some_refused],
+    [header, length, is_empty, is_read],
+    clock
+);
+named_ports!(
     AnswerWords,
-    [
-        opcode, first, count, is_refused, capacity, contexts, ring, collinear, stuck, arrived, refused, insertions,
-        duplicates, records, index, counter, latency
-    ],
-    [header, length, word, is_read]
+    [opcode, capacity, contexts, ring, arrived, refused, insertions, duplicates, records, index, counter, latency],
+    [word],
+    clock
 );
 
 /// True that many times in a hundred.
@@ -60,14 +65,14 @@ impl Asked {
         let first = if percent(random, 50) { word(random) } else { records / 2 };
         let rest = records.wrapping_sub(first);
         Self {
-            opcode: if percent(random, 80) { random.below(8) as u8 } else { word(random) as u8 },
+            opcode: 0,
             first,
             count: match random.below(3) {
                 0 => word(random),
                 // Just to the last record, one less, one more.
                 _ => rest.wrapping_add(random.below(3) as u32).wrapping_sub(1),
             },
-            is_refused: percent(random, 50),
+            is_refused: false,
             capacity: 1 << (2 + random.below(13)),
             contexts: 1 + random.below(MAX_CONTEXTS.into()) as u32,
             ring: 3 + random.below(62) as u32,
@@ -133,46 +138,97 @@ impl Asked {
     }
 }
 
-#[test]
-fn answer_words_follow_the_protocol() {
-    let mut random = SplitMix64::new(5);
-    let mut block = Stepper::new("answer_words", AnswerWords::default(), 1);
-    let mut bad_ranges = 0;
-    for _ in 0..5000 {
-        let asked = Asked::random(&mut random);
-        let answer = asked.answer();
-        bad_ranges += u32::from(answer.status == Status::BadRange);
-        let words = [8, LATENCY_BUCKETS as u64][random.below(2) as usize];
-        let index = random.below(words) as usize;
-        let report = asked.report;
-        for (port, value) in [
-            ("opcode", u32::from(asked.opcode)),
-            ("first", asked.first),
-            ("count", asked.count),
-            ("is_refused", asked.is_refused.into()),
-            ("capacity", asked.capacity),
-            ("contexts", asked.contexts),
-            ("ring", asked.ring),
-            ("collinear", asked.collinear.into()),
-            ("stuck", asked.stuck.into()),
-            ("arrived", report.arrived),
-            ("refused", report.refused),
-            ("insertions", report.inserted),
-            ("duplicates", report.duplicates),
-            ("records", report.records),
-            ("index", index as u32),
-            ("counter", asked.counter),
-            ("latency", asked.latency),
-        ] {
-            block.set(port, value);
+/// Random opcodes, each for some clocks: the opcode, whether the command is refused, clocks.
+fn commands(random: &mut SplitMix64) -> Vec<(u8, bool, usize)> {
+    let opcode = |random: &mut SplitMix64| {
+        if percent(random, 80) {
+            random.below(8) as u8
+        } else {
+            word(random) as u8
         }
-        block.settle();
-        block.expect("header", answer_header(answer.opcode, answer.status));
-        block.expect("length", answer.length);
-        block.expect("is_read", answer.payload.is_none());
-        if let Some(word) = answer.payload.as_ref().and_then(|words| words.get(index)) {
-            block.expect("word", *word);
+    };
+    (0..600).map(|_| (opcode(random), percent(random, 50), 4 + random.below(12) as usize)).collect()
+}
+
+#[test]
+fn answer_heads_follow_the_protocol() {
+    let mut random = SplitMix64::new(5);
+    let mut block = Stepper::new("answer_head", AnswerHead::default(), 1);
+    let mut bad_ranges = 0;
+    for (opcode, is_refused, clocks) in commands(&mut random) {
+        let mut answers: Vec<Answer> = vec![];
+        for clock in 0..clocks {
+            let asked = Asked { opcode, is_refused, ..Asked::random(&mut random) };
+            for (port, value) in [
+                ("opcode", u32::from(asked.opcode)),
+                ("first", asked.first),
+                ("count", asked.count),
+                ("is_refused", asked.is_refused.into()),
+                ("collinear", asked.collinear.into()),
+                ("stuck", asked.stuck.into()),
+                ("some_refused", (asked.report.refused > 0).into()),
+                ("records", asked.report.records),
+            ] {
+                block.set(port, value);
+            }
+            block.settle();
+            answers.push(asked.answer());
+            block.expect("is_read", opcode == Opcode::Read as u8);
+            if clock >= 3 {
+                let answer = &answers[clock - 3];
+                bad_ranges += u32::from(answer.status == Status::BadRange);
+                block.expect("header", answer_header(answer.opcode, answer.status));
+                block.expect("length", answer.length);
+                block.expect("is_empty", answer.length == 0);
+            }
+            block.edge();
         }
     }
     assert!(bad_ranges > 100, "{bad_ranges}");
+}
+
+#[test]
+fn answer_words_follow_the_protocol() {
+    let mut random = SplitMix64::new(6);
+    let mut block = Stepper::new("answer_words", AnswerWords::default(), 1);
+    let mut compared = [0; 3];
+    for (opcode, _, clocks) in commands(&mut random) {
+        // Counters and buckets come from outside a clock after their index.
+        let mut asked_before: Vec<(Asked, usize)> = vec![];
+        for clock in 0..clocks {
+            let asked = Asked { opcode, ..Asked::random(&mut random) };
+            let words = [8, LATENCY_BUCKETS as u64][random.below(2) as usize];
+            let index = random.below(words) as usize;
+            let report = asked.report;
+            for (port, value) in [
+                ("opcode", u32::from(asked.opcode)),
+                ("capacity", asked.capacity),
+                ("contexts", asked.contexts),
+                ("ring", asked.ring),
+                ("arrived", report.arrived),
+                ("refused", report.refused),
+                ("insertions", report.inserted),
+                ("duplicates", report.duplicates),
+                ("records", report.records),
+                ("index", index as u32),
+                ("counter", asked.counter),
+                ("latency", asked.latency),
+            ] {
+                block.set(port, value);
+            }
+            block.settle();
+            if clock >= 2 {
+                let (chosen, index) = &asked_before[clock - 2];
+                let (last, _) = &asked_before[clock - 1];
+                let payload = Asked { counter: last.counter, latency: last.latency, ..*chosen }.answer().payload;
+                if let Some(word) = payload.as_ref().and_then(|words| words.get(*index)) {
+                    block.expect("word", *word);
+                    compared[usize::from(opcode == 3) + 2 * usize::from(opcode == 1)] += 1;
+                }
+            }
+            block.edge();
+            asked_before.push((asked, index));
+        }
+    }
+    assert!(compared.iter().all(|times| *times > 50), "{compared:?}");
 }

@@ -44,6 +44,7 @@ named_ports!(
         count,
         arrived,
         refused,
+        some_refused,
         inserting,
         reading,
         awaits_point
@@ -198,6 +199,7 @@ impl Rig {
             ("is_refused", reference.is_refused.map(u32::from)),
             ("arrived", Some(reference.arrived)),
             ("refused", Some(reference.refused)),
+            ("some_refused", Some((reference.refused > 0).into())),
         ] {
             if let Some(expected) = expected {
                 block.expect(port, expected);

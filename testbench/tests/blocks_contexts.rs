@@ -319,8 +319,20 @@ struct Finishing {
     all_rest: bool,
 }
 
+/// A list of finished points, and what is known of it.
+#[derive(Default)]
+struct Finished {
+    points: Vec<&'static str>,
+    /// Their number a clock ago.
+    counted: u64,
+    /// It was not that of the points that had come.
+    is_behind: bool,
+    /// Three points had come.
+    has_triple: bool,
+}
+
 /// One clock of the block and of a list of finished points: whether there is nothing left to do.
-fn progress_clock(block: &mut Stepper<Progress>, finished: &mut Vec<&str>, now: &Finishing) -> bool {
+fn progress_clock(block: &mut Stepper<Progress>, finished: &mut Finished, now: &Finishing) -> bool {
     for (port, value) in [
         ("reset", now.reset),
         ("clears", now.clears),
@@ -337,19 +349,23 @@ fn progress_clock(block: &mut Stepper<Progress>, finished: &mut Vec<&str>, now: 
     block.set("arrived", now.arrived);
     block.settle();
     block.expect("finishes", now.seeds || now.commit_ends || now.solo_ends || now.duplicate);
-    let never_will = (now.arrived < 3 || now.collinear) && !now.is_seeding;
-    let is_quiet = now.all_rest && (never_will || finished.len() as u64 == now.arrived);
+    let never_will = (!finished.has_triple || now.collinear) && !now.is_seeding;
+    let is_quiet = now.all_rest && (never_will || !finished.is_behind);
     if block.clocks() > 0 {
         block.expect("is_quiet", is_quiet);
     }
     block.edge();
+    finished.is_behind = !now.reset && finished.counted != now.arrived;
+    finished.has_triple = !now.reset && now.arrived >= 3;
+    finished.counted = finished.points.len() as u64;
     if now.seeds {
-        *finished = vec!["seed"; 3];
+        finished.points = vec!["seed"; 3];
     }
-    finished.extend((now.commit_ends || now.solo_ends).then_some("inserted"));
-    finished.extend(now.duplicate.then_some("duplicate"));
+    finished.points.extend((now.commit_ends || now.solo_ends).then_some("inserted"));
+    finished.points.extend(now.duplicate.then_some("duplicate"));
     if now.reset || now.clears {
-        finished.clear();
+        finished.points.clear();
+        finished.counted = 0;
     }
     is_quiet
 }
@@ -358,12 +374,12 @@ fn progress_clock(block: &mut Stepper<Progress>, finished: &mut Vec<&str>, now: 
 fn progress_counts_every_finished_point_once() {
     let mut random = SplitMix64::new(71);
     let mut block = Stepper::new("progress", Progress::default(), 1);
-    let mut finished = Vec::new();
+    let mut finished = Finished::default();
     let (mut most, mut both) = (0, 0);
     for clock in 0..20_000 {
         let mut one_in = |times: u64| random.below(times) == 0;
         // The first triangle comes before all other points.
-        let seeds = finished.is_empty() && one_in(8);
+        let seeds = finished.points.is_empty() && one_in(8);
         let inserts = !seeds && one_in(3);
         let is_alone = one_in(4);
         let near = if one_in(2) { 0 } else { 1 };
@@ -380,11 +396,11 @@ fn progress_counts_every_finished_point_once() {
             arrived: match random.below(3) {
                 0 => random.below(5),
                 1 => random.below(1 << 15),
-                _ => finished.len() as u64 + near,
+                _ => finished.points.len() as u64 + near,
             },
         };
         progress_clock(&mut block, &mut finished, &now);
-        most = most.max(finished.len());
+        most = most.max(finished.points.len());
         both += usize::from(now.commit_ends && now.duplicate);
     }
     assert!(most > 500 && both > 500, "{most} {both}");
@@ -393,7 +409,7 @@ fn progress_counts_every_finished_point_once() {
 #[test]
 fn progress_shows_the_wave_of_its_header() {
     let mut block = Stepper::new("progress", Progress::default(), 1);
-    let mut finished = Vec::new();
+    let mut finished = Finished::default();
     progress_clock(&mut block, &mut finished, &Finishing { reset: true, ..Finishing::default() });
     let mut wave = Wave::default();
     for clock in 0..16u64 {

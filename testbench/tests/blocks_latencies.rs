@@ -8,7 +8,7 @@ use incircle_hdl::engine::{Latencies, LatencyBucket};
 use incircle_protocol::{latency_bucket, latency_of_bucket, LATENCY_BITS, LATENCY_BUCKETS};
 use stepper::{named_ports, Cell, Stepper, Wave};
 
-named_ports!(LatencyBucket, [latency], [bucket]);
+named_ports!(LatencyBucket, [latency], [bucket], clock);
 named_ports!(Latencies, [reset, clears, comes, latency, select], [sweeps, value], clock);
 
 #[test]
@@ -29,6 +29,8 @@ fn latency_bucket_is_that_of_the_protocol() {
     for latency in all {
         block.set("latency", latency);
         block.settle();
+        block.edge();
+        block.settle();
         block.expect("bucket", latency_bucket(latency) as u32);
     }
 }
@@ -36,22 +38,22 @@ fn latency_bucket_is_that_of_the_protocol() {
 /// The histogram as a list of what has been counted, and of what is still to be.
 struct Reference {
     counts: Vec<u32>,
-    /// The bucket that is counted at the next edge.
-    due: Option<usize>,
+    /// The bucket that is sought, that is read, and that is counted at the next edge.
+    due: [Option<usize>; 3],
     /// Clocks of the sweep that are left.
     sweep: usize,
 }
 
 impl Reference {
     fn new() -> Self {
-        Self { counts: vec![0; LATENCY_BUCKETS], due: None, sweep: LATENCY_BUCKETS }
+        Self { counts: vec![0; LATENCY_BUCKETS], due: [None; 3], sweep: LATENCY_BUCKETS }
     }
 
     fn edge(&mut self, latency: Option<u32>, starts_sweep: bool) {
-        if let Some(bucket) = self.due {
+        if let Some(bucket) = self.due[2] {
             self.counts[bucket] += 1;
         }
-        self.due = latency.map(latency_bucket);
+        self.due = [latency.map(latency_bucket), self.due[0], self.due[1]];
         self.sweep = self.sweep.saturating_sub(1);
         if starts_sweep {
             *self = Self::new();
@@ -64,12 +66,13 @@ fn latencies_are_counted_by_bucket() {
     let mut random = SplitMix64::new(41);
     let mut block = Stepper::new("latencies", Latencies::default(), 1);
     let mut reference = Reference::new();
-    let (mut sweeps, mut highest) = (0, 0);
+    let (mut sweeps, mut highest, mut pause, mut chosen) = (0, 0, 0, None);
     for clock in 0..20_000 {
         let reset = clock == 0 || random.below(2000) == 0;
         let clears = random.below(1500) == 0;
-        // Bursts of a few latencies, so that the same bucket is counted in adjacent clocks; none in a sweep.
-        let comes = reference.sweep == 0 && !clears && clock / 64 % 2 == 0 && random.below(3) != 0;
+        // Bursts of a few latencies, so that the same bucket is counted again as soon as may be; none in a sweep.
+        let comes = reference.sweep == 0 && !clears && pause == 0 && clock / 64 % 2 == 0 && random.below(3) != 0;
+        pause = if comes { 2u64 } else { pause.saturating_sub(1) };
         let latency = [20, 21, 22, random.below(1 << LATENCY_BITS) as u32][random.below(4) as usize];
         let select = [random.below(4), random.below(128)][random.below(2) as usize];
         block.set("reset", reset);
@@ -81,10 +84,12 @@ fn latencies_are_counted_by_bucket() {
         if clock > 0 {
             block.expect("sweeps", reference.sweep > 0);
         }
-        if clock > 0 && reference.sweep == 0 && reference.due.is_none() {
-            block.expect("value", reference.counts[select as usize]);
-            highest = highest.max(reference.counts[select as usize]);
+        if let Some(count) = chosen {
+            block.expect("value", count);
+            highest = highest.max(count);
         }
+        let is_read = clock > 0 && reference.sweep == 0 && reference.due[1].is_none();
+        chosen = is_read.then(|| reference.counts[select as usize]);
         block.edge();
         sweeps += usize::from(reset || clears);
         reference.edge(comes.then_some(latency), reset || clears);
@@ -96,17 +101,17 @@ fn latencies_are_counted_by_bucket() {
 #[test]
 fn latencies_are_all_swept() {
     let mut block = Stepper::new("latencies", Latencies::default(), 7);
-    for clock in 0..2 * LATENCY_BUCKETS + 1 {
+    for clock in 0..2 * LATENCY_BUCKETS + 2 {
         block.set("reset", clock == 0);
         block.set("clears", false);
         block.set("comes", false);
         block.set("latency", 0u32);
-        block.set("select", (clock.max(LATENCY_BUCKETS + 1) - LATENCY_BUCKETS - 1) as u64);
+        block.set("select", (clock.max(LATENCY_BUCKETS + 1) - LATENCY_BUCKETS - 1).min(LATENCY_BUCKETS - 1) as u64);
         block.settle();
         if clock > 0 {
             block.expect("sweeps", clock <= LATENCY_BUCKETS);
         }
-        if clock > LATENCY_BUCKETS {
+        if clock > LATENCY_BUCKETS + 1 {
             block.expect("value", 0u32);
         }
         block.edge();
@@ -120,7 +125,7 @@ fn latencies_show_the_wave_of_their_header() {
     let mut wave = Wave::default();
     let first = LATENCY_BUCKETS - 2;
     for clock in 0..first + 16 {
-        let comes = [first + 4, first + 6].contains(&clock);
+        let comes = [first + 4, first + 7].contains(&clock);
         block.set("reset", clock == 0);
         block.set("clears", false);
         block.set("comes", comes);
@@ -129,8 +134,9 @@ fn latencies_show_the_wave_of_their_header() {
         block.settle();
         if clock >= first {
             let sweeps = block.is("sweeps");
-            let counts = [first + 5, first + 7].contains(&clock);
-            let value = if sweeps || counts { Cell::Open } else { Cell::Number(block.get("value")) };
+            // The memory was swept or read for a count in the clock before.
+            let is_open = clock <= first + 3 || [first + 7, first + 10].contains(&clock);
+            let value = if is_open { Cell::Open } else { Cell::Number(block.get("value")) };
             wave.take(&[
                 ("sweeps", Cell::Bit(sweeps)),
                 ("comes", Cell::Bit(comes)),

@@ -8,8 +8,10 @@ use std::collections::VecDeque;
 
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::{Seeder, Watchdog};
-use incircle_hdl::link::{ClearCommand, PointSlot};
-use incircle_protocol::{clear_word, command_word, patience, Opcode, MAX_CONTEXTS, MAX_POINTS};
+use incircle_hdl::link::{ClearCommand, PointSlot, RecordBuffer};
+use incircle_protocol::{
+    clear_word, command_word, patience, Layout, Opcode, CORE_COORD_BITS, MAX_CONTEXTS, MAX_POINTS,
+};
 use stepper::bundles::{record_write, Finding};
 use stepper::{named_ports, Cell, Stepper, Wave};
 
@@ -22,10 +24,11 @@ named_ports!(
 named_ports!(
     PointSlot,
     [reset, clears, capacity, collinear, stuck, accepts, word],
-    [came, came_id, point, arrived, refused],
+    [came, came_id, point, arrived, refused, has_three, some_refused],
     clock
 );
 named_ports!(ClearCommand, [reset, built, accepts, word], [clears, contexts, is_refused], clock);
+named_ports!(RecordBuffer, [reset, read_done, v0, v1, v2, n0, n1, n2, was_set, takes], [holds, word], clock);
 named_ports!(Watchdog, [reset, finishes, is_quiet, patience], [stuck], clock);
 
 const CLOCKS: usize = 8000;
@@ -183,6 +186,8 @@ struct SlotReference {
     stored: Vec<u64>,
     came: bool,
     refused: u64,
+    /// The last point is refused, and counted at the next edge.
+    is_surplus: bool,
 }
 
 impl SlotReference {
@@ -190,6 +195,10 @@ impl SlotReference {
         block.expect("came", self.came);
         block.expect("arrived", self.stored.len() as u64);
         block.expect("refused", self.refused);
+        block.expect("some_refused", self.refused > 0);
+        if !self.came {
+            block.expect("has_three", self.stored.len() == 3);
+        }
         if let (true, Some(point)) = (self.came, self.stored.last()) {
             block.expect("came_id", self.stored.len() as u64 - 1);
             block.expect("point", *point);
@@ -199,7 +208,8 @@ impl SlotReference {
     /// An edge at which `word` comes and is stored or refused.
     fn edge(&mut self, word: Option<u64>, has_room: bool) {
         let stored = word.filter(|_| has_room);
-        self.refused += u64::from(word.is_some() && !has_room);
+        self.refused += u64::from(self.is_surplus);
+        self.is_surplus = word.is_some() && !has_room;
         self.came = stored.is_some();
         self.stored.extend(stored);
     }
@@ -297,11 +307,53 @@ fn clear_command_is_granted_or_refused() {
 }
 
 #[test]
+fn record_buffer_hands_out_three_words() {
+    let mut random = SplitMix64::new(35);
+    let mut block = Stepper::new("record_buffer", RecordBuffer::default(), 1);
+    let layout = Layout::of(CORE_COORD_BITS, MAX_POINTS);
+    let mut words: VecDeque<u32> = VecDeque::new();
+    let mut records = 0;
+    for clock in 0..CLOCKS {
+        let reset = clock == 0 || random.below(100) == 0;
+        let comes = words.is_empty() && random.below(3) == 0;
+        let takes = !words.is_empty() && random.below(3) != 0;
+        let columns = [(); 6].map(|()| random.below(1 << 15) as u32);
+        let was_set = random.below(2) == 0;
+        for (port, value) in [("reset", reset), ("read_done", comes), ("takes", takes), ("was_set", was_set)] {
+            block.set(port, value);
+        }
+        for (port, value) in ["v0", "v1", "v2", "n0", "n1", "n2"].into_iter().zip(columns) {
+            block.set(port, value);
+        }
+        block.settle();
+        if clock > 0 {
+            block.expect("holds", !words.is_empty());
+        }
+        if let Some(word) = words.front() {
+            block.expect("word", *word);
+        }
+        block.edge();
+        if takes {
+            words.pop_front();
+        }
+        if comes {
+            let [v0, v1, v2, n @ ..] = columns;
+            words.extend(&layout.record_to_words([v0, v1, v2], n, was_set)[..3]);
+        }
+        if reset {
+            words.clear();
+        }
+        records += u32::from(comes && !reset);
+    }
+    assert!(records > 500, "{records}");
+}
+
+#[test]
 fn watchdog_loses_its_patience_and_not_before() {
     let mut random = SplitMix64::new(34);
     let mut block = Stepper::new("watchdog", Watchdog::default(), 1);
     for given in [0, 1, 5, 40] {
-        let (mut idle_since, mut stuck, mut times) = (0, false, 0);
+        let (mut idle_since, mut rested, mut is_over, mut stuck, mut times) = (0, false, false, false, 0);
         for clock in 0..2000 {
             let reset = clock == 0 || random.below(if stuck { 10 } else { 200 }) == 0;
             let [finishes, is_quiet] = [(); 2].map(|()| random.below(2 * given + 8) == 0);
@@ -314,12 +366,14 @@ fn watchdog_loses_its_patience_and_not_before() {
                 block.expect("stuck", stuck);
             }
             block.edge();
-            times += usize::from(!stuck && clock - idle_since == given);
-            stuck |= clock - idle_since == given;
-            if finishes || is_quiet || reset {
+            // Each is known a clock later: that the core rests, that it has been too long, that it is stuck.
+            times += usize::from(!stuck && is_over);
+            stuck = !reset && (stuck || is_over);
+            is_over = !reset && clock - idle_since == given;
+            if rested || reset {
                 idle_since = clock + 1;
             }
-            stuck &= !reset;
+            rested = !reset && (finishes || is_quiet);
         }
         assert!(times > 5, "{times}");
     }

@@ -20,6 +20,7 @@ named_ports!(
         first,
         header,
         length,
+        is_empty,
         word,
         is_read,
         read_done,
@@ -93,6 +94,9 @@ struct ResponderRig {
     /// Reads under way: clocks to go, id.
     reads: VecDeque<(usize, u64)>,
     read_clocks: usize,
+    /// Clocks that an answer has been due, and what `index` was one and two clocks ago.
+    due: usize,
+    indices: [usize; 2],
     /// Clocks of a sweep that are left.
     sweeping: u64,
     offered: Option<u128>,
@@ -117,6 +121,8 @@ impl ResponderRig {
             ready,
             reads: VecDeque::new(),
             read_clocks,
+            due: 0,
+            indices: [0; 2],
             sweeping: 0,
             offered: None,
             taken: vec![],
@@ -134,6 +140,7 @@ impl ResponderRig {
         self.block.edge();
         self.block.set("reset", false);
         self.reads.clear();
+        (self.due, self.indices) = (0, [0; 2]);
         self.sweeping = 0;
         self.offered = None;
         self.taken.clear();
@@ -147,14 +154,21 @@ impl ResponderRig {
         let is_under_way = self.loaded > self.ended;
         block.set("sweeps", self.sweeping > 0 || is_under_way && self.random.below(2) == 0);
         self.sweeping = self.sweeping.saturating_sub(1);
-        block.set("header", sent.header);
-        block.set("length", sent.payload.len() as u64);
+        // Status and length are computed in three clocks.
+        self.due = if answers { self.due + 1 } else { 0 };
+        let is_good = self.due > 3;
+        block.set("header", if is_good { sent.header } else { 0xbad });
+        block.set("length", if is_good { sent.payload.len() as u64 } else { 0xbad });
+        block.set("is_empty", is_good == sent.payload.is_empty());
         block.set("is_read", sent.first.is_some());
         // Bits above an id do not count.
         block.set("first", sent.first.unwrap_or(0) | 0xabcd_0000);
         block.settle();
         let index = block.get_masked("index", if is_under_way { 127 } else { 0 }) as usize;
-        block.set("word", sent.payload.get(index).copied().unwrap_or(0xbad));
+        // A word is chosen in two clocks.
+        let [last, before] = self.indices;
+        block.set("word", sent.payload.get(before).filter(|_| last == before).copied().unwrap_or(0xbad));
+        self.indices = [index, last];
         let due = self.reads.front().is_some_and(|(clocks, _)| *clocks == 0);
         let id = if due { self.reads.pop_front().map_or(0, |(_, id)| id) } else { self.random.below(1 << 15) };
         let (v, n, lock) = columns(id);
@@ -209,6 +223,8 @@ impl ResponderRig {
 
     /// A whole answer; returns the clocks from its first to that of `ends`, and the clock of the header.
     fn answer(&mut self, sent: &Sent) -> (usize, usize) {
+        // The command port awaits a command before.
+        self.due = 0;
         let mut header = None;
         for clock in 0..10_000 {
             let shown = self.clock(true, sent);
@@ -275,11 +291,18 @@ fn responder_is_as_fast_as_it_says() {
     for count in [1, 2, 10] {
         let (end, header) = rig.answer(&records(count));
         rig.clock(false, &records(1));
-        assert_eq!(header, 2);
+        assert_eq!(header, 4);
         ends.push(end);
     }
     assert_eq!(ends[1] - ends[0], 7, "clocks a record");
     assert_eq!(ends[2] - ends[0], 9 * 7);
+    let words = |count| Sent { header: 8, payload: vec![5; count], first: None };
+    let ends = [1, 25].map(|count| {
+        let (end, _) = rig.answer(&words(count));
+        rig.clock(false, &words(count));
+        end
+    });
+    assert_eq!(ends[1] - ends[0], 24 * 3, "clocks a word");
 }
 
 #[test]
@@ -289,7 +312,7 @@ fn responder_begins_no_answer_in_a_sweep() {
     for sweep in [0, 1, 2, LATENCY_BUCKETS as u64] {
         rig.sweeping = sweep;
         let (_, header) = rig.answer(&sent);
-        assert_eq!(header as u64, 2 + sweep);
+        assert_eq!(header as u64, 4 + sweep);
         rig.clock(false, &sent);
     }
 }
@@ -303,7 +326,7 @@ fn responder_shows_the_wave_of_its_header() {
     let sent = Sent { header: 7, payload: layout.record_to_words(v, n, lock)[..3].to_vec(), first: Some(5) };
     let mut answers = false;
     for clock in 0..16 {
-        rig.ready = if (4..6).contains(&clock) { 0 } else { 100 };
+        rig.ready = if (6..8).contains(&clock) { 0 } else { 100 };
         answers |= clock == 1;
         answers &= !rig.clock(answers, &sent).ends;
     }

@@ -17,14 +17,16 @@
 //! | `duplicate`, `solo_duplicate` | in | 1 | a point is found to be a duplicate |
 //! | `refused` | in | 32 | points refused, counted where they are refused |
 //! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
-//! | `value` | out | 32 | that word |
+//! | `value` | out | 32 | that word, a clock later |
 //! | `insertions`, `duplicates` | out | 32 | two of them |
 //! | `now` | out | 22 | clocks since reset, modulo 2^22; clear does not stop it |
 //! | `latency_comes`, `latency` | out | 1, 22 | the latency of the commit that ended with the last edge |
 //!
 //! 1. Cycle counts are two words of 32 bits; the high one follows a clock after the low one has wrapped.
 //!
-//! Latency: an event is counted at its edge, a latency at the next one; `value` follows `select` at once.
+//! 2. Every event, and `clears`, goes into a register first. A count that is read while events come is that of the clock before.
+//!
+//! Latency: an event is counted at the second edge, the range of latencies at the third; `value` follows `select` by 1 clock.
 
 use super::{CycleCounters, EventCounter, LatencyRange, VisitCounters};
 use incircle_protocol::Counter;
@@ -107,15 +109,16 @@ pub struct Counters {
     /// Its latency.
     pub latency: Signal<Out, Bits<22>>,
     ticks: DFF<Bits<22>>,
+    zeroes: DFF<Bit>,
+    chosen: DFF<Bits<32>>,
+    inserts: DFF<Bits<2>>,
     inserted: DFF<Bits<32>>,
     duplicated: EventCounter,
     cycles: CycleCounters,
     visits: VisitCounters,
     range: LatencyRange,
-    zero: Signal<Local, Bit>,
     one_tick: Signal<Local, Bits<22>>,
-    one: Signal<Local, Bits<32>>,
-    three: Signal<Local, Bits<32>>,
+    more: Signal<Local, Bits<32>>,
 }
 
 // `select` counts in the order of `Counter`; a change there must come here.
@@ -133,16 +136,14 @@ const _: () = assert!(
 impl Logic for Counters {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, ticks, inserted);
+        dff_setup!(self, clock, ticks, zeroes, chosen, inserts, inserted);
         clock!(self, clock, duplicated, cycles, visits, range);
         self.one_tick.next = 1.into();
-        self.one.next = 1.into();
-        self.three.next = 3.into();
-        self.zero.next = self.reset.val() | self.clears.val();
-        self.duplicated.zero.next = self.zero.val();
-        self.cycles.zero.next = self.zero.val();
-        self.visits.zero.next = self.zero.val();
-        self.range.zero.next = self.zero.val();
+        self.zeroes.d.next = self.reset.val() | self.clears.val();
+        self.duplicated.zero.next = self.zeroes.q.val();
+        self.cycles.zero.next = self.zeroes.q.val();
+        self.visits.zero.next = self.zeroes.q.val();
+        self.range.zero.next = self.zeroes.q.val();
 
         self.cycles.inserting.next = self.inserting.val();
         self.cycles.waiting.next = self.waiting.val();
@@ -174,67 +175,70 @@ impl Logic for Counters {
         self.latency.next = self.range.latency.val();
 
         self.duplicated.count.next = self.duplicate.val() | self.solo_duplicate.val();
+        self.inserts.d.next = 0.into();
         if self.commit_ends.val() | self.solo_inserts.val() {
-            self.inserted.d.next = self.inserted.q.val() + self.one.val();
+            self.inserts.d.next = 1.into();
         }
         if self.seeds.val() {
-            self.inserted.d.next = self.inserted.q.val() + self.three.val();
+            self.inserts.d.next = 3.into();
         }
+        self.more.next = bit_cast::<32, 2>(self.inserts.q.val());
+        self.inserted.d.next = self.inserted.q.val() + self.more.val();
         self.insertions.next = self.inserted.q.val();
         self.duplicates.next = self.duplicated.value.val();
 
-        self.value.next = self.cycles.value.val();
+        self.value.next = self.chosen.q.val();
         match self.select.val().index() {
             6 => {
-                self.value.next = self.inserted.q.val();
+                self.chosen.d.next = self.inserted.q.val();
             }
             7 => {
-                self.value.next = self.duplicated.value.val();
+                self.chosen.d.next = self.duplicated.value.val();
             }
             8 => {
-                self.value.next = self.refused.val();
+                self.chosen.d.next = self.refused.val();
             }
             9 => {
-                self.value.next = self.visits.value.val();
+                self.chosen.d.next = self.visits.value.val();
             }
             10 => {
-                self.value.next = self.visits.value.val();
+                self.chosen.d.next = self.visits.value.val();
             }
             11 => {
-                self.value.next = self.visits.value.val();
+                self.chosen.d.next = self.visits.value.val();
             }
             12 => {
-                self.value.next = self.visits.value.val();
+                self.chosen.d.next = self.visits.value.val();
             }
             13 => {
-                self.value.next = self.visits.value.val();
+                self.chosen.d.next = self.visits.value.val();
             }
             14 => {
-                self.value.next = self.visits.value.val();
+                self.chosen.d.next = self.visits.value.val();
             }
             15 => {
-                self.value.next = self.visits.value.val();
+                self.chosen.d.next = self.visits.value.val();
             }
             16 => {
-                self.value.next = self.visits.value.val();
+                self.chosen.d.next = self.visits.value.val();
             }
             17 => {
-                self.value.next = self.visits.value.val();
+                self.chosen.d.next = self.visits.value.val();
             }
             18 => {
-                self.value.next = self.visits.value.val();
+                self.chosen.d.next = self.visits.value.val();
             }
             23 => {
-                self.value.next = bit_cast::<32, 22>(self.range.least.val());
+                self.chosen.d.next = bit_cast::<32, 22>(self.range.least.val());
             }
             24 => {
-                self.value.next = bit_cast::<32, 22>(self.range.most.val());
+                self.chosen.d.next = bit_cast::<32, 22>(self.range.most.val());
             }
             _ => {
-                self.value.next = self.cycles.value.val();
+                self.chosen.d.next = self.cycles.value.val();
             }
         }
-        if self.zero.val() {
+        if self.zeroes.q.val() {
             self.inserted.d.next = 0.into();
         }
         if self.reset.val() {

@@ -2,7 +2,7 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `clock`, `zero` | in | 1 | `zero` clears all |
+//! | `clock`, `zero` | in | 1 | `zero` forgets the clocks before |
 //! | `inserting`, `waiting`, `reading` | in | 1 | a job is under way; it has no point to work on; a read-out is under way |
 //! | `is_issuing`, `is_writing` | in | 1 | a visit is issued; a record or a link is written |
 //! | `is_committing`, `is_releasing` | in | 1 | a commit is at work; a lock is cleared |
@@ -12,7 +12,7 @@
 //! 1. The first three are two words each; the high one follows a clock after the low one has wrapped.
 //! 2. A lock that is cleared counts while a job is under way, not in the sweep after reset.
 //!
-//! Latency: a clock is counted at its edge; `value` follows `select` at once.
+//! Latency: 2 clocks; `value` follows `select` at once.
 
 use super::{EventCounter, WideCounter};
 use incircle_protocol::Counter;

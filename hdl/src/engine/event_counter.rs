@@ -4,7 +4,7 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `clock`, `zero` | in | 1 | `zero` clears it |
+//! | `clock`, `zero` | in | 1 | `zero` forgets the clocks before |
 //! | `count` | in | 1 | this clock counts |
 //! | `value` | out | 32 | clocks that counted, modulo 2^32 |
 //!
@@ -12,11 +12,13 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `clock`, `zero` | in | 1 | `zero` clears it |
+//! | `clock`, `zero` | in | 1 | `zero` forgets the clocks before |
 //! | `count` | in | 1 | this clock counts |
 //! | `low`, `high` | out | N | its words; `high` follows a clock after `low` has wrapped |
 //!
-//! Latency: a clock is counted at its edge.
+//! A clock is noted at its edge and counted at the next one, so that what says `count` does not reach the carries of a word.
+//!
+//! Latency: 2 clocks.
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -26,12 +28,13 @@ use rust_hdl_widgets::prelude::*;
 pub struct EventCounter {
     /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Clears it.
+    /// Forgets the clocks before.
     pub zero: Signal<In, Bit>,
     /// This clock counts.
     pub count: Signal<In, Bit>,
     /// Clocks that counted.
     pub value: Signal<Out, Bits<32>>,
+    counts: DFF<Bit>,
     word: DFF<Bits<32>>,
     one: Signal<Local, Bits<32>>,
 }
@@ -39,10 +42,11 @@ pub struct EventCounter {
 impl Logic for EventCounter {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, word);
+        dff_setup!(self, clock, counts, word);
         self.one.next = 1.into();
         self.value.next = self.word.q.val();
-        if self.count.val() {
+        self.counts.d.next = self.count.val();
+        if self.counts.q.val() {
             self.word.d.next = self.word.q.val() + self.one.val();
         }
         if self.zero.val() {
@@ -56,7 +60,7 @@ impl Logic for EventCounter {
 pub struct WideCounter<const N: usize> {
     /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Clears it.
+    /// Forgets the clocks before.
     pub zero: Signal<In, Bit>,
     /// This clock counts.
     pub count: Signal<In, Bit>,
@@ -64,6 +68,7 @@ pub struct WideCounter<const N: usize> {
     pub low: Signal<Out, Bits<N>>,
     /// High word.
     pub high: Signal<Out, Bits<N>>,
+    counts: DFF<Bit>,
     low_word: DFF<Bits<N>>,
     high_word: DFF<Bits<N>>,
     carries: DFF<Bit>,
@@ -79,6 +84,7 @@ impl<const N: usize> Default for WideCounter<N> {
             count: Signal::default(),
             low: Signal::default(),
             high: Signal::default(),
+            counts: DFF::default(),
             low_word: DFF::default(),
             high_word: DFF::default(),
             carries: DFF::default(),
@@ -91,12 +97,13 @@ impl<const N: usize> Default for WideCounter<N> {
 impl<const N: usize> Logic for WideCounter<N> {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, low_word, high_word, carries);
+        dff_setup!(self, clock, counts, low_word, high_word, carries);
         self.one.next = 1.into();
         self.low.next = self.low_word.q.val();
         self.high.next = self.high_word.q.val();
-        self.carries.d.next = self.count.val() & (self.low_word.q.val() == self.all_ones.val());
-        if self.count.val() {
+        self.counts.d.next = self.count.val();
+        self.carries.d.next = self.counts.q.val() & (self.low_word.q.val() == self.all_ones.val());
+        if self.counts.q.val() {
             self.low_word.d.next = self.low_word.q.val() + self.one.val();
         }
         if self.carries.q.val() {

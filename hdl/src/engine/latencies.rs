@@ -6,18 +6,19 @@
 //! | `comes`, `latency` | in | 1, 22 | an insertion took that long; not while it sweeps |
 //! | `sweeps` | out | 1 | the buckets are being cleared, one a clock |
 //! | `select` | in | 7 | bucket to read; see `latency_bucket` of the protocol |
-//! | `value` | out | 32 | insertions in it, while none comes |
+//! | `value` | out | 32 | insertions in it, a clock later, while none comes |
 //!
 //! 1. The memory has one read port: it serves what comes first, then `select`. Nobody reads while points are inserted.
+//! 2. Latencies come at least three clocks apart.
 //!
-//! Latency: a latency is counted at the second edge; a sweep takes 128 clocks; `value` follows `select` at once.
+//! Latency: a latency is counted at the fourth edge: its bucket is found in two clocks, read, and written; a sweep takes 128 clocks.
 //!
 //! The end of a sweep, and two insertions of 22 clocks:
 //! ```text
 //! sweeps          /^^^^^^^^\______________________________________
-//! comes           ____________/^^\__/^^\__________________________
-//! latency           .  .  .  . 22  . 22  .  .  .  .  .  .  .  .  .
-//! value             .  .  .  0  0  .  1  .  2  2  2  2  2  2  2  2
+//! comes           ____________/^^\_____/^^\_______________________
+//! latency           .  .  .  . 22  .  . 22  .  .  .  .  .  .  .  .
+//! value             .  .  .  .  0  0  0  .  0  1  .  1  2  2  2  2
 //! ```
 
 use super::LatencyBucket;
@@ -52,8 +53,11 @@ pub struct Latencies {
     pub value: Signal<Out, Bits<32>>,
     is_sweeping: DFF<Bit>,
     sweep_bucket: DFF<Bits<7>>,
+    seeks: DFF<Bit>,
+    finds: DFF<Bit>,
     counts: DFF<Bit>,
     counted_bucket: DFF<Bits<7>>,
+    found: DFF<Bits<15>>,
     bucket: LatencyBucket,
     memory: LutMemory<7, 15>,
     last_bucket: Signal<Local, Bits<7>>,
@@ -74,8 +78,11 @@ impl Default for Latencies {
             value: Signal::default(),
             is_sweeping: DFF::default(),
             sweep_bucket: DFF::default(),
+            seeks: DFF::default(),
+            finds: DFF::default(),
             counts: DFF::default(),
             counted_bucket: DFF::default(),
+            found: DFF::default(),
             bucket: LatencyBucket::default(),
             memory: LutMemory::new(7, COUNT_BITS),
             last_bucket: Signal::default(),
@@ -88,24 +95,29 @@ impl Default for Latencies {
 impl Logic for Latencies {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, is_sweeping, sweep_bucket, counts, counted_bucket);
-        clock!(self, clock, memory);
+        dff_setup!(self, clock, is_sweeping, sweep_bucket, seeks, finds, counts, counted_bucket, found);
+        clock!(self, clock, bucket, memory);
         self.last_bucket.next = 127.into();
         self.one_bucket.next = 1.into();
         self.one.next = 1.into();
         self.sweeps.next = self.is_sweeping.q.val();
 
-        // A latency finds its bucket in one clock and is counted in the next.
+        // A latency finds its bucket in two clocks, reads its count in the next, and writes it in the fourth.
         self.bucket.latency.next = self.latency.val();
-        self.counts.d.next = self.comes.val();
-        self.counted_bucket.d.next = self.bucket.bucket.val();
+        self.seeks.d.next = self.comes.val();
+        self.finds.d.next = self.seeks.q.val();
+        if self.seeks.q.val() {
+            self.counted_bucket.d.next = self.bucket.bucket.val();
+        }
+        self.counts.d.next = self.finds.q.val();
         self.memory.read_address.next = self.select.val();
-        if self.counts.q.val() {
+        if self.finds.q.val() {
             self.memory.read_address.next = self.counted_bucket.q.val();
         }
-        self.value.next = bit_cast::<32, 15>(self.memory.read_data.val());
+        self.found.d.next = self.memory.read_data.val();
+        self.value.next = bit_cast::<32, 15>(self.found.q.val());
         self.memory.write_address.next = self.counted_bucket.q.val();
-        self.memory.write_data.next = self.memory.read_data.val() + self.one.val();
+        self.memory.write_data.next = self.found.q.val() + self.one.val();
         self.memory.write_enable.next = self.counts.q.val();
 
         if self.is_sweeping.q.val() {
@@ -120,6 +132,8 @@ impl Logic for Latencies {
         if self.reset.val() | self.clears.val() {
             self.is_sweeping.d.next = true;
             self.sweep_bucket.d.next = 0.into();
+            self.seeks.d.next = false;
+            self.finds.d.next = false;
             self.counts.d.next = false;
         }
     }

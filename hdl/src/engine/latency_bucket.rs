@@ -2,18 +2,22 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
+//! | `clock` | in | 1 | |
 //! | `latency` | in | 22 | clocks |
 //! | `bucket` | out | 7 | four bits of the octave, then three of the place in it |
 //!
 //! 1. The highest bit that is set says the octave, the three below it the place.
 //!
-//! Latency: none (combinational).
+//! Latency: 1 clock: there is a register between the steps of eight and four octaves and those of two and one.
 
 use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The bucket of a latency; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LatencyBucket {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
     /// Clocks.
     pub latency: Signal<In, Bits<22>>,
     /// Their bucket.
@@ -21,16 +25,17 @@ pub struct LatencyBucket {
     /// The latency from bit 1 up, shifted until its highest bit that is set stands at the top.
     from8: Signal<Local, Bits<19>>,
     from4: Signal<Local, Bits<19>>,
-    from2: Signal<Local, Bits<19>>,
+    from2: DFF<Bits<19>>,
     from1: Signal<Local, Bits<19>>,
     top: Signal<Local, Bits<19>>,
     /// Eight, four, two octaves, and one.
     octave8: Signal<Local, Bits<7>>,
     octave4: Signal<Local, Bits<7>>,
+    high_octave: DFF<Bits<7>>,
     octave2: Signal<Local, Bits<7>>,
     octave1: Signal<Local, Bits<7>>,
     place: Signal<Local, Bits<7>>,
-    is_far: Signal<Local, Bit>,
+    is_far: DFF<Bit>,
     eight: Signal<Local, Bits<19>>,
     four: Signal<Local, Bits<19>>,
     two: Signal<Local, Bits<19>>,
@@ -40,11 +45,12 @@ pub struct LatencyBucket {
 impl Logic for LatencyBucket {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, from2, high_octave, is_far);
         self.eight.next = 8.into();
         self.four.next = 4.into();
         self.two.next = 2.into();
         self.one.next = 1.into();
-        self.is_far.next = self.latency.val().get_bit(20) | self.latency.val().get_bit(21);
+        self.is_far.d.next = self.latency.val().get_bit(20) | self.latency.val().get_bit(21);
         self.from8.next = self.latency.val().get_bits::<19>(1);
 
         self.octave8.next = 0.into();
@@ -54,16 +60,17 @@ impl Logic for LatencyBucket {
             self.from4.next = self.from8.val();
         }
         self.octave4.next = 0.into();
-        self.from2.next = self.from4.val() << self.four.val();
+        self.from2.d.next = self.from4.val() << self.four.val();
         if self.from4.val().get_bits::<4>(15).any() {
             self.octave4.next = 32.into();
-            self.from2.next = self.from4.val();
+            self.from2.d.next = self.from4.val();
         }
+        self.high_octave.d.next = self.octave8.val() | self.octave4.val();
         self.octave2.next = 0.into();
-        self.from1.next = self.from2.val() << self.two.val();
-        if self.from2.val().get_bits::<2>(17).any() {
+        self.from1.next = self.from2.q.val() << self.two.val();
+        if self.from2.q.val().get_bits::<2>(17).any() {
             self.octave2.next = 16.into();
-            self.from1.next = self.from2.val();
+            self.from1.next = self.from2.q.val();
         }
         self.octave1.next = 0.into();
         self.top.next = self.from1.val() << self.one.val();
@@ -76,10 +83,9 @@ impl Logic for LatencyBucket {
         self.place.next = bit_cast::<7, 3>(self.top.val().get_bits::<3>(15));
         self.bucket.next = 0.into();
         if self.top.val().get_bit(18) {
-            self.bucket.next =
-                self.octave8.val() | self.octave4.val() | self.octave2.val() | self.octave1.val() | self.place.val();
+            self.bucket.next = self.high_octave.q.val() | self.octave2.val() | self.octave1.val() | self.place.val();
         }
-        if self.is_far.val() {
+        if self.is_far.q.val() {
             self.bucket.next = 127.into();
         }
     }

@@ -9,8 +9,10 @@
 //! | `least`, `most` | out | 22 | of all; 0 if there was none |
 //!
 //! 1. The first one counts as the least; as the first counts whatever comes while the most is 0.
+//! 2. Insertions are finished at least three clocks apart, as each commit writes three records and more: a latency is compared
+//!    while it stands, and stored after that.
 //!
-//! Latency: 1 clock to `latency`, 2 to `least` and `most`.
+//! Latency: 1 clock to `latency`, 3 to `least` and `most`.
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -37,6 +39,9 @@ pub struct LatencyRange {
     /// The most.
     pub most: Signal<Out, Bits<22>>,
     comes: DFF<Bit>,
+    /// It is the least, and the most.
+    is_least: DFF<Bit>,
+    is_most: DFF<Bit>,
     taken: DFF<Bits<22>>,
     lowest: DFF<Bits<22>>,
     highest: DFF<Bits<22>>,
@@ -46,7 +51,7 @@ pub struct LatencyRange {
 impl Logic for LatencyRange {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, comes, taken, lowest, highest);
+        dff_setup!(self, clock, comes, is_least, is_most, taken, lowest, highest);
         self.none.next = 0.into();
         self.latency_comes.next = self.comes.q.val();
         self.latency.next = self.taken.q.val();
@@ -54,17 +59,22 @@ impl Logic for LatencyRange {
         self.most.next = self.highest.q.val();
 
         self.comes.d.next = self.commit_ends.val();
-        self.taken.d.next = self.now.val() - self.since.val();
-        if self.comes.q.val() {
-            if (self.highest.q.val() == self.none.val()) | (self.taken.q.val() < self.lowest.q.val()) {
-                self.lowest.d.next = self.taken.q.val();
-            }
-            if self.taken.q.val() > self.highest.q.val() {
-                self.highest.d.next = self.taken.q.val();
-            }
+        if self.commit_ends.val() {
+            self.taken.d.next = self.now.val() - self.since.val();
+        }
+        self.is_least.d.next = self.comes.q.val()
+            & ((self.highest.q.val() == self.none.val()) | (self.taken.q.val() < self.lowest.q.val()));
+        self.is_most.d.next = self.comes.q.val() & (self.taken.q.val() > self.highest.q.val());
+        if self.is_least.q.val() {
+            self.lowest.d.next = self.taken.q.val();
+        }
+        if self.is_most.q.val() {
+            self.highest.d.next = self.taken.q.val();
         }
         if self.zero.val() {
             self.comes.d.next = false;
+            self.is_least.d.next = false;
+            self.is_most.d.next = false;
             self.lowest.d.next = 0.into();
             self.highest.d.next = 0.into();
         }

@@ -15,7 +15,10 @@
 //! 2. Fewer than three points, or three collinear ones, are never finished: then there is nothing left to do as soon as no visit is
 //!    out, unless the first records are being written.
 //!
-//! Latency: 1 clock to the count; none from the other inputs.
+//! 3. What is finished is noted at its edge, counted at the next one and compared at the third; `arrived` is compared at once. In
+//!    the clock after a point has come `is_quiet` may still say what held before; nobody settles in it.
+//!
+//! Latency: 3 clocks from a point that is finished, 1 from `arrived`, none from the other inputs.
 //!
 //! Three points come and make the first triangle. Two more come, of which one is a duplicate:
 //! ```text
@@ -26,7 +29,7 @@
 //! commit_ends     ____________________________________/^^\________
 //! duplicate       ____________________________________/^^\________
 //! finishes        _____________________/^^\___________/^^\________
-//! is_quiet        /^^^^^^^^\______________/^^\______________/^^^^^
+//! is_quiet        /^^^^^^^^^^^\________________________________/^^
 //! ```
 
 use rust_hdl_core::prelude::*;
@@ -62,45 +65,52 @@ pub struct Progress {
     /// A point is finished.
     pub finishes: Signal<Out, Bit>,
     finished: DFF<Bits<15>>,
+    /// Points that were finished at the last edge.
+    more: DFF<Bits<2>>,
+    starts: DFF<Bit>,
+    is_behind: DFF<Bit>,
+    has_triple: DFF<Bit>,
     inserts: Signal<Local, Bit>,
-    all_are_finished: Signal<Local, Bit>,
-    is_too_few: Signal<Local, Bit>,
     has_no_start: Signal<Local, Bit>,
-    by_commit: Signal<Local, Bits<15>>,
-    by_duplicate: Signal<Local, Bits<15>>,
-    with_commit: Signal<Local, Bits<15>>,
+    wide_more: Signal<Local, Bits<15>>,
     three: Signal<Local, Bits<15>>,
 }
 
 impl Logic for Progress {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, finished);
+        dff_setup!(self, clock, finished, more, starts, is_behind, has_triple);
         self.three.next = 3.into();
         self.inserts.next = self.commit_ends.val() | self.solo_ends.val();
         self.finishes.next = self.inserts.val() | self.duplicate.val() | self.seeds.val();
 
-        self.all_are_finished.next = self.finished.q.val() == self.arrived.val();
-        self.is_too_few.next = self.arrived.val() < self.three.val();
-        self.has_no_start.next = (self.is_too_few.val() | self.collinear.val()) & (!self.is_seeding.val());
-        self.is_quiet.next = (self.all_are_finished.val() | self.has_no_start.val()) & self.all_rest.val();
+        self.is_behind.d.next = self.finished.q.val() != self.arrived.val();
+        self.has_triple.d.next = self.arrived.val() >= self.three.val();
+        self.has_no_start.next = ((!self.has_triple.q.val()) | self.collinear.val()) & (!self.is_seeding.val());
+        self.is_quiet.next = ((!self.is_behind.q.val()) | self.has_no_start.val()) & self.all_rest.val();
 
         // A commit and a duplicate may end in one clock.
-        self.by_commit.next = 0.into();
-        self.by_duplicate.next = 0.into();
-        if self.inserts.val() {
-            self.by_commit.next = 1.into();
+        self.starts.d.next = self.seeds.val();
+        self.more.d.next = 0.into();
+        if self.inserts.val() | self.duplicate.val() {
+            self.more.d.next = 1.into();
         }
-        if self.duplicate.val() {
-            self.by_duplicate.next = 1.into();
+        if self.inserts.val() & self.duplicate.val() {
+            self.more.d.next = 2.into();
         }
-        self.with_commit.next = self.finished.q.val() + self.by_commit.val();
-        self.finished.d.next = self.with_commit.val() + self.by_duplicate.val();
-        if self.seeds.val() {
+        self.wide_more.next = bit_cast::<15, 2>(self.more.q.val());
+        self.finished.d.next = self.finished.q.val() + self.wide_more.val();
+        if self.starts.q.val() {
             self.finished.d.next = 3.into();
         }
         if self.reset.val() | self.clears.val() {
+            self.starts.d.next = false;
+            self.more.d.next = 0.into();
             self.finished.d.next = 0.into();
+        }
+        if self.reset.val() {
+            self.is_behind.d.next = false;
+            self.has_triple.d.next = false;
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `clock`, `zero` | in | 1 | `zero` clears all |
+//! | `clock`, `zero` | in | 1 | `zero` forgets the clocks before |
 //! | `walk_visit`, `root_visit`, `test` | in | 1 | a visit of that kind completes |
 //! | `revisit` | in | 1 | it is made once more |
 //! | `gives_up`, `retries` | in | 1 | an attempt ends at a foreign lock; a located triangle no longer holds the point |
@@ -12,7 +12,7 @@
 //! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
 //! | `value` | out | 32 | that word, if it is one of these |
 //!
-//! Latency: an event is counted at its edge; `value` follows `select` at once.
+//! Latency: 2 clocks; `value` follows `select` at once.
 
 use super::EventCounter;
 use incircle_protocol::Counter;
@@ -52,6 +52,7 @@ pub struct VisitCounters {
     pub select: Signal<In, Bits<5>>,
     /// It.
     pub value: Signal<Out, Bits<32>>,
+    last_triangles: DFF<Bits<7>>,
     triangles: DFF<Bits<32>>,
     walk_visits: EventCounter,
     tests: EventCounter,
@@ -83,7 +84,7 @@ const _: () = assert!(
 impl Logic for VisitCounters {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, triangles);
+        dff_setup!(self, clock, last_triangles, triangles);
         clock!(self, clock, walk_visits, tests, overflowed, flips, root_visits);
         clock!(self, clock, revisits, aborts, root_retries, waiting_tokens);
         self.walk_visits.zero.next = self.zero.val();
@@ -104,10 +105,12 @@ impl Logic for VisitCounters {
         self.aborts.count.next = self.gives_up.val();
         self.root_retries.count.next = self.retries.val();
         self.waiting_tokens.count.next = self.takes_token.val();
-        self.wide_triangles.next = bit_cast::<32, 7>(self.cavity_triangles.val());
+        self.last_triangles.d.next = 0.into();
         if self.cavity_ends.val() {
-            self.triangles.d.next = self.triangles.q.val() + self.wide_triangles.val();
+            self.last_triangles.d.next = self.cavity_triangles.val();
         }
+        self.wide_triangles.next = bit_cast::<32, 7>(self.last_triangles.q.val());
+        self.triangles.d.next = self.triangles.q.val() + self.wide_triangles.val();
         if self.zero.val() {
             self.triangles.d.next = 0.into();
         }

@@ -10,13 +10,15 @@
 //!
 //! 1. `stuck` stays until reset.
 //!
-//! Latency: a clock more than `patience`.
+//! 2. Its inputs and the comparison go into registers first.
+//!
+//! Latency: three clocks more than `patience`.
 //!
 //! With a patience of 4 clocks:
 //! ```text
 //! is_quiet        /^^\____________________________________________
 //! finishes        _________/^^\___________________________________
-//! stuck           ___________________________/^^^^^^^^^^^^^^^^^^^^
+//! stuck           _________________________________/^^^^^^^^^^^^^^
 //! ```
 
 use rust_hdl_core::prelude::*;
@@ -37,7 +39,9 @@ pub struct Watchdog {
     pub patience: Signal<In, Bits<22>>,
     /// A fault.
     pub stuck: Signal<Out, Bit>,
+    rests: DFF<Bit>,
     clocks: DFF<Bits<22>>,
+    is_over: DFF<Bit>,
     is_stuck: DFF<Bit>,
     one: Signal<Local, Bits<22>>,
 }
@@ -45,18 +49,22 @@ pub struct Watchdog {
 impl Logic for Watchdog {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, clocks, is_stuck);
+        dff_setup!(self, clock, rests, clocks, is_over, is_stuck);
         self.one.next = 1.into();
         self.stuck.next = self.is_stuck.q.val();
         self.clocks.d.next = self.clocks.q.val() + self.one.val();
-        if self.finishes.val() | self.is_quiet.val() {
+        self.rests.d.next = self.finishes.val() | self.is_quiet.val();
+        self.is_over.d.next = self.clocks.q.val() == self.patience.val();
+        if self.rests.q.val() {
             self.clocks.d.next = 0.into();
         }
-        if self.clocks.q.val() == self.patience.val() {
+        if self.is_over.q.val() {
             self.is_stuck.d.next = true;
         }
         if self.reset.val() {
+            self.rests.d.next = false;
             self.clocks.d.next = 0.into();
+            self.is_over.d.next = false;
             self.is_stuck.d.next = false;
         }
     }

@@ -8,7 +8,9 @@ use crate::engine::{
     InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, Progress, Release, RingReader,
     Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
-use crate::link::{AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordWords, Responder};
+use crate::link::{
+    AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordBuffer, RecordWords, Responder,
+};
 
 /// The name of each root module, and its Verilog.
 pub(super) fn control_blocks() -> Vec<(String, String)> {
@@ -52,8 +54,10 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
         block(CommandPort::default(), "command_port"),
         block(CommandGate::default(), "command_gate"),
         block(PointSlot::default(), "point_slot"),
+        block(AnswerHead::default(), "answer_head"),
         block(AnswerWords::default(), "answer_words"),
         block(Responder::default(), "responder"),
+        block(RecordBuffer::default(), "record_buffer"),
         block(RecordWords::default(), "record_words"),
     ]
 }

@@ -6,7 +6,7 @@
 //! | `sweeps` | in | 1 | the core is not ready for commands yet |
 //! | `none_is_left` | in | 1 | all points of the command have come |
 //! | `came` | in | 1 | the point before is being stored |
-//! | `arrived`, `seeded`, `collinear` | in | 15, 1, 1 | points so far, and what became of the first three |
+//! | `has_three`, `seeded`, `collinear` | in | 1 | three points have come so far, and what became of them |
 //! | `stuck` | in | 1 | the core is stuck: nothing is waited for |
 //! | `ready` | out | 1 | a word is taken |
 //! | `awaits_point` | out | 1 | a point may come |
@@ -32,8 +32,8 @@ pub struct CommandGate {
     pub none_is_left: Signal<In, Bit>,
     /// The point before is being stored.
     pub came: Signal<In, Bit>,
-    /// Points so far.
-    pub arrived: Signal<In, Bits<15>>,
+    /// Three points so far.
+    pub has_three: Signal<In, Bit>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
     /// The first three points are collinear.
@@ -45,17 +45,13 @@ pub struct CommandGate {
     /// A point may come.
     pub awaits_point: Signal<Out, Bit>,
     start_is_open: Signal<Local, Bit>,
-    three: Signal<Local, Bits<15>>,
 }
 
 impl Logic for CommandGate {
     #[hdl_gen]
     fn update(&mut self) {
-        self.three.next = 3.into();
-        self.start_is_open.next = (self.arrived.val() == self.three.val())
-            & (!self.seeded.val())
-            & (!self.collinear.val())
-            & (!self.stuck.val());
+        self.start_is_open.next =
+            self.has_three.val() & (!self.seeded.val()) & (!self.collinear.val()) & (!self.stuck.val());
         self.awaits_point.next = self.is_points.val() & (!self.none_is_left.val());
         self.ready.next = self.is_argument.val();
         if self.is_command.val() {

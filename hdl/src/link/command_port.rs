@@ -17,6 +17,7 @@
 //! | `answers` | out | 1 | an answer is due, until `answer_ends` |
 //! | `opcode`, `first`, `count` | out | 8, 32, 32 | the command and its arguments |
 //! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
+//! | `some_refused` | out | 1 | there are some of these |
 //! | `responder_is_idle`, `answer_ends`, `answer_is_taken` | in | 1 | the responder |
 //! | `inserting`, `reading`, `awaits_point` | out | 1 | what the cycle counters count |
 //!
@@ -25,7 +26,8 @@
 //! 3. A `Clear` for no number of contexts is one for all. One for too many changes nothing, and `clears` stays low.
 //! 4. The answer to a `Clear` is due when `clears` is over.
 //!
-//! Latency: a point accepted at an edge is stored at the next; one is taken every second clock.
+//! Latency: a point accepted at an edge is stored at the next; one is taken every second clock. A point refused is counted at the
+//! next edge.
 //!
 //! An insertion of three points into an empty core:
 //! ```text
@@ -111,6 +113,8 @@ pub struct CommandPort {
     pub arrived: Signal<Out, Bits<15>>,
     /// Points that were refused.
     pub refused: Signal<Out, Bits<32>>,
+    /// There are such points.
+    pub some_refused: Signal<Out, Bit>,
     /// The responder is idle.
     pub responder_is_idle: Signal<In, Bit>,
     /// It loads its last word.
@@ -127,18 +131,19 @@ pub struct CommandPort {
     command: DFF<Bits<8>>,
     first_word: DFF<Bits<32>>,
     left: DFF<Bits<32>>,
+    /// No point is left; good while points come.
+    none_is_left: DFF<Bit>,
     is_inserting: DFF<Bit>,
     is_reading: DFF<Bit>,
     slot: PointSlot,
     gate: CommandGate,
     clear: ClearCommand,
     accepts: Signal<Local, Bit>,
-    is_last: Signal<Local, Bit>,
     code: Signal<Local, Bits<8>>,
     is_insert: Signal<Local, Bit>,
     read_code: Signal<Local, Bits<8>>,
     insert_code: Signal<Local, Bits<8>>,
-    none_left: Signal<Local, Bits<32>>,
+    none: Signal<Local, Bits<32>>,
     one: Signal<Local, Bits<32>>,
 }
 
@@ -149,11 +154,11 @@ const _: () =
 impl Logic for CommandPort {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, command, first_word, left, is_inserting, is_reading);
+        dff_setup!(self, clock, state, command, first_word, left, none_is_left, is_inserting, is_reading);
         clock!(self, clock, slot, clear);
         self.insert_code.next = 3.into();
         self.read_code.next = 4.into();
-        self.none_left.next = 0.into();
+        self.none.next = 0.into();
         self.one.next = 1.into();
 
         self.came.next = self.slot.came.val();
@@ -168,19 +173,19 @@ impl Logic for CommandPort {
         self.count.next = self.left.q.val();
         self.arrived.next = self.slot.arrived.val();
         self.refused.next = self.slot.refused.val();
+        self.some_refused.next = self.slot.some_refused.val();
         self.inserting.next = self.is_inserting.q.val();
         self.reading.next = self.is_reading.q.val();
 
         // Is a word taken?
-        self.is_last.next = self.left.q.val() == self.none_left.val();
         self.gate.is_command.next = self.state.q.val() == CommandState::Command;
         self.gate.is_argument.next =
             (self.state.q.val() == CommandState::First) | (self.state.q.val() == CommandState::Count);
         self.gate.is_points.next = self.state.q.val() == CommandState::Points;
         self.gate.sweeps.next = self.sweeps.val();
-        self.gate.none_is_left.next = self.is_last.val();
+        self.gate.none_is_left.next = self.none_is_left.q.val();
         self.gate.came.next = self.slot.came.val();
-        self.gate.arrived.next = self.slot.arrived.val();
+        self.gate.has_three.next = self.slot.has_three.val();
         self.gate.seeded.next = self.seeded.val();
         self.gate.collinear.next = self.collinear.val();
         self.gate.stuck.next = self.stuck.val();
@@ -226,6 +231,7 @@ impl Logic for CommandPort {
             CommandState::Count => {
                 if self.accepts.val() {
                     self.left.d.next = self.command_data.val();
+                    self.none_is_left.d.next = self.command_data.val() == self.none.val();
                     if self.is_insert.val() {
                         self.state.d.next = CommandState::Points;
                     } else {
@@ -235,11 +241,12 @@ impl Logic for CommandPort {
                 }
             }
             CommandState::Points => {
-                if self.is_last.val() {
+                if self.none_is_left.q.val() {
                     self.state.d.next = CommandState::Settle;
                 }
                 if self.accepts.val() {
                     self.left.d.next = self.left.q.val() - self.one.val();
+                    self.none_is_left.d.next = self.left.q.val() == self.one.val();
                     self.is_inserting.d.next = true;
                 }
             }

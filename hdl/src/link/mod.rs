@@ -1,17 +1,21 @@
 //! The command and answer streams.
 
+mod answer_head;
 mod answer_words;
 mod clear_command;
 mod command_gate;
 mod command_port;
 mod point_slot;
+mod record_buffer;
 mod record_words;
 mod responder;
 
+pub use answer_head::AnswerHead;
 pub use answer_words::AnswerWords;
 pub use clear_command::ClearCommand;
 pub use command_gate::CommandGate;
 pub use command_port::{CommandPort, CommandState};
 pub use point_slot::PointSlot;
+pub use record_buffer::RecordBuffer;
 pub use record_words::RecordWords;
 pub use responder::{AnswerState, Responder};

@@ -8,10 +8,12 @@
 //! | `accepts`, `word` | in | 1, 32 | a point comes |
 //! | `came`, `came_id`, `point` | out | 1, 15, 32 | it came with the last edge and is not refused: it is to be stored at this edge |
 //! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
+//! | `has_three`, `some_refused` | out | 1 | there are exactly three of those; there is one of these |
 //!
 //! 1. `came_id` and `point` are held until the next point comes.
+//! 2. No point comes in the clock of `came`: the counts are compared in it.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock; 2 to `has_three`, `refused` and `some_refused`.
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -45,15 +47,25 @@ pub struct PointSlot {
     pub arrived: Signal<Out, Bits<15>>,
     /// Points refused.
     pub refused: Signal<Out, Bits<32>>,
+    /// Three points have an id.
+    pub has_three: Signal<Out, Bit>,
+    /// Points are refused.
+    pub some_refused: Signal<Out, Bit>,
     is_new: DFF<Bit>,
     last_id: DFF<Bits<15>>,
     last_point: DFF<Bits<32>>,
     arrivals: DFF<Bits<15>>,
+    /// As many as the core holds.
+    is_full: DFF<Bit>,
+    is_triple: DFF<Bit>,
+    /// The last point is refused, and counted now.
+    is_surplus: DFF<Bit>,
     refusals: DFF<Bits<32>>,
+    has_refused: DFF<Bit>,
     stores: Signal<Local, Bit>,
-    refuses: Signal<Local, Bit>,
     has_room: Signal<Local, Bit>,
     one_arrival: Signal<Local, Bits<15>>,
+    three: Signal<Local, Bits<15>>,
     one: Signal<Local, Bits<32>>,
 }
 
@@ -61,30 +73,40 @@ impl Logic for PointSlot {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, is_new, last_id, last_point, arrivals, refusals);
+        dff_setup!(self, clock, is_full, is_triple, is_surplus, has_refused);
         self.one_arrival.next = 1.into();
+        self.three.next = 3.into();
         self.one.next = 1.into();
         self.came.next = self.is_new.q.val();
         self.came_id.next = self.last_id.q.val();
         self.point.next = self.last_point.q.val();
         self.arrived.next = self.arrivals.q.val();
         self.refused.next = self.refusals.q.val();
+        self.has_three.next = self.is_triple.q.val();
+        self.some_refused.next = self.has_refused.q.val();
 
-        self.has_room.next =
-            (!self.collinear.val()) & (!self.stuck.val()) & (self.arrivals.q.val() != self.capacity.val());
+        self.is_full.d.next = self.arrivals.q.val() == self.capacity.val();
+        self.is_triple.d.next = self.arrivals.q.val() == self.three.val();
+        self.has_room.next = (!self.collinear.val()) & (!self.stuck.val()) & (!self.is_full.q.val());
         self.stores.next = self.accepts.val() & self.has_room.val();
-        self.refuses.next = self.accepts.val() & (!self.has_room.val());
+        self.is_surplus.d.next = self.accepts.val() & (!self.has_room.val());
         self.is_new.d.next = self.stores.val();
         if self.stores.val() {
             self.last_id.d.next = self.arrivals.q.val();
             self.last_point.d.next = self.word.val();
             self.arrivals.d.next = self.arrivals.q.val() + self.one_arrival.val();
         }
-        if self.refuses.val() {
+        if self.is_surplus.q.val() {
             self.refusals.d.next = self.refusals.q.val() + self.one.val();
+            self.has_refused.d.next = true;
         }
         if self.clears.val() | self.reset.val() {
             self.arrivals.d.next = 0.into();
+            self.is_full.d.next = false;
+            self.is_triple.d.next = false;
+            self.is_surplus.d.next = false;
             self.refusals.d.next = 0.into();
+            self.has_refused.d.next = false;
         }
         if self.reset.val() {
             self.is_new.d.next = false;

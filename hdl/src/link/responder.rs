@@ -6,7 +6,8 @@
 //! | `answers` | in | 1 | an answer is due, held until `ends` |
 //! | `sweeps` | in | 1 | counts are being cleared: no answer begins |
 //! | `first` | in | 32 | first record of a read |
-//! | `header`, `length`, `word`, `is_read` | in | | the answer, from `AnswerWords` |
+//! | `header`, `length`, `is_empty`, `is_read` | in | | the answer, from `AnswerHead`, good 3 clocks after `answers` comes |
+//! | `word` | in | 32 | a word of the payload, from `AnswerWords`, good 2 clocks after `index` |
 //! | `index` | out | 7 | word of the payload that is wanted |
 //! | `read`, `read_id` | out | 1, 15 | a record is wanted |
 //! | `read_done`, `v0..n2`, `was_set` | in | | it has come |
@@ -16,20 +17,20 @@
 //! 1. A word offered is held until it is taken; `response_valid` does not wait for `response_ready`.
 //! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
 //!
-//! Latency: 2 clocks from `answers` to the header; 7 clocks a record: the read's 3 and 4 more.
+//! Latency: 4 clocks from `answers` to the header; 3 clocks a word, 7 a record: the read's 3 and 4 more.
 //!
 //! A read of one record, whose length has to wait; `word` counts the words of the answer:
 //! ```text
-//! answers         ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\______________
-//! read            ____________/^^\________________________________
-//! response_valid  _________/^^^^^^^^^^^\_____/^^^^^^^^\___________
-//! word              .  .  .  0  1  1  1  .  .  2  3  4  .  .  .  .
-//! response_ready  /^^^^^^^^^^^\_____/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
-//! ends            ______________________________/^^\______________
-//! is_idle         /^^^^^\__________________________/^^^^^^^^^^^^^^
+//! answers         ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\________
+//! read            __________________/^^\__________________________
+//! response_valid  _______________/^^^^^^^^^^^\_____/^^^^^^^^\_____
+//! word              .  .  .  .  .  0  1  1  1  .  .  2  3  4  .  .
+//! response_ready  /^^^^^^^^^^^^^^^^^\_____/^^^^^^^^^^^^^^^^^^^^^^^
+//! ends            ____________________________________/^^\________
+//! is_idle         /^^^^^\________________________________/^^^^^^^^
 //! ```
 
-use super::RecordWords;
+use super::RecordBuffer;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -38,10 +39,14 @@ use rust_hdl_widgets::prelude::*;
 pub enum AnswerState {
     /// None.
     Idle,
+    /// None: header and length are being computed.
+    Prepare,
     /// The header.
     Header,
     /// The length.
     Length,
+    /// None: a word of the payload is being chosen.
+    Choose,
     /// A word of the payload.
     Payload,
     /// A word of a record.
@@ -65,6 +70,8 @@ pub struct Responder {
     pub header: Signal<In, Bits<32>>,
     /// Words of the payload.
     pub length: Signal<In, Bits<32>>,
+    /// There are none.
+    pub is_empty: Signal<In, Bit>,
     /// Word of the payload.
     pub word: Signal<In, Bits<32>>,
     /// The payload consists of records.
@@ -104,44 +111,35 @@ pub struct Responder {
     /// No word waits, or it is taken.
     pub is_taken: Signal<Out, Bit>,
     state: DFF<AnswerState>,
+    /// The first of the two clocks of `Prepare` or `Choose` is over.
+    waited: DFF<Bit>,
     valid: DFF<Bit>,
     data: DFF<Bits<32>>,
     left: DFF<Bits<32>>,
+    /// One word is left.
+    is_last: DFF<Bit>,
     loaded: DFF<Bits<7>>,
     record_id: DFF<Bits<15>>,
     fetching: DFF<Bit>,
-    buffered: DFF<Bit>,
-    /// The words of the record; the one to be loaded next stands in the first.
-    buffer0: DFF<Bits<32>>,
-    buffer1: DFF<Bits<32>>,
-    buffer2: DFF<Bits<32>>,
-    column: DFF<Bits<2>>,
+    record: RecordBuffer,
     loads: Signal<Local, Bit>,
     asks: Signal<Local, Bit>,
-    is_last: Signal<Local, Bit>,
-    is_empty: Signal<Local, Bit>,
-    is_last_column: Signal<Local, Bit>,
     ends_now: Signal<Local, Bit>,
-    words: RecordWords,
     one: Signal<Local, Bits<32>>,
-    zero: Signal<Local, Bits<32>>,
+    two: Signal<Local, Bits<32>>,
     one_word: Signal<Local, Bits<7>>,
     one_record: Signal<Local, Bits<15>>,
-    one_column: Signal<Local, Bits<2>>,
-    last_column: Signal<Local, Bits<2>>,
 }
 
 impl Logic for Responder {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, valid, data, left, loaded, record_id, fetching, buffered);
-        dff_setup!(self, clock, buffer0, buffer1, buffer2, column);
+        dff_setup!(self, clock, state, waited, valid, data, left, is_last, loaded, record_id, fetching);
+        clock!(self, clock, record);
         self.one.next = 1.into();
-        self.zero.next = 0.into();
+        self.two.next = 2.into();
         self.one_word.next = 1.into();
         self.one_record.next = 1.into();
-        self.one_column.next = 1.into();
-        self.last_column.next = 2.into();
 
         self.response_valid.next = self.valid.q.val();
         self.response_data.next = self.data.q.val();
@@ -149,34 +147,30 @@ impl Logic for Responder {
         self.loads.next = (!self.valid.q.val()) | self.response_ready.val();
         self.is_taken.next = self.loads.val();
         self.is_idle.next = self.state.q.val() == AnswerState::Idle;
-        self.is_last.next = self.left.q.val() == self.one.val();
-        self.is_empty.next = self.length.val() == self.zero.val();
-        self.is_last_column.next = self.column.q.val() == self.last_column.val();
 
         // A record is fetched when the one before has been loaded.
         self.asks.next =
-            (self.state.q.val() == AnswerState::Records) & (!self.fetching.q.val()) & (!self.buffered.q.val());
+            (self.state.q.val() == AnswerState::Records) & (!self.fetching.q.val()) & (!self.record.holds.val());
         self.read.next = self.asks.val();
         self.read_id.next = self.record_id.q.val();
-        self.words.v0.next = self.v0.val();
-        self.words.v1.next = self.v1.val();
-        self.words.v2.next = self.v2.val();
-        self.words.n0.next = self.n0.val();
-        self.words.n1.next = self.n1.val();
-        self.words.n2.next = self.n2.val();
-        self.words.was_set.next = self.was_set.val();
+        self.record.v0.next = self.v0.val();
+        self.record.v1.next = self.v1.val();
+        self.record.v2.next = self.v2.val();
+        self.record.n0.next = self.n0.val();
+        self.record.n1.next = self.n1.val();
+        self.record.n2.next = self.n2.val();
+        self.record.was_set.next = self.was_set.val();
+        self.record.read_done.next = self.read_done.val();
+        self.record.reset.next = self.reset.val();
         if self.asks.val() {
             self.fetching.d.next = true;
         }
         if self.read_done.val() {
             self.fetching.d.next = false;
-            self.buffered.d.next = true;
-            self.buffer0.d.next = self.words.word0.val();
-            self.buffer1.d.next = self.words.word1.val();
-            self.buffer2.d.next = self.words.word2.val();
             self.record_id.d.next = self.record_id.q.val() + self.one_record.val();
         }
 
+        self.record.takes.next = false;
         self.ends_now.next = false;
         if self.loads.val() {
             self.valid.d.next = false;
@@ -184,6 +178,12 @@ impl Logic for Responder {
         match self.state.q.val() {
             AnswerState::Idle => {
                 if self.answers.val() & (!self.sweeps.val()) {
+                    self.state.d.next = AnswerState::Prepare;
+                }
+            }
+            AnswerState::Prepare => {
+                self.waited.d.next = !self.waited.q.val();
+                if self.waited.q.val() {
                     self.state.d.next = AnswerState::Header;
                 }
             }
@@ -196,17 +196,23 @@ impl Logic for Responder {
             }
             AnswerState::Length => {
                 self.left.d.next = self.length.val();
+                self.is_last.d.next = self.length.val() == self.one.val();
                 self.loaded.d.next = 0.into();
-                self.column.d.next = 0.into();
                 self.record_id.d.next = self.first.val().get_bits::<15>(0);
                 if self.loads.val() {
                     self.valid.d.next = true;
                     self.data.d.next = self.length.val();
                     self.ends_now.next = self.is_empty.val();
-                    self.state.d.next = AnswerState::Payload;
+                    self.state.d.next = AnswerState::Choose;
                     if self.is_read.val() {
                         self.state.d.next = AnswerState::Records;
                     }
+                }
+            }
+            AnswerState::Choose => {
+                self.waited.d.next = !self.waited.q.val();
+                if self.waited.q.val() {
+                    self.state.d.next = AnswerState::Payload;
                 }
             }
             AnswerState::Payload => {
@@ -215,22 +221,19 @@ impl Logic for Responder {
                     self.data.d.next = self.word.val();
                     self.loaded.d.next = self.loaded.q.val() + self.one_word.val();
                     self.left.d.next = self.left.q.val() - self.one.val();
-                    self.ends_now.next = self.is_last.val();
+                    self.is_last.d.next = self.left.q.val() == self.two.val();
+                    self.state.d.next = AnswerState::Choose;
+                    self.ends_now.next = self.is_last.q.val();
                 }
             }
             AnswerState::Records => {
-                if self.loads.val() & self.buffered.q.val() {
+                if self.loads.val() & self.record.holds.val() {
                     self.valid.d.next = true;
-                    self.data.d.next = self.buffer0.q.val();
-                    self.buffer0.d.next = self.buffer1.q.val();
-                    self.buffer1.d.next = self.buffer2.q.val();
-                    self.column.d.next = self.column.q.val() + self.one_column.val();
-                    if self.is_last_column.val() {
-                        self.column.d.next = 0.into();
-                        self.buffered.d.next = false;
-                    }
+                    self.data.d.next = self.record.word.val();
+                    self.record.takes.next = true;
                     self.left.d.next = self.left.q.val() - self.one.val();
-                    self.ends_now.next = self.is_last.val();
+                    self.is_last.d.next = self.left.q.val() == self.two.val();
+                    self.ends_now.next = self.is_last.q.val();
                 }
             }
             _ => {
@@ -243,10 +246,10 @@ impl Logic for Responder {
         }
         if self.reset.val() {
             self.state.d.next = AnswerState::Idle;
+            self.waited.d.next = false;
             self.valid.d.next = false;
             self.data.d.next = 0.into();
             self.fetching.d.next = false;
-            self.buffered.d.next = false;
         }
     }
 }

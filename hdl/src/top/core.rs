@@ -14,12 +14,12 @@
 //! ```text
 //! commands -> CommandPort --- points ---> InsertionEngine
 //! answers  <- Responder <---- records -------+   |
-//!                 +--- AnswerWords <- Counters, Latencies <- events
+//!                 +--- AnswerHead, AnswerWords <- Counters, Latencies <- events
 //! ```
 //! Latency: see the blocks.
 
 use crate::engine::{Counters, InsertionEngine, Latencies, Write};
-use crate::link::{AnswerWords, CommandPort, Responder};
+use crate::link::{AnswerHead, AnswerWords, CommandPort, Responder};
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
@@ -45,6 +45,7 @@ pub struct Core {
     /// The write port of the triangle memory.
     pub write: Signal<Out, Write>,
     command_port: CommandPort,
+    answer_head: AnswerHead,
     answer_words: AnswerWords,
     responder: Responder,
     engine: InsertionEngine,
@@ -78,6 +79,7 @@ impl Core {
             response_data: Signal::default(),
             write: Signal::default(),
             command_port: CommandPort::default(),
+            answer_head: AnswerHead::default(),
             answer_words: AnswerWords::default(),
             responder: Responder::default(),
             engine: InsertionEngine::new(config),
@@ -98,7 +100,7 @@ impl Core {
 impl Logic for Core {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, command_port, responder, engine, counters, latencies);
+        clock!(self, clock, command_port, answer_head, answer_words, responder, engine, counters, latencies);
         self.command_port.reset.next = self.reset.val();
         self.responder.reset.next = self.reset.val();
         self.engine.reset.next = self.reset.val();
@@ -122,17 +124,20 @@ impl Logic for Core {
         self.command_port.answer_is_taken.next = self.responder.is_taken.val();
 
         // The answer stream.
+        self.answer_head.opcode.next = self.command_port.opcode.val();
+        self.answer_head.first.next = self.command_port.first.val();
+        self.answer_head.count.next = self.command_port.count.val();
+        self.answer_head.is_refused.next = self.command_port.is_refused.val();
+        self.answer_head.records.next = self.engine.records.val();
+        self.answer_head.collinear.next = self.engine.collinear.val();
+        self.answer_head.stuck.next = self.engine.stuck.val();
+        self.answer_head.some_refused.next = self.command_port.some_refused.val();
         self.answer_words.opcode.next = self.command_port.opcode.val();
-        self.answer_words.first.next = self.command_port.first.val();
-        self.answer_words.count.next = self.command_port.count.val();
-        self.answer_words.is_refused.next = self.command_port.is_refused.val();
         self.answer_words.arrived.next = self.command_port.arrived.val();
         self.answer_words.refused.next = self.command_port.refused.val();
         self.answer_words.capacity.next = self.capacity.val();
         self.answer_words.contexts.next = self.contexts.val();
         self.answer_words.ring.next = self.ring.val();
-        self.answer_words.collinear.next = self.engine.collinear.val();
-        self.answer_words.stuck.next = self.engine.stuck.val();
         self.answer_words.records.next = self.engine.records.val();
         self.answer_words.insertions.next = self.counters.insertions.val();
         self.answer_words.duplicates.next = self.counters.duplicates.val();
@@ -142,10 +147,11 @@ impl Logic for Core {
         self.responder.answers.next = self.command_port.answers.val();
         self.responder.sweeps.next = self.latencies.sweeps.val();
         self.responder.first.next = self.command_port.first.val();
-        self.responder.header.next = self.answer_words.header.val();
-        self.responder.length.next = self.answer_words.length.val();
+        self.responder.header.next = self.answer_head.header.val();
+        self.responder.length.next = self.answer_head.length.val();
+        self.responder.is_empty.next = self.answer_head.is_empty.val();
         self.responder.word.next = self.answer_words.word.val();
-        self.responder.is_read.next = self.answer_words.is_read.val();
+        self.responder.is_read.next = self.answer_head.is_read.val();
         self.responder.read_done.next = self.engine.read_done.val();
         self.responder.v0.next = self.engine.v0.val();
         self.responder.v1.next = self.engine.v1.val();

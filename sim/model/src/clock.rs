@@ -6,6 +6,7 @@
 //! there (memories, predicates) is computed at the clock its record is read and handed over when the hardware is done.
 //! Nothing is shared with the hardware but the protocol.
 
+mod answer;
 mod attempts;
 mod command_port;
 mod commit;
@@ -37,7 +38,7 @@ use ring::RingReader;
 use seeder::Seeder;
 use solo::Solo;
 use starter::Starter;
-use watchdog::Watchdog;
+use watchdog::{Progress, Watchdog};
 
 pub use defect::Defect;
 pub use memory::Write;
@@ -78,8 +79,11 @@ struct Registers {
     seeder: Seeder,
     commit: Commit,
     solo: Solo,
+    progress: Progress,
     watchdog: Watchdog,
     counters: Counters,
+    /// The counters as they were a clock ago: the hardware counts an event a clock after it.
+    counted: Counters,
     /// The bundle that enters the queue in this clock.
     push: Option<Bundle>,
     write: Write,
@@ -197,8 +201,10 @@ impl ClockModel {
         now.contexts.clock(&was, &wires, self.config.contexts, self.defect);
         now.seeder.clock(&was, &wires);
         now.solo.clock(&was, &wires, &self.tables, &self.memory);
+        now.progress.clock(&was);
         now.watchdog.clock(&was, &wires, self.config);
         now.counters.clock(&was, &wires, &self.pipeline);
+        now.counted = was.counters;
         now.push =
             wires.outcome.and_then(|outcome| outcome.push).or(wires.solo_push).or(wires.start.map(|start| start.push));
         self.latencies.clock(&was, &wires);

@@ -46,6 +46,8 @@ pub struct Reference {
     pub count: Option<u32>,
     pub arrived: u32,
     pub refused: u32,
+    /// The last point is refused, and counted at the next edge.
+    pub is_surplus: bool,
     /// The point that came with the last edge: id and word.
     pub came: Option<(u32, u32)>,
     pub clears: bool,
@@ -114,7 +116,7 @@ impl Reference {
                 self.is_complete = self.wants.is_empty();
                 self.inserting = true;
                 if around.collinear || around.stuck || self.arrived == shape.capacity {
-                    self.refused += 1;
+                    self.is_surplus = true;
                 } else {
                     self.came = Some((self.arrived, word));
                     self.arrived += 1;
@@ -126,7 +128,8 @@ impl Reference {
     /// A rising edge, at which `word` is taken if there is one.
     pub fn edge(&mut self, word: Option<u32>, pins: Pins, around: &Surroundings, shape: Shape) {
         let was = self.clone();
-        (self.came, self.clears, self.is_complete) = (None, false, false);
+        (self.came, self.clears, self.is_complete, self.is_surplus) = (None, false, false, false);
+        self.refused += u32::from(was.is_surplus);
         if !was.answers && pins.responder_is_idle && around.answer_is_taken {
             self.reading = false;
         }

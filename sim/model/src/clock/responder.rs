@@ -1,18 +1,22 @@
 //! Sends answers: header, length, payload; records are read from the triangle memory one at a time.
 
+use super::answer::Answer;
 use super::command_port::State as CommandState;
 use super::counters::Latencies;
 use super::wires::Wires;
 use super::Registers;
-use incircle_protocol as protocol;
-use protocol::{answer_header, Config, Identity, InsertReport, Opcode, Status};
+use incircle_protocol::{Config, Opcode};
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum State {
     #[default]
     Idle,
+    /// Status and length are computed.
+    Prepare,
     Header,
     Length,
+    /// A word of the payload is chosen.
+    Choose,
     Payload,
     Records,
 }
@@ -20,6 +24,9 @@ pub(super) enum State {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Responder {
     state: State,
+    /// The first of the two clocks of `Prepare` or `Choose` is over.
+    waited: bool,
+    pub answer: Answer,
     pub valid: bool,
     pub data: u32,
     /// Words still to be loaded.
@@ -50,11 +57,11 @@ impl Responder {
     }
 
     /// The last word is loaded at this edge.
-    pub(super) fn ends(&self, was: &Registers, response_ready: bool) -> bool {
+    pub(super) fn ends(&self, response_ready: bool) -> bool {
         self.loads(response_ready)
             && match self.state {
-                State::Idle | State::Header => false,
-                State::Length => answer(was).1 == 0,
+                State::Idle | State::Prepare | State::Header | State::Choose => false,
+                State::Length => self.answer.length() == 0,
                 State::Payload => self.left == 1,
                 State::Records => self.left == 1 && self.buffer_valid,
             }
@@ -70,17 +77,15 @@ impl Responder {
             self.buffer_valid = true;
             self.record_id += 1;
         }
-        if was.responder.state == State::Idle
-            && was.command.state == CommandState::Answer
-            && !latencies.sweeps()
-            && !was.command.clears
-        {
-            self.state = State::Header;
+        self.answer.clock(was);
+        if matches!(was.responder.state, State::Choose | State::Payload) {
+            self.answer.choose(was, latencies, config, was.responder.index);
         }
+        self.wait(was, latencies);
         if !was.responder.loads(wires.response_ready) {
             return;
         }
-        match self.next_word(was, latencies, config) {
+        match self.next_word(was) {
             Some(word) => {
                 self.valid = true;
                 self.data = word;
@@ -92,28 +97,48 @@ impl Responder {
         }
     }
 
+    /// Steps that load no word.
+    fn wait(&mut self, was: &Registers, latencies: &Latencies) {
+        let after = match was.responder.state {
+            State::Idle => {
+                if was.command.state == CommandState::Answer && !latencies.sweeps() && !was.command.clears {
+                    self.state = State::Prepare;
+                }
+                return;
+            }
+            State::Prepare => State::Header,
+            State::Choose => State::Payload,
+            _ => return,
+        };
+        self.waited = !was.responder.waited;
+        if was.responder.waited {
+            self.state = after;
+        }
+    }
+
     /// The word loaded at this edge, if any, and the step to the one after it.
-    fn next_word(&mut self, was: &Registers, latencies: &Latencies, config: Config) -> Option<u32> {
+    fn next_word(&mut self, was: &Registers) -> Option<u32> {
         match was.responder.state {
-            State::Idle => None,
+            State::Idle | State::Prepare | State::Choose => None,
             State::Header => {
                 self.state = State::Length;
-                Some(answer_header(was.command.opcode, answer(was).0))
+                Some(was.responder.answer.header())
             }
             State::Length => {
-                let length = answer(was).1;
+                let length = was.responder.answer.length();
                 self.left = length;
                 self.index = 0;
                 self.column = 0;
                 self.record_id = was.command.first;
                 let reads = was.command.opcode == Opcode::Read as u8;
-                self.state = if reads { State::Records } else { State::Payload };
+                self.state = if reads { State::Records } else { State::Choose };
                 Some(length)
             }
             State::Payload => {
                 self.left -= 1;
                 self.index += 1;
-                Some(payload(was, latencies, config, was.responder.index))
+                self.state = State::Choose;
+                Some(was.responder.answer.word())
             }
             State::Records if !was.responder.buffer_valid => None,
             State::Records => {
@@ -123,61 +148,5 @@ impl Responder {
                 Some(was.responder.buffer[was.responder.column])
             }
         }
-    }
-}
-
-/// Status and payload length of the answer to the command that stands in the command port.
-fn answer(was: &Registers) -> (Status, u32) {
-    let command = &was.command;
-    match Opcode::from_u8(command.opcode) {
-        Some(Opcode::Hello) => (Status::Ok, protocol::IDENTITY_WORDS as u32),
-        Some(Opcode::Clear) if command.is_refused => (Status::BadContexts, 0),
-        Some(Opcode::Clear) => (Status::Ok, 0),
-        Some(Opcode::Counters) => (Status::Ok, protocol::COUNTER_WORDS as u32),
-        Some(Opcode::Latencies) => (Status::Ok, protocol::LATENCY_BUCKETS as u32),
-        Some(Opcode::Insert) => {
-            let status = match (was.seeder.collinear, command.refused) {
-                _ if was.watchdog.stuck => Status::Stuck,
-                (true, _) => Status::Collinear,
-                (false, 0) => Status::Ok,
-                (false, _) => Status::Full,
-            };
-            (status, protocol::INSERT_REPORT_WORDS as u32)
-        }
-        Some(Opcode::Read) => {
-            let end = u64::from(command.first) + u64::from(command.count);
-            if end <= u64::from(was.commit.records) {
-                (Status::Ok, 3 * command.count)
-            } else {
-                (Status::BadRange, 0)
-            }
-        }
-        None => (Status::UnknownOpcode, 0),
-    }
-}
-
-/// A word of a payload that is no record.
-fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize) -> u32 {
-    match Opcode::from_u8(was.command.opcode) {
-        Some(Opcode::Hello) => Identity {
-            magic: protocol::MAGIC,
-            protocol_version: protocol::PROTOCOL_VERSION,
-            core_version: protocol::CORE_VERSION,
-            coord_bits: protocol::CORE_COORD_BITS,
-            capacity: config.points,
-            contexts: config.contexts,
-            ring_capacity: config.ring,
-        }
-        .to_words()[index],
-        Some(Opcode::Insert) => InsertReport {
-            arrived: was.command.arrived,
-            inserted: was.counters.insertions,
-            duplicates: was.counters.duplicates,
-            refused: was.command.refused,
-            records: was.commit.records,
-        }
-        .to_words()[index],
-        Some(Opcode::Latencies) => latencies.buckets[index],
-        _ => was.counters.words(was.command.refused)[index],
     }
 }

@@ -1,4 +1,4 @@
-//! Notices that nothing is finished any more.
+//! Counts down what is left to do, and notices that nothing is finished any more.
 
 use super::wires::Wires;
 use super::Registers;
@@ -6,8 +6,12 @@ use incircle_protocol::{patience, Config};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Watchdog {
-    /// Clocks since a point was finished, or since there was nothing to do.
+    /// A point was finished at the edge before, or there was nothing to do.
+    rests: bool,
+    /// Clocks since then.
     clocks: u32,
+    /// They have become too many.
+    is_over: bool,
     /// A fault: points are refused until reset.
     pub stuck: bool,
 }
@@ -16,7 +20,34 @@ impl Watchdog {
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, config: Config) {
         let duplicate = wires.outcome.is_some_and(|outcome| outcome.duplicate);
         let finishes = wires.committed.is_some() || wires.solo_ends || wires.seeds || duplicate;
-        self.clocks = if finishes || wires.is_quiet { 0 } else { self.clocks + 1 };
-        self.stuck |= was.watchdog.clocks == patience(config.points);
+        self.rests = finishes || wires.is_quiet;
+        self.clocks = if was.watchdog.rests { 0 } else { self.clocks + 1 };
+        self.is_over = was.watchdog.clocks == patience(config.points);
+        self.stuck |= was.watchdog.is_over;
+    }
+}
+
+/// Whether every point is finished, as it was known two clocks ago: a point that is finished is counted a clock later, and the counts
+/// are compared in the clock after that.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Progress {
+    finished: u32,
+    /// Some point is not finished.
+    is_behind: bool,
+    /// Three points have come.
+    has_triple: bool,
+}
+
+impl Progress {
+    /// Every point is finished, or never will be.
+    pub(super) fn is_done(&self, was: &Registers) -> bool {
+        let has_no_start = (!self.has_triple || was.seeder.collinear) && was.seeder.step == 0;
+        !self.is_behind || has_no_start
+    }
+
+    pub(super) fn clock(&mut self, was: &Registers) {
+        self.finished = if was.command.clears { 0 } else { was.contexts.finished };
+        self.is_behind = was.progress.finished != was.command.arrived;
+        self.has_triple = was.command.arrived >= 3;
     }
 }

@@ -81,8 +81,6 @@ impl ClockModel {
         let head = self.ring.head;
         let rests = was.contexts.all_rest(config.contexts);
         let solo_inserts = was.solo.ends(done);
-        let all_finished = was.contexts.finished == was.command.arrived
-            || (was.command.arrived < 3 || was.seeder.collinear) && was.seeder.step == 0;
         Wires {
             word,
             response_ready: inputs.response_ready,
@@ -91,8 +89,8 @@ impl ClockModel {
             outcome,
             record_read: self.pipeline.record_read().map(|id| self.memory.record_words(id)),
             read: was.responder.read_request(),
-            answer_ends: was.responder.ends(was, inputs.response_ready),
-            is_quiet: all_finished && rests,
+            answer_ends: was.responder.ends(inputs.response_ready),
+            is_quiet: was.progress.is_done(was) && rests,
             new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
             start: wanted.filter(|_| !start_is_blocked),
             start_is_blocked,

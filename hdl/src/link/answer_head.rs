@@ -1,0 +1,190 @@
+//! The first two words of an answer: status and length, in three ranks of registers.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | |
+//! | `opcode`, `first`, `count` | in | 8, 32, 32 | the command and its arguments |
+//! | `is_refused` | in | 1 | it is a `Clear` that asks for more contexts than there are |
+//! | `records` | in | 15 | records of the mesh |
+//! | `collinear`, `stuck` | in | 1 | the first three points are collinear; nothing is finished any more |
+//! | `some_refused` | in | 1 | points have been refused |
+//! | `header` | out | 32 | first word of the answer |
+//! | `length`, `is_empty` | out | 32, 1 | words of the payload; whether there are none |
+//! | `is_read` | out | 1 | the payload consists of records |
+//!
+//! 1. A read is in range if its last record is one; the end of the range and the words of the records are computed in the first rank,
+//!    the end is compared in the second, and the third chooses.
+//! 2. `opcode` and `is_refused` stand still from the command to the end of its answer, so they enter at the last rank.
+//!
+//! Latency: 3 clocks.
+
+use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Status and length of an answer; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct AnswerHead {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// The command.
+    pub opcode: Signal<In, Bits<8>>,
+    /// First record of a read.
+    pub first: Signal<In, Bits<32>>,
+    /// Records of a read.
+    pub count: Signal<In, Bits<32>>,
+    /// The command asks for too many contexts.
+    pub is_refused: Signal<In, Bit>,
+    /// Records of the mesh.
+    pub records: Signal<In, Bits<15>>,
+    /// The start was collinear.
+    pub collinear: Signal<In, Bit>,
+    /// Nothing is finished any more.
+    pub stuck: Signal<In, Bit>,
+    /// Points have been refused.
+    pub some_refused: Signal<In, Bit>,
+    /// First word of the answer.
+    pub header: Signal<Out, Bits<32>>,
+    /// Words of the payload.
+    pub length: Signal<Out, Bits<32>>,
+    /// There are none.
+    pub is_empty: Signal<Out, Bit>,
+    /// The payload consists of records.
+    pub is_read: Signal<Out, Bit>,
+    /// First rank.
+    range_end: DFF<Bits<33>>,
+    range_bound: DFF<Bits<15>>,
+    triple: DFF<Bits<32>>,
+    counts_none: DFF<Bit>,
+    insert_status: DFF<Bits<3>>,
+    /// Second rank.
+    is_outside: DFF<Bit>,
+    read_length: DFF<Bits<32>>,
+    reads_none: DFF<Bit>,
+    report_status: DFF<Bits<3>>,
+    /// Third rank.
+    answer_status: DFF<Bits<3>>,
+    answer_length: DFF<Bits<32>>,
+    has_none: DFF<Bit>,
+    wide_first: Signal<Local, Bits<33>>,
+    wide_count: Signal<Local, Bits<33>>,
+    wide_bound: Signal<Local, Bits<33>>,
+    double_count: Signal<Local, Bits<32>>,
+    status: Signal<Local, Bits<32>>,
+    shifted_status: Signal<Local, Bits<32>>,
+    wide_opcode: Signal<Local, Bits<32>>,
+    shifted_opcode: Signal<Local, Bits<32>>,
+    none: Signal<Local, Bits<32>>,
+    one: Signal<Local, Bits<32>>,
+    status_shift: Signal<Local, Bits<32>>,
+    opcode_shift: Signal<Local, Bits<32>>,
+    read_code: Signal<Local, Bits<8>>,
+}
+
+// The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+const _: () = assert!(
+    Opcode::Hello as u8 == 1
+        && Opcode::Clear as u8 == 2
+        && Opcode::Insert as u8 == 3
+        && Opcode::Read as u8 == 4
+        && Opcode::Counters as u8 == 5
+        && Opcode::Latencies as u8 == 6
+        && Status::UnknownOpcode as u8 == 1
+        && Status::BadRange as u8 == 2
+        && Status::Collinear as u8 == 3
+        && Status::Full as u8 == 4
+        && Status::BadContexts as u8 == 5
+        && Status::Stuck as u8 == 6
+        && IDENTITY_WORDS == 7
+        && INSERT_REPORT_WORDS == 5
+        && COUNTER_WORDS == 25
+        && LATENCY_BUCKETS == 128,
+    "the words of this block follow the protocol"
+);
+
+impl Logic for AnswerHead {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, range_end, range_bound, triple, counts_none, insert_status);
+        dff_setup!(self, clock, is_outside, read_length, reads_none, report_status);
+        dff_setup!(self, clock, answer_status, answer_length, has_none);
+        self.none.next = 0.into();
+        self.one.next = 1.into();
+        self.status_shift.next = 16.into();
+        self.opcode_shift.next = 24.into();
+        self.read_code.next = 4.into();
+
+        // The first rank adds.
+        self.wide_first.next = bit_cast::<33, 32>(self.first.val());
+        self.wide_count.next = bit_cast::<33, 32>(self.count.val());
+        self.range_end.d.next = self.wide_first.val() + self.wide_count.val();
+        self.range_bound.d.next = self.records.val();
+        self.double_count.next = self.count.val() << self.one.val();
+        self.triple.d.next = self.double_count.val() + self.count.val();
+        self.counts_none.d.next = self.count.val() == self.none.val();
+        self.insert_status.d.next = 0.into();
+        if self.some_refused.val() {
+            self.insert_status.d.next = 4.into();
+        }
+        if self.collinear.val() {
+            self.insert_status.d.next = 3.into();
+        }
+        if self.stuck.val() {
+            self.insert_status.d.next = 6.into();
+        }
+
+        // The second compares.
+        self.wide_bound.next = bit_cast::<33, 15>(self.range_bound.q.val());
+        self.is_outside.d.next = self.range_end.q.val() > self.wide_bound.val();
+        self.read_length.d.next = self.triple.q.val();
+        self.reads_none.d.next = self.counts_none.q.val();
+        self.report_status.d.next = self.insert_status.q.val();
+
+        // The third chooses.
+        self.answer_status.d.next = 0.into();
+        self.answer_length.d.next = 0.into();
+        self.has_none.d.next = false;
+        match self.opcode.val().index() {
+            1 => {
+                self.answer_length.d.next = 7.into();
+            }
+            2 => {
+                self.has_none.d.next = true;
+                if self.is_refused.val() {
+                    self.answer_status.d.next = 5.into();
+                }
+            }
+            3 => {
+                self.answer_length.d.next = 5.into();
+                self.answer_status.d.next = self.report_status.q.val();
+            }
+            4 => {
+                self.answer_length.d.next = self.read_length.q.val();
+                self.has_none.d.next = self.reads_none.q.val();
+                if self.is_outside.q.val() {
+                    self.answer_status.d.next = 2.into();
+                    self.answer_length.d.next = 0.into();
+                    self.has_none.d.next = true;
+                }
+            }
+            5 => {
+                self.answer_length.d.next = 25.into();
+            }
+            6 => {
+                self.answer_length.d.next = 128.into();
+            }
+            _ => {
+                self.answer_status.d.next = 1.into();
+                self.has_none.d.next = true;
+            }
+        }
+        self.is_read.next = self.opcode.val() == self.read_code.val();
+        self.length.next = self.answer_length.q.val();
+        self.is_empty.next = self.has_none.q.val();
+        self.status.next = bit_cast::<32, 3>(self.answer_status.q.val());
+        self.shifted_status.next = self.status.val() << self.status_shift.val();
+        self.wide_opcode.next = bit_cast::<32, 8>(self.opcode.val());
+        self.shifted_opcode.next = self.wide_opcode.val() << self.opcode_shift.val();
+        self.header.next = self.shifted_opcode.val() | self.shifted_status.val();
+    }
+}

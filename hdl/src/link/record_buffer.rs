@@ -1,0 +1,93 @@
+//! Holds a record that has been read, and hands out its words.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset drops the record |
+//! | `read_done`, `v0..v2`, `n0..n2`, `was_set` | in | 1, 15, 1 | a record comes; only when none is held |
+//! | `holds` | out | 1 | a word is left |
+//! | `word` | out | 32 | the first that is left |
+//! | `takes` | in | 1 | it is taken at this edge; only while `holds` |
+//!
+//! 1. The record goes into registers straight from the memory; the word is chosen behind them.
+//!
+//! Latency: 1 clock.
+
+use super::RecordWords;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// A record that has been read; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct RecordBuffer {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Drops the record.
+    pub reset: Signal<In, Bit>,
+    /// A record comes.
+    pub read_done: Signal<In, Bit>,
+    /// Its column.
+    pub v0: Signal<In, Bits<15>>,
+    /// Its column.
+    pub v1: Signal<In, Bits<15>>,
+    /// Its column.
+    pub v2: Signal<In, Bits<15>>,
+    /// Its column.
+    pub n0: Signal<In, Bits<15>>,
+    /// Its column.
+    pub n1: Signal<In, Bits<15>>,
+    /// Its column.
+    pub n2: Signal<In, Bits<15>>,
+    /// Its lock bit.
+    pub was_set: Signal<In, Bit>,
+    /// A word is left.
+    pub holds: Signal<Out, Bit>,
+    /// The first that is left.
+    pub word: Signal<Out, Bits<32>>,
+    /// It is taken.
+    pub takes: Signal<In, Bit>,
+    is_held: DFF<Bit>,
+    buffer0: DFF<Bits<32>>,
+    buffer1: DFF<Bits<32>>,
+    buffer2: DFF<Bits<32>>,
+    is_second: DFF<Bit>,
+    is_third: DFF<Bit>,
+    words: RecordWords,
+}
+
+impl Logic for RecordBuffer {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, is_held, buffer0, buffer1, buffer2, is_second, is_third);
+        self.holds.next = self.is_held.q.val();
+        self.words.v0.next = self.v0.val();
+        self.words.v1.next = self.v1.val();
+        self.words.v2.next = self.v2.val();
+        self.words.n0.next = self.n0.val();
+        self.words.n1.next = self.n1.val();
+        self.words.n2.next = self.n2.val();
+        self.words.was_set.next = self.was_set.val();
+        if self.read_done.val() {
+            self.is_held.d.next = true;
+            self.buffer0.d.next = self.words.word0.val();
+            self.buffer1.d.next = self.words.word1.val();
+            self.buffer2.d.next = self.words.word2.val();
+        }
+        self.word.next = self.buffer0.q.val();
+        if self.is_second.q.val() {
+            self.word.next = self.buffer1.q.val();
+        }
+        if self.is_third.q.val() {
+            self.word.next = self.buffer2.q.val();
+        }
+        if self.takes.val() {
+            self.is_second.d.next = (!self.is_second.q.val()) & (!self.is_third.q.val());
+            self.is_third.d.next = self.is_second.q.val();
+            self.is_held.d.next = !self.is_third.q.val();
+        }
+        if self.reset.val() {
+            self.is_held.d.next = false;
+            self.is_second.d.next = false;
+            self.is_third.d.next = false;
+        }
+    }
+}

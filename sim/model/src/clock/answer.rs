@@ -1,0 +1,95 @@
+//! What answers say: status, length, and the words of a payload that is no record. The hardware takes three clocks to the status, and
+//! two to a word.
+
+use super::counters::Latencies;
+use super::Registers;
+use incircle_protocol as protocol;
+use protocol::{answer_header, Config, Identity, InsertReport, Opcode, Status};
+
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Answer {
+    /// Header and payload length as they would have been one, two and three clocks ago.
+    heads: [(u32, u32); 3],
+    /// The word of the payload as it stood one and two clocks ago.
+    words: [u32; 2],
+}
+
+impl Answer {
+    pub(super) fn header(&self) -> u32 {
+        self.heads[2].0
+    }
+
+    pub(super) fn length(&self) -> u32 {
+        self.heads[2].1
+    }
+
+    pub(super) fn word(&self) -> u32 {
+        self.words[1]
+    }
+
+    pub(super) fn clock(&mut self, was: &Registers) {
+        let (status, length) = head(was);
+        self.heads = [(answer_header(was.command.opcode, status), length), self.heads[0], self.heads[1]];
+    }
+
+    /// A clock in which that word of the payload is wanted.
+    pub(super) fn choose(&mut self, was: &Registers, latencies: &Latencies, config: Config, index: usize) {
+        self.words = [payload(was, latencies, config, index), self.words[0]];
+    }
+}
+
+/// Status and payload length of the answer to the command that stands in the command port.
+fn head(was: &Registers) -> (Status, u32) {
+    let command = &was.command;
+    match Opcode::from_u8(command.opcode) {
+        Some(Opcode::Hello) => (Status::Ok, protocol::IDENTITY_WORDS as u32),
+        Some(Opcode::Clear) if command.is_refused => (Status::BadContexts, 0),
+        Some(Opcode::Clear) => (Status::Ok, 0),
+        Some(Opcode::Counters) => (Status::Ok, protocol::COUNTER_WORDS as u32),
+        Some(Opcode::Latencies) => (Status::Ok, protocol::LATENCY_BUCKETS as u32),
+        Some(Opcode::Insert) => {
+            let status = match (was.seeder.collinear, command.refused) {
+                _ if was.watchdog.stuck => Status::Stuck,
+                (true, _) => Status::Collinear,
+                (false, 0) => Status::Ok,
+                (false, _) => Status::Full,
+            };
+            (status, protocol::INSERT_REPORT_WORDS as u32)
+        }
+        Some(Opcode::Read) => {
+            let end = u64::from(command.first) + u64::from(command.count);
+            if end <= u64::from(was.commit.records) {
+                (Status::Ok, 3 * command.count)
+            } else {
+                (Status::BadRange, 0)
+            }
+        }
+        None => (Status::UnknownOpcode, 0),
+    }
+}
+
+/// A word of a payload that is no record.
+fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize) -> u32 {
+    match Opcode::from_u8(was.command.opcode) {
+        Some(Opcode::Hello) => Identity {
+            magic: protocol::MAGIC,
+            protocol_version: protocol::PROTOCOL_VERSION,
+            core_version: protocol::CORE_VERSION,
+            coord_bits: protocol::CORE_COORD_BITS,
+            capacity: config.points,
+            contexts: config.contexts,
+            ring_capacity: config.ring,
+        }
+        .to_words()[index],
+        Some(Opcode::Insert) => InsertReport {
+            arrived: was.command.arrived,
+            inserted: was.counted.insertions,
+            duplicates: was.counted.duplicates,
+            refused: was.command.refused,
+            records: was.commit.records,
+        }
+        .to_words()[index],
+        Some(Opcode::Latencies) => latencies.buckets[index],
+        _ => was.counted.words(was.command.refused)[index],
+    }
+}
