@@ -51,21 +51,31 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     wire  [31:0] command_port$count;
     wire  [14:0] command_port$arrived;
     wire  [31:0] command_port$refused;
+    wire  command_port$some_refused;
     reg  command_port$responder_is_idle;
     reg  command_port$answer_ends;
     reg  command_port$answer_is_taken;
     wire  command_port$inserting;
     wire  command_port$reading;
     wire  command_port$awaits_point;
+    reg  answer_head$clock;
+    reg  [7:0] answer_head$opcode;
+    reg  [31:0] answer_head$first;
+    reg  [31:0] answer_head$count;
+    reg  answer_head$is_refused;
+    reg  [14:0] answer_head$records;
+    reg  answer_head$collinear;
+    reg  answer_head$stuck;
+    reg  answer_head$some_refused;
+    wire  [31:0] answer_head$header;
+    wire  [31:0] answer_head$length;
+    wire  answer_head$is_empty;
+    wire  answer_head$is_read;
+    reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
-    reg  [31:0] answer_words$first;
-    reg  [31:0] answer_words$count;
-    reg  answer_words$is_refused;
     reg  [14:0] answer_words$capacity;
     reg  [4:0] answer_words$contexts;
     reg  [6:0] answer_words$ring;
-    reg  answer_words$collinear;
-    reg  answer_words$stuck;
     reg  [14:0] answer_words$arrived;
     reg  [31:0] answer_words$refused;
     reg  [31:0] answer_words$insertions;
@@ -74,10 +84,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  [6:0] answer_words$index;
     reg  [31:0] answer_words$counter;
     reg  [31:0] answer_words$latency;
-    wire  [31:0] answer_words$header;
-    wire  [31:0] answer_words$length;
     wire  [31:0] answer_words$word;
-    wire  answer_words$is_read;
     reg  responder$clock;
     reg  responder$reset;
     reg  responder$answers;
@@ -85,6 +92,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  [31:0] responder$first;
     reg  [31:0] responder$header;
     reg  [31:0] responder$length;
+    reg  responder$is_empty;
     reg  [31:0] responder$word;
     reg  responder$is_read;
     wire  [6:0] responder$index;
@@ -210,6 +218,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .count(command_port$count),
         .arrived(command_port$arrived),
         .refused(command_port$refused),
+        .some_refused(command_port$some_refused),
         .responder_is_idle(command_port$responder_is_idle),
         .answer_ends(command_port$answer_ends),
         .answer_is_taken(command_port$answer_is_taken),
@@ -217,16 +226,27 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .reading(command_port$reading),
         .awaits_point(command_port$awaits_point)
     );
+    incircle_core_logic$answer_head answer_head(
+        .clock(answer_head$clock),
+        .opcode(answer_head$opcode),
+        .first(answer_head$first),
+        .count(answer_head$count),
+        .is_refused(answer_head$is_refused),
+        .records(answer_head$records),
+        .collinear(answer_head$collinear),
+        .stuck(answer_head$stuck),
+        .some_refused(answer_head$some_refused),
+        .header(answer_head$header),
+        .length(answer_head$length),
+        .is_empty(answer_head$is_empty),
+        .is_read(answer_head$is_read)
+    );
     incircle_core_logic$answer_words answer_words(
+        .clock(answer_words$clock),
         .opcode(answer_words$opcode),
-        .first(answer_words$first),
-        .count(answer_words$count),
-        .is_refused(answer_words$is_refused),
         .capacity(answer_words$capacity),
         .contexts(answer_words$contexts),
         .ring(answer_words$ring),
-        .collinear(answer_words$collinear),
-        .stuck(answer_words$stuck),
         .arrived(answer_words$arrived),
         .refused(answer_words$refused),
         .insertions(answer_words$insertions),
@@ -235,10 +255,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .index(answer_words$index),
         .counter(answer_words$counter),
         .latency(answer_words$latency),
-        .header(answer_words$header),
-        .length(answer_words$length),
-        .word(answer_words$word),
-        .is_read(answer_words$is_read)
+        .word(answer_words$word)
     );
     incircle_core_logic$responder responder(
         .clock(responder$clock),
@@ -248,6 +265,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .first(responder$first),
         .header(responder$header),
         .length(responder$length),
+        .is_empty(responder$is_empty),
         .word(responder$word),
         .is_read(responder$is_read),
         .index(responder$index),
@@ -354,6 +372,8 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     // Update code
     always @(*) begin
         command_port$clock = clock;
+        answer_head$clock = clock;
+        answer_words$clock = clock;
         responder$clock = clock;
         engine$clock = clock;
         counters$clock = clock;
@@ -377,17 +397,20 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         command_port$responder_is_idle = responder$is_idle;
         command_port$answer_ends = responder$ends;
         command_port$answer_is_taken = responder$is_taken;
+        answer_head$opcode = command_port$opcode;
+        answer_head$first = command_port$first;
+        answer_head$count = command_port$count;
+        answer_head$is_refused = command_port$is_refused;
+        answer_head$records = engine$records;
+        answer_head$collinear = engine$collinear;
+        answer_head$stuck = engine$stuck;
+        answer_head$some_refused = command_port$some_refused;
         answer_words$opcode = command_port$opcode;
-        answer_words$first = command_port$first;
-        answer_words$count = command_port$count;
-        answer_words$is_refused = command_port$is_refused;
         answer_words$arrived = command_port$arrived;
         answer_words$refused = command_port$refused;
         answer_words$capacity = capacity;
         answer_words$contexts = contexts;
         answer_words$ring = ring;
-        answer_words$collinear = engine$collinear;
-        answer_words$stuck = engine$stuck;
         answer_words$records = engine$records;
         answer_words$insertions = counters$insertions;
         answer_words$duplicates = counters$duplicates;
@@ -397,10 +420,11 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         responder$answers = command_port$answers;
         responder$sweeps = latencies$sweeps;
         responder$first = command_port$first;
-        responder$header = answer_words$header;
-        responder$length = answer_words$length;
+        responder$header = answer_head$header;
+        responder$length = answer_head$length;
+        responder$is_empty = answer_head$is_empty;
         responder$word = answer_words$word;
-        responder$is_read = answer_words$is_read;
+        responder$is_read = answer_head$is_read;
         responder$read_done = engine$read_done;
         responder$v0 = engine$v0;
         responder$v1 = engine$v1;
@@ -464,18 +488,484 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
 endmodule // incircle_core_logic
 
 
-module incircle_core_logic$answer_words(opcode,first,count,is_refused,capacity,contexts,ring,collinear,stuck,arrived,refused,insertions,duplicates,records,index,counter,latency,header,length,word,is_read);
+module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,records,collinear,stuck,some_refused,header,length,is_empty,is_read);
     
     // Module arguments
+    input wire  clock;
     input wire  [7:0] opcode;
     input wire  [31:0] first;
     input wire  [31:0] count;
     input wire  is_refused;
+    input wire  [14:0] records;
+    input wire  collinear;
+    input wire  stuck;
+    input wire  some_refused;
+    output reg  [31:0] header;
+    output reg  [31:0] length;
+    output reg  is_empty;
+    output reg  is_read;
+    
+    // Stub signals
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
+    reg  [14:0] range_bound$d;
+    wire  [14:0] range_bound$q;
+    reg  range_bound$clock;
+    reg  [31:0] triple$d;
+    wire  [31:0] triple$q;
+    reg  triple$clock;
+    reg  counts_none$d;
+    wire  counts_none$q;
+    reg  counts_none$clock;
+    reg  [2:0] insert_status$d;
+    wire  [2:0] insert_status$q;
+    reg  insert_status$clock;
+    reg  is_outside$d;
+    wire  is_outside$q;
+    reg  is_outside$clock;
+    reg  [31:0] read_length$d;
+    wire  [31:0] read_length$q;
+    reg  read_length$clock;
+    reg  reads_none$d;
+    wire  reads_none$q;
+    reg  reads_none$clock;
+    reg  [2:0] report_status$d;
+    wire  [2:0] report_status$q;
+    reg  report_status$clock;
+    reg  [2:0] answer_status$d;
+    wire  [2:0] answer_status$q;
+    reg  answer_status$clock;
+    reg  [31:0] answer_length$d;
+    wire  [31:0] answer_length$q;
+    reg  answer_length$clock;
+    reg  has_none$d;
+    wire  has_none$q;
+    reg  has_none$clock;
+    
+    // Local signals
+    reg  [32:0] wide_first;
+    reg  [32:0] wide_count;
+    reg  [32:0] wide_bound;
+    reg  [31:0] double_count;
+    reg  [31:0] status;
+    reg  [31:0] shifted_status;
+    reg  [31:0] wide_opcode;
+    reg  [31:0] shifted_opcode;
+    reg  [31:0] none;
+    reg  [31:0] one;
+    reg  [31:0] status_shift;
+    reg  [31:0] opcode_shift;
+    reg  [7:0] read_code;
+    
+    // Sub module instances
+    incircle_core_logic$answer_head$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
+    );
+    incircle_core_logic$answer_head$range_bound range_bound(
+        .d(range_bound$d),
+        .q(range_bound$q),
+        .clock(range_bound$clock)
+    );
+    incircle_core_logic$answer_head$triple triple(
+        .d(triple$d),
+        .q(triple$q),
+        .clock(triple$clock)
+    );
+    incircle_core_logic$answer_head$counts_none counts_none(
+        .d(counts_none$d),
+        .q(counts_none$q),
+        .clock(counts_none$clock)
+    );
+    incircle_core_logic$answer_head$insert_status insert_status(
+        .d(insert_status$d),
+        .q(insert_status$q),
+        .clock(insert_status$clock)
+    );
+    incircle_core_logic$answer_head$is_outside is_outside(
+        .d(is_outside$d),
+        .q(is_outside$q),
+        .clock(is_outside$clock)
+    );
+    incircle_core_logic$answer_head$read_length read_length(
+        .d(read_length$d),
+        .q(read_length$q),
+        .clock(read_length$clock)
+    );
+    incircle_core_logic$answer_head$reads_none reads_none(
+        .d(reads_none$d),
+        .q(reads_none$q),
+        .clock(reads_none$clock)
+    );
+    incircle_core_logic$answer_head$report_status report_status(
+        .d(report_status$d),
+        .q(report_status$q),
+        .clock(report_status$clock)
+    );
+    incircle_core_logic$answer_head$answer_status answer_status(
+        .d(answer_status$d),
+        .q(answer_status$q),
+        .clock(answer_status$clock)
+    );
+    incircle_core_logic$answer_head$answer_length answer_length(
+        .d(answer_length$d),
+        .q(answer_length$q),
+        .clock(answer_length$clock)
+    );
+    incircle_core_logic$answer_head$has_none has_none(
+        .d(has_none$d),
+        .q(has_none$q),
+        .clock(has_none$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        range_end$clock = clock;
+        range_bound$clock = clock;
+        triple$clock = clock;
+        counts_none$clock = clock;
+        insert_status$clock = clock;
+        range_end$d = range_end$q;
+        range_bound$d = range_bound$q;
+        triple$d = triple$q;
+        counts_none$d = counts_none$q;
+        insert_status$d = insert_status$q;
+        is_outside$clock = clock;
+        read_length$clock = clock;
+        reads_none$clock = clock;
+        report_status$clock = clock;
+        is_outside$d = is_outside$q;
+        read_length$d = read_length$q;
+        reads_none$d = reads_none$q;
+        report_status$d = report_status$q;
+        answer_status$clock = clock;
+        answer_length$clock = clock;
+        has_none$clock = clock;
+        answer_status$d = answer_status$q;
+        answer_length$d = answer_length$q;
+        has_none$d = has_none$q;
+        none = 32'h0;
+        one = 32'h1;
+        status_shift = 32'h10;
+        opcode_shift = 32'h18;
+        read_code = 32'h4;
+        wide_first = ((first) & 33'h1ffffffff);
+        wide_count = ((count) & 33'h1ffffffff);
+        range_end$d = wide_first + wide_count;
+        range_bound$d = records;
+        double_count = count << one;
+        triple$d = double_count + count;
+        counts_none$d = count == none;
+        insert_status$d = 32'h0;
+        if (some_refused) begin
+            insert_status$d = 32'h4;
+        end
+        if (collinear) begin
+            insert_status$d = 32'h3;
+        end
+        if (stuck) begin
+            insert_status$d = 32'h6;
+        end
+        wide_bound = ((range_bound$q) & 33'h1ffffffff);
+        is_outside$d = range_end$q > wide_bound;
+        read_length$d = triple$q;
+        reads_none$d = counts_none$q;
+        report_status$d = insert_status$q;
+        answer_status$d = 32'h0;
+        answer_length$d = 32'h0;
+        has_none$d = 1'b0;
+        case (opcode)
+            1:
+                begin
+                    answer_length$d = 32'h7;
+                end
+            2:
+                begin
+                    has_none$d = 1'b1;
+                    if (is_refused) begin
+                        answer_status$d = 32'h5;
+                    end
+                end
+            3:
+                begin
+                    answer_length$d = 32'h5;
+                    answer_status$d = report_status$q;
+                end
+            4:
+                begin
+                    answer_length$d = read_length$q;
+                    has_none$d = reads_none$q;
+                    if (is_outside$q) begin
+                        answer_status$d = 32'h2;
+                        answer_length$d = 32'h0;
+                        has_none$d = 1'b1;
+                    end
+                end
+            5:
+                begin
+                    answer_length$d = 32'h19;
+                end
+            6:
+                begin
+                    answer_length$d = 32'h80;
+                end
+            default:
+                begin
+                    answer_status$d = 32'h1;
+                    has_none$d = 1'b1;
+                end
+        endcase
+        is_read = opcode == read_code;
+        length = answer_length$q;
+        is_empty = has_none$q;
+        status = ((answer_status$q) & 32'hffffffff);
+        shifted_status = status << status_shift;
+        wide_opcode = ((opcode) & 32'hffffffff);
+        shifted_opcode = wide_opcode << opcode_shift;
+        header = shifted_opcode | shifted_status;
+    end
+    
+endmodule // incircle_core_logic$answer_head
+
+
+module incircle_core_logic$answer_head$answer_length(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$answer_length
+
+
+module incircle_core_logic$answer_head$answer_status(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 3'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$answer_status
+
+
+module incircle_core_logic$answer_head$counts_none(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$counts_none
+
+
+module incircle_core_logic$answer_head$has_none(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$has_none
+
+
+module incircle_core_logic$answer_head$insert_status(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 3'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$insert_status
+
+
+module incircle_core_logic$answer_head$is_outside(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$is_outside
+
+
+module incircle_core_logic$answer_head$range_bound(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$range_bound
+
+
+module incircle_core_logic$answer_head$range_end(d,q,clock);
+    
+    // Module arguments
+    input wire  [32:0] d;
+    output reg  [32:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 33'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$range_end
+
+
+module incircle_core_logic$answer_head$read_length(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$read_length
+
+
+module incircle_core_logic$answer_head$reads_none(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$reads_none
+
+
+module incircle_core_logic$answer_head$report_status(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 3'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$report_status
+
+
+module incircle_core_logic$answer_head$triple(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$triple
+
+
+module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arrived,refused,insertions,duplicates,records,index,counter,latency,word);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [7:0] opcode;
     input wire  [14:0] capacity;
     input wire  [4:0] contexts;
     input wire  [6:0] ring;
-    input wire  collinear;
-    input wire  stuck;
     input wire  [14:0] arrived;
     input wire  [31:0] refused;
     input wire  [31:0] insertions;
@@ -484,139 +974,163 @@ module incircle_core_logic$answer_words(opcode,first,count,is_refused,capacity,c
     input wire  [6:0] index;
     input wire  [31:0] counter;
     input wire  [31:0] latency;
-    output reg  [31:0] header;
-    output reg  [31:0] length;
     output reg  [31:0] word;
-    output reg  is_read;
     
-    // Local signals
-    reg  [31:0] status;
-    reg  [31:0] shifted_status;
-    reg  [31:0] wide_opcode;
-    reg  [31:0] shifted_opcode;
-    reg  [32:0] wide_first;
-    reg  [32:0] wide_count;
-    reg  [32:0] range_end;
-    reg  [32:0] wide_records;
-    reg  [31:0] double_count;
-    reg  [31:0] identity;
-    reg  [31:0] report;
-    reg  [31:0] none_refused;
-    reg  [31:0] one;
-    reg  [31:0] status_shift;
-    reg  [31:0] opcode_shift;
+    // Stub signals
+    reg  [31:0] identity$d;
+    wire  [31:0] identity$q;
+    reg  identity$clock;
+    reg  [31:0] report$d;
+    wire  [31:0] report$q;
+    reg  report$clock;
+    reg  [31:0] chosen$d;
+    wire  [31:0] chosen$q;
+    reg  chosen$clock;
+    
+    // Sub module instances
+    incircle_core_logic$answer_words$identity identity(
+        .d(identity$d),
+        .q(identity$q),
+        .clock(identity$clock)
+    );
+    incircle_core_logic$answer_words$report report(
+        .d(report$d),
+        .q(report$q),
+        .clock(report$clock)
+    );
+    incircle_core_logic$answer_words$chosen chosen(
+        .d(chosen$d),
+        .q(chosen$q),
+        .clock(chosen$clock)
+    );
     
     // Update code
     always @(*) begin
-        none_refused = 32'h0;
-        one = 32'h1;
-        status_shift = 32'h10;
-        opcode_shift = 32'h18;
-        wide_first = ((first) & 33'h1ffffffff);
-        wide_count = ((count) & 33'h1ffffffff);
-        range_end = wide_first + wide_count;
-        wide_records = ((records) & 33'h1ffffffff);
-        double_count = count << one;
+        identity$clock = clock;
+        report$clock = clock;
+        chosen$clock = clock;
+        identity$d = identity$q;
+        report$d = report$q;
+        chosen$d = chosen$q;
+        word = chosen$q;
         case (index)
             0:
                 begin
-                    identity = 32'h696e4369;
-                    report = ((arrived) & 32'hffffffff);
+                    identity$d = 32'h696e4369;
+                    report$d = ((arrived) & 32'hffffffff);
                 end
             1:
                 begin
-                    identity = 32'h10001;
-                    report = insertions;
+                    identity$d = 32'h10001;
+                    report$d = insertions;
                 end
             2:
                 begin
-                    identity = 32'h200;
-                    report = duplicates;
+                    identity$d = 32'h200;
+                    report$d = duplicates;
                 end
             3:
                 begin
-                    identity = 32'h10;
-                    report = refused;
+                    identity$d = 32'h10;
+                    report$d = refused;
                 end
             4:
                 begin
-                    identity = ((capacity) & 32'hffffffff);
-                    report = ((records) & 32'hffffffff);
+                    identity$d = ((capacity) & 32'hffffffff);
+                    report$d = ((records) & 32'hffffffff);
                 end
             5:
                 begin
-                    identity = ((contexts) & 32'hffffffff);
-                    report = 32'h0;
+                    identity$d = ((contexts) & 32'hffffffff);
+                    report$d = 32'h0;
                 end
             default:
                 begin
-                    identity = ((ring) & 32'hffffffff);
-                    report = 32'h0;
+                    identity$d = ((ring) & 32'hffffffff);
+                    report$d = 32'h0;
                 end
         endcase
-        is_read = 1'b0;
-        status = 32'h0;
-        length = 32'h0;
-        word = counter;
         case (opcode)
             1:
                 begin
-                    length = 32'h7;
-                    word = identity;
-                end
-            2:
-                begin
-                    if (is_refused) begin
-                        status = 32'h5;
-                    end
+                    chosen$d = identity$q;
                 end
             3:
                 begin
-                    length = 32'h5;
-                    word = report;
-                    if (refused != none_refused) begin
-                        status = 32'h4;
-                    end
-                    if (collinear) begin
-                        status = 32'h3;
-                    end
-                    if (stuck) begin
-                        status = 32'h6;
-                    end
-                end
-            4:
-                begin
-                    is_read = 1'b1;
-                    length = double_count + count;
-                    if (range_end > wide_records) begin
-                        status = 32'h2;
-                        length = 32'h0;
-                    end
-                end
-            5:
-                begin
-                    length = 32'h19;
+                    chosen$d = report$q;
                 end
             6:
                 begin
-                    length = 32'h80;
-                    word = latency;
+                    chosen$d = latency;
                 end
             default:
                 begin
-                    status = 32'h1;
+                    chosen$d = counter;
                 end
         endcase
-        shifted_status = status << status_shift;
-        wide_opcode = ((opcode) & 32'hffffffff);
-        shifted_opcode = wide_opcode << opcode_shift;
-        header = shifted_opcode | shifted_status;
     end
     
 endmodule // incircle_core_logic$answer_words
 
 
-module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid,command_ready,command_data,sweeps,seeded,collinear,stuck,is_quiet,came,came_id,point,clears,contexts,is_refused,answers,opcode,first,count,arrived,refused,responder_is_idle,answer_ends,answer_is_taken,inserting,reading,awaits_point);
+module incircle_core_logic$answer_words$chosen(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_words$chosen
+
+
+module incircle_core_logic$answer_words$identity(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_words$identity
+
+
+module incircle_core_logic$answer_words$report(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_words$report
+
+
+module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid,command_ready,command_data,sweeps,seeded,collinear,stuck,is_quiet,came,came_id,point,clears,contexts,is_refused,answers,opcode,first,count,arrived,refused,some_refused,responder_is_idle,answer_ends,answer_is_taken,inserting,reading,awaits_point);
     
     // Module arguments
     input wire  clock;
@@ -643,6 +1157,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     output reg  [31:0] count;
     output reg  [14:0] arrived;
     output reg  [31:0] refused;
+    output reg  some_refused;
     input wire  responder_is_idle;
     input wire  answer_ends;
     input wire  answer_is_taken;
@@ -671,6 +1186,9 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     reg  [31:0] left$d;
     wire  [31:0] left$q;
     reg  left$clock;
+    reg  none_is_left$d;
+    wire  none_is_left$q;
+    reg  none_is_left$clock;
     reg  is_inserting$d;
     wire  is_inserting$q;
     reg  is_inserting$clock;
@@ -690,13 +1208,15 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     wire  [31:0] slot$point;
     wire  [14:0] slot$arrived;
     wire  [31:0] slot$refused;
+    wire  slot$has_three;
+    wire  slot$some_refused;
     reg  gate$is_command;
     reg  gate$is_argument;
     reg  gate$is_points;
     reg  gate$sweeps;
     reg  gate$none_is_left;
     reg  gate$came;
-    reg  [14:0] gate$arrived;
+    reg  gate$has_three;
     reg  gate$seeded;
     reg  gate$collinear;
     reg  gate$stuck;
@@ -713,12 +1233,11 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     
     // Local signals
     reg  accepts;
-    reg  is_last;
     reg  [7:0] code;
     reg  is_insert;
     reg  [7:0] read_code;
     reg  [7:0] insert_code;
-    reg  [31:0] none_left;
+    reg  [31:0] none;
     reg  [31:0] one;
     
     // Sub module instances
@@ -741,6 +1260,11 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .d(left$d),
         .q(left$q),
         .clock(left$clock)
+    );
+    incircle_core_logic$command_port$none_is_left none_is_left(
+        .d(none_is_left$d),
+        .q(none_is_left$q),
+        .clock(none_is_left$clock)
     );
     incircle_core_logic$command_port$is_inserting is_inserting(
         .d(is_inserting$d),
@@ -765,7 +1289,9 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .came_id(slot$came_id),
         .point(slot$point),
         .arrived(slot$arrived),
-        .refused(slot$refused)
+        .refused(slot$refused),
+        .has_three(slot$has_three),
+        .some_refused(slot$some_refused)
     );
     incircle_core_logic$command_port$gate gate(
         .is_command(gate$is_command),
@@ -774,7 +1300,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .sweeps(gate$sweeps),
         .none_is_left(gate$none_is_left),
         .came(gate$came),
-        .arrived(gate$arrived),
+        .has_three(gate$has_three),
         .seeded(gate$seeded),
         .collinear(gate$collinear),
         .stuck(gate$stuck),
@@ -798,19 +1324,21 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         command$clock = clock;
         first_word$clock = clock;
         left$clock = clock;
+        none_is_left$clock = clock;
         is_inserting$clock = clock;
         is_reading$clock = clock;
         state$d = state$q;
         command$d = command$q;
         first_word$d = first_word$q;
         left$d = left$q;
+        none_is_left$d = none_is_left$q;
         is_inserting$d = is_inserting$q;
         is_reading$d = is_reading$q;
         slot$clock = clock;
         clear$clock = clock;
         insert_code = 32'h3;
         read_code = 32'h4;
-        none_left = 32'h0;
+        none = 32'h0;
         one = 32'h1;
         came = slot$came;
         came_id = slot$came_id;
@@ -824,16 +1352,16 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         count = left$q;
         arrived = slot$arrived;
         refused = slot$refused;
+        some_refused = slot$some_refused;
         inserting = is_inserting$q;
         reading = is_reading$q;
-        is_last = left$q == none_left;
         gate$is_command = state$q == CommandState$Command;
         gate$is_argument = (state$q == CommandState$First) | (state$q == CommandState$Count);
         gate$is_points = state$q == CommandState$Points;
         gate$sweeps = sweeps;
-        gate$none_is_left = is_last;
+        gate$none_is_left = none_is_left$q;
         gate$came = slot$came;
-        gate$arrived = slot$arrived;
+        gate$has_three = slot$has_three;
         gate$seeded = seeded;
         gate$collinear = collinear;
         gate$stuck = stuck;
@@ -881,6 +1409,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
                 begin
                     if (accepts) begin
                         left$d = command_data;
+                        none_is_left$d = command_data == none;
                         if (is_insert) begin
                             state$d = CommandState$Points;
                         end
@@ -892,11 +1421,12 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
                 end
             CommandState$Points:
                 begin
-                    if (is_last) begin
+                    if (none_is_left$q) begin
                         state$d = CommandState$Settle;
                     end
                     if (accepts) begin
                         left$d = left$q - one;
+                        none_is_left$d = left$q == one;
                         is_inserting$d = 1'b1;
                     end
                 end
@@ -1111,7 +1641,7 @@ module incircle_core_logic$command_port$first_word(d,q,clock);
 endmodule // incircle_core_logic$command_port$first_word
 
 
-module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,came,arrived,seeded,collinear,stuck,ready,awaits_point);
+module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,came,has_three,seeded,collinear,stuck,ready,awaits_point);
     
     // Module arguments
     input wire  is_command;
@@ -1120,7 +1650,7 @@ module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sw
     input wire  sweeps;
     input wire  none_is_left;
     input wire  came;
-    input wire  [14:0] arrived;
+    input wire  has_three;
     input wire  seeded;
     input wire  collinear;
     input wire  stuck;
@@ -1129,12 +1659,10 @@ module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sw
     
     // Local signals
     reg  start_is_open;
-    reg  [14:0] three;
     
     // Update code
     always @(*) begin
-        three = 32'h3;
-        start_is_open = (arrived == three) & (~seeded) & (~collinear) & (~stuck);
+        start_is_open = has_three & (~seeded) & (~collinear) & (~stuck);
         awaits_point = is_points & (~none_is_left);
         ready = is_argument;
         if (is_command) begin
@@ -1205,7 +1733,26 @@ module incircle_core_logic$command_port$left(d,q,clock);
 endmodule // incircle_core_logic$command_port$left
 
 
-module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,collinear,stuck,accepts,word,came,came_id,point,arrived,refused);
+module incircle_core_logic$command_port$none_is_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$none_is_left
+
+
+module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,collinear,stuck,accepts,word,came,came_id,point,arrived,refused,has_three,some_refused);
     
     // Module arguments
     input wire  clock;
@@ -1221,6 +1768,8 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
     output reg  [31:0] point;
     output reg  [14:0] arrived;
     output reg  [31:0] refused;
+    output reg  has_three;
+    output reg  some_refused;
     
     // Stub signals
     reg  is_new$d;
@@ -1235,15 +1784,27 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
     reg  [14:0] arrivals$d;
     wire  [14:0] arrivals$q;
     reg  arrivals$clock;
+    reg  is_full$d;
+    wire  is_full$q;
+    reg  is_full$clock;
+    reg  is_triple$d;
+    wire  is_triple$q;
+    reg  is_triple$clock;
+    reg  is_surplus$d;
+    wire  is_surplus$q;
+    reg  is_surplus$clock;
     reg  [31:0] refusals$d;
     wire  [31:0] refusals$q;
     reg  refusals$clock;
+    reg  has_refused$d;
+    wire  has_refused$q;
+    reg  has_refused$clock;
     
     // Local signals
     reg  stores;
-    reg  refuses;
     reg  has_room;
     reg  [14:0] one_arrival;
+    reg  [14:0] three;
     reg  [31:0] one;
     
     // Sub module instances
@@ -1267,10 +1828,30 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
         .q(arrivals$q),
         .clock(arrivals$clock)
     );
+    incircle_core_logic$command_port$slot$is_full is_full(
+        .d(is_full$d),
+        .q(is_full$q),
+        .clock(is_full$clock)
+    );
+    incircle_core_logic$command_port$slot$is_triple is_triple(
+        .d(is_triple$d),
+        .q(is_triple$q),
+        .clock(is_triple$clock)
+    );
+    incircle_core_logic$command_port$slot$is_surplus is_surplus(
+        .d(is_surplus$d),
+        .q(is_surplus$q),
+        .clock(is_surplus$clock)
+    );
     incircle_core_logic$command_port$slot$refusals refusals(
         .d(refusals$d),
         .q(refusals$q),
         .clock(refusals$clock)
+    );
+    incircle_core_logic$command_port$slot$has_refused has_refused(
+        .d(has_refused$d),
+        .q(has_refused$q),
+        .clock(has_refused$clock)
     );
     
     // Update code
@@ -1285,28 +1866,46 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
         last_point$d = last_point$q;
         arrivals$d = arrivals$q;
         refusals$d = refusals$q;
+        is_full$clock = clock;
+        is_triple$clock = clock;
+        is_surplus$clock = clock;
+        has_refused$clock = clock;
+        is_full$d = is_full$q;
+        is_triple$d = is_triple$q;
+        is_surplus$d = is_surplus$q;
+        has_refused$d = has_refused$q;
         one_arrival = 32'h1;
+        three = 32'h3;
         one = 32'h1;
         came = is_new$q;
         came_id = last_id$q;
         point = last_point$q;
         arrived = arrivals$q;
         refused = refusals$q;
-        has_room = (~collinear) & (~stuck) & (arrivals$q != capacity);
+        has_three = is_triple$q;
+        some_refused = has_refused$q;
+        is_full$d = arrivals$q == capacity;
+        is_triple$d = arrivals$q == three;
+        has_room = (~collinear) & (~stuck) & (~is_full$q);
         stores = accepts & has_room;
-        refuses = accepts & (~has_room);
+        is_surplus$d = accepts & (~has_room);
         is_new$d = stores;
         if (stores) begin
             last_id$d = arrivals$q;
             last_point$d = word;
             arrivals$d = arrivals$q + one_arrival;
         end
-        if (refuses) begin
+        if (is_surplus$q) begin
             refusals$d = refusals$q + one;
+            has_refused$d = 1'b1;
         end
         if (clears | reset) begin
             arrivals$d = 32'h0;
+            is_full$d = 1'b0;
+            is_triple$d = 1'b0;
+            is_surplus$d = 1'b0;
             refusals$d = 32'h0;
+            has_refused$d = 1'b0;
         end
         if (reset) begin
             is_new$d = 1'b0;
@@ -1335,6 +1934,44 @@ module incircle_core_logic$command_port$slot$arrivals(d,q,clock);
 endmodule // incircle_core_logic$command_port$slot$arrivals
 
 
+module incircle_core_logic$command_port$slot$has_refused(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$slot$has_refused
+
+
+module incircle_core_logic$command_port$slot$is_full(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$slot$is_full
+
+
 module incircle_core_logic$command_port$slot$is_new(d,q,clock);
     
     // Module arguments
@@ -1352,6 +1989,44 @@ module incircle_core_logic$command_port$slot$is_new(d,q,clock);
     end
           
 endmodule // incircle_core_logic$command_port$slot$is_new
+
+
+module incircle_core_logic$command_port$slot$is_surplus(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$slot$is_surplus
+
+
+module incircle_core_logic$command_port$slot$is_triple(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$slot$is_triple
 
 
 module incircle_core_logic$command_port$slot$last_id(d,q,clock);
@@ -1482,6 +2157,15 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
     reg  [21:0] ticks$d;
     wire  [21:0] ticks$q;
     reg  ticks$clock;
+    reg  zeroes$d;
+    wire  zeroes$q;
+    reg  zeroes$clock;
+    reg  [31:0] chosen$d;
+    wire  [31:0] chosen$q;
+    reg  chosen$clock;
+    reg  [1:0] inserts$d;
+    wire  [1:0] inserts$q;
+    reg  inserts$clock;
     reg  [31:0] inserted$d;
     wire  [31:0] inserted$q;
     reg  inserted$clock;
@@ -1526,16 +2210,29 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
     wire  [21:0] range$most;
     
     // Local signals
-    reg  zero;
     reg  [21:0] one_tick;
-    reg  [31:0] one;
-    reg  [31:0] three;
+    reg  [31:0] more;
     
     // Sub module instances
     incircle_core_logic$counters$ticks ticks(
         .d(ticks$d),
         .q(ticks$q),
         .clock(ticks$clock)
+    );
+    incircle_core_logic$counters$zeroes zeroes(
+        .d(zeroes$d),
+        .q(zeroes$q),
+        .clock(zeroes$clock)
+    );
+    incircle_core_logic$counters$chosen chosen(
+        .d(chosen$d),
+        .q(chosen$q),
+        .clock(chosen$clock)
+    );
+    incircle_core_logic$counters$inserts inserts(
+        .d(inserts$d),
+        .q(inserts$q),
+        .clock(inserts$clock)
     );
     incircle_core_logic$counters$inserted inserted(
         .d(inserted$d),
@@ -1593,21 +2290,25 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
     // Update code
     always @(*) begin
         ticks$clock = clock;
+        zeroes$clock = clock;
+        chosen$clock = clock;
+        inserts$clock = clock;
         inserted$clock = clock;
         ticks$d = ticks$q;
+        zeroes$d = zeroes$q;
+        chosen$d = chosen$q;
+        inserts$d = inserts$q;
         inserted$d = inserted$q;
         duplicated$clock = clock;
         cycles$clock = clock;
         visits$clock = clock;
         range$clock = clock;
         one_tick = 32'h1;
-        one = 32'h1;
-        three = 32'h3;
-        zero = reset | clears;
-        duplicated$zero = zero;
-        cycles$zero = zero;
-        visits$zero = zero;
-        range$zero = zero;
+        zeroes$d = reset | clears;
+        duplicated$zero = zeroes$q;
+        cycles$zero = zeroes$q;
+        visits$zero = zeroes$q;
+        range$zero = zeroes$q;
         cycles$inserting = inserting;
         cycles$waiting = waiting;
         cycles$reading = reading;
@@ -1636,82 +2337,85 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
         latency_comes = range$latency_comes;
         latency = range$latency;
         duplicated$count = duplicate | solo_duplicate;
+        inserts$d = 32'h0;
         if (commit_ends | solo_inserts) begin
-            inserted$d = inserted$q + one;
+            inserts$d = 32'h1;
         end
         if (seeds) begin
-            inserted$d = inserted$q + three;
+            inserts$d = 32'h3;
         end
+        more = ((inserts$q) & 32'hffffffff);
+        inserted$d = inserted$q + more;
         insertions = inserted$q;
         duplicates = duplicated$value;
-        value = cycles$value;
+        value = chosen$q;
         case (select)
             6:
                 begin
-                    value = inserted$q;
+                    chosen$d = inserted$q;
                 end
             7:
                 begin
-                    value = duplicated$value;
+                    chosen$d = duplicated$value;
                 end
             8:
                 begin
-                    value = refused;
+                    chosen$d = refused;
                 end
             9:
                 begin
-                    value = visits$value;
+                    chosen$d = visits$value;
                 end
             10:
                 begin
-                    value = visits$value;
+                    chosen$d = visits$value;
                 end
             11:
                 begin
-                    value = visits$value;
+                    chosen$d = visits$value;
                 end
             12:
                 begin
-                    value = visits$value;
+                    chosen$d = visits$value;
                 end
             13:
                 begin
-                    value = visits$value;
+                    chosen$d = visits$value;
                 end
             14:
                 begin
-                    value = visits$value;
+                    chosen$d = visits$value;
                 end
             15:
                 begin
-                    value = visits$value;
+                    chosen$d = visits$value;
                 end
             16:
                 begin
-                    value = visits$value;
+                    chosen$d = visits$value;
                 end
             17:
                 begin
-                    value = visits$value;
+                    chosen$d = visits$value;
                 end
             18:
                 begin
-                    value = visits$value;
+                    chosen$d = visits$value;
                 end
             23:
                 begin
-                    value = ((range$least) & 32'hffffffff);
+                    chosen$d = ((range$least) & 32'hffffffff);
                 end
             24:
                 begin
-                    value = ((range$most) & 32'hffffffff);
+                    chosen$d = ((range$most) & 32'hffffffff);
                 end
             default:
                 begin
-                    value = cycles$value;
+                    chosen$d = cycles$value;
                 end
         endcase
-        if (zero) begin
+        if (zeroes$q) begin
             inserted$d = 32'h0;
         end
         if (reset) begin
@@ -1720,6 +2424,25 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
     end
     
 endmodule // incircle_core_logic$counters
+
+
+module incircle_core_logic$counters$chosen(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$chosen
 
 
 module incircle_core_logic$counters$cycles(clock,zero,inserting,waiting,reading,is_issuing,is_writing,is_committing,is_releasing,select,value);
@@ -1896,6 +2619,9 @@ module incircle_core_logic$counters$cycles$commit_cycles(clock,zero,count,value)
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -1904,6 +2630,11 @@ module incircle_core_logic$counters$cycles$commit_cycles(clock,zero,count,value)
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$cycles$commit_cycles$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$cycles$commit_cycles$word word(
         .d(word$d),
         .q(word$q),
@@ -1912,11 +2643,14 @@ module incircle_core_logic$counters$cycles$commit_cycles(clock,zero,count,value)
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -1925,6 +2659,25 @@ module incircle_core_logic$counters$cycles$commit_cycles(clock,zero,count,value)
     end
     
 endmodule // incircle_core_logic$counters$cycles$commit_cycles
+
+
+module incircle_core_logic$counters$cycles$commit_cycles$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$cycles$commit_cycles$counts
 
 
 module incircle_core_logic$counters$cycles$commit_cycles$word(d,q,clock);
@@ -1959,6 +2712,9 @@ module incircle_core_logic$counters$cycles$insert_cycles(clock,zero,count,low,hi
     localparam  all_ones = 32'hffffffff;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] low_word$d;
     wire  [31:0] low_word$q;
     reg  low_word$clock;
@@ -1973,6 +2729,11 @@ module incircle_core_logic$counters$cycles$insert_cycles(clock,zero,count,low,hi
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$cycles$insert_cycles$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$cycles$insert_cycles$low_word low_word(
         .d(low_word$d),
         .q(low_word$q),
@@ -1991,17 +2752,20 @@ module incircle_core_logic$counters$cycles$insert_cycles(clock,zero,count,low,hi
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         low_word$clock = clock;
         high_word$clock = clock;
         carries$clock = clock;
+        counts$d = counts$q;
         low_word$d = low_word$q;
         high_word$d = high_word$q;
         carries$d = carries$q;
         one = 32'h1;
         low = low_word$q;
         high = high_word$q;
-        carries$d = count & (low_word$q == all_ones);
-        if (count) begin
+        counts$d = count;
+        carries$d = counts$q & (low_word$q == all_ones);
+        if (counts$q) begin
             low_word$d = low_word$q + one;
         end
         if (carries$q) begin
@@ -2034,6 +2798,25 @@ module incircle_core_logic$counters$cycles$insert_cycles$carries(d,q,clock);
     end
           
 endmodule // incircle_core_logic$counters$cycles$insert_cycles$carries
+
+
+module incircle_core_logic$counters$cycles$insert_cycles$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$cycles$insert_cycles$counts
 
 
 module incircle_core_logic$counters$cycles$insert_cycles$high_word(d,q,clock);
@@ -2083,6 +2866,9 @@ module incircle_core_logic$counters$cycles$issue_cycles(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -2091,6 +2877,11 @@ module incircle_core_logic$counters$cycles$issue_cycles(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$cycles$issue_cycles$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$cycles$issue_cycles$word word(
         .d(word$d),
         .q(word$q),
@@ -2099,11 +2890,14 @@ module incircle_core_logic$counters$cycles$issue_cycles(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -2112,6 +2906,25 @@ module incircle_core_logic$counters$cycles$issue_cycles(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$cycles$issue_cycles
+
+
+module incircle_core_logic$counters$cycles$issue_cycles$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$cycles$issue_cycles$counts
 
 
 module incircle_core_logic$counters$cycles$issue_cycles$word(d,q,clock);
@@ -2146,6 +2959,9 @@ module incircle_core_logic$counters$cycles$read_cycles(clock,zero,count,low,high
     localparam  all_ones = 32'hffffffff;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] low_word$d;
     wire  [31:0] low_word$q;
     reg  low_word$clock;
@@ -2160,6 +2976,11 @@ module incircle_core_logic$counters$cycles$read_cycles(clock,zero,count,low,high
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$cycles$read_cycles$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$cycles$read_cycles$low_word low_word(
         .d(low_word$d),
         .q(low_word$q),
@@ -2178,17 +2999,20 @@ module incircle_core_logic$counters$cycles$read_cycles(clock,zero,count,low,high
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         low_word$clock = clock;
         high_word$clock = clock;
         carries$clock = clock;
+        counts$d = counts$q;
         low_word$d = low_word$q;
         high_word$d = high_word$q;
         carries$d = carries$q;
         one = 32'h1;
         low = low_word$q;
         high = high_word$q;
-        carries$d = count & (low_word$q == all_ones);
-        if (count) begin
+        counts$d = count;
+        carries$d = counts$q & (low_word$q == all_ones);
+        if (counts$q) begin
             low_word$d = low_word$q + one;
         end
         if (carries$q) begin
@@ -2221,6 +3045,25 @@ module incircle_core_logic$counters$cycles$read_cycles$carries(d,q,clock);
     end
           
 endmodule // incircle_core_logic$counters$cycles$read_cycles$carries
+
+
+module incircle_core_logic$counters$cycles$read_cycles$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$cycles$read_cycles$counts
 
 
 module incircle_core_logic$counters$cycles$read_cycles$high_word(d,q,clock);
@@ -2270,6 +3113,9 @@ module incircle_core_logic$counters$cycles$release_cycles(clock,zero,count,value
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -2278,6 +3124,11 @@ module incircle_core_logic$counters$cycles$release_cycles(clock,zero,count,value
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$cycles$release_cycles$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$cycles$release_cycles$word word(
         .d(word$d),
         .q(word$q),
@@ -2286,11 +3137,14 @@ module incircle_core_logic$counters$cycles$release_cycles(clock,zero,count,value
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -2299,6 +3153,25 @@ module incircle_core_logic$counters$cycles$release_cycles(clock,zero,count,value
     end
     
 endmodule // incircle_core_logic$counters$cycles$release_cycles
+
+
+module incircle_core_logic$counters$cycles$release_cycles$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$cycles$release_cycles$counts
 
 
 module incircle_core_logic$counters$cycles$release_cycles$word(d,q,clock);
@@ -2333,6 +3206,9 @@ module incircle_core_logic$counters$cycles$wait_cycles(clock,zero,count,low,high
     localparam  all_ones = 32'hffffffff;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] low_word$d;
     wire  [31:0] low_word$q;
     reg  low_word$clock;
@@ -2347,6 +3223,11 @@ module incircle_core_logic$counters$cycles$wait_cycles(clock,zero,count,low,high
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$cycles$wait_cycles$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$cycles$wait_cycles$low_word low_word(
         .d(low_word$d),
         .q(low_word$q),
@@ -2365,17 +3246,20 @@ module incircle_core_logic$counters$cycles$wait_cycles(clock,zero,count,low,high
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         low_word$clock = clock;
         high_word$clock = clock;
         carries$clock = clock;
+        counts$d = counts$q;
         low_word$d = low_word$q;
         high_word$d = high_word$q;
         carries$d = carries$q;
         one = 32'h1;
         low = low_word$q;
         high = high_word$q;
-        carries$d = count & (low_word$q == all_ones);
-        if (count) begin
+        counts$d = count;
+        carries$d = counts$q & (low_word$q == all_ones);
+        if (counts$q) begin
             low_word$d = low_word$q + one;
         end
         if (carries$q) begin
@@ -2408,6 +3292,25 @@ module incircle_core_logic$counters$cycles$wait_cycles$carries(d,q,clock);
     end
           
 endmodule // incircle_core_logic$counters$cycles$wait_cycles$carries
+
+
+module incircle_core_logic$counters$cycles$wait_cycles$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$cycles$wait_cycles$counts
 
 
 module incircle_core_logic$counters$cycles$wait_cycles$high_word(d,q,clock);
@@ -2457,6 +3360,9 @@ module incircle_core_logic$counters$cycles$write_cycles(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -2465,6 +3371,11 @@ module incircle_core_logic$counters$cycles$write_cycles(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$cycles$write_cycles$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$cycles$write_cycles$word word(
         .d(word$d),
         .q(word$q),
@@ -2473,11 +3384,14 @@ module incircle_core_logic$counters$cycles$write_cycles(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -2486,6 +3400,25 @@ module incircle_core_logic$counters$cycles$write_cycles(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$cycles$write_cycles
+
+
+module incircle_core_logic$counters$cycles$write_cycles$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$cycles$write_cycles$counts
 
 
 module incircle_core_logic$counters$cycles$write_cycles$word(d,q,clock);
@@ -2516,6 +3449,9 @@ module incircle_core_logic$counters$duplicated(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -2524,6 +3460,11 @@ module incircle_core_logic$counters$duplicated(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$duplicated$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$duplicated$word word(
         .d(word$d),
         .q(word$q),
@@ -2532,11 +3473,14 @@ module incircle_core_logic$counters$duplicated(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -2545,6 +3489,25 @@ module incircle_core_logic$counters$duplicated(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$duplicated
+
+
+module incircle_core_logic$counters$duplicated$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$duplicated$counts
 
 
 module incircle_core_logic$counters$duplicated$word(d,q,clock);
@@ -2585,6 +3548,25 @@ module incircle_core_logic$counters$inserted(d,q,clock);
 endmodule // incircle_core_logic$counters$inserted
 
 
+module incircle_core_logic$counters$inserts(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$inserts
+
+
 module incircle_core_logic$counters$range(clock,zero,commit_ends,now,since,latency_comes,latency,least,most);
     
     // Module arguments
@@ -2602,6 +3584,12 @@ module incircle_core_logic$counters$range(clock,zero,commit_ends,now,since,laten
     reg  comes$d;
     wire  comes$q;
     reg  comes$clock;
+    reg  is_least$d;
+    wire  is_least$q;
+    reg  is_least$clock;
+    reg  is_most$d;
+    wire  is_most$q;
+    reg  is_most$clock;
     reg  [21:0] taken$d;
     wire  [21:0] taken$q;
     reg  taken$clock;
@@ -2620,6 +3608,16 @@ module incircle_core_logic$counters$range(clock,zero,commit_ends,now,since,laten
         .d(comes$d),
         .q(comes$q),
         .clock(comes$clock)
+    );
+    incircle_core_logic$counters$range$is_least is_least(
+        .d(is_least$d),
+        .q(is_least$q),
+        .clock(is_least$clock)
+    );
+    incircle_core_logic$counters$range$is_most is_most(
+        .d(is_most$d),
+        .q(is_most$q),
+        .clock(is_most$clock)
     );
     incircle_core_logic$counters$range$taken taken(
         .d(taken$d),
@@ -2640,10 +3638,14 @@ module incircle_core_logic$counters$range(clock,zero,commit_ends,now,since,laten
     // Update code
     always @(*) begin
         comes$clock = clock;
+        is_least$clock = clock;
+        is_most$clock = clock;
         taken$clock = clock;
         lowest$clock = clock;
         highest$clock = clock;
         comes$d = comes$q;
+        is_least$d = is_least$q;
+        is_most$d = is_most$q;
         taken$d = taken$q;
         lowest$d = lowest$q;
         highest$d = highest$q;
@@ -2653,17 +3655,21 @@ module incircle_core_logic$counters$range(clock,zero,commit_ends,now,since,laten
         least = lowest$q;
         most = highest$q;
         comes$d = commit_ends;
-        taken$d = now - since;
-        if (comes$q) begin
-            if ((highest$q == none) | (taken$q < lowest$q)) begin
-                lowest$d = taken$q;
-            end
-            if (taken$q > highest$q) begin
-                highest$d = taken$q;
-            end
+        if (commit_ends) begin
+            taken$d = now - since;
+        end
+        is_least$d = comes$q & ((highest$q == none) | (taken$q < lowest$q));
+        is_most$d = comes$q & (taken$q > highest$q);
+        if (is_least$q) begin
+            lowest$d = taken$q;
+        end
+        if (is_most$q) begin
+            highest$d = taken$q;
         end
         if (zero) begin
             comes$d = 1'b0;
+            is_least$d = 1'b0;
+            is_most$d = 1'b0;
             lowest$d = 32'h0;
             highest$d = 32'h0;
         end
@@ -2708,6 +3714,44 @@ module incircle_core_logic$counters$range$highest(d,q,clock);
     end
           
 endmodule // incircle_core_logic$counters$range$highest
+
+
+module incircle_core_logic$counters$range$is_least(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$range$is_least
+
+
+module incircle_core_logic$counters$range$is_most(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$range$is_most
 
 
 module incircle_core_logic$counters$range$lowest(d,q,clock);
@@ -2787,6 +3831,9 @@ module incircle_core_logic$counters$visits(clock,zero,walk_visit,test,overflows,
     output reg  [31:0] value;
     
     // Stub signals
+    reg  [6:0] last_triangles$d;
+    wire  [6:0] last_triangles$q;
+    reg  last_triangles$clock;
     reg  [31:0] triangles$d;
     wire  [31:0] triangles$q;
     reg  triangles$clock;
@@ -2831,6 +3878,11 @@ module incircle_core_logic$counters$visits(clock,zero,walk_visit,test,overflows,
     reg  [31:0] wide_triangles;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$last_triangles last_triangles(
+        .d(last_triangles$d),
+        .q(last_triangles$q),
+        .clock(last_triangles$clock)
+    );
     incircle_core_logic$counters$visits$triangles triangles(
         .d(triangles$d),
         .q(triangles$q),
@@ -2893,7 +3945,9 @@ module incircle_core_logic$counters$visits(clock,zero,walk_visit,test,overflows,
     
     // Update code
     always @(*) begin
+        last_triangles$clock = clock;
         triangles$clock = clock;
+        last_triangles$d = last_triangles$q;
         triangles$d = triangles$q;
         walk_visits$clock = clock;
         tests$clock = clock;
@@ -2922,10 +3976,12 @@ module incircle_core_logic$counters$visits(clock,zero,walk_visit,test,overflows,
         aborts$count = gives_up;
         root_retries$count = retries;
         waiting_tokens$count = takes_token;
-        wide_triangles = ((cavity_triangles) & 32'hffffffff);
+        last_triangles$d = 32'h0;
         if (cavity_ends) begin
-            triangles$d = triangles$q + wide_triangles;
+            last_triangles$d = cavity_triangles;
         end
+        wide_triangles = ((last_triangles$q) & 32'hffffffff);
+        triangles$d = triangles$q + wide_triangles;
         if (zero) begin
             triangles$d = 32'h0;
         end
@@ -2985,6 +4041,9 @@ module incircle_core_logic$counters$visits$aborts(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -2993,6 +4052,11 @@ module incircle_core_logic$counters$visits$aborts(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$aborts$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$visits$aborts$word word(
         .d(word$d),
         .q(word$q),
@@ -3001,11 +4065,14 @@ module incircle_core_logic$counters$visits$aborts(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -3014,6 +4081,25 @@ module incircle_core_logic$counters$visits$aborts(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$visits$aborts
+
+
+module incircle_core_logic$counters$visits$aborts$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$aborts$counts
 
 
 module incircle_core_logic$counters$visits$aborts$word(d,q,clock);
@@ -3044,6 +4130,9 @@ module incircle_core_logic$counters$visits$flips(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -3052,6 +4141,11 @@ module incircle_core_logic$counters$visits$flips(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$flips$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$visits$flips$word word(
         .d(word$d),
         .q(word$q),
@@ -3060,11 +4154,14 @@ module incircle_core_logic$counters$visits$flips(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -3073,6 +4170,25 @@ module incircle_core_logic$counters$visits$flips(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$visits$flips
+
+
+module incircle_core_logic$counters$visits$flips$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$flips$counts
 
 
 module incircle_core_logic$counters$visits$flips$word(d,q,clock);
@@ -3094,6 +4210,25 @@ module incircle_core_logic$counters$visits$flips$word(d,q,clock);
 endmodule // incircle_core_logic$counters$visits$flips$word
 
 
+module incircle_core_logic$counters$visits$last_triangles(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$last_triangles
+
+
 module incircle_core_logic$counters$visits$overflowed(clock,zero,count,value);
     
     // Module arguments
@@ -3103,6 +4238,9 @@ module incircle_core_logic$counters$visits$overflowed(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -3111,6 +4249,11 @@ module incircle_core_logic$counters$visits$overflowed(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$overflowed$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$visits$overflowed$word word(
         .d(word$d),
         .q(word$q),
@@ -3119,11 +4262,14 @@ module incircle_core_logic$counters$visits$overflowed(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -3132,6 +4278,25 @@ module incircle_core_logic$counters$visits$overflowed(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$visits$overflowed
+
+
+module incircle_core_logic$counters$visits$overflowed$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$overflowed$counts
 
 
 module incircle_core_logic$counters$visits$overflowed$word(d,q,clock);
@@ -3162,6 +4327,9 @@ module incircle_core_logic$counters$visits$revisits(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -3170,6 +4338,11 @@ module incircle_core_logic$counters$visits$revisits(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$revisits$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$visits$revisits$word word(
         .d(word$d),
         .q(word$q),
@@ -3178,11 +4351,14 @@ module incircle_core_logic$counters$visits$revisits(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -3191,6 +4367,25 @@ module incircle_core_logic$counters$visits$revisits(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$visits$revisits
+
+
+module incircle_core_logic$counters$visits$revisits$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$revisits$counts
 
 
 module incircle_core_logic$counters$visits$revisits$word(d,q,clock);
@@ -3221,6 +4416,9 @@ module incircle_core_logic$counters$visits$root_retries(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -3229,6 +4427,11 @@ module incircle_core_logic$counters$visits$root_retries(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$root_retries$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$visits$root_retries$word word(
         .d(word$d),
         .q(word$q),
@@ -3237,11 +4440,14 @@ module incircle_core_logic$counters$visits$root_retries(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -3250,6 +4456,25 @@ module incircle_core_logic$counters$visits$root_retries(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$visits$root_retries
+
+
+module incircle_core_logic$counters$visits$root_retries$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$root_retries$counts
 
 
 module incircle_core_logic$counters$visits$root_retries$word(d,q,clock);
@@ -3280,6 +4505,9 @@ module incircle_core_logic$counters$visits$root_visits(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -3288,6 +4516,11 @@ module incircle_core_logic$counters$visits$root_visits(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$root_visits$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$visits$root_visits$word word(
         .d(word$d),
         .q(word$q),
@@ -3296,11 +4529,14 @@ module incircle_core_logic$counters$visits$root_visits(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -3309,6 +4545,25 @@ module incircle_core_logic$counters$visits$root_visits(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$visits$root_visits
+
+
+module incircle_core_logic$counters$visits$root_visits$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$root_visits$counts
 
 
 module incircle_core_logic$counters$visits$root_visits$word(d,q,clock);
@@ -3339,6 +4594,9 @@ module incircle_core_logic$counters$visits$tests(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -3347,6 +4605,11 @@ module incircle_core_logic$counters$visits$tests(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$tests$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$visits$tests$word word(
         .d(word$d),
         .q(word$q),
@@ -3355,11 +4618,14 @@ module incircle_core_logic$counters$visits$tests(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -3368,6 +4634,25 @@ module incircle_core_logic$counters$visits$tests(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$visits$tests
+
+
+module incircle_core_logic$counters$visits$tests$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$tests$counts
 
 
 module incircle_core_logic$counters$visits$tests$word(d,q,clock);
@@ -3417,6 +4702,9 @@ module incircle_core_logic$counters$visits$waiting_tokens(clock,zero,count,value
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -3425,6 +4713,11 @@ module incircle_core_logic$counters$visits$waiting_tokens(clock,zero,count,value
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$waiting_tokens$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$visits$waiting_tokens$word word(
         .d(word$d),
         .q(word$q),
@@ -3433,11 +4726,14 @@ module incircle_core_logic$counters$visits$waiting_tokens(clock,zero,count,value
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -3446,6 +4742,25 @@ module incircle_core_logic$counters$visits$waiting_tokens(clock,zero,count,value
     end
     
 endmodule // incircle_core_logic$counters$visits$waiting_tokens
+
+
+module incircle_core_logic$counters$visits$waiting_tokens$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$waiting_tokens$counts
 
 
 module incircle_core_logic$counters$visits$waiting_tokens$word(d,q,clock);
@@ -3476,6 +4791,9 @@ module incircle_core_logic$counters$visits$walk_visits(clock,zero,count,value);
     output reg  [31:0] value;
     
     // Stub signals
+    reg  counts$d;
+    wire  counts$q;
+    reg  counts$clock;
     reg  [31:0] word$d;
     wire  [31:0] word$q;
     reg  word$clock;
@@ -3484,6 +4802,11 @@ module incircle_core_logic$counters$visits$walk_visits(clock,zero,count,value);
     reg  [31:0] one;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$walk_visits$counts counts(
+        .d(counts$d),
+        .q(counts$q),
+        .clock(counts$clock)
+    );
     incircle_core_logic$counters$visits$walk_visits$word word(
         .d(word$d),
         .q(word$q),
@@ -3492,11 +4815,14 @@ module incircle_core_logic$counters$visits$walk_visits(clock,zero,count,value);
     
     // Update code
     always @(*) begin
+        counts$clock = clock;
         word$clock = clock;
+        counts$d = counts$q;
         word$d = word$q;
         one = 32'h1;
         value = word$q;
-        if (count) begin
+        counts$d = count;
+        if (counts$q) begin
             word$d = word$q + one;
         end
         if (zero) begin
@@ -3505,6 +4831,25 @@ module incircle_core_logic$counters$visits$walk_visits(clock,zero,count,value);
     end
     
 endmodule // incircle_core_logic$counters$visits$walk_visits
+
+
+module incircle_core_logic$counters$visits$walk_visits$counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$walk_visits$counts
 
 
 module incircle_core_logic$counters$visits$walk_visits$word(d,q,clock);
@@ -3524,6 +4869,25 @@ module incircle_core_logic$counters$visits$walk_visits$word(d,q,clock);
     end
           
 endmodule // incircle_core_logic$counters$visits$walk_visits$word
+
+
+module incircle_core_logic$counters$zeroes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$zeroes
 
 
 module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience,contexts,clears,came,came_id,point,arrived,read,read_id,now,seeded,collinear,records,is_quiet,stuck,sweeps,read_done,v0,v1,v2,n0,n1,n2,was_set,write,events);
@@ -5654,24 +7018,6 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
     reg  [4:0] list_owner$d;
     wire  [4:0] list_owner$q;
     reg  list_owner$clock;
-    reg  edge_comes$d;
-    wire  edge_comes$q;
-    reg  edge_comes$clock;
-    reg  [5:0] edge_place$d;
-    wire  [5:0] edge_place$q;
-    reg  edge_place$clock;
-    reg  [52:0] found_edge$d;
-    wire  [52:0] found_edge$q;
-    reg  found_edge$clock;
-    reg  inner_comes$d;
-    wire  inner_comes$q;
-    reg  inner_comes$clock;
-    reg  [5:0] inner_at$d;
-    wire  [5:0] inner_at$q;
-    reg  inner_at$clock;
-    reg  [14:0] inner$d;
-    wire  [14:0] inner$q;
-    reg  inner$clock;
     reg  lock_comes$d;
     wire  lock_comes$q;
     reg  lock_comes$clock;
@@ -5746,36 +7092,6 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
         .q(list_owner$q),
         .clock(list_owner$clock)
     );
-    incircle_core_logic$engine$insertions$commits$edge_comes edge_comes(
-        .d(edge_comes$d),
-        .q(edge_comes$q),
-        .clock(edge_comes$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$edge_place edge_place(
-        .d(edge_place$d),
-        .q(edge_place$q),
-        .clock(edge_place$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$found_edge found_edge(
-        .d(found_edge$d),
-        .q(found_edge$q),
-        .clock(found_edge$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$inner_comes inner_comes(
-        .d(inner_comes$d),
-        .q(inner_comes$q),
-        .clock(inner_comes$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$inner_at inner_at(
-        .d(inner_at$d),
-        .q(inner_at$q),
-        .clock(inner_at$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$inner inner(
-        .d(inner$d),
-        .q(inner$q),
-        .clock(inner$clock)
-    );
     incircle_core_logic$engine$insertions$commits$lock_comes lock_comes(
         .d(lock_comes$d),
         .q(lock_comes$q),
@@ -5795,19 +7111,7 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
     // Update code
     always @(*) begin
         list_owner$clock = clock;
-        edge_comes$clock = clock;
-        edge_place$clock = clock;
-        found_edge$clock = clock;
-        inner_comes$clock = clock;
-        inner_at$clock = clock;
-        inner$clock = clock;
         list_owner$d = list_owner$q;
-        edge_comes$d = edge_comes$q;
-        edge_place$d = edge_place$q;
-        found_edge$d = found_edge$q;
-        inner_comes$d = inner_comes$q;
-        inner_at$d = inner_at$q;
-        inner$d = inner$q;
         lock_comes$clock = clock;
         lock_at$clock = clock;
         lock$clock = clock;
@@ -5818,32 +7122,26 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
         commit$clock = clock;
         lock_release$clock = clock;
         list_owner$d = owner;
-        edge_comes$d = entry_enable;
-        edge_place$d = entry_place;
-        found_edge$d = entry;
-        inner_comes$d = inner_enable;
-        inner_at$d = inner_place;
-        inner$d = inner_id;
         lock_comes$d = lock_enable;
         lock_at$d = lock_place;
         lock$d = lock_id;
         rings$reset = reset;
         commit$reset = reset;
         lock_release$reset = reset;
-        rings$entry_enable = edge_comes$q;
-        rings$entry_owner = list_owner$q;
-        rings$entry_place = edge_place$q;
-        rings$entry = found_edge$q;
+        rings$entry_enable = entry_enable;
+        rings$entry_owner = owner;
+        rings$entry_place = entry_place;
+        rings$entry = entry;
         rings$job_enable = commit_enable;
         rings$job = commit_job;
         rings$takes = commit$takes;
         commit$clears = clears;
         commit$seeds = seeds;
         commit$solo_inserts = solo_inserts;
-        commit$inner_enable = inner_comes$q;
-        commit$inner_owner = list_owner$q;
-        commit$inner_place = inner_at$q;
-        commit$inner_id = inner$q;
+        commit$inner_enable = inner_enable;
+        commit$inner_owner = owner;
+        commit$inner_place = inner_place;
+        commit$inner_id = inner_id;
         commit$head_valid = rings$head_valid;
         commit$head = rings$head;
         commit$head_is_last = rings$head_is_last;
@@ -7525,120 +8823,6 @@ module incircle_core_logic$engine$insertions$commits$commit$wants(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$commits$commit$wants
 
 
-module incircle_core_logic$engine$insertions$commits$edge_comes(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$edge_comes
-
-
-module incircle_core_logic$engine$insertions$commits$edge_place(d,q,clock);
-    
-    // Module arguments
-    input wire  [5:0] d;
-    output reg  [5:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 6'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$edge_place
-
-
-module incircle_core_logic$engine$insertions$commits$found_edge(d,q,clock);
-    
-    // Module arguments
-    input wire  [52:0] d;
-    output reg  [52:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 53'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$found_edge
-
-
-module incircle_core_logic$engine$insertions$commits$inner(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$inner
-
-
-module incircle_core_logic$engine$insertions$commits$inner_at(d,q,clock);
-    
-    // Module arguments
-    input wire  [5:0] d;
-    output reg  [5:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 6'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$inner_at
-
-
-module incircle_core_logic$engine$insertions$commits$inner_comes(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$inner_comes
-
-
 module incircle_core_logic$engine$insertions$commits$list_owner(d,q,clock);
     
     // Module arguments
@@ -8160,6 +9344,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits(clock,
     output reg  waits;
     output reg  [11:0] head;
     
+    // Constant declarations
+    localparam  one = 5'b1;
+    localparam  nothing = 5'b0;
+    
     // Stub signals
     reg  arrived$d;
     wire  arrived$q;
@@ -8167,13 +9355,27 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits(clock,
     reg  [11:0] arrival$d;
     wire  [11:0] arrival$q;
     reg  arrival$clock;
-    reg  queue$clock;
-    reg  queue$reset;
-    reg  queue$push;
-    reg  [11:0] queue$push_data;
-    reg  queue$pop;
-    wire  queue$valid;
-    wire  [11:0] queue$data;
+    reg  jobs$clock;
+    reg  [4:0] jobs$write_address;
+    reg  [11:0] jobs$write_data;
+    reg  jobs$write_enable;
+    reg  [4:0] jobs$read_address;
+    wire  [11:0] jobs$read_data;
+    reg  holds_jobs$d;
+    wire  holds_jobs$q;
+    reg  holds_jobs$clock;
+    reg  [4:0] newest$d;
+    wire  [4:0] newest$q;
+    reg  newest$clock;
+    reg  [4:0] oldest$d;
+    wire  [4:0] oldest$q;
+    reg  oldest$clock;
+    
+    // Local signals
+    reg  pops;
+    reg  [4:0] after_newest;
+    reg  [4:0] after_oldest;
+    reg  more_wait;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$commits$lock_release$commits$arrived arrived(
@@ -8186,31 +9388,73 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits(clock,
         .q(arrival$q),
         .clock(arrival$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$queue queue(
-        .clock(queue$clock),
-        .reset(queue$reset),
-        .push(queue$push),
-        .push_data(queue$push_data),
-        .pop(queue$pop),
-        .valid(queue$valid),
-        .data(queue$data)
+    incircle_core_logic$engine$insertions$commits$lock_release$commits$jobs jobs(
+        .clock(jobs$clock),
+        .write_address(jobs$write_address),
+        .write_data(jobs$write_data),
+        .write_enable(jobs$write_enable),
+        .read_address(jobs$read_address),
+        .read_data(jobs$read_data)
+    );
+    incircle_core_logic$engine$insertions$commits$lock_release$commits$holds_jobs holds_jobs(
+        .d(holds_jobs$d),
+        .q(holds_jobs$q),
+        .clock(holds_jobs$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$lock_release$commits$newest newest(
+        .d(newest$d),
+        .q(newest$q),
+        .clock(newest$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$lock_release$commits$oldest oldest(
+        .d(oldest$d),
+        .q(oldest$q),
+        .clock(oldest$clock)
     );
     
     // Update code
     always @(*) begin
         arrived$clock = clock;
         arrival$clock = clock;
+        holds_jobs$clock = clock;
+        newest$clock = clock;
+        oldest$clock = clock;
         arrived$d = arrived$q;
         arrival$d = arrival$q;
-        queue$clock = clock;
+        holds_jobs$d = holds_jobs$q;
+        newest$d = newest$q;
+        oldest$d = oldest$q;
+        jobs$clock = clock;
         arrived$d = enable & (~reset);
         arrival$d = job;
-        queue$reset = reset;
-        queue$push = arrived$q;
-        queue$push_data = arrival$q;
-        waits = queue$valid;
-        head = queue$data;
-        queue$pop = takes & queue$valid;
+        after_newest = newest$q + one;
+        after_oldest = oldest$q + one;
+        more_wait = after_oldest != newest$q;
+        waits = holds_jobs$q | arrived$q;
+        pops = takes & waits;
+        jobs$read_address = oldest$q;
+        head = arrival$q;
+        if (holds_jobs$q) begin
+            head = jobs$read_data;
+        end
+        jobs$write_address = newest$q;
+        jobs$write_data = arrival$q;
+        jobs$write_enable = arrived$q;
+        if (arrived$q) begin
+            newest$d = after_newest;
+            holds_jobs$d = holds_jobs$q | (~pops);
+        end
+        if (pops) begin
+            oldest$d = after_oldest;
+            if (~arrived$q) begin
+                holds_jobs$d = more_wait;
+            end
+        end
+        if (reset) begin
+            holds_jobs$d = 1'b0;
+            newest$d = nothing;
+            oldest$d = nothing;
+        end
     end
     
 endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits
@@ -8254,115 +9498,26 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits$arrive
 endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$arrived
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$queue(clock,reset,push,push_data,pop,valid,data);
+module incircle_core_logic$engine$insertions$commits$lock_release$commits$holds_jobs(d,q,clock);
     
     // Module arguments
+    input wire  d;
+    output reg  q;
     input wire  clock;
-    input wire  reset;
-    input wire  push;
-    input wire  [11:0] push_data;
-    input wire  pop;
-    output reg  valid;
-    output reg  [11:0] data;
     
-    // Constant declarations
-    localparam  one = 5'b1;
-    localparam  nothing = 5'b0;
-    localparam  kept_bits = 12'hfff;
-    
-    // Stub signals
-    reg  entries$clock;
-    reg  [4:0] entries$write_address;
-    reg  [11:0] entries$write_data;
-    reg  entries$write_enable;
-    reg  [4:0] entries$read_address;
-    wire  [11:0] entries$read_data;
-    reg  holds_entries$d;
-    wire  holds_entries$q;
-    reg  holds_entries$clock;
-    reg  [4:0] newest$d;
-    wire  [4:0] newest$q;
-    reg  newest$clock;
-    reg  [4:0] oldest$d;
-    wire  [4:0] oldest$q;
-    reg  oldest$clock;
-    
-    // Local signals
-    reg  passes;
-    reg  stores;
-    reg  [4:0] after_newest;
-    reg  [4:0] after_oldest;
-    
-    // Sub module instances
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$entries entries(
-        .clock(entries$clock),
-        .write_address(entries$write_address),
-        .write_data(entries$write_data),
-        .write_enable(entries$write_enable),
-        .read_address(entries$read_address),
-        .read_data(entries$read_data)
-    );
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$holds_entries holds_entries(
-        .d(holds_entries$d),
-        .q(holds_entries$q),
-        .clock(holds_entries$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$newest newest(
-        .d(newest$d),
-        .q(newest$q),
-        .clock(newest$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$oldest oldest(
-        .d(oldest$d),
-        .q(oldest$q),
-        .clock(oldest$clock)
-    );
-    
-    // Update code
-    always @(*) begin
-        holds_entries$clock = clock;
-        newest$clock = clock;
-        oldest$clock = clock;
-        holds_entries$d = holds_entries$q;
-        newest$d = newest$q;
-        oldest$d = oldest$q;
-        entries$clock = clock;
-        after_newest = newest$q + one;
-        after_oldest = oldest$q + one;
-        entries$read_address = oldest$q;
-        valid = holds_entries$q | push;
-        if (holds_entries$q) begin
-            data = entries$read_data;
-        end
-        else begin
-            data = push_data & kept_bits;
-        end
-        passes = (~holds_entries$q) & pop;
-        stores = push & (~passes);
-        entries$write_address = newest$q;
-        entries$write_data = push_data;
-        entries$write_enable = stores;
-        if (stores) begin
-            newest$d = after_newest;
-            holds_entries$d = 1'b1;
-        end
-        if (pop & holds_entries$q) begin
-            oldest$d = after_oldest;
-            if (~stores) begin
-                holds_entries$d = after_oldest != newest$q;
-            end
-        end
-        if (reset) begin
-            holds_entries$d = 1'b0;
-            newest$d = nothing;
-            oldest$d = nothing;
-        end
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
     end
     
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$queue
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$holds_jobs
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$commits$lock_release$commits$jobs(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -8382,29 +9537,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$
         if (write_enable) memory[write_address[1:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$entries
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$jobs
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$holds_entries(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$holds_entries
-
-
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$newest(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$lock_release$commits$newest(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -8420,10 +9556,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$newest
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$newest
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$oldest(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$lock_release$commits$oldest(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -8439,7 +9575,7 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$queue$oldest
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$oldest
 
 
 module incircle_core_logic$engine$insertions$commits$lock_release$failures(clock,reset,enable,job,takes,waits,head);
@@ -8453,6 +9589,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures(clock
     output reg  waits;
     output reg  [11:0] head;
     
+    // Constant declarations
+    localparam  one = 5'b1;
+    localparam  nothing = 5'b0;
+    
     // Stub signals
     reg  arrived$d;
     wire  arrived$q;
@@ -8460,13 +9600,27 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures(clock
     reg  [11:0] arrival$d;
     wire  [11:0] arrival$q;
     reg  arrival$clock;
-    reg  queue$clock;
-    reg  queue$reset;
-    reg  queue$push;
-    reg  [11:0] queue$push_data;
-    reg  queue$pop;
-    wire  queue$valid;
-    wire  [11:0] queue$data;
+    reg  jobs$clock;
+    reg  [4:0] jobs$write_address;
+    reg  [11:0] jobs$write_data;
+    reg  jobs$write_enable;
+    reg  [4:0] jobs$read_address;
+    wire  [11:0] jobs$read_data;
+    reg  holds_jobs$d;
+    wire  holds_jobs$q;
+    reg  holds_jobs$clock;
+    reg  [4:0] newest$d;
+    wire  [4:0] newest$q;
+    reg  newest$clock;
+    reg  [4:0] oldest$d;
+    wire  [4:0] oldest$q;
+    reg  oldest$clock;
+    
+    // Local signals
+    reg  pops;
+    reg  [4:0] after_newest;
+    reg  [4:0] after_oldest;
+    reg  more_wait;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$commits$lock_release$failures$arrived arrived(
@@ -8479,31 +9633,73 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures(clock
         .q(arrival$q),
         .clock(arrival$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$queue queue(
-        .clock(queue$clock),
-        .reset(queue$reset),
-        .push(queue$push),
-        .push_data(queue$push_data),
-        .pop(queue$pop),
-        .valid(queue$valid),
-        .data(queue$data)
+    incircle_core_logic$engine$insertions$commits$lock_release$failures$jobs jobs(
+        .clock(jobs$clock),
+        .write_address(jobs$write_address),
+        .write_data(jobs$write_data),
+        .write_enable(jobs$write_enable),
+        .read_address(jobs$read_address),
+        .read_data(jobs$read_data)
+    );
+    incircle_core_logic$engine$insertions$commits$lock_release$failures$holds_jobs holds_jobs(
+        .d(holds_jobs$d),
+        .q(holds_jobs$q),
+        .clock(holds_jobs$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$lock_release$failures$newest newest(
+        .d(newest$d),
+        .q(newest$q),
+        .clock(newest$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$lock_release$failures$oldest oldest(
+        .d(oldest$d),
+        .q(oldest$q),
+        .clock(oldest$clock)
     );
     
     // Update code
     always @(*) begin
         arrived$clock = clock;
         arrival$clock = clock;
+        holds_jobs$clock = clock;
+        newest$clock = clock;
+        oldest$clock = clock;
         arrived$d = arrived$q;
         arrival$d = arrival$q;
-        queue$clock = clock;
+        holds_jobs$d = holds_jobs$q;
+        newest$d = newest$q;
+        oldest$d = oldest$q;
+        jobs$clock = clock;
         arrived$d = enable & (~reset);
         arrival$d = job;
-        queue$reset = reset;
-        queue$push = arrived$q;
-        queue$push_data = arrival$q;
-        waits = queue$valid;
-        head = queue$data;
-        queue$pop = takes & queue$valid;
+        after_newest = newest$q + one;
+        after_oldest = oldest$q + one;
+        more_wait = after_oldest != newest$q;
+        waits = holds_jobs$q | arrived$q;
+        pops = takes & waits;
+        jobs$read_address = oldest$q;
+        head = arrival$q;
+        if (holds_jobs$q) begin
+            head = jobs$read_data;
+        end
+        jobs$write_address = newest$q;
+        jobs$write_data = arrival$q;
+        jobs$write_enable = arrived$q;
+        if (arrived$q) begin
+            newest$d = after_newest;
+            holds_jobs$d = holds_jobs$q | (~pops);
+        end
+        if (pops) begin
+            oldest$d = after_oldest;
+            if (~arrived$q) begin
+                holds_jobs$d = more_wait;
+            end
+        end
+        if (reset) begin
+            holds_jobs$d = 1'b0;
+            newest$d = nothing;
+            oldest$d = nothing;
+        end
     end
     
 endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures
@@ -8547,115 +9743,26 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures$arriv
 endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$arrived
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$queue(clock,reset,push,push_data,pop,valid,data);
+module incircle_core_logic$engine$insertions$commits$lock_release$failures$holds_jobs(d,q,clock);
     
     // Module arguments
+    input wire  d;
+    output reg  q;
     input wire  clock;
-    input wire  reset;
-    input wire  push;
-    input wire  [11:0] push_data;
-    input wire  pop;
-    output reg  valid;
-    output reg  [11:0] data;
     
-    // Constant declarations
-    localparam  one = 5'b1;
-    localparam  nothing = 5'b0;
-    localparam  kept_bits = 12'hfff;
-    
-    // Stub signals
-    reg  entries$clock;
-    reg  [4:0] entries$write_address;
-    reg  [11:0] entries$write_data;
-    reg  entries$write_enable;
-    reg  [4:0] entries$read_address;
-    wire  [11:0] entries$read_data;
-    reg  holds_entries$d;
-    wire  holds_entries$q;
-    reg  holds_entries$clock;
-    reg  [4:0] newest$d;
-    wire  [4:0] newest$q;
-    reg  newest$clock;
-    reg  [4:0] oldest$d;
-    wire  [4:0] oldest$q;
-    reg  oldest$clock;
-    
-    // Local signals
-    reg  passes;
-    reg  stores;
-    reg  [4:0] after_newest;
-    reg  [4:0] after_oldest;
-    
-    // Sub module instances
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$entries entries(
-        .clock(entries$clock),
-        .write_address(entries$write_address),
-        .write_data(entries$write_data),
-        .write_enable(entries$write_enable),
-        .read_address(entries$read_address),
-        .read_data(entries$read_data)
-    );
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$holds_entries holds_entries(
-        .d(holds_entries$d),
-        .q(holds_entries$q),
-        .clock(holds_entries$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$newest newest(
-        .d(newest$d),
-        .q(newest$q),
-        .clock(newest$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$oldest oldest(
-        .d(oldest$d),
-        .q(oldest$q),
-        .clock(oldest$clock)
-    );
-    
-    // Update code
-    always @(*) begin
-        holds_entries$clock = clock;
-        newest$clock = clock;
-        oldest$clock = clock;
-        holds_entries$d = holds_entries$q;
-        newest$d = newest$q;
-        oldest$d = oldest$q;
-        entries$clock = clock;
-        after_newest = newest$q + one;
-        after_oldest = oldest$q + one;
-        entries$read_address = oldest$q;
-        valid = holds_entries$q | push;
-        if (holds_entries$q) begin
-            data = entries$read_data;
-        end
-        else begin
-            data = push_data & kept_bits;
-        end
-        passes = (~holds_entries$q) & pop;
-        stores = push & (~passes);
-        entries$write_address = newest$q;
-        entries$write_data = push_data;
-        entries$write_enable = stores;
-        if (stores) begin
-            newest$d = after_newest;
-            holds_entries$d = 1'b1;
-        end
-        if (pop & holds_entries$q) begin
-            oldest$d = after_oldest;
-            if (~stores) begin
-                holds_entries$d = after_oldest != newest$q;
-            end
-        end
-        if (reset) begin
-            holds_entries$d = 1'b0;
-            newest$d = nothing;
-            oldest$d = nothing;
-        end
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
     end
     
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$queue
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$holds_jobs
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$commits$lock_release$failures$jobs(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -8675,29 +9782,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures$queue
         if (write_enable) memory[write_address[1:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$entries
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$jobs
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$holds_entries(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$holds_entries
-
-
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$newest(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$lock_release$failures$newest(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -8713,10 +9801,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures$queue
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$newest
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$newest
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$oldest(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$lock_release$failures$oldest(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -8732,7 +9820,7 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures$queue
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$queue$oldest
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$oldest
 
 
 module incircle_core_logic$engine$insertions$commits$lock_release$is_last(d,q,clock);
@@ -10155,6 +11243,10 @@ module incircle_core_logic$engine$insertions$commits$rings$rings(clock,reset,ena
     output reg  waits;
     output reg  [55:0] head;
     
+    // Constant declarations
+    localparam  one = 5'b1;
+    localparam  nothing = 5'b0;
+    
     // Stub signals
     reg  arrived$d;
     wire  arrived$q;
@@ -10162,13 +11254,27 @@ module incircle_core_logic$engine$insertions$commits$rings$rings(clock,reset,ena
     reg  [55:0] arrival$d;
     wire  [55:0] arrival$q;
     reg  arrival$clock;
-    reg  queue$clock;
-    reg  queue$reset;
-    reg  queue$push;
-    reg  [55:0] queue$push_data;
-    reg  queue$pop;
-    wire  queue$valid;
-    wire  [55:0] queue$data;
+    reg  jobs$clock;
+    reg  [4:0] jobs$write_address;
+    reg  [55:0] jobs$write_data;
+    reg  jobs$write_enable;
+    reg  [4:0] jobs$read_address;
+    wire  [55:0] jobs$read_data;
+    reg  holds_jobs$d;
+    wire  holds_jobs$q;
+    reg  holds_jobs$clock;
+    reg  [4:0] newest$d;
+    wire  [4:0] newest$q;
+    reg  newest$clock;
+    reg  [4:0] oldest$d;
+    wire  [4:0] oldest$q;
+    reg  oldest$clock;
+    
+    // Local signals
+    reg  pops;
+    reg  [4:0] after_newest;
+    reg  [4:0] after_oldest;
+    reg  more_wait;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$commits$rings$rings$arrived arrived(
@@ -10181,31 +11287,73 @@ module incircle_core_logic$engine$insertions$commits$rings$rings(clock,reset,ena
         .q(arrival$q),
         .clock(arrival$clock)
     );
-    incircle_core_logic$engine$insertions$commits$rings$rings$queue queue(
-        .clock(queue$clock),
-        .reset(queue$reset),
-        .push(queue$push),
-        .push_data(queue$push_data),
-        .pop(queue$pop),
-        .valid(queue$valid),
-        .data(queue$data)
+    incircle_core_logic$engine$insertions$commits$rings$rings$jobs jobs(
+        .clock(jobs$clock),
+        .write_address(jobs$write_address),
+        .write_data(jobs$write_data),
+        .write_enable(jobs$write_enable),
+        .read_address(jobs$read_address),
+        .read_data(jobs$read_data)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$rings$holds_jobs holds_jobs(
+        .d(holds_jobs$d),
+        .q(holds_jobs$q),
+        .clock(holds_jobs$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$rings$newest newest(
+        .d(newest$d),
+        .q(newest$q),
+        .clock(newest$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$rings$oldest oldest(
+        .d(oldest$d),
+        .q(oldest$q),
+        .clock(oldest$clock)
     );
     
     // Update code
     always @(*) begin
         arrived$clock = clock;
         arrival$clock = clock;
+        holds_jobs$clock = clock;
+        newest$clock = clock;
+        oldest$clock = clock;
         arrived$d = arrived$q;
         arrival$d = arrival$q;
-        queue$clock = clock;
+        holds_jobs$d = holds_jobs$q;
+        newest$d = newest$q;
+        oldest$d = oldest$q;
+        jobs$clock = clock;
         arrived$d = enable & (~reset);
         arrival$d = job;
-        queue$reset = reset;
-        queue$push = arrived$q;
-        queue$push_data = arrival$q;
-        waits = queue$valid;
-        head = queue$data;
-        queue$pop = takes & queue$valid;
+        after_newest = newest$q + one;
+        after_oldest = oldest$q + one;
+        more_wait = after_oldest != newest$q;
+        waits = holds_jobs$q | arrived$q;
+        pops = takes & waits;
+        jobs$read_address = oldest$q;
+        head = arrival$q;
+        if (holds_jobs$q) begin
+            head = jobs$read_data;
+        end
+        jobs$write_address = newest$q;
+        jobs$write_data = arrival$q;
+        jobs$write_enable = arrived$q;
+        if (arrived$q) begin
+            newest$d = after_newest;
+            holds_jobs$d = holds_jobs$q | (~pops);
+        end
+        if (pops) begin
+            oldest$d = after_oldest;
+            if (~arrived$q) begin
+                holds_jobs$d = more_wait;
+            end
+        end
+        if (reset) begin
+            holds_jobs$d = 1'b0;
+            newest$d = nothing;
+            oldest$d = nothing;
+        end
     end
     
 endmodule // incircle_core_logic$engine$insertions$commits$rings$rings
@@ -10249,115 +11397,26 @@ module incircle_core_logic$engine$insertions$commits$rings$rings$arrived(d,q,clo
 endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$arrived
 
 
-module incircle_core_logic$engine$insertions$commits$rings$rings$queue(clock,reset,push,push_data,pop,valid,data);
+module incircle_core_logic$engine$insertions$commits$rings$rings$holds_jobs(d,q,clock);
     
     // Module arguments
+    input wire  d;
+    output reg  q;
     input wire  clock;
-    input wire  reset;
-    input wire  push;
-    input wire  [55:0] push_data;
-    input wire  pop;
-    output reg  valid;
-    output reg  [55:0] data;
     
-    // Constant declarations
-    localparam  one = 5'b1;
-    localparam  nothing = 5'b0;
-    localparam  kept_bits = 56'hffffffffffffff;
-    
-    // Stub signals
-    reg  entries$clock;
-    reg  [4:0] entries$write_address;
-    reg  [55:0] entries$write_data;
-    reg  entries$write_enable;
-    reg  [4:0] entries$read_address;
-    wire  [55:0] entries$read_data;
-    reg  holds_entries$d;
-    wire  holds_entries$q;
-    reg  holds_entries$clock;
-    reg  [4:0] newest$d;
-    wire  [4:0] newest$q;
-    reg  newest$clock;
-    reg  [4:0] oldest$d;
-    wire  [4:0] oldest$q;
-    reg  oldest$clock;
-    
-    // Local signals
-    reg  passes;
-    reg  stores;
-    reg  [4:0] after_newest;
-    reg  [4:0] after_oldest;
-    
-    // Sub module instances
-    incircle_core_logic$engine$insertions$commits$rings$rings$queue$entries entries(
-        .clock(entries$clock),
-        .write_address(entries$write_address),
-        .write_data(entries$write_data),
-        .write_enable(entries$write_enable),
-        .read_address(entries$read_address),
-        .read_data(entries$read_data)
-    );
-    incircle_core_logic$engine$insertions$commits$rings$rings$queue$holds_entries holds_entries(
-        .d(holds_entries$d),
-        .q(holds_entries$q),
-        .clock(holds_entries$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$rings$rings$queue$newest newest(
-        .d(newest$d),
-        .q(newest$q),
-        .clock(newest$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$rings$rings$queue$oldest oldest(
-        .d(oldest$d),
-        .q(oldest$q),
-        .clock(oldest$clock)
-    );
-    
-    // Update code
-    always @(*) begin
-        holds_entries$clock = clock;
-        newest$clock = clock;
-        oldest$clock = clock;
-        holds_entries$d = holds_entries$q;
-        newest$d = newest$q;
-        oldest$d = oldest$q;
-        entries$clock = clock;
-        after_newest = newest$q + one;
-        after_oldest = oldest$q + one;
-        entries$read_address = oldest$q;
-        valid = holds_entries$q | push;
-        if (holds_entries$q) begin
-            data = entries$read_data;
-        end
-        else begin
-            data = push_data & kept_bits;
-        end
-        passes = (~holds_entries$q) & pop;
-        stores = push & (~passes);
-        entries$write_address = newest$q;
-        entries$write_data = push_data;
-        entries$write_enable = stores;
-        if (stores) begin
-            newest$d = after_newest;
-            holds_entries$d = 1'b1;
-        end
-        if (pop & holds_entries$q) begin
-            oldest$d = after_oldest;
-            if (~stores) begin
-                holds_entries$d = after_oldest != newest$q;
-            end
-        end
-        if (reset) begin
-            holds_entries$d = 1'b0;
-            newest$d = nothing;
-            oldest$d = nothing;
-        end
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
     end
     
-endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$queue
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$holds_jobs
 
 
-module incircle_core_logic$engine$insertions$commits$rings$rings$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$commits$rings$rings$jobs(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -10377,29 +11436,10 @@ module incircle_core_logic$engine$insertions$commits$rings$rings$queue$entries(c
         if (write_enable) memory[write_address[1:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$queue$entries
+endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$jobs
 
 
-module incircle_core_logic$engine$insertions$commits$rings$rings$queue$holds_entries(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$queue$holds_entries
-
-
-module incircle_core_logic$engine$insertions$commits$rings$rings$queue$newest(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$rings$rings$newest(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -10415,10 +11455,10 @@ module incircle_core_logic$engine$insertions$commits$rings$rings$queue$newest(d,
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$queue$newest
+endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$newest
 
 
-module incircle_core_logic$engine$insertions$commits$rings$rings$queue$oldest(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$rings$rings$oldest(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -10434,7 +11474,7 @@ module incircle_core_logic$engine$insertions$commits$rings$rings$queue$oldest(d,
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$queue$oldest
+endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$oldest
 
 
 module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,contexts,arrived,came,seeded,collinear,is_seeding,seeds,owner,sleeps,keeps,hands_over,asks_to_wait,waits,stops_waiting,overflows,duplicate,root_enable,root,pushes,commit_ends,commit_owner,hint,released,released_owner,solo_is_at_work,solo_ends,starts,starter,u,takes,taken_id,position_enable,position_owner,busy,waiter_valid,waiter,solo_starts,solo_owner,solo_p,takes_token,is_quiet,stuck);
@@ -11223,15 +12263,23 @@ module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,cle
     reg  [14:0] finished$d;
     wire  [14:0] finished$q;
     reg  finished$clock;
+    reg  [1:0] more$d;
+    wire  [1:0] more$q;
+    reg  more$clock;
+    reg  starts$d;
+    wire  starts$q;
+    reg  starts$clock;
+    reg  is_behind$d;
+    wire  is_behind$q;
+    reg  is_behind$clock;
+    reg  has_triple$d;
+    wire  has_triple$q;
+    reg  has_triple$clock;
     
     // Local signals
     reg  inserts;
-    reg  all_are_finished;
-    reg  is_too_few;
     reg  has_no_start;
-    reg  [14:0] by_commit;
-    reg  [14:0] by_duplicate;
-    reg  [14:0] with_commit;
+    reg  [14:0] wide_more;
     reg  [14:0] three;
     
     // Sub module instances
@@ -11240,33 +12288,67 @@ module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,cle
         .q(finished$q),
         .clock(finished$clock)
     );
+    incircle_core_logic$engine$insertions$dispatcher$progress$more more(
+        .d(more$d),
+        .q(more$q),
+        .clock(more$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$progress$starts starts(
+        .d(starts$d),
+        .q(starts$q),
+        .clock(starts$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$progress$is_behind is_behind(
+        .d(is_behind$d),
+        .q(is_behind$q),
+        .clock(is_behind$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$progress$has_triple has_triple(
+        .d(has_triple$d),
+        .q(has_triple$q),
+        .clock(has_triple$clock)
+    );
     
     // Update code
     always @(*) begin
         finished$clock = clock;
+        more$clock = clock;
+        starts$clock = clock;
+        is_behind$clock = clock;
+        has_triple$clock = clock;
         finished$d = finished$q;
+        more$d = more$q;
+        starts$d = starts$q;
+        is_behind$d = is_behind$q;
+        has_triple$d = has_triple$q;
         three = 32'h3;
         inserts = commit_ends | solo_ends;
         finishes = inserts | duplicate | seeds;
-        all_are_finished = finished$q == arrived;
-        is_too_few = arrived < three;
-        has_no_start = (is_too_few | collinear) & (~is_seeding);
-        is_quiet = (all_are_finished | has_no_start) & all_rest;
-        by_commit = 32'h0;
-        by_duplicate = 32'h0;
-        if (inserts) begin
-            by_commit = 32'h1;
+        is_behind$d = finished$q != arrived;
+        has_triple$d = arrived >= three;
+        has_no_start = ((~has_triple$q) | collinear) & (~is_seeding);
+        is_quiet = ((~is_behind$q) | has_no_start) & all_rest;
+        starts$d = seeds;
+        more$d = 32'h0;
+        if (inserts | duplicate) begin
+            more$d = 32'h1;
         end
-        if (duplicate) begin
-            by_duplicate = 32'h1;
+        if (inserts & duplicate) begin
+            more$d = 32'h2;
         end
-        with_commit = finished$q + by_commit;
-        finished$d = with_commit + by_duplicate;
-        if (seeds) begin
+        wide_more = ((more$q) & 15'h7fff);
+        finished$d = finished$q + wide_more;
+        if (starts$q) begin
             finished$d = 32'h3;
         end
         if (reset | clears) begin
+            starts$d = 1'b0;
+            more$d = 32'h0;
             finished$d = 32'h0;
+        end
+        if (reset) begin
+            is_behind$d = 1'b0;
+            has_triple$d = 1'b0;
         end
     end
     
@@ -11290,6 +12372,82 @@ module incircle_core_logic$engine$insertions$dispatcher$progress$finished(d,q,cl
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$finished
+
+
+module incircle_core_logic$engine$insertions$dispatcher$progress$has_triple(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$has_triple
+
+
+module incircle_core_logic$engine$insertions$dispatcher$progress$is_behind(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$is_behind
+
+
+module incircle_core_logic$engine$insertions$dispatcher$progress$more(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$more
+
+
+module incircle_core_logic$engine$insertions$dispatcher$progress$starts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$starts
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears,contexts,arrived,came,seeded,asleep,keeping,busy,began,hinted,solo_valid,is_urgent,waiter,solo_owner,solo_is_at_work,all_rest,is_blocked,root_enable,root_owner,root,hint_enable,hint_owner,hint,starts,owner,u,takes,taken_id,solo_starts,solo_p,position_enable,position_owner);
@@ -11986,9 +13144,15 @@ module incircle_core_logic$engine$insertions$dispatcher$watchdog(clock,reset,fin
     output reg  stuck;
     
     // Stub signals
+    reg  rests$d;
+    wire  rests$q;
+    reg  rests$clock;
     reg  [21:0] clocks$d;
     wire  [21:0] clocks$q;
     reg  clocks$clock;
+    reg  is_over$d;
+    wire  is_over$q;
+    reg  is_over$clock;
     reg  is_stuck$d;
     wire  is_stuck$q;
     reg  is_stuck$clock;
@@ -11997,10 +13161,20 @@ module incircle_core_logic$engine$insertions$dispatcher$watchdog(clock,reset,fin
     reg  [21:0] one;
     
     // Sub module instances
+    incircle_core_logic$engine$insertions$dispatcher$watchdog$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
     incircle_core_logic$engine$insertions$dispatcher$watchdog$clocks clocks(
         .d(clocks$d),
         .q(clocks$q),
         .clock(clocks$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$watchdog$is_over is_over(
+        .d(is_over$d),
+        .q(is_over$q),
+        .clock(is_over$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$watchdog$is_stuck is_stuck(
         .d(is_stuck$d),
@@ -12010,21 +13184,29 @@ module incircle_core_logic$engine$insertions$dispatcher$watchdog(clock,reset,fin
     
     // Update code
     always @(*) begin
+        rests$clock = clock;
         clocks$clock = clock;
+        is_over$clock = clock;
         is_stuck$clock = clock;
+        rests$d = rests$q;
         clocks$d = clocks$q;
+        is_over$d = is_over$q;
         is_stuck$d = is_stuck$q;
         one = 32'h1;
         stuck = is_stuck$q;
         clocks$d = clocks$q + one;
-        if (finishes | is_quiet) begin
+        rests$d = finishes | is_quiet;
+        is_over$d = clocks$q == patience;
+        if (rests$q) begin
             clocks$d = 32'h0;
         end
-        if (clocks$q == patience) begin
+        if (is_over$q) begin
             is_stuck$d = 1'b1;
         end
         if (reset) begin
+            rests$d = 1'b0;
             clocks$d = 32'h0;
+            is_over$d = 1'b0;
             is_stuck$d = 1'b0;
         end
     end
@@ -12051,6 +13233,25 @@ module incircle_core_logic$engine$insertions$dispatcher$watchdog$clocks(d,q,cloc
 endmodule // incircle_core_logic$engine$insertions$dispatcher$watchdog$clocks
 
 
+module incircle_core_logic$engine$insertions$dispatcher$watchdog$is_over(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$watchdog$is_over
+
+
 module incircle_core_logic$engine$insertions$dispatcher$watchdog$is_stuck(d,q,clock);
     
     // Module arguments
@@ -12068,6 +13269,25 @@ module incircle_core_logic$engine$insertions$dispatcher$watchdog$is_stuck(d,q,cl
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$watchdog$is_stuck
+
+
+module incircle_core_logic$engine$insertions$dispatcher$watchdog$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$watchdog$rests
 
 
 module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,records,position_owner,position,position_enable,is_issuing,done,token,turned,verdict,early_owner,early_entry,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,write,enables,vertex_id,vertex_position,vertex_enable,fetch_id,fetched,clear_id,clear_enable);
@@ -21740,12 +22960,22 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
     reg  [6:0] sweep_bucket$d;
     wire  [6:0] sweep_bucket$q;
     reg  sweep_bucket$clock;
+    reg  seeks$d;
+    wire  seeks$q;
+    reg  seeks$clock;
+    reg  finds$d;
+    wire  finds$q;
+    reg  finds$clock;
     reg  counts$d;
     wire  counts$q;
     reg  counts$clock;
     reg  [6:0] counted_bucket$d;
     wire  [6:0] counted_bucket$q;
     reg  counted_bucket$clock;
+    reg  [14:0] found$d;
+    wire  [14:0] found$q;
+    reg  found$clock;
+    reg  bucket$clock;
     reg  [21:0] bucket$latency;
     wire  [6:0] bucket$bucket;
     reg  memory$clock;
@@ -21771,6 +23001,16 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
         .q(sweep_bucket$q),
         .clock(sweep_bucket$clock)
     );
+    incircle_core_logic$latencies$seeks seeks(
+        .d(seeks$d),
+        .q(seeks$q),
+        .clock(seeks$clock)
+    );
+    incircle_core_logic$latencies$finds finds(
+        .d(finds$d),
+        .q(finds$q),
+        .clock(finds$clock)
+    );
     incircle_core_logic$latencies$counts counts(
         .d(counts$d),
         .q(counts$q),
@@ -21781,7 +23021,13 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
         .q(counted_bucket$q),
         .clock(counted_bucket$clock)
     );
+    incircle_core_logic$latencies$found found(
+        .d(found$d),
+        .q(found$q),
+        .clock(found$clock)
+    );
     incircle_core_logic$latencies$bucket bucket(
+        .clock(bucket$clock),
         .latency(bucket$latency),
         .bucket(bucket$bucket)
     );
@@ -21798,27 +23044,39 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
     always @(*) begin
         is_sweeping$clock = clock;
         sweep_bucket$clock = clock;
+        seeks$clock = clock;
+        finds$clock = clock;
         counts$clock = clock;
         counted_bucket$clock = clock;
+        found$clock = clock;
         is_sweeping$d = is_sweeping$q;
         sweep_bucket$d = sweep_bucket$q;
+        seeks$d = seeks$q;
+        finds$d = finds$q;
         counts$d = counts$q;
         counted_bucket$d = counted_bucket$q;
+        found$d = found$q;
+        bucket$clock = clock;
         memory$clock = clock;
         last_bucket = 32'h7f;
         one_bucket = 32'h1;
         one = 32'h1;
         sweeps = is_sweeping$q;
         bucket$latency = latency;
-        counts$d = comes;
-        counted_bucket$d = bucket$bucket;
+        seeks$d = comes;
+        finds$d = seeks$q;
+        if (seeks$q) begin
+            counted_bucket$d = bucket$bucket;
+        end
+        counts$d = finds$q;
         memory$read_address = select;
-        if (counts$q) begin
+        if (finds$q) begin
             memory$read_address = counted_bucket$q;
         end
-        value = ((memory$read_data) & 32'hffffffff);
+        found$d = memory$read_data;
+        value = ((found$q) & 32'hffffffff);
         memory$write_address = counted_bucket$q;
-        memory$write_data = memory$read_data + one;
+        memory$write_data = found$q + one;
         memory$write_enable = counts$q;
         if (is_sweeping$q) begin
             memory$write_address = sweep_bucket$q;
@@ -21832,6 +23090,8 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
         if (reset | clears) begin
             is_sweeping$d = 1'b1;
             sweep_bucket$d = 32'h0;
+            seeks$d = 1'b0;
+            finds$d = 1'b0;
             counts$d = 1'b0;
         end
     end
@@ -21839,16 +23099,27 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
 endmodule // incircle_core_logic$latencies
 
 
-module incircle_core_logic$latencies$bucket(latency,bucket);
+module incircle_core_logic$latencies$bucket(clock,latency,bucket);
     
     // Module arguments
+    input wire  clock;
     input wire  [21:0] latency;
     output reg  [6:0] bucket;
+    
+    // Stub signals
+    reg  [18:0] from2$d;
+    wire  [18:0] from2$q;
+    reg  from2$clock;
+    reg  [6:0] high_octave$d;
+    wire  [6:0] high_octave$q;
+    reg  high_octave$clock;
+    reg  is_far$d;
+    wire  is_far$q;
+    reg  is_far$clock;
     
     // Local signals
     reg  [18:0] from8;
     reg  [18:0] from4;
-    reg  [18:0] from2;
     reg  [18:0] from1;
     reg  [18:0] top;
     reg  [6:0] octave8;
@@ -21856,19 +23127,41 @@ module incircle_core_logic$latencies$bucket(latency,bucket);
     reg  [6:0] octave2;
     reg  [6:0] octave1;
     reg  [6:0] place;
-    reg  is_far;
     reg  [18:0] eight;
     reg  [18:0] four;
     reg  [18:0] two;
     reg  [18:0] one;
     
+    // Sub module instances
+    incircle_core_logic$latencies$bucket$from2 from2(
+        .d(from2$d),
+        .q(from2$q),
+        .clock(from2$clock)
+    );
+    incircle_core_logic$latencies$bucket$high_octave high_octave(
+        .d(high_octave$d),
+        .q(high_octave$q),
+        .clock(high_octave$clock)
+    );
+    incircle_core_logic$latencies$bucket$is_far is_far(
+        .d(is_far$d),
+        .q(is_far$q),
+        .clock(is_far$clock)
+    );
+    
     // Update code
     always @(*) begin
+        from2$clock = clock;
+        high_octave$clock = clock;
+        is_far$clock = clock;
+        from2$d = from2$q;
+        high_octave$d = high_octave$q;
+        is_far$d = is_far$q;
         eight = 32'h8;
         four = 32'h4;
         two = 32'h2;
         one = 32'h1;
-        is_far = latency[32'h14] | latency[32'h15];
+        is_far$d = latency[32'h14] | latency[32'h15];
         from8 = latency[(32'h1)+:(19)];
         octave8 = 32'h0;
         from4 = from8 << eight;
@@ -21877,16 +23170,17 @@ module incircle_core_logic$latencies$bucket(latency,bucket);
             from4 = from8;
         end
         octave4 = 32'h0;
-        from2 = from4 << four;
+        from2$d = from4 << four;
         if (|from4[(32'hf)+:(4)]) begin
             octave4 = 32'h20;
-            from2 = from4;
+            from2$d = from4;
         end
+        high_octave$d = octave8 | octave4;
         octave2 = 32'h0;
-        from1 = from2 << two;
-        if (|from2[(32'h11)+:(2)]) begin
+        from1 = from2$q << two;
+        if (|from2$q[(32'h11)+:(2)]) begin
             octave2 = 32'h10;
-            from1 = from2;
+            from1 = from2$q;
         end
         octave1 = 32'h0;
         top = from1 << one;
@@ -21897,14 +23191,71 @@ module incircle_core_logic$latencies$bucket(latency,bucket);
         place = ((top[(32'hf)+:(3)]) & 7'h7f);
         bucket = 32'h0;
         if (top[32'h12]) begin
-            bucket = octave8 | octave4 | octave2 | octave1 | place;
+            bucket = high_octave$q | octave2 | octave1 | place;
         end
-        if (is_far) begin
+        if (is_far$q) begin
             bucket = 32'h7f;
         end
     end
     
 endmodule // incircle_core_logic$latencies$bucket
+
+
+module incircle_core_logic$latencies$bucket$from2(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$latencies$bucket$from2
+
+
+module incircle_core_logic$latencies$bucket$high_octave(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$latencies$bucket$high_octave
+
+
+module incircle_core_logic$latencies$bucket$is_far(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$latencies$bucket$is_far
 
 
 module incircle_core_logic$latencies$counted_bucket(d,q,clock);
@@ -21943,6 +23294,44 @@ module incircle_core_logic$latencies$counts(d,q,clock);
     end
           
 endmodule // incircle_core_logic$latencies$counts
+
+
+module incircle_core_logic$latencies$finds(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$latencies$finds
+
+
+module incircle_core_logic$latencies$found(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$latencies$found
 
 
 module incircle_core_logic$latencies$is_sweeping(d,q,clock);
@@ -21985,6 +23374,25 @@ module incircle_core_logic$latencies$memory(clock,write_address,write_data,write
 endmodule // incircle_core_logic$latencies$memory
 
 
+module incircle_core_logic$latencies$seeks(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$latencies$seeks
+
+
 module incircle_core_logic$latencies$sweep_bucket(d,q,clock);
     
     // Module arguments
@@ -22004,7 +23412,7 @@ module incircle_core_logic$latencies$sweep_bucket(d,q,clock);
 endmodule // incircle_core_logic$latencies$sweep_bucket
 
 
-module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,length,word,is_read,index,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,response_valid,response_ready,response_data,is_idle,ends,is_taken);
+module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,length,is_empty,word,is_read,index,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,response_valid,response_ready,response_data,is_idle,ends,is_taken);
     
     // Module arguments
     input wire  clock;
@@ -22014,6 +23422,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     input wire  [31:0] first;
     input wire  [31:0] header;
     input wire  [31:0] length;
+    input wire  is_empty;
     input wire  [31:0] word;
     input wire  is_read;
     output reg  [6:0] index;
@@ -22036,15 +23445,20 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     
     // Enums
     localparam AnswerState$Idle = 0;
-    localparam AnswerState$Header = 1;
-    localparam AnswerState$Length = 2;
-    localparam AnswerState$Payload = 3;
-    localparam AnswerState$Records = 4;
+    localparam AnswerState$Prepare = 1;
+    localparam AnswerState$Header = 2;
+    localparam AnswerState$Length = 3;
+    localparam AnswerState$Choose = 4;
+    localparam AnswerState$Payload = 5;
+    localparam AnswerState$Records = 6;
     
     // Stub signals
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
+    reg  waited$d;
+    wire  waited$q;
+    reg  waited$clock;
     reg  valid$d;
     wire  valid$q;
     reg  valid$clock;
@@ -22054,6 +23468,9 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     reg  [31:0] left$d;
     wire  [31:0] left$q;
     reg  left$clock;
+    reg  is_last$d;
+    wire  is_last$q;
+    reg  is_last$clock;
     reg  [6:0] loaded$d;
     wire  [6:0] loaded$q;
     reg  loaded$clock;
@@ -22063,51 +23480,39 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     reg  fetching$d;
     wire  fetching$q;
     reg  fetching$clock;
-    reg  buffered$d;
-    wire  buffered$q;
-    reg  buffered$clock;
-    reg  [31:0] buffer0$d;
-    wire  [31:0] buffer0$q;
-    reg  buffer0$clock;
-    reg  [31:0] buffer1$d;
-    wire  [31:0] buffer1$q;
-    reg  buffer1$clock;
-    reg  [31:0] buffer2$d;
-    wire  [31:0] buffer2$q;
-    reg  buffer2$clock;
-    reg  [1:0] column$d;
-    wire  [1:0] column$q;
-    reg  column$clock;
-    reg  [14:0] words$v0;
-    reg  [14:0] words$v1;
-    reg  [14:0] words$v2;
-    reg  [14:0] words$n0;
-    reg  [14:0] words$n1;
-    reg  [14:0] words$n2;
-    reg  words$was_set;
-    wire  [31:0] words$word0;
-    wire  [31:0] words$word1;
-    wire  [31:0] words$word2;
+    reg  record$clock;
+    reg  record$reset;
+    reg  record$read_done;
+    reg  [14:0] record$v0;
+    reg  [14:0] record$v1;
+    reg  [14:0] record$v2;
+    reg  [14:0] record$n0;
+    reg  [14:0] record$n1;
+    reg  [14:0] record$n2;
+    reg  record$was_set;
+    wire  record$holds;
+    wire  [31:0] record$word;
+    reg  record$takes;
     
     // Local signals
     reg  loads;
     reg  asks;
-    reg  is_last;
-    reg  is_empty;
-    reg  is_last_column;
     reg  ends_now;
     reg  [31:0] one;
-    reg  [31:0] zero;
+    reg  [31:0] two;
     reg  [6:0] one_word;
     reg  [14:0] one_record;
-    reg  [1:0] one_column;
-    reg  [1:0] last_column;
     
     // Sub module instances
     incircle_core_logic$responder$state state(
         .d(state$d),
         .q(state$q),
         .clock(state$clock)
+    );
+    incircle_core_logic$responder$waited waited(
+        .d(waited$d),
+        .q(waited$q),
+        .clock(waited$clock)
     );
     incircle_core_logic$responder$valid valid(
         .d(valid$d),
@@ -22124,6 +23529,11 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         .q(left$q),
         .clock(left$clock)
     );
+    incircle_core_logic$responder$is_last is_last(
+        .d(is_last$d),
+        .q(is_last$q),
+        .clock(is_last$clock)
+    );
     incircle_core_logic$responder$loaded loaded(
         .d(loaded$d),
         .q(loaded$q),
@@ -22139,106 +23549,73 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         .q(fetching$q),
         .clock(fetching$clock)
     );
-    incircle_core_logic$responder$buffered buffered(
-        .d(buffered$d),
-        .q(buffered$q),
-        .clock(buffered$clock)
-    );
-    incircle_core_logic$responder$buffer0 buffer0(
-        .d(buffer0$d),
-        .q(buffer0$q),
-        .clock(buffer0$clock)
-    );
-    incircle_core_logic$responder$buffer1 buffer1(
-        .d(buffer1$d),
-        .q(buffer1$q),
-        .clock(buffer1$clock)
-    );
-    incircle_core_logic$responder$buffer2 buffer2(
-        .d(buffer2$d),
-        .q(buffer2$q),
-        .clock(buffer2$clock)
-    );
-    incircle_core_logic$responder$column column(
-        .d(column$d),
-        .q(column$q),
-        .clock(column$clock)
-    );
-    incircle_core_logic$responder$words words(
-        .v0(words$v0),
-        .v1(words$v1),
-        .v2(words$v2),
-        .n0(words$n0),
-        .n1(words$n1),
-        .n2(words$n2),
-        .was_set(words$was_set),
-        .word0(words$word0),
-        .word1(words$word1),
-        .word2(words$word2)
+    incircle_core_logic$responder$record record(
+        .clock(record$clock),
+        .reset(record$reset),
+        .read_done(record$read_done),
+        .v0(record$v0),
+        .v1(record$v1),
+        .v2(record$v2),
+        .n0(record$n0),
+        .n1(record$n1),
+        .n2(record$n2),
+        .was_set(record$was_set),
+        .holds(record$holds),
+        .word(record$word),
+        .takes(record$takes)
     );
     
     // Update code
     always @(*) begin
         state$clock = clock;
+        waited$clock = clock;
         valid$clock = clock;
         data$clock = clock;
         left$clock = clock;
+        is_last$clock = clock;
         loaded$clock = clock;
         record_id$clock = clock;
         fetching$clock = clock;
-        buffered$clock = clock;
         state$d = state$q;
+        waited$d = waited$q;
         valid$d = valid$q;
         data$d = data$q;
         left$d = left$q;
+        is_last$d = is_last$q;
         loaded$d = loaded$q;
         record_id$d = record_id$q;
         fetching$d = fetching$q;
-        buffered$d = buffered$q;
-        buffer0$clock = clock;
-        buffer1$clock = clock;
-        buffer2$clock = clock;
-        column$clock = clock;
-        buffer0$d = buffer0$q;
-        buffer1$d = buffer1$q;
-        buffer2$d = buffer2$q;
-        column$d = column$q;
+        record$clock = clock;
         one = 32'h1;
-        zero = 32'h0;
+        two = 32'h2;
         one_word = 32'h1;
         one_record = 32'h1;
-        one_column = 32'h1;
-        last_column = 32'h2;
         response_valid = valid$q;
         response_data = data$q;
         index = loaded$q;
         loads = (~valid$q) | response_ready;
         is_taken = loads;
         is_idle = state$q == AnswerState$Idle;
-        is_last = left$q == one;
-        is_empty = length == zero;
-        is_last_column = column$q == last_column;
-        asks = (state$q == AnswerState$Records) & (~fetching$q) & (~buffered$q);
+        asks = (state$q == AnswerState$Records) & (~fetching$q) & (~record$holds);
         read = asks;
         read_id = record_id$q;
-        words$v0 = v0;
-        words$v1 = v1;
-        words$v2 = v2;
-        words$n0 = n0;
-        words$n1 = n1;
-        words$n2 = n2;
-        words$was_set = was_set;
+        record$v0 = v0;
+        record$v1 = v1;
+        record$v2 = v2;
+        record$n0 = n0;
+        record$n1 = n1;
+        record$n2 = n2;
+        record$was_set = was_set;
+        record$read_done = read_done;
+        record$reset = reset;
         if (asks) begin
             fetching$d = 1'b1;
         end
         if (read_done) begin
             fetching$d = 1'b0;
-            buffered$d = 1'b1;
-            buffer0$d = words$word0;
-            buffer1$d = words$word1;
-            buffer2$d = words$word2;
             record_id$d = record_id$q + one_record;
         end
+        record$takes = 1'b0;
         ends_now = 1'b0;
         if (loads) begin
             valid$d = 1'b0;
@@ -22247,6 +23624,13 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
             AnswerState$Idle:
                 begin
                     if (answers & (~sweeps)) begin
+                        state$d = AnswerState$Prepare;
+                    end
+                end
+            AnswerState$Prepare:
+                begin
+                    waited$d = ~waited$q;
+                    if (waited$q) begin
                         state$d = AnswerState$Header;
                     end
                 end
@@ -22261,17 +23645,24 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
             AnswerState$Length:
                 begin
                     left$d = length;
+                    is_last$d = length == one;
                     loaded$d = 32'h0;
-                    column$d = 32'h0;
                     record_id$d = first[(32'h0)+:(15)];
                     if (loads) begin
                         valid$d = 1'b1;
                         data$d = length;
                         ends_now = is_empty;
-                        state$d = AnswerState$Payload;
+                        state$d = AnswerState$Choose;
                         if (is_read) begin
                             state$d = AnswerState$Records;
                         end
+                    end
+                end
+            AnswerState$Choose:
+                begin
+                    waited$d = ~waited$q;
+                    if (waited$q) begin
+                        state$d = AnswerState$Payload;
                     end
                 end
             AnswerState$Payload:
@@ -22281,23 +23672,20 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                         data$d = word;
                         loaded$d = loaded$q + one_word;
                         left$d = left$q - one;
-                        ends_now = is_last;
+                        is_last$d = left$q == two;
+                        state$d = AnswerState$Choose;
+                        ends_now = is_last$q;
                     end
                 end
             AnswerState$Records:
                 begin
-                    if (loads & buffered$q) begin
+                    if (loads & record$holds) begin
                         valid$d = 1'b1;
-                        data$d = buffer0$q;
-                        buffer0$d = buffer1$q;
-                        buffer1$d = buffer2$q;
-                        column$d = column$q + one_column;
-                        if (is_last_column) begin
-                            column$d = 32'h0;
-                            buffered$d = 1'b0;
-                        end
+                        data$d = record$word;
+                        record$takes = 1'b1;
                         left$d = left$q - one;
-                        ends_now = is_last;
+                        is_last$d = left$q == two;
+                        ends_now = is_last$q;
                     end
                 end
             default:
@@ -22311,109 +23699,14 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         end
         if (reset) begin
             state$d = AnswerState$Idle;
+            waited$d = 1'b0;
             valid$d = 1'b0;
             data$d = 32'h0;
             fetching$d = 1'b0;
-            buffered$d = 1'b0;
         end
     end
     
 endmodule // incircle_core_logic$responder
-
-
-module incircle_core_logic$responder$buffer0(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$buffer0
-
-
-module incircle_core_logic$responder$buffer1(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$buffer1
-
-
-module incircle_core_logic$responder$buffer2(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$buffer2
-
-
-module incircle_core_logic$responder$buffered(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$buffered
-
-
-module incircle_core_logic$responder$column(d,q,clock);
-    
-    // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 2'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$column
 
 
 module incircle_core_logic$responder$data(d,q,clock);
@@ -22454,6 +23747,25 @@ module incircle_core_logic$responder$fetching(d,q,clock);
 endmodule // incircle_core_logic$responder$fetching
 
 
+module incircle_core_logic$responder$is_last(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$is_last
+
+
 module incircle_core_logic$responder$left(d,q,clock);
     
     // Module arguments
@@ -22492,52 +23804,205 @@ module incircle_core_logic$responder$loaded(d,q,clock);
 endmodule // incircle_core_logic$responder$loaded
 
 
-module incircle_core_logic$responder$record_id(d,q,clock);
+module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1,n2,was_set,holds,word,takes);
     
     // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
+    input wire  clock;
+    input wire  reset;
+    input wire  read_done;
+    input wire  [14:0] v0;
+    input wire  [14:0] v1;
+    input wire  [14:0] v2;
+    input wire  [14:0] n0;
+    input wire  [14:0] n1;
+    input wire  [14:0] n2;
+    input wire  was_set;
+    output reg  holds;
+    output reg  [31:0] word;
+    input wire  takes;
+    
+    // Stub signals
+    reg  is_held$d;
+    wire  is_held$q;
+    reg  is_held$clock;
+    reg  [31:0] buffer0$d;
+    wire  [31:0] buffer0$q;
+    reg  buffer0$clock;
+    reg  [31:0] buffer1$d;
+    wire  [31:0] buffer1$q;
+    reg  buffer1$clock;
+    reg  [31:0] buffer2$d;
+    wire  [31:0] buffer2$q;
+    reg  buffer2$clock;
+    reg  is_second$d;
+    wire  is_second$q;
+    reg  is_second$clock;
+    reg  is_third$d;
+    wire  is_third$q;
+    reg  is_third$clock;
+    reg  [14:0] words$v0;
+    reg  [14:0] words$v1;
+    reg  [14:0] words$v2;
+    reg  [14:0] words$n0;
+    reg  [14:0] words$n1;
+    reg  [14:0] words$n2;
+    reg  words$was_set;
+    wire  [31:0] words$word0;
+    wire  [31:0] words$word1;
+    wire  [31:0] words$word2;
+    
+    // Sub module instances
+    incircle_core_logic$responder$record$is_held is_held(
+        .d(is_held$d),
+        .q(is_held$q),
+        .clock(is_held$clock)
+    );
+    incircle_core_logic$responder$record$buffer0 buffer0(
+        .d(buffer0$d),
+        .q(buffer0$q),
+        .clock(buffer0$clock)
+    );
+    incircle_core_logic$responder$record$buffer1 buffer1(
+        .d(buffer1$d),
+        .q(buffer1$q),
+        .clock(buffer1$clock)
+    );
+    incircle_core_logic$responder$record$buffer2 buffer2(
+        .d(buffer2$d),
+        .q(buffer2$q),
+        .clock(buffer2$clock)
+    );
+    incircle_core_logic$responder$record$is_second is_second(
+        .d(is_second$d),
+        .q(is_second$q),
+        .clock(is_second$clock)
+    );
+    incircle_core_logic$responder$record$is_third is_third(
+        .d(is_third$d),
+        .q(is_third$q),
+        .clock(is_third$clock)
+    );
+    incircle_core_logic$responder$record$words words(
+        .v0(words$v0),
+        .v1(words$v1),
+        .v2(words$v2),
+        .n0(words$n0),
+        .n1(words$n1),
+        .n2(words$n2),
+        .was_set(words$was_set),
+        .word0(words$word0),
+        .word1(words$word1),
+        .word2(words$word2)
+    );
+    
+    // Update code
+    always @(*) begin
+        is_held$clock = clock;
+        buffer0$clock = clock;
+        buffer1$clock = clock;
+        buffer2$clock = clock;
+        is_second$clock = clock;
+        is_third$clock = clock;
+        is_held$d = is_held$q;
+        buffer0$d = buffer0$q;
+        buffer1$d = buffer1$q;
+        buffer2$d = buffer2$q;
+        is_second$d = is_second$q;
+        is_third$d = is_third$q;
+        holds = is_held$q;
+        words$v0 = v0;
+        words$v1 = v1;
+        words$v2 = v2;
+        words$n0 = n0;
+        words$n1 = n1;
+        words$n2 = n2;
+        words$was_set = was_set;
+        if (read_done) begin
+            is_held$d = 1'b1;
+            buffer0$d = words$word0;
+            buffer1$d = words$word1;
+            buffer2$d = words$word2;
+        end
+        word = buffer0$q;
+        if (is_second$q) begin
+            word = buffer1$q;
+        end
+        if (is_third$q) begin
+            word = buffer2$q;
+        end
+        if (takes) begin
+            is_second$d = (~is_second$q) & (~is_third$q);
+            is_third$d = is_second$q;
+            is_held$d = ~is_third$q;
+        end
+        if (reset) begin
+            is_held$d = 1'b0;
+            is_second$d = 1'b0;
+            is_third$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$record
+
+
+module incircle_core_logic$responder$record$buffer0(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 15'h0;
+       q = 32'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record_id
+endmodule // incircle_core_logic$responder$record$buffer0
 
 
-module incircle_core_logic$responder$state(d,q,clock);
+module incircle_core_logic$responder$record$buffer1(d,q,clock);
     
     // Module arguments
-    input wire  [2:0] d;
-    output reg  [2:0] q;
+    input wire  [31:0] d;
+    output reg  [31:0] q;
     input wire  clock;
-    
-    // Enums
-    localparam AnswerState$Idle = 0;
-    localparam AnswerState$Header = 1;
-    localparam AnswerState$Length = 2;
-    localparam AnswerState$Payload = 3;
-    localparam AnswerState$Records = 4;
     
     // Update code (custom)
     initial begin
-       q = 64'h0;
+       q = 32'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$state
+endmodule // incircle_core_logic$responder$record$buffer1
 
 
-module incircle_core_logic$responder$valid(d,q,clock);
+module incircle_core_logic$responder$record$buffer2(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$record$buffer2
+
+
+module incircle_core_logic$responder$record$is_held(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -22553,10 +24018,48 @@ module incircle_core_logic$responder$valid(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$valid
+endmodule // incircle_core_logic$responder$record$is_held
 
 
-module incircle_core_logic$responder$words(v0,v1,v2,n0,n1,n2,was_set,word0,word1,word2);
+module incircle_core_logic$responder$record$is_second(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$record$is_second
+
+
+module incircle_core_logic$responder$record$is_third(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$record$is_third
+
+
+module incircle_core_logic$responder$record$words(v0,v1,v2,n0,n1,n2,was_set,word0,word1,word2);
     
     // Module arguments
     input wire  [14:0] v0;
@@ -22604,7 +24107,92 @@ module incircle_core_logic$responder$words(v0,v1,v2,n0,n1,n2,was_set,word0,word1
         word2 = vertex2 | high2;
     end
     
-endmodule // incircle_core_logic$responder$words
+endmodule // incircle_core_logic$responder$record$words
+
+
+module incircle_core_logic$responder$record_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$record_id
+
+
+module incircle_core_logic$responder$state(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam AnswerState$Idle = 0;
+    localparam AnswerState$Prepare = 1;
+    localparam AnswerState$Header = 2;
+    localparam AnswerState$Length = 3;
+    localparam AnswerState$Choose = 4;
+    localparam AnswerState$Payload = 5;
+    localparam AnswerState$Records = 6;
+    
+    // Update code (custom)
+    initial begin
+       q = 64'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$state
+
+
+module incircle_core_logic$responder$valid(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$valid
+
+
+module incircle_core_logic$responder$waited(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$waited
 
 `default_nettype wire
 `default_nettype none
