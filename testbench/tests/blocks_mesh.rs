@@ -203,7 +203,7 @@ fn lock_store(name: &str, id_bits: u32, context_bits: u32) {
         .map(|cycle| {
             // In turn: visits at every clock, with gaps, with clears at every clock.
             let (gaps, clears) = [(9, 3), (2, 3), (9, 1)][cycle / 100 % 3];
-            let owner = 2 * numbers.bits(1) | numbers.bits(5) >> context_bits << context_bits;
+            let owner = (2 * numbers.bits(1)) | (numbers.bits(5) >> context_bits << context_bits);
             let takes = u64::from(!numbers.once_in(gaps));
             let clears = u64::from(numbers.once_in(clears));
             vec![id(&mut numbers, id_bits), owner, takes, id(&mut numbers, id_bits), clears]

@@ -11,6 +11,7 @@ use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use std::path::PathBuf;
 
 #[path = "../../../sim/model/tests/common/mesh_check.rs"]
+#[allow(dead_code, reason = "the model's own tests use more of it")]
 mod mesh_check;
 
 /// A point as its word.
