@@ -4963,6 +4963,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     wire  [14:0] insertions$solo_u;
     wire  [109:0] insertions$write;
     wire  [14:0] insertions$records;
+    wire  [14:0] insertions$fresh;
     wire  insertions$clear_enable;
     wire  [14:0] insertions$clear_id;
     wire  insertions$sweeps;
@@ -5090,6 +5091,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .solo_u(insertions$solo_u),
         .write(insertions$write),
         .records(insertions$records),
+        .fresh(insertions$fresh),
         .clear_enable(insertions$clear_enable),
         .clear_id(insertions$clear_id),
         .sweeps(insertions$sweeps),
@@ -5269,7 +5271,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         solo$owner = insertions$solo_owner;
         solo$p = insertions$solo_p;
         solo$start = insertions$solo_u;
-        solo$records = insertions$records;
+        solo$records = insertions$fresh;
         solo$done = pipeline$done;
         solo$token = pipeline$token;
         solo$turned = pipeline$turned;
@@ -5295,7 +5297,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
 endmodule // incircle_core_logic$engine
 
 
-module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,contexts,arrived,came,now,done,token,turned,verdict,early_owner,early_entry,seeded,collinear,is_seeding,seeds,solo_is_at_work,solo_ends,solo_inserts,push,bundle,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,solo_u,write,records,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
+module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,contexts,arrived,came,now,done,token,turned,verdict,early_owner,early_entry,seeded,collinear,is_seeding,seeds,solo_is_at_work,solo_ends,solo_inserts,push,bundle,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,solo_u,write,records,fresh,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
     
     // Module arguments
     input wire  clock;
@@ -5334,6 +5336,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     output reg  [14:0] solo_u;
     output reg  [109:0] write;
     output reg  [14:0] records;
+    output reg  [14:0] fresh;
     output reg  clear_enable;
     output reg  [14:0] clear_id;
     output reg  sweeps;
@@ -5463,6 +5466,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     wire  [55:0] commits$job;
     wire  [14:0] commits$hint;
     wire  [14:0] commits$records;
+    wire  [14:0] commits$fresh;
     wire  commits$is_at_work;
     wire  commits$clear_enable;
     wire  [14:0] commits$clear_id;
@@ -5597,6 +5601,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         .job(commits$job),
         .hint(commits$hint),
         .records(commits$records),
+        .fresh(commits$fresh),
         .is_at_work(commits$is_at_work),
         .clear_enable(commits$clear_enable),
         .clear_id(commits$clear_id),
@@ -5686,6 +5691,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         commits$release_job = attempts$release_job;
         write = commits$write;
         records = commits$records;
+        fresh = commits$fresh;
         clear_enable = commits$clear_enable;
         clear_id = commits$clear_id;
         sweeps = commits$sweeps;
@@ -6927,7 +6933,7 @@ module incircle_core_logic$engine$insertions$attempts$visits(token,turned,walk_n
 endmodule // incircle_core_logic$engine$insertions$attempts$visits
 
 
-module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,owner,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job,seeds,solo_inserts,write,ends,job,hint,records,is_at_work,clear_enable,clear_id,released,released_owner,sweeps);
+module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,owner,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job,seeds,solo_inserts,write,ends,job,hint,records,fresh,is_at_work,clear_enable,clear_id,released,released_owner,sweeps);
     
     // Module arguments
     input wire  clock;
@@ -6955,6 +6961,7 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
     output reg  [55:0] job;
     output reg  [14:0] hint;
     output reg  [14:0] records;
+    output reg  [14:0] fresh;
     output reg  is_at_work;
     output reg  clear_enable;
     output reg  [14:0] clear_id;
@@ -7152,6 +7159,7 @@ module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,
         job = commit$job;
         hint = commit$hint;
         records = commit$records;
+        fresh = commit$fresh;
         is_at_work = commit$is_at_work;
         lock_release$last_id = last_id;
         lock_release$lock_enable = lock_comes$q;

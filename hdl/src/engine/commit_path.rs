@@ -12,7 +12,7 @@
 //! | `seeds`, `solo_inserts` | in | 1 | the first four records, two more records are written by others |
 //! | `write` | out | Write | a record or a link |
 //! | `ends`, `job`, `hint` | out | 1, CommitJob, 15 | a ring is written; which; a record of its star |
-//! | `records` | out | 15 | records from this id on are not written yet |
+//! | `records`, `fresh` | out | 15 | records from this id on are not written yet; the next new id |
 //! | `is_at_work` | out | 1 | a ring is being written |
 //! | `clear_enable`, `clear_id` | out | 1, 15 | a lock to clear |
 //! | `released`, `released_owner` | out | 1, 5 | the last lock of a context is cleared |
@@ -82,6 +82,8 @@ pub struct CommitPath {
     pub hint: Signal<Out, Bits<15>>,
     /// Records that are written.
     pub records: Signal<Out, Bits<15>>,
+    /// The next new id.
+    pub fresh: Signal<Out, Bits<15>>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
     /// A lock to clear.
@@ -156,6 +158,7 @@ impl Logic for CommitPath {
         self.job.next = self.commit.job.val();
         self.hint.next = self.commit.hint.val();
         self.records.next = self.commit.records.val();
+        self.fresh.next = self.commit.fresh.val();
         self.is_at_work.next = self.commit.is_at_work.val();
 
         // The locks.

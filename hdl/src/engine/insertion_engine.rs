@@ -194,7 +194,7 @@ impl Logic for InsertionEngine {
         self.solo.owner.next = self.insertions.solo_owner.val();
         self.solo.p.next = self.insertions.solo_p.val();
         self.solo.start.next = self.insertions.solo_u.val();
-        self.solo.records.next = self.insertions.records.val();
+        self.solo.records.next = self.insertions.fresh.val();
         self.solo.done.next = self.pipeline.done.val();
         self.solo.token.next = self.pipeline.token.val();
         self.solo.turned.next = self.pipeline.turned.val();

@@ -13,7 +13,7 @@
 //! | `looks` | out | 1 | the visit that completes is the look at the first three points |
 //! | `fetch_id`, `position_enable`, `position_owner` | out | 15, 1, 5 | a point to fetch; its context, when it has come |
 //! | `solo_starts`, `solo_owner`, `solo_p`, `solo_u` | out | 1, 5, 15, 15 | an insertion alone starts |
-//! | `write`, `records` | out | Write, 15 | a record or a link; records from this id on are not written yet |
+//! | `write`, `records`, `fresh` | out | Write, 15, 15 | a record or a link; records from this id on are not written yet; the next new id |
 //! | `clear_enable`, `clear_id`, `sweeps` | out | 1, 15, 1 | a lock to clear; the lock memory is being cleared after reset |
 //! | `is_quiet`, `stuck` | out | 1 | every point is finished; nothing is finished any more |
 //! | `events` | out | Events | what happens at this edge, but for what others know |
@@ -99,6 +99,8 @@ pub struct Insertions {
     pub write: Signal<Out, Write>,
     /// Records that are written.
     pub records: Signal<Out, Bits<15>>,
+    /// The next new id.
+    pub fresh: Signal<Out, Bits<15>>,
     /// A lock to clear.
     pub clear_enable: Signal<Out, Bit>,
     /// Which.
@@ -214,6 +216,7 @@ impl Logic for Insertions {
         self.commits.release_job.next = self.attempts.release_job.val();
         self.write.next = self.commits.write.val();
         self.records.next = self.commits.records.val();
+        self.fresh.next = self.commits.fresh.val();
         self.clear_enable.next = self.commits.clear_enable.val();
         self.clear_id.next = self.commits.clear_id.val();
         self.sweeps.next = self.commits.sweeps.val();
