@@ -10,6 +10,7 @@
 mod command;
 mod config;
 mod counters;
+mod frame;
 mod layout;
 mod status;
 
@@ -21,6 +22,12 @@ pub use config::{
     MIN_CONTEXTS, MIN_POINTS, MIN_RING, NAMED, SMALL, TINY,
 };
 pub use counters::{latency_bucket, latency_of_bucket, Counter, COUNTER_WORDS, LATENCY_BITS, LATENCY_BUCKETS};
+pub use frame::{
+    rate_step, DeviceFrame, Greeting, HostFrame, LinkConfig, ANSWER_HEADER_BYTES, BREAK_MS, CRC_BYTES,
+    DEVICE_HEADER_BYTES, FIRST_RATE, FRAME_END, GREETING_WORDS, HOST_HEADER_BYTES, LINK_MAGIC, LINK_VERSION,
+    MAX_DEVICE_FRAME, MAX_PAYLOAD, MAX_STEP, PHASE_BITS, SILENCE_MS, STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED,
+    STATUS_OPEN, WINDOW,
+};
 pub use layout::{Identity, InsertReport, Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS};
 pub use status::Status;
 
