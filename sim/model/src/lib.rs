@@ -11,6 +11,7 @@ mod clock;
 mod command;
 mod mesh;
 pub mod predicate;
+pub mod serial;
 
 pub use clock::{ClockModel, Defect, Inputs, Outputs, Write};
 pub use command::{CommandModel, ModelError};

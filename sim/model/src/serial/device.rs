@@ -1,0 +1,123 @@
+//! What stands behind the link: a device that takes and gives words.
+
+use incircle_protocol::{Config, Identity, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
+
+use crate::{ClockModel, CommandModel, Inputs};
+
+/// A device of two streams of words, a clock at a time.
+pub trait WordDevice {
+    /// Starts anew, as after a reset.
+    fn reset(&mut self);
+
+    /// One clock. The device is offered a command word, or none, and may give an answer word if `takes_answer`. What is offered stays
+    /// offered in the next clock, on both sides, unless it was taken.
+    fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed;
+}
+
+/// What passed in a clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Passed {
+    /// The command word was taken.
+    pub is_taken: bool,
+    /// An answer word that was given.
+    pub answer: Option<u32>,
+}
+
+/// The model by commands: it takes a word in a clock, and its insertions take none.
+#[derive(Debug)]
+pub struct Instantly {
+    model: CommandModel,
+    parameters: (u32, u32, u32),
+    answer: Option<u32>,
+}
+
+impl Instantly {
+    /// A device for `capacity` points of `coord_bits` bits.
+    ///
+    /// # Errors
+    /// As [`CommandModel::new`].
+    pub fn new(coord_bits: u32, capacity: u32, ring: u32) -> Result<Self, crate::ModelError> {
+        let model = CommandModel::new(coord_bits, capacity, ring)?;
+        Ok(Self { model, parameters: (coord_bits, capacity, ring), answer: None })
+    }
+
+    /// A device with the parameters of a core.
+    ///
+    /// # Errors
+    /// As [`CommandModel::new`].
+    pub fn of(config: Config) -> Result<Self, crate::ModelError> {
+        Self::new(CORE_COORD_BITS, config.points, config.ring)
+    }
+
+    /// What it says of itself.
+    pub fn identity(&self) -> Identity {
+        let (coord_bits, points, ring) = self.parameters;
+        Identity { coord_bits, ..core_identity(Config { name: "", points, ring, contexts: 1 }) }
+    }
+
+    /// The answer word that is offered.
+    fn offered(&mut self) -> Option<u32> {
+        if self.answer.is_none() {
+            let mut word = [0];
+            self.answer = (self.model.receive(&mut word) == 1).then_some(word[0]);
+        }
+        self.answer
+    }
+}
+
+impl WordDevice for Instantly {
+    fn reset(&mut self) {
+        let (coord_bits, capacity, ring) = self.parameters;
+        if let Ok(fresh) = Self::new(coord_bits, capacity, ring) {
+            *self = fresh;
+        }
+    }
+
+    fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed {
+        match (self.offered(), command) {
+            (Some(_), _) => {
+                let answer = if takes_answer { self.answer.take() } else { None };
+                Passed { is_taken: false, answer }
+            }
+            // As a core, it takes no word while an answer is under way.
+            (None, Some(word)) => {
+                self.model.send(&[word]);
+                Passed { is_taken: true, answer: None }
+            }
+            (None, None) => Passed::default(),
+        }
+    }
+}
+
+impl WordDevice for ClockModel {
+    fn reset(&mut self) {
+        self.clock(Inputs { reset: true, ..Inputs::default() });
+    }
+
+    fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed {
+        let outputs = self.outputs();
+        self.clock(Inputs {
+            reset: false,
+            command_valid: command.is_some(),
+            command_data: command.unwrap_or(0),
+            response_ready: takes_answer,
+        });
+        Passed {
+            is_taken: command.is_some() && outputs.command_ready,
+            answer: (takes_answer && outputs.response_valid).then_some(outputs.response_data),
+        }
+    }
+}
+
+/// What a core of this configuration says of itself.
+pub fn core_identity(config: Config) -> Identity {
+    Identity {
+        magic: MAGIC,
+        protocol_version: PROTOCOL_VERSION,
+        core_version: CORE_VERSION,
+        coord_bits: CORE_COORD_BITS,
+        capacity: config.points,
+        contexts: config.contexts,
+        ring_capacity: config.ring,
+    }
+}
