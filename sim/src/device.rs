@@ -9,7 +9,7 @@ use verilated::{Model, ModelDescription, PortId};
 use crate::{models, Awaited, SimError};
 
 /// Clocks that reset is held: one is enough for registers, more flush what has no reset.
-const RESET_CLOCKS: u32 = 4;
+pub(crate) const RESET_CLOCKS: u32 = 4;
 
 /// What the build script puts before the name of a configuration.
 const CORE: &str = "core_";
@@ -45,16 +45,7 @@ impl SimDevice {
     /// # Errors
     /// It is not one of [`incircle_protocol::NAMED`]: others were not translated when this crate was built.
     pub fn new(config: Config) -> Result<Self, SimError> {
-        let description =
-            NAMED.contains(&config).then(|| models::find(&format!("{CORE}{}", config.name))).flatten().ok_or_else(
-                || SimError::NotBuilt {
-                    name: config.name,
-                    points: config.points,
-                    ring: config.ring,
-                    built: built().join(", "),
-                },
-            )?;
-        Self::of(description)
+        Self::of(description(config)?)
     }
 
     /// Any model that has the two streams.
@@ -188,6 +179,17 @@ impl SimDevice {
     fn timeout(&self, awaited: Awaited, done: usize, wanted: usize, start: u64) -> SimError {
         SimError::Timeout { awaited, done, wanted, clocks: self.clocks - start, total: self.clocks }
     }
+}
+
+/// The translated core of a configuration.
+pub(crate) fn description(config: Config) -> Result<&'static ModelDescription, SimError> {
+    let found = NAMED.contains(&config).then(|| models::find(&format!("{CORE}{}", config.name))).flatten();
+    found.ok_or_else(|| SimError::NotBuilt {
+        name: config.name,
+        points: config.points,
+        ring: config.ring,
+        built: built().join(", "),
+    })
 }
 
 /// Names of the configurations that were translated when this crate was built.

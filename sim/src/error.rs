@@ -38,6 +38,14 @@ pub enum SimError {
         /// The names there are.
         built: String,
     },
+    /// No board of this configuration was built.
+    #[error("there is no simulated board {name:?}: choose one of {built}")]
+    NoBoard {
+        /// Name asked for.
+        name: &'static str,
+        /// The names there are.
+        built: String,
+    },
     /// The clocks allowed have passed.
     #[error("the simulated core {awaited} {done} of {wanted} words in {clocks} clocks, {total} since its start: allow more clocks, or look at a waveform if it stands still")]
     Timeout {

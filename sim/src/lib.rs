@@ -2,6 +2,8 @@
 //!
 //! The Verilog of every named configuration ([`incircle_protocol::NAMED`]) is exported and translated when this crate is built.
 //! [`SimDevice`] drives the two streams at its root: `command_{valid,ready,data}` and `response_{valid,ready,data}`.
+//! [`serial`] has whole boards with such a core, behind their serial line; [`faults`] spoils that line, and [`serve`] puts a board behind a
+//! pseudo-terminal. The program `incircle-sim` does that.
 //!
 //! ```no_run
 //! use incircle_protocol::{command_word, Opcode, SMALL};
@@ -15,6 +17,9 @@
 
 mod device;
 mod error;
+pub mod faults;
+pub mod serial;
+pub mod serve;
 #[cfg(test)]
 mod tests;
 

@@ -22,7 +22,7 @@ const ALLOWED: [(&str, &[&str]); 8] = [
     ("incircle-model", &["incircle-protocol"]),
     ("incircle-hdl", &["incircle-protocol"]),
     ("verilated", &[]),
-    ("incircle-sim", &["incircle-protocol", "incircle-hdl", "verilated"]),
+    ("incircle-sim", &["incircle-protocol", "incircle-model", "incircle-hdl", "verilated"]),
     ("incircle", &["incircle-protocol", "incircle-model"]),
     ("incircle-cli", &["incircle-protocol", "incircle", "incircle-sim"]),
     (

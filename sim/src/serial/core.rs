@@ -1,0 +1,67 @@
+//! The Verilated core as a device of words, a clock at a time.
+
+use incircle_model::serial::{Passed, WordDevice};
+use incircle_protocol::Config;
+use verilated::{Model, PortId};
+
+use crate::device::description;
+use crate::SimError;
+
+/// The two streams of a Verilated core.
+#[derive(Debug)]
+pub(super) struct StreamCore {
+    model: Model,
+    reset: PortId,
+    command_valid: PortId,
+    command_ready: PortId,
+    command_data: PortId,
+    response_valid: PortId,
+    response_ready: PortId,
+    response_data: PortId,
+}
+
+impl StreamCore {
+    /// A core of this configuration, reset.
+    pub(super) fn new(config: Config) -> Result<Self, SimError> {
+        let model = Model::new(description(config)?);
+        let mut core = Self {
+            reset: model.port("reset")?,
+            command_valid: model.port("command_valid")?,
+            command_ready: model.port("command_ready")?,
+            command_data: model.port("command_data")?,
+            response_valid: model.port("response_valid")?,
+            response_ready: model.port("response_ready")?,
+            response_data: model.port("response_data")?,
+            model,
+        };
+        core.model.port("clock")?;
+        core.reset();
+        Ok(core)
+    }
+}
+
+impl WordDevice for StreamCore {
+    fn reset(&mut self) {
+        self.model.set(self.command_valid, 0);
+        self.model.set(self.reset, 1);
+        for _ in 0..crate::device::RESET_CLOCKS {
+            self.model.clock();
+        }
+        self.model.set(self.reset, 0);
+        self.model.eval();
+    }
+
+    fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed {
+        self.model.set(self.command_valid, u64::from(command.is_some()));
+        self.model.set(self.command_data, u64::from(command.unwrap_or(0)));
+        self.model.set(self.response_ready, u64::from(takes_answer));
+        // Outputs may depend on inputs of the same clock.
+        self.model.eval();
+        let is_taken = command.is_some() && self.model.get(self.command_ready) != 0;
+        let is_given = takes_answer && self.model.get(self.response_valid) != 0;
+        // A port of 32 bits.
+        let answer = is_given.then(|| self.model.get(self.response_data) as u32);
+        self.model.clock();
+        Passed { is_taken, answer }
+    }
+}
