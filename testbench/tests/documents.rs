@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 
 use cargo_metadata::{Metadata, MetadataCommand, Package};
 
-const DOCUMENTS: [&str; 8] = [
+const DOCUMENTS: [&str; 9] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "constraints/README.md",
     "host/cli/README.md",
     "protocol/README.md",
+    "protocol/SERIAL.md",
     "testbench/README.md",
     "testbench/data/README.md",
 ];
