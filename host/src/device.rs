@@ -8,6 +8,7 @@ use crate::clock::{ClockTransport, CLOCK_NAME};
 use crate::error::Error;
 use crate::link::{Limit, Link};
 use crate::model::{ModelTransport, MODEL_NAME};
+use crate::serial::{Address, SerialTransport};
 use crate::session::Session;
 use crate::transport::Transport;
 
@@ -28,15 +29,20 @@ impl Device {
     /// - `clock`: the core's model, clock by clock, in the configuration `large`. It gives the answers, records and cycle counts of
     ///   the core, some thousand times slower than `model`.
     /// - `clock?config=NAME`: the same in the configuration `tiny`, `small`, `full` or `large`.
+    /// - `serial:PORT`: a board at a serial port, such as `serial:/dev/ttyUSB0`. Nothing is sent yet.
+    /// - `serial:PORT?baud=B&slow=S`: the same at `B` bits per second (3,000,000 unless given), or less where that cannot be had, and with
+    ///   all times of the link, and those that the library chooses, stretched `S` times for a simulated board.
     ///
     /// Other devices come through [`Device::from_transport`].
     ///
     /// # Errors
-    /// [`Error::Address`] for an unknown address, and the errors of [`Device::model`].
+    /// [`Error::Address`] for an unknown address, [`Error::Port`] for a port that cannot be opened, and the errors of
+    /// [`Device::model`].
     pub fn open(address: &str) -> Result<Self, Error> {
         match Choice::parse(address).map_err(|reason| Error::Address { address: address.to_owned(), reason })? {
             Choice::Model { coord_bits, capacity } => Self::model(coord_bits, capacity),
             Choice::Clock(config) => Self::clock_model(config),
+            Choice::Serial(address) => Ok(Self::from_transport(Box::new(SerialTransport::open(&address)?))),
         }
     }
 
@@ -64,13 +70,14 @@ impl Device {
         Self { link: Link::new(transport) }
     }
 
-    /// Greets the device and checks what it says of itself; gives it ten seconds.
+    /// Greets the device and checks what it says of itself; gives it ten seconds, stretched for a simulation by its
+    /// [`Pace`](crate::Pace).
     ///
     /// # Errors
     /// [`Error::Link`], [`Error::Timeout`], or [`Error::Device`] for one that is no incircle device, speaks another
     /// major version or an older minor one, or claims coordinate bits, a capacity or contexts that cannot be.
     pub fn session(&mut self) -> Result<Session<'_>, Error> {
-        self.session_within(GREETING_TIMEOUT)
+        self.session_within(GREETING_TIMEOUT.saturating_mul(self.link.pace().slow))
     }
 
     /// As [`Device::session`], with another time for the greeting.
@@ -97,18 +104,22 @@ pub(crate) fn check_coord_bits(coord_bits: u32) -> Result<(), Error> {
 enum Choice {
     Model { coord_bits: u32, capacity: u32 },
     Clock(Config),
+    Serial(Address),
 }
 
 impl Choice {
     /// Parses a name with choices behind a question mark; the error is a sentence without the address.
     fn parse(address: &str) -> Result<Self, String> {
+        if let Some(serial) = Address::parse(address) {
+            return serial.map(Self::Serial);
+        }
         let (name, choices) = address.split_once('?').unwrap_or((address, ""));
         let items = choices.split('&').filter(|item| !item.is_empty());
         let items = items.map(|item| item.split_once('=').unwrap_or((item, "")));
         match name {
             MODEL_NAME => Self::parse_model(items),
             CLOCK_NAME => Self::parse_clock(items),
-            _ => Err("this library opens \"model\" and \"clock\" by name, other devices from a transport".to_owned()),
+            _ => Err("this library opens \"model\", \"clock\" and \"serial:PORT\" by name, other devices from a transport".to_owned()),
         }
     }
 
@@ -166,7 +177,8 @@ mod tests {
         for address in [
             "",
             "modem",
-            "serial:/dev/x",
+            "serial:",
+            "serial:/dev/x?baud=1",
             "model?bits=3",
             "model?capacity=many",
             "model?capacity",

@@ -4,6 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use crate::fault::DeviceFault;
+use crate::serial::PortFault;
 use crate::transport::TransportError;
 
 /// What kind of error it is, for exit codes and for callers that only want to know whose fault it was.
@@ -162,6 +163,14 @@ pub enum Error {
         /// What is wrong and what would be right.
         reason: String,
     },
+    /// A port cannot be opened.
+    #[error("{port} cannot be opened: {fault}")]
+    Port {
+        /// Name of the port.
+        port: String,
+        /// Why, and what to do.
+        fault: PortFault,
+    },
     /// Words did not get through.
     #[error("the link to {device} failed during {during}: {source}")]
     Link {
@@ -229,7 +238,8 @@ impl Error {
             | Self::OutOfGrid { .. }
             | Self::Extent { .. } => ErrorKind::BadInput,
             Self::Scale { .. } | Self::CoordBits(_) | Self::Contexts { .. } | Self::Model(_) => ErrorKind::BadChoice,
-            Self::Address { .. } => ErrorKind::DeviceNotFound,
+            Self::Address { .. } | Self::Port { .. } => ErrorKind::DeviceNotFound,
+            Self::Link { source: TransportError::Serial(fault), .. } => fault.kind(),
             Self::TooManyPoints { .. } | Self::Capacity { .. } => ErrorKind::Capacity,
             Self::Link { .. } | Self::OutOfStep { .. } => ErrorKind::Link,
             Self::Timeout { .. } => ErrorKind::Timeout,

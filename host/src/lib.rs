@@ -48,6 +48,7 @@ mod point;
 mod prepare;
 pub mod quantize;
 mod report;
+pub mod serial;
 mod session;
 mod sort;
 mod transport;
@@ -66,7 +67,7 @@ pub use point::Point;
 pub use quantize::{Quantization, Quantize};
 pub use report::Report;
 pub use session::{Session, MAX_POINTS};
-pub use transport::{Transport, TransportError};
+pub use transport::{Pace, Transport, TransportError};
 pub use verify::{verify, VerifyError, VerifySummary};
 
 use incircle_protocol::{CORE_COORD_BITS, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_POINTS};

@@ -12,7 +12,7 @@ use incircle_protocol::{
 use crate::counters::Counters;
 use crate::error::Error;
 use crate::fault::{DeviceFault, MAX_DEVICE_CONTEXTS};
-use crate::transport::{Transport, TransportError};
+use crate::transport::{Pace, Transport, TransportError};
 
 /// Until when a job may run, and how long that was at its start.
 #[derive(Clone, Copy)]
@@ -43,6 +43,10 @@ impl Link {
 
     pub(crate) fn name(&self) -> String {
         self.transport.name()
+    }
+
+    pub(crate) fn pace(&self) -> Pace {
+        self.transport.pace()
     }
 
     /// Asks who the device is, and believes only what a sound device can be.
@@ -147,7 +151,7 @@ fn check_header(header: [u32; 2], opcode: Opcode, payload: usize) -> Result<(), 
 }
 
 /// Identity words are hostile until they pass here.
-fn check_identity(identity: &Identity) -> Result<(), DeviceFault> {
+pub(crate) fn check_identity(identity: &Identity) -> Result<(), DeviceFault> {
     if identity.magic != MAGIC {
         return Err(DeviceFault::Magic { found: identity.magic, expected: MAGIC });
     }

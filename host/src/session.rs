@@ -17,7 +17,7 @@ use crate::report::Report;
 
 /// Most points of one job: ids of triangles and half-edges must fit 32 bits.
 pub const MAX_POINTS: usize = (1 << 29) - 1;
-/// Records of one `Read` command: 384 kB at most.
+/// Records of one `Read` command: 384 kB at most. A slow link takes fewer.
 const READ_CHUNK: usize = 16_384;
 /// Fewest points of an `Insert` command: the device can judge its report only after the first triangle.
 const MIN_INSERT_CHUNK: usize = 3;
@@ -62,7 +62,8 @@ impl<'d> Session<'d> {
     }
 
     pub(crate) fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Mesh, Error> {
-        let timeout = options.timeout.unwrap_or_else(|| Options::default_timeout(points.len()));
+        let default = || Options::default_timeout(points.len()).saturating_mul(self.link.pace().slow);
+        let timeout = options.timeout.unwrap_or_else(default);
         let job = Job {
             identity: self.identity,
             contexts: options.contexts.unwrap_or(self.identity.contexts),
@@ -179,7 +180,8 @@ impl<'j> Job<'j> {
     /// Clears the device and inserts all points, a chunk per command.
     fn insert(&mut self, order: &[u32]) -> Result<(), Error> {
         self.link.clear(self.contexts, self.limit)?;
-        let chunk = self.options.insert_chunk.max(MIN_INSERT_CHUNK);
+        let most = self.options.insert_chunk.max(MIN_INSERT_CHUNK);
+        let chunk = self.link.pace().chunk(most, self.layout.point_words);
         let mut words = Vec::with_capacity(2 + chunk.min(order.len()) * self.layout.point_words);
         let mut sent = 0;
         for indices in order.chunks(chunk) {
@@ -208,10 +210,11 @@ impl<'j> Job<'j> {
         let mut assembly = Assembly::new(order, self.points, self.layout, self.identity.capacity);
         let records = assembly.records();
         let width = self.layout.record_words;
-        let mut words = vec![0; READ_CHUNK.min(records) * width];
-        for first in (0..records).step_by(READ_CHUNK) {
+        let chunk = self.link.pace().chunk(READ_CHUNK, width);
+        let mut words = vec![0; chunk.min(records) * width];
+        for first in (0..records).step_by(chunk) {
             self.tell(Stage::Read, first, records)?;
-            let count = READ_CHUNK.min(records - first);
+            let count = chunk.min(records - first);
             let words = &mut words[..count * width];
             self.link.read(first as u32, count as u32, words, self.limit)?;
             assembly.take(first, words).map_err(|fault| self.link.distrust(Opcode::Read, fault))?;

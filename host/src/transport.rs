@@ -2,6 +2,8 @@
 
 use std::time::Instant;
 
+use crate::serial::SerialFault;
+
 /// A way to a device: commands go out as words, answers come back as words.
 ///
 /// The trait is object-safe; `Box<dyn Transport>` is what [`Device::from_transport`](crate::Device::from_transport)
@@ -16,6 +18,38 @@ pub trait Transport {
 
     /// Short name for reports: `model`, `sim:full`.
     fn name(&self) -> String;
+
+    /// How fast this way is, as far as that matters to whoever uses it.
+    fn pace(&self) -> Pace {
+        Pace::default()
+    }
+}
+
+/// How fast a way to a device is: times and lengths that the library chooses itself follow it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pace {
+    /// How many times slower than a real device it is: 1, or more for a simulation.
+    pub slow: u32,
+    /// Words that pass in a second; `None` if that is not what takes the time.
+    pub words_per_second: Option<u32>,
+}
+
+impl Default for Pace {
+    fn default() -> Self {
+        Self { slow: 1, words_per_second: None }
+    }
+}
+
+impl Pace {
+    /// Items of this many words for about a quarter of a second, so that progress is told and an interrupt heard in time: at least 64,
+    /// at most `most`.
+    pub(crate) fn chunk(self, most: usize, words: usize) -> usize {
+        const LEAST: usize = 64;
+        match self.words_per_second {
+            Some(rate) => most.min((rate as usize / 4 / words.max(1)).max(LEAST)),
+            None => most,
+        }
+    }
 }
 
 /// Why words did not get through.
@@ -41,6 +75,9 @@ pub enum TransportError {
     /// The operating system refused.
     #[error("{0}")]
     Io(#[from] std::io::Error),
+    /// The serial link gave up.
+    #[error("{0}")]
+    Serial(#[from] SerialFault),
     /// Anything else, in one sentence.
     #[error("{0}")]
     Other(String),

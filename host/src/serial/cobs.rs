@@ -1,0 +1,132 @@
+//! Bytes without zeros: COBS towards the device, reverse COBS towards the host.
+
+/// Longest piece without a zero.
+const PIECE: usize = 254;
+/// Length byte of such a piece, which stands for no zero.
+const FULL_PIECE: u8 = 255;
+
+/// Appends `bytes` in COBS, without the closing zero.
+pub(super) fn encode(bytes: &[u8], out: &mut Vec<u8>) {
+    let mut pieces = bytes.split(|&byte| byte == 0).peekable();
+    while let Some(piece) = pieces.next() {
+        let mut chunks = piece.chunks(PIECE).peekable();
+        if chunks.peek().is_none() {
+            out.push(1);
+        }
+        while let Some(chunk) = chunks.next() {
+            // At most 254, so it fits.
+            out.push(chunk.len() as u8 + 1);
+            out.extend_from_slice(chunk);
+            // The piece is full and ends at a zero: that zero needs a length byte of its own.
+            if chunk.len() == PIECE && chunks.peek().is_none() && pieces.peek().is_some() {
+                out.push(1);
+            }
+        }
+    }
+}
+
+/// Decodes reverse COBS in place: where in `bytes` the decoded ones begin, which end where `bytes` end. `None` if a length byte is
+/// impossible.
+pub(super) fn decode_reverse(bytes: &mut [u8]) -> Option<usize> {
+    let mut read = bytes.len();
+    let mut write = bytes.len();
+    // The last length byte stands for no zero, and its piece is never full.
+    let mut is_last = true;
+    while read > 0 {
+        let code = bytes[read - 1];
+        let length = usize::from(code).checked_sub(1)?;
+        let start = (read - 1).checked_sub(length)?;
+        if is_last && code == FULL_PIECE {
+            return None;
+        }
+        if !is_last && code != FULL_PIECE {
+            write -= 1;
+            bytes[write] = 0;
+        }
+        bytes.copy_within(start..read - 1, write - length);
+        write -= length;
+        read = start;
+        is_last = false;
+    }
+    (!is_last).then_some(write)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// COBS as a device decodes it, by a counter.
+    pub fn decode(bytes: &[u8]) -> Option<Vec<u8>> {
+        let mut out = Vec::new();
+        let mut rest = bytes;
+        while let Some((&code, after)) = rest.split_first() {
+            let length = usize::from(code).checked_sub(1)?;
+            out.extend_from_slice(after.get(..length)?);
+            rest = &after[length..];
+            if code != FULL_PIECE && !rest.is_empty() {
+                out.push(0);
+            }
+        }
+        Some(out)
+    }
+
+    /// Reverse COBS as a device encodes it: byte by byte, as the page says.
+    pub fn encode_reverse(bytes: &[u8], out: &mut Vec<u8>) {
+        let mut since = 0;
+        for &byte in bytes {
+            if byte != 0 {
+                out.push(byte);
+                since += 1;
+                if since == PIECE {
+                    out.push(FULL_PIECE);
+                    since = 0;
+                }
+            } else {
+                out.push(since as u8 + 1);
+                since = 0;
+            }
+        }
+        out.push(since as u8 + 1);
+    }
+
+    #[test]
+    fn examples() {
+        let long: Vec<u8> = (1..=255).collect();
+        let cases: [(&[u8], &[u8]); 5] =
+            [(b"", &[1]), (&[0], &[1, 1]), (&[1, 2], &[3, 1, 2]), (&[1, 0, 2], &[2, 1, 2, 2]), (&[0, 0], &[1, 1, 1])];
+        for (plain, coded) in cases {
+            let mut out = Vec::new();
+            encode(plain, &mut out);
+            assert_eq!(out, coded);
+        }
+        for (length, first) in [(253, 254), (254, 255), (255, 255)] {
+            let mut out = Vec::new();
+            encode(&long[..length], &mut out);
+            assert_eq!(out[0], first);
+            assert_eq!(decode(&out).as_deref(), Some(&long[..length]));
+        }
+    }
+
+    #[test]
+    fn what_is_no_reverse_cobs_is_refused() {
+        for mut bytes in [vec![], vec![0], vec![3], vec![1, 0, 1], vec![9, 9, 9], vec![1; 254].into_iter().chain([255]).collect()] {
+            assert_eq!(decode_reverse(&mut bytes), None, "{bytes:?}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn both_ways_there_and_back(plain in proptest::collection::vec(prop_oneof![Just(0u8), 0u8..=255, Just(7u8)], 0..1200)) {
+            let mut out = Vec::new();
+            encode(&plain, &mut out);
+            prop_assert!(!out.contains(&0));
+            prop_assert_eq!(decode(&out), Some(plain.clone()));
+            let mut out = Vec::new();
+            encode_reverse(&plain, &mut out);
+            prop_assert!(!out.contains(&0));
+            let start = decode_reverse(&mut out).expect("sound");
+            prop_assert_eq!(&out[start..], &plain[..]);
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! The engine over a port of the operating system, in real time.
+
+use std::time::{Duration, Instant};
+
+use incircle_protocol::{Greeting, FIRST_RATE};
+
+use super::address::Address;
+use super::engine::{Engine, Params, Statistics};
+use super::fault::SerialFault;
+use super::port::Port;
+use crate::error::Error;
+use crate::transport::{Pace, Transport, TransportError};
+
+/// Bytes read at once.
+const READ_BYTES: usize = 16 * 1024;
+/// Longest time in one call of the system.
+const LONGEST_WAIT: Duration = Duration::from_millis(100);
+/// Wait for bytes while the port takes no more of ours.
+const WRITE_AGAIN: Duration = Duration::from_millis(1);
+/// Time for the goodbye, in the time of the link, and the most of ours.
+const GOODBYE: Duration = Duration::from_millis(400);
+const LONGEST_GOODBYE: Duration = Duration::from_secs(4);
+/// Bits of a word on the line, start and stop bits included.
+const WORD_BITS: u32 = 40;
+
+/// A device at a serial port.
+///
+/// The session is opened by the first command, and closed when the transport is dropped. All deadlines of the link itself are
+/// stretched by the address's `slow`; those of the caller are the caller's.
+pub struct SerialTransport {
+    port: Port,
+    engine: Engine,
+    name: String,
+    slow: u32,
+    origin: Instant,
+    /// Bytes that the port has not taken yet.
+    out: Vec<u8>,
+    /// The answer under way, and how many of its words were handed on.
+    answer: Vec<u32>,
+    taken: usize,
+}
+
+impl SerialTransport {
+    /// Opens the port; nothing is sent yet.
+    ///
+    /// # Errors
+    /// [`Error::Port`] where the system refuses, with what to do about it.
+    pub fn open(address: &Address) -> Result<Self, Error> {
+        let name = address.to_string();
+        let port = Port::open(&address.port).map_err(|fault| Error::Port { port: address.port.clone(), fault })?;
+        let origin = Instant::now();
+        let mut transport = Self {
+            port,
+            engine: Engine::new(Params::default()),
+            name,
+            slow: address.slow.max(1),
+            origin,
+            out: Vec::new(),
+            answer: Vec::new(),
+            taken: 0,
+        };
+        let params = transport.params(address.baud).map_err(|fault| transport.failed(fault))?;
+        transport.engine = Engine::new(params);
+        Ok(transport)
+    }
+
+    fn params(&mut self, baud: u32) -> Result<Params, SerialFault> {
+        let wanted = Params::with_rate(baud);
+        let rates = self.port.possible(&wanted.rates)?;
+        // Any number, so long as the next program has another one.
+        let time = std::time::SystemTime::UNIX_EPOCH.elapsed().map_or(0, |elapsed| elapsed.subsec_nanos() >> 8);
+        Ok(Params { rates, session: (time ^ std::process::id()) as u8 })
+    }
+
+    fn failed(&self, fault: SerialFault) -> Error {
+        Error::Link { device: self.name.clone(), during: "the opening", source: fault.into() }
+    }
+
+    /// Opens the session, unless it is open.
+    ///
+    /// # Errors
+    /// As [`Transport::send`].
+    pub fn connect(&mut self, deadline: Instant) -> Result<(), TransportError> {
+        self.engine.open(self.now());
+        self.drive(deadline, 0, |engine| engine.is_open().then_some(()))
+    }
+
+    /// What the device said of itself, once it did.
+    pub fn greeting(&self) -> Option<&Greeting> {
+        self.engine.greeting()
+    }
+
+    /// Bits per second now.
+    pub fn rate(&self) -> u32 {
+        self.engine.rate()
+    }
+
+    /// What the link has done so far.
+    pub fn statistics(&self) -> Statistics {
+        self.engine.statistics()
+    }
+
+    /// The time of the link.
+    fn now(&self) -> Duration {
+        self.origin.elapsed() / self.slow
+    }
+
+    /// Runs the link until it has what is wanted.
+    fn drive<T>(
+        &mut self,
+        deadline: Instant,
+        wanted: usize,
+        mut ready: impl FnMut(&mut Engine) -> Option<T>,
+    ) -> Result<T, TransportError> {
+        loop {
+            self.engine.check()?;
+            if let Some(result) = ready(&mut self.engine) {
+                return Ok(result);
+            }
+            if Instant::now() >= deadline {
+                return Err(TransportError::Timeout { done: 0, wanted });
+            }
+            self.step(deadline)?;
+        }
+    }
+
+    /// Writes what is due and reads what came, or waits for it.
+    fn step(&mut self, deadline: Instant) -> Result<(), SerialFault> {
+        if self.out.is_empty() {
+            self.follow_rate()?;
+            let now = self.now();
+            self.engine.transmit(now, &mut self.out);
+            if self.out.is_empty() {
+                self.follow_rate()?;
+            }
+        }
+        let written = self.port.write(&self.out)?;
+        self.out.drain(..written);
+        let wait = self.time_to_wait(deadline);
+        let mut bytes = [0; READ_BYTES];
+        let read = self.port.read(&mut bytes, wait)?;
+        self.engine.receive(&bytes[..read], self.now());
+        Ok(())
+    }
+
+    /// Gives the port the engine's rate.
+    fn follow_rate(&mut self) -> Result<(), SerialFault> {
+        if self.port.rate() != self.engine.rate() {
+            self.port.set_rate(self.engine.rate())?;
+        }
+        Ok(())
+    }
+
+    fn time_to_wait(&self, deadline: Instant) -> Duration {
+        if !self.out.is_empty() {
+            return WRITE_AGAIN;
+        }
+        let wake = self.engine.next_wake().unwrap_or(Duration::MAX);
+        let wait = wake.saturating_sub(self.now()).min(LONGEST_WAIT).saturating_mul(self.slow);
+        wait.min(LONGEST_WAIT).min(deadline.saturating_duration_since(Instant::now()))
+    }
+}
+
+impl Transport for SerialTransport {
+    fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
+        self.engine.ask(words, self.now())?;
+        let wanted = words.len();
+        self.answer.clear();
+        self.taken = 0;
+        // The link knows when a command is through by its answer, and asks again for what is lost of that.
+        self.answer = self.drive(deadline, wanted, Engine::take_answer)?;
+        Ok(())
+    }
+
+    fn receive(&mut self, words: &mut [u32], _deadline: Instant) -> Result<(), TransportError> {
+        let rest = self.answer.get(self.taken..).unwrap_or_default();
+        let Some(next) = rest.get(..words.len()) else {
+            return Err(TransportError::Closed { done: rest.len(), wanted: words.len() });
+        };
+        words.copy_from_slice(next);
+        self.taken += words.len();
+        Ok(())
+    }
+
+    fn name(&self) -> String {
+        self.name.clone()
+    }
+
+    fn pace(&self) -> Pace {
+        let words = self.engine.rate() / WORD_BITS / self.slow;
+        Pace { slow: self.slow, words_per_second: Some(words.max(1)) }
+    }
+}
+
+impl Drop for SerialTransport {
+    /// Says goodbye, so that the next program finds the device at the first rate without waiting.
+    fn drop(&mut self) {
+        self.out.clear();
+        self.engine.close(self.now());
+        let deadline = Instant::now() + GOODBYE.saturating_mul(self.slow).min(LONGEST_GOODBYE);
+        while !self.engine.is_closed() && Instant::now() < deadline {
+            if self.step(deadline).is_err() {
+                return;
+            }
+        }
+    }
+}
+
+/// Asks who is at a port, at the first rate and without a session, and waits for the answer until the timeout.
+///
+/// # Errors
+/// [`Error::Port`] where the system refuses, [`Error::Link`] and [`Error::Timeout`] where nobody answers, or no sound device.
+pub fn greet(address: &Address, timeout: Duration) -> Result<Greeting, Error> {
+    let during = "the greeting";
+    let mut transport = SerialTransport::open(&Address { baud: FIRST_RATE, ..address.clone() })?;
+    let now = transport.now();
+    transport.engine.greet(now);
+    let result = transport.drive(Instant::now() + timeout, 0, |engine| engine.greeting().copied());
+    let device = transport.name.clone();
+    result.map_err(|source| match source {
+        TransportError::Timeout { .. } => Error::Timeout { device, during, timeout },
+        source => Error::Link { device, during, source },
+    })
+}
