@@ -27,7 +27,15 @@ const ALLOWED: [(&str, &[&str]); 8] = [
     ("incircle-cli", &["incircle-protocol", "incircle", "incircle-sim"]),
     (
         "incircle-testbench",
-        &["incircle-protocol", "incircle-model", "incircle-hdl", "verilated", "incircle", "incircle-cli"],
+        &[
+            "incircle-protocol",
+            "incircle-model",
+            "incircle-hdl",
+            "incircle-sim",
+            "verilated",
+            "incircle",
+            "incircle-cli",
+        ],
     ),
 ];
 

@@ -47,11 +47,8 @@ impl Engine {
             Stage::Searching { due, until, .. } => Some(*due.min(until)),
             Stage::Open => {
                 let silent_at = self.silent_at();
-                let next = if self.sender.has_due() {
-                    self.line.free_at().saturating_sub(AHEAD)
-                } else {
-                    self.poll_at()
-                };
+                let next =
+                    if self.sender.has_due() { self.line.free_at().saturating_sub(AHEAD) } else { self.poll_at() };
                 Some(next.min(self.poll_at()).min(silent_at))
             }
         }
@@ -81,7 +78,7 @@ impl Engine {
 
     /// When the next `Poll` is due.
     fn poll_at(&self) -> Duration {
-        let keep = self.last_said + POLL_EVERY;
+        let keep = self.last_said + POLL_EVERY.min(self.silence / 4);
         let is_waiting = self.reader.is_waiting() || !self.sender.is_done();
         if !is_waiting || self.sender.has_due() {
             return keep;

@@ -59,10 +59,11 @@ impl Session {
     /// Words pass between FIFO, core and answers.
     pub(super) fn pass(&mut self, core: &mut impl WordDevice, clocks: u64) {
         for _ in 0..clocks {
-            if self.fifo.is_empty() && !self.is_busy {
+            // Nothing to do, or nothing that can be done before the line has taken an answer word: such clocks are not simulated.
+            if self.fifo.is_empty() && !self.is_busy || !self.answers.has_room() {
                 return;
             }
-            let passed = core.step(self.fifo.front().copied(), self.answers.has_room());
+            let passed = core.step(self.fifo.front().copied(), true);
             if let Some(word) = passed.answer {
                 if self.answers.add(word) {
                     self.is_ahead = false;

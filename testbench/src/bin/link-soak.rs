@@ -1,0 +1,24 @@
+//! Two hundred jobs and more for each bit error rate, in both directions: through the pins with up to 100 points at 12 Mbaud, and
+//! larger ones without the bits. A number as argument is that of the jobs.
+
+use std::error::Error;
+use std::process::ExitCode;
+
+use incircle_protocol::{FULL, SMALL};
+use incircle_sim::faults::FaultSpec;
+use incircle_testbench::link::{soak, Detail, Soak};
+
+fn main() -> Result<ExitCode, Box<dyn Error>> {
+    let jobs = std::env::args().nth(1).map_or(Ok(200), |text| text.parse())?;
+    let mut is_good = true;
+    for (detail, config, points) in [(Detail::Pins, SMALL, 100), (Detail::Bytes, FULL, 4000)] {
+        for ber in [1e-6, 1e-5, 1e-4] {
+            let faults = FaultSpec { ber, seed: 1000, ..FaultSpec::default() };
+            let report = soak(&Soak { detail, config, faults, rate: 12_000_000, jobs, points })?;
+            println!("{}, up to {points} points, bit errors {ber:e}: {report}", detail.name());
+            is_good &= report.jobs() == jobs && report.wrong == 0 && (ber > 1e-6 || report.right == jobs);
+        }
+    }
+    println!("{}", if is_good { "as it must be" } else { "NOT as it must be" });
+    Ok(if is_good { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}

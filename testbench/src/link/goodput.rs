@@ -1,0 +1,119 @@
+//! How much of a line's payload limit the link reaches.
+
+use std::error::Error;
+use std::fmt::Write;
+use std::time::Duration;
+
+use incircle_protocol::{answer_status, clear_word, command_word, Config, Opcode, Status, FULL};
+use incircle_sim::faults::FaultSpec;
+
+use super::{Detail, VirtualLine};
+
+/// Rates of the table.
+pub const RATES: [u32; 2] = [3_000_000, 12_000_000];
+/// What is aimed at, of the payload limit.
+pub const TARGET: f64 = 0.9;
+/// Round trip besides the bits.
+const TRIP: Duration = Duration::from_millis(1);
+/// Time for a command.
+const LIMIT: Duration = Duration::from_secs(30);
+/// The core: with one so large an answer is many windows long.
+const CORE: Config = FULL;
+
+/// Where payload goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Points to the device.
+    Points,
+    /// Records to the host.
+    Records,
+}
+
+/// What was measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Goodput {
+    /// Bits per second of the line.
+    pub rate: u32,
+    /// Direction.
+    pub way: Way,
+    /// Bytes of words: the command with its points, or the answer with its records.
+    pub bytes: usize,
+    /// From the command asked for until its answer is there.
+    pub time: Duration,
+}
+
+impl Goodput {
+    /// Payload bytes per second.
+    pub fn per_second(&self) -> f64 {
+        self.bytes as f64 / self.time.as_secs_f64()
+    }
+
+    /// Of what ten bits a byte allow, if the line carried nothing but payload.
+    pub fn share(&self) -> f64 {
+        self.per_second() * 10.0 / f64::from(self.rate)
+    }
+}
+
+/// Both ways at a rate, with `points` points, of which the core keeps what it holds.
+///
+/// # Errors
+/// The board was not translated, or the link failed.
+pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2], Box<dyn Error>> {
+    let mut line = VirtualLine::new(detail.board(CORE)?, rate, TRIP, &FaultSpec::default());
+    line.open(LIMIT)?;
+    if line.rate() != rate {
+        return Err(format!("the link runs at {} bits per second, not {rate}", line.rate()).into());
+    }
+    line.ask(&[clear_word(0)], LIMIT)?;
+    let mut insert = vec![command_word(Opcode::Insert), u32::try_from(points)?];
+    insert.extend(super::random_points(points, 1).iter().map(|point| point.x | point.y << 16));
+    let begun = line.now();
+    let report = line.ask(&insert, LIMIT)?;
+    let status = report.first().map(|&header| answer_status(header));
+    if status != Some(Status::Ok as u8) && status != Some(Status::Full as u8) {
+        return Err(format!("the core answers with status {status:?}").into());
+    }
+    let to_device = Goodput { rate, way: Way::Points, bytes: 4 * insert.len(), time: line.now() - begun };
+    let records = report.get(6).copied().unwrap_or(0);
+    let begun = line.now();
+    let answer = line.ask(&[command_word(Opcode::Read), 0, records], LIMIT)?;
+    let to_host = Goodput { rate, way: Way::Records, bytes: 4 * answer.len(), time: line.now() - begun };
+    line.close();
+    Ok([to_device, to_host])
+}
+
+/// The table as `goodput.md` has it.
+///
+/// # Errors
+/// As [`measure`].
+pub fn document() -> Result<String, Box<dyn Error>> {
+    let mut text = String::from(
+        "# Goodput of the serial link\n\n\
+         Made by `cargo run --release -p incircle-testbench --bin goodput`: the driver's engine before the Verilated `incircle_serial_top`, its pins driven \
+         and sampled bit by bit, with 1 ms of round trip besides the bits, in virtual time, so the same everywhere. The core is `full`, \
+         its link has 16,384 bytes of FIFO.\n\n\
+         Payload is what the core and its user see: the words of one `Insert` with its points, the words of one `Read` answer with its records. The time is \
+         that of the whole command, from the call of the driver to the last word of the answer in its hands, so the round trip, frame \
+         headers, check sums, encoding, acknowledgements and the core's own work all count as losses. The limit is the rate \
+         over ten, as 8N1 sends ten bits a byte: what the line would carry if there were nothing but payload.\n\n\
+         | bits per second | way | payload bytes | time | bytes per second | of the limit |\n|---|---|---|---|---|---|\n",
+    );
+    for rate in RATES {
+        for goodput in measure(Detail::Pins, rate, 8192)? {
+            let way = match goodput.way {
+                Way::Points => "points to the device",
+                Way::Records => "records to the host",
+            };
+            writeln!(
+                text,
+                "| {} | {way} | {} | {:.1} ms | {:.0} | {:.1} % |",
+                rate,
+                goodput.bytes,
+                goodput.time.as_secs_f64() * 1e3,
+                goodput.per_second(),
+                100.0 * goodput.share()
+            )?;
+        }
+    }
+    Ok(text)
+}

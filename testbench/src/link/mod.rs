@@ -1,0 +1,48 @@
+//! The driver's engine of the serial link before simulated boards, in virtual time, and what it reaches there.
+//!
+//! [`VirtualLine`] joins the two: the same engine that runs over ports of the operating system, a board with its pins or without, faults
+//! between, and a delay each way. Nothing here waits for a clock on the wall, so every run can be repeated.
+
+mod goodput;
+mod jobs;
+mod soak;
+mod virtual_line;
+
+pub use goodput::{document, measure, Goodput, Way, RATES, TARGET};
+pub use jobs::{is_one_mesh, random_points};
+pub use soak::{soak, Soak, SoakReport};
+pub use virtual_line::{VirtualLine, VirtualTransport};
+
+use incircle_protocol::Config;
+use incircle_sim::serial::{board_link, Board, PinBoard, QuickBoard};
+use incircle_sim::SimError;
+
+/// How much of a board is simulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detail {
+    /// Every clock of its pins.
+    Pins,
+    /// Bytes, and the core's clocks while it works.
+    Bytes,
+}
+
+impl Detail {
+    /// For reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pins => "pins",
+            Self::Bytes => "bytes",
+        }
+    }
+
+    /// A board with the core of this configuration.
+    ///
+    /// # Errors
+    /// It was not translated.
+    pub fn board(self, config: Config) -> Result<Box<dyn Board>, SimError> {
+        Ok(match self {
+            Self::Pins => Box::new(PinBoard::new(config)?),
+            Self::Bytes => Box::new(QuickBoard::new(config, board_link(config))?),
+        })
+    }
+}

@@ -1,0 +1,201 @@
+//! An engine of the driver, a line with faults and delays, and a board, in one virtual time.
+
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+use incircle::serial::{Engine, Params, Statistics};
+use incircle::{Transport, TransportError};
+use incircle_sim::faults::{FaultSpec, Proxy};
+use incircle_sim::serial::Board;
+
+/// Clocks between two looks at the line: less than a byte takes at any rate.
+const SLICE: u64 = 80;
+
+/// Driver, line and board.
+pub struct VirtualLine {
+    engine: Engine,
+    board: Box<dyn Board>,
+    proxy: Proxy,
+    /// Nanoseconds that a byte takes each way, besides its bits.
+    delay: u64,
+    /// Bytes on their way, and when they arrive.
+    to_device: VecDeque<(u64, u8)>,
+    to_host: VecDeque<(u64, u8)>,
+    /// When the engine wants to be asked, if nothing comes.
+    wakes_at: Option<u64>,
+    out: Vec<u8>,
+    came: Vec<u8>,
+}
+
+impl VirtualLine {
+    /// A driver that wishes for `rate`, before a board; each round trip takes `trip` besides the bits.
+    pub fn new(board: Box<dyn Board>, rate: u32, trip: Duration, faults: &FaultSpec) -> Self {
+        Self {
+            engine: Engine::new(Params::with_rate(rate)),
+            board,
+            proxy: Proxy::new(faults),
+            delay: (trip.as_nanos() / 2) as u64,
+            to_device: VecDeque::new(),
+            to_host: VecDeque::new(),
+            wakes_at: Some(0),
+            out: Vec::new(),
+            came: Vec::new(),
+        }
+    }
+
+    /// The time.
+    pub fn now(&self) -> Duration {
+        Duration::from_nanos(self.nanoseconds())
+    }
+
+    /// What the driver did.
+    pub fn statistics(&self) -> Statistics {
+        self.engine.statistics()
+    }
+
+    /// Faults of the line so far.
+    pub fn faults(&self) -> u64 {
+        self.proxy.faults()
+    }
+
+    /// Bits per second now.
+    pub fn rate(&self) -> u32 {
+        self.engine.rate()
+    }
+
+    /// Another driver in the place of this one, without a goodbye: as after the program was killed.
+    pub fn restart_host(&mut self, rate: u32, session: u8) {
+        self.engine = Engine::new(Params { session, ..Params::with_rate(rate) });
+        self.to_device.clear();
+        self.wakes_at = Some(0);
+    }
+
+    /// Opens the session, within this time.
+    ///
+    /// # Errors
+    /// As [`VirtualLine::ask`].
+    pub fn open(&mut self, limit: Duration) -> Result<(), TransportError> {
+        let now = self.now();
+        self.engine.open(now);
+        self.drive(now + limit, |engine| engine.is_open().then_some(()))
+    }
+
+    /// One command and its whole answer, within this time.
+    ///
+    /// # Errors
+    /// The time passed, or the engine gives up.
+    pub fn ask(&mut self, command: &[u32], limit: Duration) -> Result<Vec<u32>, TransportError> {
+        let now = self.now();
+        self.engine.ask(command, now)?;
+        self.drive(now + limit, Engine::take_answer)
+    }
+
+    /// Says goodbye.
+    pub fn close(&mut self) {
+        let now = self.now();
+        self.engine.close(now);
+        // Whether it was heard or not, the next driver finds its way.
+        let _ = self.drive(now + Duration::from_secs(1), |engine| engine.is_closed().then_some(()));
+    }
+
+    fn drive<T>(
+        &mut self,
+        deadline: Duration,
+        mut ready: impl FnMut(&mut Engine) -> Option<T>,
+    ) -> Result<T, TransportError> {
+        self.wakes_at = Some(0);
+        loop {
+            self.engine.check()?;
+            if let Some(result) = ready(&mut self.engine) {
+                return Ok(result);
+            }
+            if self.now() >= deadline {
+                return Err(TransportError::Timeout { done: 0, wanted: 1 });
+            }
+            self.step();
+        }
+    }
+
+    /// A slice of time.
+    fn step(&mut self) {
+        let now = self.nanoseconds();
+        if self.wakes_at.is_some_and(|at| at <= now) {
+            self.engine.transmit(Duration::from_nanos(now), &mut self.out);
+            let arrives = now + self.delay;
+            self.to_device.extend(self.out.drain(..).map(|byte| (arrives, byte)));
+            self.wakes_at = self.engine.next_wake().map(|at| at.as_nanos() as u64);
+        }
+        while let Some((_, byte)) = self.to_device.pop_front_if(|(at, _)| *at <= now) {
+            self.proxy.from_host(byte, now);
+        }
+        while let Some(symbol) = self.proxy.next_to_device(now) {
+            self.board.send(symbol);
+        }
+        if self.to_device.is_empty() && self.board.waiting() == 0 {
+            self.board.set_rate(self.engine.rate());
+        }
+        self.board.run(SLICE);
+        self.listen();
+    }
+
+    fn listen(&mut self) {
+        let now = self.nanoseconds();
+        while let Some((_, symbol)) = self.board.receive() {
+            self.proxy.from_device(symbol, now);
+        }
+        while let Some(byte) = self.proxy.next_to_host(now) {
+            self.to_host.push_back((now + self.delay, byte));
+        }
+        while let Some((_, byte)) = self.to_host.pop_front_if(|(at, _)| *at <= now) {
+            self.came.push(byte);
+        }
+        if !self.came.is_empty() {
+            self.engine.receive(&self.came, Duration::from_nanos(now));
+            self.came.clear();
+            self.wakes_at = Some(now);
+        }
+    }
+
+    fn nanoseconds(&self) -> u64 {
+        let clock_hz = u128::from(self.board.link().clock_hz.max(1));
+        (u128::from(self.board.clocks()) * 1_000_000_000 / clock_hz) as u64
+    }
+}
+
+/// A [`VirtualLine`] as the library wants it. Deadlines of the wall are not looked at; each command has a limit in virtual time.
+pub struct VirtualTransport {
+    line: Rc<RefCell<VirtualLine>>,
+    limit: Duration,
+    answer: Vec<u32>,
+    taken: usize,
+}
+
+impl VirtualTransport {
+    /// Over this line, with this time for each command.
+    pub fn new(line: Rc<RefCell<VirtualLine>>, limit: Duration) -> Self {
+        Self { line, limit, answer: Vec::new(), taken: 0 }
+    }
+}
+
+impl Transport for VirtualTransport {
+    fn send(&mut self, words: &[u32], _deadline: Instant) -> Result<(), TransportError> {
+        self.taken = 0;
+        self.answer = self.line.borrow_mut().ask(words, self.limit)?;
+        Ok(())
+    }
+
+    fn receive(&mut self, words: &mut [u32], _deadline: Instant) -> Result<(), TransportError> {
+        let rest = self.answer.get(self.taken..).unwrap_or_default();
+        let next = rest.get(..words.len());
+        let next = next.ok_or(TransportError::Closed { done: rest.len(), wanted: words.len() })?;
+        words.copy_from_slice(next);
+        self.taken += words.len();
+        Ok(())
+    }
+
+    fn name(&self) -> String {
+        "virtual line".to_owned()
+    }
+}
