@@ -119,7 +119,10 @@ impl Choice {
         match name {
             MODEL_NAME => Self::parse_model(items),
             CLOCK_NAME => Self::parse_clock(items),
-            _ => Err("this library opens \"model\", \"clock\" and \"serial:PORT\" by name, other devices from a transport".to_owned()),
+            _ => Err(
+                "this library opens \"model\", \"clock\" and \"serial:PORT\" by name, other devices from a transport"
+                    .to_owned(),
+            ),
         }
     }
 

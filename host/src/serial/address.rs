@@ -80,7 +80,14 @@ mod tests {
         assert_eq!(Address::parse("serial:/dev/ttyUSB0"), Some(Ok(Address::of_port("/dev/ttyUSB0"))));
         let all = Address { port: "COM3".to_owned(), baud: 12_000_000, slow: 40 };
         assert_eq!(Address::parse("serial:COM3?baud=12000000&slow=40"), Some(Ok(all)));
-        for bad in ["serial:", "serial:?baud=115200", "serial:x?baud=9600", "serial:x?slow=0", "serial:x?parity=odd", "serial:x?baud"] {
+        for bad in [
+            "serial:",
+            "serial:?baud=115200",
+            "serial:x?baud=9600",
+            "serial:x?slow=0",
+            "serial:x?parity=odd",
+            "serial:x?baud",
+        ] {
             let reason = Address::parse(bad).expect("serial").expect_err(bad);
             assert!(!reason.is_empty());
         }

@@ -110,7 +110,9 @@ pub(super) mod tests {
 
     #[test]
     fn what_is_no_reverse_cobs_is_refused() {
-        for mut bytes in [vec![], vec![0], vec![3], vec![1, 0, 1], vec![9, 9, 9], vec![1; 254].into_iter().chain([255]).collect()] {
+        for mut bytes in
+            [vec![], vec![0], vec![3], vec![1, 0, 1], vec![9, 9, 9], vec![1; 254].into_iter().chain([255]).collect()]
+        {
             assert_eq!(decode_reverse(&mut bytes), None, "{bytes:?}");
         }
     }

@@ -65,8 +65,15 @@ enum Stage {
     /// A session is open.
     Open,
     /// The device fell silent in an open session, at the time given: is there one that was reset?
-    Searching { silent_for: Duration, until: Duration, due: Duration },
-    Closing { said: u32, due: Duration },
+    Searching {
+        silent_for: Duration,
+        until: Duration,
+        due: Duration,
+    },
+    Closing {
+        said: u32,
+        due: Duration,
+    },
 }
 
 /// A `Poll` whose answer is awaited.

@@ -53,7 +53,9 @@ pub enum SerialFault {
     #[error("{0}")]
     Identity(#[from] DeviceFault),
     /// Another host has opened a session.
-    #[error("another program opened session {session} on the same line in the middle of the job: end it, and run again")]
+    #[error(
+        "another program opened session {session} on the same line in the middle of the job: end it, and run again"
+    )]
     Taken {
         /// Its session.
         session: u8,
@@ -116,7 +118,9 @@ pub enum SerialFault {
         due: usize,
     },
     /// An answer ended with another number of words than it announced.
-    #[error("the device's answer announces {announced} words and has {came}: reset it, and if it persists distrust it")]
+    #[error(
+        "the device's answer announces {announced} words and has {came}: reset it, and if it persists distrust it"
+    )]
     AnswerLength {
         /// Words announced.
         announced: u32,

@@ -67,10 +67,8 @@ pub struct PortInfo {
 /// A sentence, where the system cannot list them.
 pub fn ports() -> Result<Vec<PortInfo>, PortFault> {
     let found = serialport::available_ports().map_err(|error| PortFault::Other(error.description))?;
-    let mut ports: Vec<_> = found
-        .into_iter()
-        .map(|port| PortInfo { name: port.port_name, what: describe(&port.port_type) })
-        .collect();
+    let mut ports: Vec<_> =
+        found.into_iter().map(|port| PortInfo { name: port.port_name, what: describe(&port.port_type) }).collect();
     ports.sort_by(|one, other| one.name.cmp(&other.name));
     Ok(ports)
 }

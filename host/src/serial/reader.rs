@@ -271,7 +271,10 @@ impl Asked {
             return Err(SerialFault::AnswerDigest { found, expected: announced });
         }
         if !self.is_whole() {
-            return Err(SerialFault::AnswerLength { announced: self.header[1], came: self.came.saturating_sub(HEADER) });
+            return Err(SerialFault::AnswerLength {
+                announced: self.header[1],
+                came: self.came.saturating_sub(HEADER),
+            });
         }
         Ok(())
     }
@@ -280,9 +283,8 @@ impl Asked {
 /// Longest payload of an answer to a whole command.
 const LONGEST_WHOLE: usize = LATENCY_BUCKETS;
 // Every answer that is not a range's fits.
-const _: () = assert!(
-    COUNTER_WORDS <= LONGEST_WHOLE && IDENTITY_WORDS <= LONGEST_WHOLE && INSERT_REPORT_WORDS <= LONGEST_WHOLE
-);
+const _: () =
+    assert!(COUNTER_WORDS <= LONGEST_WHOLE && IDENTITY_WORDS <= LONGEST_WHOLE && INSERT_REPORT_WORDS <= LONGEST_WHOLE);
 
 impl Exchange {
     fn of(command: &[u32], layout: Layout) -> Result<Self, SerialFault> {

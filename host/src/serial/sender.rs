@@ -150,12 +150,7 @@ impl Sender {
 
     /// Takes what the device says: it awaits frame `expected`, has `free` bytes, and, if told, this check sum of all it took.
     /// `None` if this is no news of now: it overtook, or was doubled on the way.
-    pub fn acknowledge(
-        &mut self,
-        expected: u8,
-        free: usize,
-        digest: Option<u32>,
-    ) -> Result<Option<News>, SerialFault> {
+    pub fn acknowledge(&mut self, expected: u8, free: usize, digest: Option<u32>) -> Result<Option<News>, SerialFault> {
         let taken = usize::from(expected.wrapping_sub(self.base as u8));
         if taken > self.sent.len() {
             return Ok(None);

@@ -47,11 +47,8 @@ impl Engine {
             Stage::Searching { due, until, .. } => Some(*due.min(until)),
             Stage::Open => {
                 let silent_at = self.silent_at();
-                let next = if self.sender.has_due() {
-                    self.line.free_at().saturating_sub(AHEAD)
-                } else {
-                    self.poll_at()
-                };
+                let next =
+                    if self.sender.has_due() { self.line.free_at().saturating_sub(AHEAD) } else { self.poll_at() };
                 Some(next.min(self.poll_at()).min(silent_at))
             }
         }
