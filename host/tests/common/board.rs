@@ -215,7 +215,7 @@ impl Board {
     }
 
     fn take_data(&mut self, number: u8, payload: &[u8]) {
-        assert!(payload.len() >= 4 && payload.len() % 4 == 0, "{}", payload.len());
+        assert!(payload.len() >= 4 && payload.len().is_multiple_of(4), "{}", payload.len());
         let ahead = number.wrapping_sub(self.expected);
         if ahead >= 128 {
             self.due[ACK] = true;
