@@ -248,11 +248,7 @@ impl Connect {
                 }
             }
             (Step::Probe { .. }, DeviceFrame::Ack) if is_ours && self.echoes == 0 => self.echo(now),
-            (Step::Probe { .. }, DeviceFrame::Hello) if self.echoes > 0 => {
-                if message.words().map(Greeting::from_words) == self.greeting {
-                    self.echo(now);
-                }
-            }
+            (Step::Probe { .. }, DeviceFrame::Hello) if self.echoes > 0 && self.is_echo(message) => self.echo(now),
             (Step::Return, DeviceFrame::Ack) if is_ours => {
                 if self.asked >= RATE_TRIES {
                     self.rates.pop_front();
@@ -268,6 +264,11 @@ impl Connect {
             _ => {}
         }
         Ok(false)
+    }
+
+    /// True if it is the greeting from before.
+    fn is_echo(&self, message: &Message<'_>) -> bool {
+        self.greeting.is_some() && message.words().map(Greeting::from_words) == self.greeting
     }
 
     fn echo(&mut self, now: Duration) {

@@ -76,13 +76,23 @@ impl SerialTransport {
         Error::Link { device: self.name.clone(), during: "the opening", source: fault.into() }
     }
 
-    /// Opens the session, unless it is open.
+    /// Opens the session, unless it is open. The timeout is in the time of the link.
     ///
     /// # Errors
-    /// As [`Transport::send`].
-    pub fn connect(&mut self, deadline: Instant) -> Result<(), TransportError> {
+    /// [`Error::Link`] and [`Error::Timeout`] where nobody answers, or no sound device.
+    pub fn connect(&mut self, timeout: Duration) -> Result<(), Error> {
         self.engine.open(self.now());
-        self.drive(deadline, 0, |engine| engine.is_open().then_some(()))
+        self.drive_for(timeout, |engine| engine.is_open().then_some(()))
+    }
+
+    fn drive_for<T>(&mut self, timeout: Duration, ready: impl FnMut(&mut Engine) -> Option<T>) -> Result<T, Error> {
+        const DURING: &str = "the greeting";
+        let timeout = timeout.saturating_mul(self.slow);
+        let result = self.drive(Instant::now() + timeout, 0, ready);
+        result.map_err(|source| match source {
+            TransportError::Timeout { .. } => Error::Timeout { device: self.name(), during: DURING, timeout },
+            source => Error::Link { device: self.name(), during: DURING, source },
+        })
     }
 
     /// What the device said of itself, once it did.
@@ -206,19 +216,14 @@ impl Drop for SerialTransport {
     }
 }
 
-/// Asks who is at a port, at the first rate and without a session, and waits for the answer until the timeout.
+/// Asks who is at a port, at the first rate and without a session, and waits for the answer until the timeout, which is in the time of
+/// the link.
 ///
 /// # Errors
 /// [`Error::Port`] where the system refuses, [`Error::Link`] and [`Error::Timeout`] where nobody answers, or no sound device.
 pub fn greet(address: &Address, timeout: Duration) -> Result<Greeting, Error> {
-    let during = "the greeting";
     let mut transport = SerialTransport::open(&Address { baud: FIRST_RATE, ..address.clone() })?;
     let now = transport.now();
     transport.engine.greet(now);
-    let result = transport.drive(Instant::now() + timeout, 0, |engine| engine.greeting().copied());
-    let device = transport.name.clone();
-    result.map_err(|source| match source {
-        TransportError::Timeout { .. } => Error::Timeout { device, during, timeout },
-        source => Error::Link { device, during, source },
-    })
+    transport.drive_for(timeout, |engine| engine.greeting().copied())
 }

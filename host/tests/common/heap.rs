@@ -1,0 +1,44 @@
+//! Counts what a thread holds on the heap.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+thread_local! {
+    static HELD: Cell<isize> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn count(bytes: isize) {
+    // A thread that ends may give back what is left without being counted.
+    let _ = HELD.try_with(|held| held.set(held.get() + bytes));
+}
+
+// SAFETY: all is left to the system's allocator; only a number is kept beside.
+#[allow(unsafe_code)] // an allocator cannot be had otherwise
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count(layout.size() as isize);
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        count(-(layout.size() as isize));
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+/// From now on counts.
+pub fn watch() {
+    HELD.with(|held| held.set(0));
+}
+
+/// Bytes that this thread holds more than when it began to watch.
+pub fn held() -> isize {
+    HELD.with(Cell::get)
+}
