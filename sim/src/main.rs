@@ -19,7 +19,7 @@ const TRIAL: u64 = 200_000;
 /// How much slower than at its trial the simulation may become, for other programs run as well: in halves.
 const MARGIN_HALVES: f64 = 3.0;
 /// How slow a board without bits is run.
-const QUICK_SLOW: u32 = 10;
+const QUICK_SLOW: u32 = 50;
 
 /// The incircle core on a simulated board.
 #[derive(Parser)]

@@ -36,3 +36,28 @@ fn jobs_without_bits_survive_every_fault_of_the_line() {
         assert!(report.faults > 0 || spec.is_empty() || spec == "ber=1e-6", "{spec}: {report}");
     }
 }
+
+/// Points as an `Insert` with `count` of them.
+fn insert(count: u32) -> Vec<u32> {
+    let mut words = vec![command_word(Opcode::Insert), count];
+    words.extend((0..count).map(|j| (j * 7919 & 0xffff) | (j * 104_729 & 0xffff) << 16));
+    words
+}
+
+#[test]
+fn a_host_that_is_killed_in_mid_job_leaves_a_device_that_the_next_one_finds() {
+    for detail in [Detail::Bytes] {
+        for (seed, limit) in [(1, 0), (2, 3), (3, 11)] {
+            let board = detail.board(SMALL).unwrap();
+            let mut line = VirtualLine::new(board, 3_000_000, TRIP, &FaultSpec::default());
+            line.open(LIMIT).unwrap();
+            // Killed while points are on their way, at 3 Mbaud, without a goodbye.
+            line.ask(&insert(1000), Duration::from_millis(limit)).unwrap_err();
+            line.restart_host(3_000_000, seed);
+            line.open(LIMIT).unwrap();
+            let answer = line.ask(&insert(20), LIMIT).unwrap();
+            assert_eq!(answer[..4], [0x0300_0000, 5, 20, 20], "{seed}");
+            line.close();
+        }
+    }
+}

@@ -1,15 +1,17 @@
 //! The driver's engine of the serial link before simulated boards, in virtual time, and what it reaches there.
 //!
 //! [`VirtualLine`] joins the two: the same engine that runs over ports of the operating system, a board with its pins or without, faults
-//! between, and a delay each way. Nothing here waits for a clock on the wall, so every run can be repeated.
+//! between, and a delay each way. It waits for no clock on the wall, so every run can be repeated. [`Served`] is a board behind a pseudo-terminal, in real time.
 
 mod goodput;
 mod jobs;
+mod served;
 mod soak;
 mod virtual_line;
 
 pub use goodput::{document, measure, Goodput, Way, RATES, TARGET};
 pub use jobs::{is_one_mesh, random_points};
+pub use served::Served;
 pub use soak::{soak, Soak, SoakReport};
 pub use virtual_line::{VirtualLine, VirtualTransport};
 

@@ -30,8 +30,8 @@ mod session;
 mod tests;
 
 use incircle_protocol::{
-    rate_step, DeviceFrame, Greeting, HostFrame, Identity, LinkConfig, FIRST_RATE, LINK_MAGIC, LINK_VERSION, MAX_STEP,
-    STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN,
+    patience, rate_step, DeviceFrame, Greeting, HostFrame, Identity, LinkConfig, FIRST_RATE, LINK_MAGIC, LINK_VERSION,
+    MAX_POINTS, MAX_STEP, STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN,
 };
 
 use answers::Part;
@@ -180,7 +180,8 @@ impl<D: WordDevice> SerialModel<D> {
             (HostFrame::Open, _) => {
                 self.end_session();
                 self.core.reset();
-                self.session = Some(Session::new(frame.session));
+                let patience = patience(self.greeting.identity.capacity.min(MAX_POINTS));
+                self.session = Some(Session::new(frame.session, u64::from(patience)));
                 self.due.opened = true;
             }
             (_, None) => self.due.no_session = true,

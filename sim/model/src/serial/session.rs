@@ -40,10 +40,13 @@ pub(super) struct Session {
     pub(super) is_busy: bool,
     /// It has taken one since the last word of the last answer came.
     is_ahead: bool,
+    /// Clocks since a word passed, and those after which the core can only be waiting for the host.
+    quiet: u64,
+    patience: u64,
 }
 
 impl Session {
-    pub(super) fn new(number: u8) -> Self {
+    pub(super) fn new(number: u8, patience: u64) -> Self {
         Self {
             number,
             expected: 0,
@@ -53,6 +56,8 @@ impl Session {
             answers: Answers::default(),
             is_busy: false,
             is_ahead: false,
+            quiet: 0,
+            patience,
         }
     }
 
@@ -60,10 +65,14 @@ impl Session {
     pub(super) fn pass(&mut self, core: &mut impl WordDevice, clocks: u64) {
         for _ in 0..clocks {
             // Nothing to do, or nothing that can be done before the line has taken an answer word: such clocks are not simulated.
-            if self.fifo.is_empty() && !self.is_busy || !self.answers.has_room() {
+            if self.fifo.is_empty() && (!self.is_busy || self.quiet > self.patience) || !self.answers.has_room() {
                 return;
             }
+            self.quiet += 1;
             let passed = core.step(self.fifo.front().copied(), true);
+            if passed.answer.is_some() || passed.is_taken {
+                self.quiet = 0;
+            }
             if let Some(word) = passed.answer {
                 if self.answers.add(word) {
                     self.is_ahead = false;

@@ -1,0 +1,166 @@
+//! The real driver before a simulated board, through a pseudo-terminal, in real time: a job, each class of faults, an unplugged cable, a
+//! killed host, two clients, and devices that lie.
+
+use std::time::{Duration, Instant};
+
+use incircle::{Device, Error, ErrorKind, Mesh, Options, Point};
+use incircle_protocol::SMALL;
+use incircle_testbench::link::{is_one_mesh, random_points, Detail, Served};
+
+/// Real time over the board's, for the board and for the driver.
+const PINS_SLOW: u32 = 100;
+const BYTES_SLOW: u32 = 50;
+const RATE: u32 = 12_000_000;
+/// Deadline of a job, in real time.
+const LIMIT: Duration = Duration::from_secs(120);
+
+fn served(detail: Detail, faults: &str) -> Served {
+    let slow = if detail == Detail::Pins { PINS_SLOW } else { BYTES_SLOW };
+    Served::new(detail, SMALL, faults, slow).unwrap()
+}
+
+/// Opens, greets, does the job, closes.
+fn triangulate(address: &str, points: &[Point]) -> Result<Mesh, Error> {
+    let options = Options { timeout: Some(LIMIT), ..Options::default() };
+    Device::open(address)?.session_within(LIMIT)?.triangulate_with(points, &options)
+}
+
+/// The job must end with the right mesh.
+fn must_be_right(address: &str, points: usize, seed: u64, what: &str) {
+    let points = random_points(points, seed);
+    let begun = Instant::now();
+    let mesh = triangulate(address, &points).unwrap_or_else(|error| panic!("{what}: {error}"));
+    assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()), "{what}: another mesh");
+    assert!(begun.elapsed() < LIMIT, "{what}: {:?}", begun.elapsed());
+}
+
+/// Faults of every class, so frequent that a job of this size meets some.
+const CLASSES: [&str; 12] = [
+    "ber=2e-5",
+    "drop=3e-4",
+    "double=3e-4",
+    "swap=3e-4",
+    "drop-frame=0.05",
+    "double-frame=0.1",
+    "swap-frame=0.05",
+    "truncate=0.05",
+    "babble=0.1",
+    "stall=0.05,stall-ms=20",
+    "silence-after=2000,silence-ms=30",
+    "ber=1e-5,drop-frame=0.02,babble=0.02,direction=to-host,seed=7",
+];
+
+/// Every class in turn, `count` jobs each.
+fn survive(detail: Detail, classes: &[&str], points: usize) {
+    for (seed, faults) in (1..).zip(classes) {
+        let mut board = served(detail, faults);
+        must_be_right(&board.address(RATE), points, seed, faults);
+        let figures = board.stop().unwrap();
+        println!("{faults}: {figures:?}");
+    }
+}
+
+#[test]
+fn a_job_through_the_pins_and_the_next_one() {
+    let mut board = served(Detail::Pins, "");
+    must_be_right(&board.address(RATE), 100, 1, "first");
+    must_be_right(&board.address(3_000_000), 60, 2, "second, at another rate");
+    let figures = board.stop().unwrap();
+    assert!(figures.slow_down.is_some() && figures.faults == 0, "{figures:?}");
+    println!("{figures:?}");
+}
+
+#[test]
+fn faults_of_bits_and_bytes_at_the_pins() {
+    survive(Detail::Pins, &CLASSES[..4], 80);
+}
+
+#[test]
+fn faults_of_frames_at_the_pins() {
+    survive(Detail::Pins, &CLASSES[4..8], 80);
+}
+
+#[test]
+fn faults_of_time_at_the_pins() {
+    survive(Detail::Pins, &CLASSES[8..], 80);
+}
+
+#[test]
+fn larger_jobs_survive_faults_without_bits() {
+    survive(Detail::Bytes, &CLASSES, 1000);
+}
+
+#[test]
+fn bit_errors_at_the_pins() {
+    for (ber, jobs) in [("ber=1e-6", 3), ("ber=1e-5", 3), ("ber=1e-4", 3)] {
+        let board = served(Detail::Pins, ber);
+        for seed in 0..jobs {
+            must_be_right(&board.address(RATE), 60, seed, ber);
+        }
+    }
+}
+
+#[test]
+fn a_pulled_cable_is_a_typed_error_and_the_next_job_runs() {
+    let board = served(Detail::Pins, "unplug-after=1500,unplug-ms=300");
+    let error = triangulate(&board.address(RATE), &random_points(300, 1)).expect_err("the cable was pulled");
+    assert_eq!(error.kind(), ErrorKind::Link, "{error}");
+    assert!(error.to_string().contains("was the cable pulled?"), "{error}");
+    let begun = Instant::now();
+    while !board.path().exists() && begun.elapsed() < LIMIT {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    must_be_right(&board.address(RATE), 50, 2, "after the cable was plugged in");
+}
+
+#[test]
+fn silence_for_ever_is_a_typed_error() {
+    let board = served(Detail::Bytes, "silence-after=3000,direction=to-host");
+    let begun = Instant::now();
+    let error = triangulate(&board.address(RATE), &random_points(500, 1)).expect_err("nothing came");
+    assert!(matches!(error.kind(), ErrorKind::Link | ErrorKind::Timeout), "{error}");
+    assert!(begun.elapsed() < LIMIT, "{error}");
+}
+
+#[test]
+fn two_clients_at_once_are_told() {
+    let board = served(Detail::Pins, "");
+    let address = board.address(RATE);
+    let mut first = Device::open(&address).unwrap();
+    let mut session = first.session_within(LIMIT).unwrap();
+    let error = Device::open(&address).err().expect("the port is taken");
+    assert_eq!(error.kind(), ErrorKind::DeviceNotFound, "{error}");
+    assert!(error.to_string().contains("another program uses it"), "{error}");
+    let points = random_points(50, 4);
+    let mesh = session.triangulate(&points).unwrap();
+    assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()));
+    drop(first);
+    must_be_right(&address, 50, 5, "after the first client");
+}
+
+#[test]
+fn devices_that_lie_are_found_out() {
+    let what = [
+        ("liar=version", ErrorKind::Device, "version 2.0 of the link"),
+        ("liar=protocol", ErrorKind::Device, "protocol 9.0"),
+        ("liar=capacity", ErrorKind::Device, "4294967295 points"),
+        ("liar=index", ErrorKind::Device, "wrongly"),
+        ("liar=endless", ErrorKind::Device, "more than the"),
+        ("liar=credit", ErrorKind::Device, "65535 free bytes"),
+        ("liar=report", ErrorKind::Device, "1000000"),
+    ];
+    for (lie, kind, sentence) in what {
+        let board = served(Detail::Bytes, lie);
+        let error = triangulate(&board.address(RATE), &random_points(50, 4)).expect_err(lie);
+        assert_eq!(error.kind(), kind, "{lie}: {error}");
+        assert!(error.to_string().contains(sentence), "{lie}: {error}");
+    }
+}
+
+#[test]
+fn a_device_of_another_version_is_refused_at_the_pins() {
+    let board = served(Detail::Pins, "liar=version");
+    let error = triangulate(&board.address(RATE), &random_points(50, 4)).expect_err("another version");
+    assert!(error.to_string().contains("version 2.0 of the link"), "{error}");
+    assert!(error.to_string().contains("update"), "{error}");
+}
