@@ -1,8 +1,8 @@
 //! The hardware side's command: export of the core to Verilog.
 
-use clap::{Parser, Subcommand};
-use incircle_hdl::committed;
-use incircle_protocol::{Config, NAMED};
+use clap::{Parser, Subcommand, ValueEnum};
+use incircle_hdl::committed::{self, Top};
+use incircle_protocol::{Config, LinkConfig, NAMED, SILENCE_MS};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -16,7 +16,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Write the Verilog of the core.
+    /// Write the Verilog of the core, or of a whole device.
     ///
     /// Without options this renews the files that the repository holds, hdl/verilog/incircle_*.v.
     Export {
@@ -29,7 +29,24 @@ enum Command {
         /// Add the write port of the triangle memory to the ports, for simulation.
         #[arg(long, requires = "config")]
         probe: bool,
+        /// What to export: the core with its two streams of words, or the core behind a serial link.
+        #[arg(long, value_enum, default_value = "core", requires = "config")]
+        top: TopName,
+        /// Clock of the serial link in Hz.
+        #[arg(long, default_value_t = 125_000_000)]
+        clock_hz: u32,
+        /// Bytes of the serial link's receive FIFO: a power of two.
+        #[arg(long, default_value_t = 4_096)]
+        fifo_bytes: u32,
     },
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum TopName {
+    /// incircle_core
+    Core,
+    /// incircle_serial_top
+    Serial,
 }
 
 fn config(name: &str) -> Result<Config, String> {
@@ -38,14 +55,18 @@ fn config(name: &str) -> Result<Config, String> {
 }
 
 fn main() -> ExitCode {
-    let Command::Export { config, out, probe } = Arguments::parse().command;
+    let Command::Export { config, out, probe, top, clock_hz, fifo_bytes } = Arguments::parse().command;
+    let top = match top {
+        TopName::Core => Top::Core,
+        TopName::Serial => Top::Serial(LinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS }),
+    };
     let result = match config {
         None => committed::renew().map(|files| {
             for file in files {
                 println!("{}", file.display());
             }
         }),
-        Some(config) => committed::write(config, probe, out),
+        Some(config) => committed::write(config, top, probe, out),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
