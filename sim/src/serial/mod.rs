@@ -3,24 +3,18 @@
 //! A [`Board`] has a line to it and one from it. [`PinBoard`] is the Verilated `incircle_serial_top`, whose pins are driven and sampled bit
 //! by bit. [`QuickBoard`] is the software model of the link around the Verilated core; it skips bits and idle time.
 
+mod board;
 mod core;
 mod pins;
 mod quick;
 mod uart;
 
+pub use board::board_link;
 pub use pins::PinBoard;
 pub use quick::QuickBoard;
 pub use uart::{Symbol, SYMBOL_BITS};
 
-use incircle_protocol::{Config, LinkConfig, SMALL};
-
-/// The link of a simulated board: that of a real one, but for its silence, which would take minutes to simulate.
-///
-/// The build script has the same numbers.
-pub const fn board_link(config: Config) -> LinkConfig {
-    let fifo_bytes = if config.points <= SMALL.points { 4096 } else { 16_384 };
-    LinkConfig { clock_hz: 125_000_000, fifo_bytes, silence_ms: 200 }
-}
+use incircle_protocol::LinkConfig;
 
 /// A board as its serial line sees it.
 pub trait Board {
