@@ -9,7 +9,7 @@ use incircle_testbench::link::{is_one_mesh, random_points, Detail, Served};
 
 /// Real time over the board's, for the board and for the driver.
 const PINS_SLOW: u32 = 100;
-const BYTES_SLOW: u32 = 50;
+const BYTES_SLOW: u32 = 25;
 const RATE: u32 = 12_000_000;
 /// Deadline of a job, in real time.
 const LIMIT: Duration = Duration::from_secs(120);
@@ -87,7 +87,7 @@ fn faults_of_time_at_the_pins() {
 
 #[test]
 fn larger_jobs_survive_faults_without_bits() {
-    survive(Detail::Bytes, &CLASSES, 1000);
+    survive(Detail::Bytes, &CLASSES, 400);
 }
 
 #[test]
