@@ -44,8 +44,8 @@ impl Engine {
             Stage::Searching { .. } if message.kind == DeviceFrame::Hello => Err(self.session_gone(message.session)),
             Stage::Idle | Stage::Searching { .. } => Ok(()),
             Stage::Closing { .. } => {
-                let is_closed = message.kind == DeviceFrame::Closed && message.session == self.session;
-                if is_closed || message.kind == DeviceFrame::NoSession {
+                // The session that such a frame names is over, or none.
+                if matches!(message.kind, DeviceFrame::Closed | DeviceFrame::NoSession) {
                     self.closed(now);
                 }
                 Ok(())
