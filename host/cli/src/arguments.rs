@@ -4,14 +4,14 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use incircle::serial::Address;
 use incircle::{Order, Quantize};
 
 use crate::formats::{MeshFormat, PointFormat};
 use crate::generate::Distribution;
-use crate::values::{mhz_from, order_parser, quantize_from, readable_format_parser, seconds_from};
-
-/// Clock frequency for which the bench tells times unless chosen otherwise.
-const DEFAULT_MHZ: &str = "125";
+use crate::values::{
+    backend_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser, seconds_from,
+};
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
 #[derive(Debug, Parser)]
@@ -42,11 +42,13 @@ pub enum Command {
     /// For a core: clock cycles per insertion and the time they take at --mhz, triangles visited by walks and conflict tests (both per
     /// insertion), attempts given up, waiting tokens, root retries; how much of the insertion its ports were busy (visits
     /// issued, records written, commits at work, locks released); and how many cycles an insertion took. Median and
-    /// 99th percentile are upper bounds, at most an eighth above the true value. For the software model: host time, the best of three
-    /// runs.
+    /// 99th percentile are upper bounds, at most an eighth above the true value. For a board also the time of a job as a line over its points,
+    /// t = c + m n, fitted to four sizes of each set. For the software model: host time, the best of three runs.
     Bench(BenchArguments),
     /// Say what a back end is
     Info(InfoArguments),
+    /// List the serial ports, and say who is there
+    Devices(DevicesArguments),
     /// Print a completion script for a shell
     Completions(CompletionsArguments),
 }
@@ -66,9 +68,10 @@ pub struct GridArguments {
 /// Which device works.
 #[derive(Debug, Args)]
 pub struct BackendArguments {
-    /// Who triangulates: the software model, the core's model clock by clock, or the simulated core
-    #[arg(long, value_enum, default_value_t = BackendName::Model)]
-    pub backend: BackendName,
+    /// Who triangulates: 'model', the software model; 'clock', the core's model clock by clock; 'sim', the core's Verilog in Verilator (needs a
+    /// build with `--features sim`); 'serial:PORT', a board, such as serial:/dev/ttyUSB0 or serial:/dev/ttyUSB0?baud=12000000
+    #[arg(long, value_parser = backend_parser(), default_value = "model")]
+    pub backend: BackendChoice,
     /// Configuration of the core, for 'clock' and 'sim' (default: the smallest that holds the points)
     #[arg(long, value_enum)]
     pub config: Option<ConfigName>,
@@ -185,9 +188,9 @@ pub struct BenchArguments {
     pub backend: BackendArguments,
     #[command(flatten)]
     pub job: JobArguments,
-    /// Clock frequency for which times are told, in MHz: cycles are counted, frequency is assumed
-    #[arg(long, default_value = DEFAULT_MHZ, value_parser = mhz_from)]
-    pub mhz: f64,
+    /// Clock frequency for which times are told, in MHz: cycles are counted, frequency is assumed (default: what a board says, or 125)
+    #[arg(long, value_parser = mhz_from)]
+    pub mhz: Option<f64>,
     /// Print one JSON object on standard output
     #[arg(long)]
     pub json: bool,
@@ -198,6 +201,17 @@ pub struct BenchArguments {
 pub struct InfoArguments {
     #[command(flatten)]
     pub backend: BackendArguments,
+    /// The board at this serial port: the same as --backend serial:PORT
+    #[arg(short, long, value_name = "PORT", value_parser = port_from, conflicts_with_all = ["backend", "config"])]
+    pub port: Option<Address>,
+}
+
+/// Arguments of `devices`.
+#[derive(Debug, Args)]
+pub struct DevicesArguments {
+    /// Ask at every port who is there. That sends a few bytes to whatever is connected, for up to three seconds each
+    #[arg(short, long)]
+    pub greet: bool,
 }
 
 /// Arguments of `completions`.
@@ -209,14 +223,16 @@ pub struct CompletionsArguments {
 }
 
 /// The back ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum BackendName {
-    /// The software model
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum BackendChoice {
+    /// The software model.
     Model,
-    /// The core's model, clock by clock: answers, records and cycle counts of the core, without Verilator
+    /// The core's model, clock by clock: answers, records and cycle counts of the core, without Verilator.
     Clock,
-    /// The core's Verilog in Verilator (needs a build with `--features sim`)
+    /// The core's Verilog in Verilator.
     Sim,
+    /// A board at a serial port.
+    Serial(Address),
 }
 
 /// The named configurations of the core.

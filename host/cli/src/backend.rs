@@ -1,11 +1,13 @@
 //! Back ends: from names to devices.
 
 use std::path::Path;
+use std::time::Duration;
 
+use incircle::serial::{Address, SerialTransport};
 use incircle::{Device, Point, MAX_POINTS};
-use incircle_protocol::{Config, CORE_COORD_BITS, NAMED};
+use incircle_protocol::{Config, Greeting, CORE_COORD_BITS, NAMED};
 
-use crate::arguments::{BackendArguments, BackendName, ConfigName};
+use crate::arguments::{BackendArguments, BackendChoice, ConfigName};
 use crate::failure::{Exit, Failure};
 use crate::grid::failure_of;
 
@@ -16,19 +18,48 @@ const LEAST_CAPACITY: usize = 4;
 /// until nothing is in flight. Progress and interrupts come between commands; a job takes a second or two.
 const CORE_INSERT_CHUNK: usize = 16_384;
 
+/// Time for greeting a board, opening its session and finding a rate, in the time of the link.
+const CONNECT_TIMEOUT: Duration = Duration::from_secs(12);
+
+/// A board behind a serial line.
+#[derive(Clone, Copy)]
+pub struct Board {
+    /// What it says of itself.
+    pub greeting: Greeting,
+    /// Bits per second.
+    pub rate: u32,
+    /// How many times slower than a real one it is.
+    pub slow: u32,
+}
+
+impl Board {
+    /// Seconds that a job of so many points takes on the line alone: a word there, six back, of 40 bits each.
+    pub fn seconds(&self, points: usize) -> f64 {
+        let bits = 7.0 * 40.0 * points as f64;
+        bits * f64::from(self.slow) / f64::from(self.rate.max(1))
+    }
+}
+
 /// An opened back end.
 pub struct Backend {
     /// The device.
     pub device: Device,
-    /// Its name in reports: `model`, `clock` or `sim`.
+    /// Its name in reports: `model`, `clock`, `sim` or `serial`.
     pub name: &'static str,
-    /// The configuration of a core.
+    /// The configuration of a core, where it is our choice.
     pub config: Option<Config>,
+    /// The board, if it is one.
+    pub board: Option<Board>,
     /// Points of one `Insert` command.
     pub insert_chunk: usize,
 }
 
 impl Backend {
+    /// True if it counts cycles.
+    pub fn has_clock(&self) -> bool {
+        self.config.is_some() || self.board.is_some()
+    }
+
     /// Holds that a core has as many contexts as are asked for. Other back ends are left to the library.
     pub fn check_contexts(&self, asked: Option<u32>) -> Result<(), Failure> {
         let (Some(asked), Some(config)) = (asked, self.config) else {
@@ -49,7 +80,7 @@ impl Backend {
 
 /// Opens the back end for these points, or, without points, as large as it gets. A core is taken in the configuration
 /// asked for, or else in the smallest that holds the distinct points. Its waveform goes to the file `trace`; other back
-/// ends have none.
+/// ends have none. A board is greeted, and is what it is.
 pub fn open(
     choice: &BackendArguments,
     coord_bits: u32,
@@ -57,8 +88,8 @@ pub fn open(
     trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
     let room = points.map(|points| match choice.backend {
-        BackendName::Model => points.len(),
-        BackendName::Clock | BackendName::Sim => count_distinct(points),
+        BackendChoice::Model | BackendChoice::Serial(_) => points.len(),
+        BackendChoice::Clock | BackendChoice::Sim => count_distinct(points),
     });
     open_with_room(choice, coord_bits, room, trace)
 }
@@ -70,28 +101,44 @@ pub fn open_with_room(
     room: Option<usize>,
     trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
-    let (device, name, config) = match choice.backend {
-        BackendName::Model => (open_model(choice, coord_bits, room.unwrap_or(MAX_POINTS))?, "model", None),
-        BackendName::Clock => {
+    let (device, name, config) = match &choice.backend {
+        BackendChoice::Serial(address) => return open_serial(choice, address),
+        BackendChoice::Model => (open_model(choice, coord_bits, room.unwrap_or(MAX_POINTS))?, "model", None),
+        BackendChoice::Clock => {
             let config = config_for(choice, coord_bits, room)?;
             (Device::clock_model(config).map_err(|error| failure_of(&error))?, "clock", Some(config))
         }
-        BackendName::Sim => {
+        BackendChoice::Sim => {
             check_sim()?;
             let config = config_for(choice, coord_bits, room)?;
             (open_sim(config, trace)?, "sim", Some(config))
         }
     };
     let insert_chunk = if config.is_some() { CORE_INSERT_CHUNK } else { incircle::INSERT_CHUNK };
-    Ok(Backend { device, name, config, insert_chunk })
+    Ok(Backend { device, name, config, board: None, insert_chunk })
 }
 
-fn open_model(choice: &BackendArguments, coord_bits: u32, points: usize) -> Result<Device, Failure> {
+fn check_no_config(choice: &BackendArguments) -> Result<(), Failure> {
     if choice.config.is_some() {
         return Err(Failure::usage(
             "--config chooses a configuration of the core: it needs --backend clock or --backend sim",
         ));
     }
+    Ok(())
+}
+
+fn open_serial(choice: &BackendArguments, address: &Address) -> Result<Backend, Failure> {
+    check_no_config(choice)?;
+    let mut transport = SerialTransport::open(address).map_err(|error| failure_of(&error))?;
+    transport.connect(CONNECT_TIMEOUT).map_err(|error| failure_of(&error))?;
+    let rate = transport.rate();
+    let board = transport.greeting().map(|&greeting| Board { greeting, rate, slow: address.slow });
+    let device = Device::from_transport(Box::new(transport));
+    Ok(Backend { device, name: "serial", config: None, board, insert_chunk: incircle::INSERT_CHUNK })
+}
+
+fn open_model(choice: &BackendArguments, coord_bits: u32, points: usize) -> Result<Device, Failure> {
+    check_no_config(choice)?;
     let capacity = points.clamp(LEAST_CAPACITY, MAX_POINTS);
     let capacity = u32::try_from(capacity).unwrap_or(u32::MAX);
     Device::model(coord_bits, capacity).map_err(|error| failure_of(&error))

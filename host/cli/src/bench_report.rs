@@ -5,6 +5,7 @@ use serde_json::{json, Value};
 
 use crate::arguments::BenchArguments;
 use crate::failure::counted;
+use crate::fit::Fit;
 use crate::generate::Distribution;
 use crate::report::{add_cycles, counters_json, latencies_json};
 
@@ -16,6 +17,8 @@ pub struct Measured {
     pub report: Report,
     /// Time of the whole library call.
     pub seconds: f64,
+    /// Times of several sizes as a line, where that is asked.
+    pub fit: Option<Fit>,
 }
 
 /// What all rows have in common.
@@ -24,8 +27,14 @@ pub struct Bench<'a> {
     pub arguments: &'a BenchArguments,
     /// Name of the back end.
     pub backend: &'static str,
-    /// Name of the configuration, of a core.
+    /// Name of the configuration, of a core that is our choice.
     pub config: Option<&'static str>,
+    /// It counts cycles.
+    pub has_clock: bool,
+    /// Frequency for which times are told.
+    pub mhz: f64,
+    /// Bits per second of a board's line.
+    pub rate: Option<u32>,
     /// Points it holds.
     pub capacity: u32,
     /// Contexts that work.
@@ -62,16 +71,18 @@ const SET_WIDTH: usize = 15;
 impl Bench<'_> {
     /// The lines above the rows.
     pub fn header(&self) -> String {
-        let BenchArguments { n, coord_bits, seed, job, mhz, .. } = self.arguments;
+        let BenchArguments { n, coord_bits, seed, job, .. } = self.arguments;
+        let mhz = self.mhz;
         let config = self.config.map_or(String::new(), |config| format!(" {config}"));
+        let rate = self.rate.map_or(String::new(), |rate| format!(" at {rate} bits per second"));
         let contexts = counted(self.contexts as usize, "context");
         let order = job.order.name();
         let about = format!(
-            "{}{config}, {contexts}; sets of {}, {coord_bits} bits, seed {seed}, order {order}\n",
+            "{}{config}{rate}, {contexts}; sets of {}, {coord_bits} bits, seed {seed}, order {order}\n",
             self.backend,
             counted(*n as usize, "point")
         );
-        if self.config.is_none() {
+        if !self.has_clock {
             return about + &line("set", MODEL_COLUMNS.map(|(name, _)| name.to_owned()), MODEL_COLUMNS) + "\n";
         }
         // Groups end where their last column does.
@@ -93,9 +104,14 @@ impl Bench<'_> {
     /// The row of a set.
     pub fn row(&self, measured: &Measured) -> String {
         let set = measured.set.to_string();
-        match self.config {
-            Some(_) => line(&set, self.core_cells(&measured.report), CORE_COLUMNS),
-            None => line(&set, model_cells(measured), MODEL_COLUMNS),
+        let row = if self.has_clock {
+            line(&set, self.core_cells(&measured.report), CORE_COLUMNS)
+        } else {
+            line(&set, model_cells(measured), MODEL_COLUMNS)
+        };
+        match &measured.fit {
+            Some(fit) => format!("{row}\n{:SET_WIDTH$}{fit}", ""),
+            None => row,
         }
     }
 
@@ -129,12 +145,12 @@ impl Bench<'_> {
 
     /// Time of the insertions at the frequency that is assumed.
     fn seconds(&self, counters: &Counters) -> f64 {
-        counters.insert_cycles as f64 / (self.arguments.mhz * 1e6)
+        counters.insert_cycles as f64 / (self.mhz * 1e6)
     }
 
     /// The object that `--json` prints.
     pub fn to_json(&self, rows: &[Measured]) -> Value {
-        let BenchArguments { n, coord_bits, seed, job, mhz, .. } = self.arguments;
+        let BenchArguments { n, coord_bits, seed, job, .. } = self.arguments;
         let mut object = json!({
             "backend": self.backend,
             "config": self.config,
@@ -146,8 +162,11 @@ impl Bench<'_> {
             "seed": seed,
             "sets": rows.iter().map(|measured| self.row_json(measured)).collect::<Vec<_>>(),
         });
-        if self.config.is_some() {
-            object["mhz"] = (*mhz).into();
+        if self.has_clock {
+            object["mhz"] = self.mhz.into();
+        }
+        if let Some(rate) = self.rate {
+            object["bits_per_second"] = rate.into();
         }
         object
     }
@@ -170,7 +189,10 @@ impl Bench<'_> {
             "counters": report.counters.as_ref().map(counters_json),
             "latency": report.latencies.as_ref().map(latencies_json),
         });
-        if self.config.is_some() {
+        if let Some(fit) = &measured.fit {
+            object["fit"] = fit.to_json();
+        }
+        if self.has_clock {
             let counters = report.counters.unwrap_or_default();
             add_cycles(&mut object, report);
             object["seconds_at_mhz"] = self.seconds(&counters).into();

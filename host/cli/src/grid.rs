@@ -4,7 +4,7 @@ use incircle::quantize::{integers, quantize};
 use incircle::{Error, ErrorKind, Point, Quantization, Quantize, Shown};
 
 use crate::arguments::GridArguments;
-use crate::failure::{Exit, Failure};
+use crate::failure::{printable, Exit, Failure};
 use crate::points::PointTable;
 
 /// Points on the grid, and how they came there.
@@ -66,5 +66,5 @@ pub fn failure_of(error: &Error) -> Failure {
         // Timeouts, wrong answers, and whatever is added later.
         _ => Exit::Device,
     };
-    Failure::new(exit, error.to_string())
+    Failure::new(exit, printable(&error.to_string()))
 }

@@ -9,6 +9,7 @@ mod backend;
 mod bench_report;
 mod commands;
 mod failure;
+mod fit;
 pub mod formats;
 pub mod generate;
 mod grid;
@@ -49,6 +50,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Generate(arguments) => commands::generate::run(arguments),
         Command::Bench(arguments) => commands::bench::run(arguments),
         Command::Info(arguments) => commands::info::run(arguments),
+        Command::Devices(arguments) => commands::devices::run(arguments),
         Command::Completions(arguments) => commands::completions::run(arguments),
     });
     match result.and_then(|()| interrupt::done()) {

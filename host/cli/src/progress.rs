@@ -1,6 +1,6 @@
 //! Progress of long jobs, on standard error and only on a terminal.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::io::{stderr, IsTerminal};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -18,12 +18,18 @@ pub struct Meter {
     shown: bool,
     since: Instant,
     bar: OnceCell<ProgressBar>,
+    stage: Cell<Option<Stage>>,
 }
 
 impl Meter {
     /// A meter that shows nothing if `quiet`, or if nobody watches.
     pub fn new(quiet: bool) -> Self {
-        Self { shown: !quiet && stderr().is_terminal(), since: Instant::now(), bar: OnceCell::new() }
+        Self {
+            shown: !quiet && stderr().is_terminal(),
+            since: Instant::now(),
+            bar: OnceCell::new(),
+            stage: Cell::new(None),
+        }
     }
 
     /// Takes news of the job.
@@ -33,7 +39,12 @@ impl Meter {
         }
         if self.shown && self.since.elapsed() >= PATIENCE {
             let bar = self.bar.get_or_init(|| new_bar(progress.total));
-            bar.set_message(verb(progress.stage));
+            if self.stage.replace(Some(progress.stage)) != Some(progress.stage) {
+                // The time left is that of the stage, at its own speed.
+                bar.reset();
+                bar.set_message(verb(progress.stage));
+                bar.set_prefix(if progress.stage == Stage::Read { "records" } else { "points" });
+            }
             bar.set_length(progress.total as u64);
             bar.set_position(progress.done as u64);
         }
@@ -52,7 +63,7 @@ impl Drop for Meter {
 fn new_bar(total: usize) -> ProgressBar {
     let bar = ProgressBar::new(total as u64);
     // The pattern is fixed and right; were it not, the library's own style would do.
-    if let Ok(style) = ProgressStyle::with_template("{msg:>10} {bar:40} {human_pos}/{human_len} {eta}") {
+    if let Ok(style) = ProgressStyle::with_template("{msg:>10} {bar:40} {human_pos}/{human_len} {prefix}, {eta} left") {
         bar.set_style(style);
     }
     bar

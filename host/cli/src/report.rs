@@ -14,6 +14,8 @@ pub struct RunReport<'a> {
     pub job: &'a Report,
     /// Name of the back end and of its configuration.
     pub backend: (&'static str, Option<&'static str>),
+    /// It counts cycles.
+    pub has_clock: bool,
     /// Bits of a coordinate of the grid; a core may have more.
     pub coord_bits: u32,
     /// What quantisation did.
@@ -28,6 +30,7 @@ impl<'a> RunReport<'a> {
         Self {
             job,
             backend: (backend.name, backend.config.map(|config| config.name)),
+            has_clock: backend.has_clock(),
             coord_bits,
             quantization,
             stages: Vec::new(),
@@ -56,7 +59,7 @@ impl<'a> RunReport<'a> {
             "counters": job.counters.as_ref().map(counters_json),
             "latency": job.latencies.as_ref().map(latencies_json),
         });
-        if config.is_some() {
+        if self.has_clock {
             add_cycles(&mut object, job);
         }
         object

@@ -3,8 +3,10 @@
 use std::time::Duration;
 
 use clap::ValueEnum;
+use incircle::serial::Address;
 use incircle::{Order, Quantize};
 
+use crate::arguments::BackendChoice;
 use crate::formats::MeshFormat;
 
 /// An order by its name.
@@ -13,6 +15,48 @@ pub fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
     let names = PossibleValuesParser::new(Order::ALL.map(Order::name));
     // Only names of orders come through, so the default is never taken.
     names.map(|name| Order::named(&name).unwrap_or_default())
+}
+
+/// A back end by its name or its address. Help and completions show the names.
+pub fn backend_parser() -> impl clap::builder::TypedValueParser<Value = BackendChoice> {
+    BackendParser
+}
+
+#[derive(Clone)]
+struct BackendParser;
+
+impl clap::builder::TypedValueParser for BackendParser {
+    type Value = BackendChoice;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &std::ffi::OsStr,
+    ) -> Result<BackendChoice, clap::Error> {
+        clap::builder::StringValueParser::new().try_map(|text| backend_from(&text)).parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = clap::builder::PossibleValue> + '_>> {
+        Some(Box::new(["model", "clock", "sim", "serial:PORT"].into_iter().map(clap::builder::PossibleValue::new)))
+    }
+}
+
+fn backend_from(text: &str) -> Result<BackendChoice, String> {
+    match text {
+        "model" => Ok(BackendChoice::Model),
+        "clock" => Ok(BackendChoice::Clock),
+        "sim" => Ok(BackendChoice::Sim),
+        _ => match Address::parse(text) {
+            Some(address) => address.map(BackendChoice::Serial),
+            None => Err("there are 'model', 'clock', 'sim' and 'serial:PORT', such as serial:/dev/ttyUSB0".to_owned()),
+        },
+    }
+}
+
+/// A serial port, with or without choices behind it.
+pub fn port_from(text: &str) -> Result<Address, String> {
+    Address::parse(text).unwrap_or_else(|| Address::parse_port(text))
 }
 
 /// The formats that a mesh can be read back from.
@@ -69,6 +113,18 @@ mod tests {
         assert_eq!(quantize_from("2,-1.5,0"), Ok(scale));
         for bad in ["", "0", "-1", "nan", "1,2", "fill", "1,inf,0"] {
             assert!(quantize_from(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn back_ends_are_names_or_addresses() {
+        let serial = Address { port: "/dev/x".to_owned(), baud: 115_200, slow: 9 };
+        assert_eq!(backend_from("clock"), Ok(BackendChoice::Clock));
+        assert_eq!(backend_from("serial:/dev/x?baud=115200&slow=9"), Ok(BackendChoice::Serial(serial.clone())));
+        assert_eq!(port_from("/dev/x?baud=115200&slow=9"), Ok(serial.clone()));
+        assert_eq!(port_from("serial:/dev/x?baud=115200&slow=9"), Ok(serial));
+        for bad in ["", "serial:", "serial", "/dev/x", "serial:/dev/x?baud=fast"] {
+            assert!(backend_from(bad).is_err(), "{bad}");
         }
     }
 

@@ -42,7 +42,7 @@ const LADDER: [u32; 3] = [3_000_000, 1_000_000, 230_400];
 /// Least FIFO of a device: a frame and some.
 const LEAST_FIFO: u32 = 2_048;
 /// Least and most silence that is believed, in milliseconds.
-const SILENCES: (u32, u32) = (100, 10_000);
+const SILENCES: (u32, u32) = (20, 10_000);
 /// Beyond the device's silence, for clocks that differ.
 const SILENCE_SLACK: Duration = ms(200);
 

@@ -1,6 +1,8 @@
 //! The engine and a board on a line with a delay and faults, in virtual time; a transport of the two for whole jobs.
 
+use std::cell::Cell;
 use std::collections::VecDeque;
+use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use incircle::serial::{Engine, Params, SerialFault};
@@ -44,6 +46,8 @@ pub struct Rig {
     /// The board is reset then.
     pub reset_at: Option<Duration>,
     pub random: Random,
+    /// Bits that noise has changed.
+    pub flipped: Rc<Cell<usize>>,
     pub frames: [usize; 2],
     wires: [Wire; 2],
     held: [Option<Vec<u8>>; 2],
@@ -67,6 +71,7 @@ impl Rig {
             cut_at: Duration::MAX,
             reset_at: None,
             random: Random(1),
+            flipped: Rc::default(),
             frames: [0; 2],
             wires: [Wire::default(), Wire::default()],
             held: [None, None],
@@ -122,6 +127,7 @@ impl Rig {
                 for bit in 0..8 {
                     if (self.random.next() >> 11) as f64 / (1u64 << 53) as f64 <= self.noise {
                         *byte ^= 1 << bit;
+                        self.flipped.set(self.flipped.get() + 1);
                     }
                 }
             }

@@ -4,11 +4,12 @@ use std::time::Instant;
 
 use incircle::{Options, Point, Report, Session};
 
-use crate::arguments::{BackendName, BenchArguments};
+use crate::arguments::{BackendChoice, BenchArguments};
 use crate::backend::{self, Backend};
 use crate::bench_report::{Bench, Measured};
 use crate::commands::generate::{check_count, make};
 use crate::failure::Failure;
+use crate::fit::Fit;
 use crate::generate::Distribution;
 use crate::grid::failure_of;
 use crate::progress::Meter;
@@ -17,6 +18,12 @@ use crate::{interrupt, output};
 /// Runs of a set on the software model, of which the fastest counts. Cycles are the same in every run, so one is enough for a core.
 const MODEL_RUNS: usize = 3;
 
+/// Parts of a set that a board does too, for the line over the points.
+const PARTS: [u32; 3] = [8, 4, 2];
+
+/// Clock frequency for which times are told unless chosen or known.
+const DEFAULT_MHZ: f64 = 125.0;
+
 /// Runs the subcommand: a row as soon as its set is done, or one JSON object at the end.
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     check_count(arguments.n)?;
@@ -24,18 +31,26 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     let room = room_for(&sets, arguments)?;
     let mut backend = backend::open_with_room(&arguments.backend, arguments.coord_bits, Some(room), None)?;
     backend.check_contexts(arguments.job.contexts)?;
-    let Backend { name, config, insert_chunk, .. } = backend;
+    let Backend { name, config, board, insert_chunk, .. } = backend;
+    let has_clock = backend.has_clock();
+    let board_mhz = board.map(|board| f64::from(board.greeting.clock_hz) / 1e6).filter(|&mhz| mhz > 0.0);
     let mut session = backend.device.session().map_err(|error| failure_of(&error))?;
     let bench = Bench {
         arguments,
         backend: name,
         config: config.map(|config| config.name),
+        has_clock,
+        mhz: arguments.mhz.or(board_mhz).unwrap_or(DEFAULT_MHZ),
+        rate: board.map(|board| board.rate),
         capacity: session.identity().capacity,
         contexts: arguments.job.contexts.unwrap_or(session.identity().contexts),
     };
     let mut rows = Vec::with_capacity(sets.len());
     for set in sets {
-        let measured = measure(&mut session, set, insert_chunk, arguments)?;
+        let mut measured = measure(&mut session, set, insert_chunk, arguments)?;
+        if board.is_some() {
+            measured.fit = fit(&mut session, &measured, insert_chunk, arguments)?;
+        }
         if !arguments.json {
             // The header comes with the first row: what fails before it has its sentence to itself.
             let header = if rows.is_empty() { bench.header() } else { String::new() };
@@ -59,18 +74,19 @@ fn sets_of(arguments: &BenchArguments) -> Vec<Distribution> {
 
 /// Points that the back end must hold for every set: distinct ones for a core, which is small, all of them for the model.
 fn room_for(sets: &[Distribution], arguments: &BenchArguments) -> Result<usize, Failure> {
-    if arguments.backend.backend == BackendName::Model {
+    // A board is what it is.
+    if matches!(arguments.backend.backend, BackendChoice::Model | BackendChoice::Serial(_)) {
         return Ok(arguments.n as usize);
     }
     let mut most = 0;
     for &set in sets {
-        most = most.max(backend::count_distinct(&points_of(set, arguments)?));
+        most = most.max(backend::count_distinct(&points_of(set, arguments.n, arguments)?));
     }
     Ok(most)
 }
 
-fn points_of(set: Distribution, arguments: &BenchArguments) -> Result<Vec<Point>, Failure> {
-    let points = make(set, arguments.n, arguments.coord_bits, arguments.seed)?;
+fn points_of(set: Distribution, n: u32, arguments: &BenchArguments) -> Result<Vec<Point>, Failure> {
+    let points = make(set, n, arguments.coord_bits, arguments.seed)?;
     Ok(points.into_iter().map(Point::from).collect())
 }
 
@@ -80,8 +96,8 @@ fn measure(
     insert_chunk: usize,
     arguments: &BenchArguments,
 ) -> Result<Measured, Failure> {
-    let points = points_of(set, arguments)?;
-    let runs = if arguments.backend.backend == BackendName::Model { MODEL_RUNS } else { 1 };
+    let points = points_of(set, arguments.n, arguments)?;
+    let runs = if arguments.backend.backend == BackendChoice::Model { MODEL_RUNS } else { 1 };
     let mut best = run_once(session, set, &points, insert_chunk, arguments)?;
     for _ in 1..runs {
         let next = run_once(session, set, &points, insert_chunk, arguments)?;
@@ -90,6 +106,23 @@ fn measure(
         }
     }
     Ok(best)
+}
+
+/// The time of jobs of several sizes, as a line.
+fn fit(
+    session: &mut Session<'_>,
+    whole: &Measured,
+    insert_chunk: usize,
+    arguments: &BenchArguments,
+) -> Result<Option<Fit>, Failure> {
+    let mut jobs = Vec::with_capacity(PARTS.len() + 1);
+    for part in PARTS.map(|part| arguments.n / part).into_iter().filter(|&n| n > 0) {
+        let points = points_of(whole.set, part, arguments)?;
+        let measured = run_once(session, whole.set, &points, insert_chunk, arguments)?;
+        jobs.push((measured.report.distinct, measured.seconds));
+    }
+    jobs.push((whole.report.distinct, whole.seconds));
+    Ok(Fit::of(jobs))
 }
 
 fn run_once(
@@ -114,5 +147,5 @@ fn run_once(
     // Comes first, because an interrupt may show as any error.
     interrupt::check()?;
     let report: Report = mesh.map_err(|error| failure_of(&error))?.report;
-    Ok(Measured { set, report, seconds })
+    Ok(Measured { set, report, seconds, fit: None })
 }

@@ -2,22 +2,25 @@
 
 use incircle_protocol::CORE_COORD_BITS;
 
-use crate::arguments::InfoArguments;
-use crate::backend;
+use crate::arguments::{BackendArguments, BackendChoice, InfoArguments};
+use crate::backend::{self, Board};
 use crate::failure::Failure;
 use crate::grid::failure_of;
 use crate::output;
 
 /// Runs the subcommand: opens the back end, greets it and prints its identity.
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
-    let mut backend = backend::open(&arguments.backend, CORE_COORD_BITS, None, None)?;
+    let port = arguments.port.clone();
+    let port = port.map(|port| BackendArguments { backend: BackendChoice::Serial(port), config: None });
+    let mut backend = backend::open(port.as_ref().unwrap_or(&arguments.backend), CORE_COORD_BITS, None, None)?;
+    let board = backend.board.map_or(String::new(), about_board);
     let session = backend.device.session().map_err(|error| failure_of(&error))?;
     let identity = session.identity();
     let [major, minor, patch] = [16, 8, 0].map(|shift| identity.core_version >> shift & 0xff);
     let protocol = identity.protocol_version;
     output::print(&format!(
         "back end {}\nversion {major}.{minor}.{patch}, protocol {}.{}\ncoordinates of {} bits\n{} points\n\
-         {} insertions at once\ncavities of up to {} boundary edges\n",
+         {} insertions at once\ncavities of up to {} boundary edges\n{board}",
         backend.name,
         protocol >> 16,
         protocol & 0xffff,
@@ -26,4 +29,19 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         identity.contexts,
         identity.ring_capacity
     ))
+}
+
+/// What is known of the line to a board.
+fn about_board(board: Board) -> String {
+    let greeting = board.greeting;
+    let link = greeting.link_version;
+    format!(
+        "link {}.{}, {} bits per second of {}\nreceive buffer of {} bytes\nclock of {} MHz\n",
+        link >> 16,
+        link & 0xffff,
+        board.rate,
+        greeting.max_rate,
+        greeting.fifo_bytes,
+        f64::from(greeting.clock_hz) / 1e6
+    )
 }

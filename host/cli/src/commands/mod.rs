@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod completions;
+pub mod devices;
 pub mod generate;
 pub mod info;
 pub mod triangulate;

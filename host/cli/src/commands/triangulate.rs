@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use incircle::{Mesh, Options};
 
-use crate::arguments::{BackendName, TriangulateArguments};
+use crate::arguments::{BackendChoice, TriangulateArguments};
 use crate::backend::{self, Backend};
-use crate::failure::Failure;
+use crate::failure::{counted, Failure};
 use crate::formats::{extension, MeshFormat, MeshView};
 use crate::grid::{self, failure_of, Laid};
 use crate::output::{self, Output, Written};
@@ -36,6 +36,7 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
         trace.as_ref().and_then(Written::part),
     )?;
     backend.check_contexts(arguments.job.contexts)?;
+    tell_if_long(&backend, points.len(), arguments);
     watch.ended("open");
     let mesh = triangulate(&mut backend, &points, arguments)?;
     watch.stages.extend(&mesh.report.stages);
@@ -67,7 +68,7 @@ fn prepare_trace(arguments: &TriangulateArguments, mesh: &Output) -> Result<Opti
     let Some(path) = &arguments.trace else {
         return Ok(None);
     };
-    if arguments.backend.backend != BackendName::Sim {
+    if arguments.backend.backend != BackendChoice::Sim {
         return Err(Failure::usage("--trace records the simulated core: it needs --backend sim"));
     }
     let trace = Output::prepare(path, Some(&arguments.points))?;
@@ -78,6 +79,22 @@ fn prepare_trace(arguments: &TriangulateArguments, mesh: &Output) -> Result<Opti
         )));
     }
     Ok(Some(trace))
+}
+
+/// A job over a serial line from so many seconds on is announced as long.
+const LONG: f64 = 10.0;
+
+/// Says so if the line makes a job long.
+fn tell_if_long(backend: &Backend, points: usize, arguments: &TriangulateArguments) {
+    let Some(board) = backend.board.filter(|_| !arguments.quiet) else { return };
+    let seconds = board.seconds(points);
+    if seconds >= LONG {
+        let points = counted(points, "point");
+        output::note(&format!(
+            "{points} take about {seconds:.0} s over this line at {} bits per second: it is for tests and small jobs",
+            board.rate
+        ));
+    }
 }
 
 /// Prints the report. It comes last, so whoever reads it finds the files in place.

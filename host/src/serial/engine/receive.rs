@@ -44,7 +44,7 @@ impl Engine {
             Stage::Searching { .. } if message.kind == DeviceFrame::Hello => Err(self.session_gone(message.session)),
             Stage::Idle | Stage::Searching { .. } => Ok(()),
             Stage::Closing { .. } => {
-                // Neither has a session's number any more.
+                // The session that such a frame names is over, or none.
                 if matches!(message.kind, DeviceFrame::Closed | DeviceFrame::NoSession) {
                     self.closed(now);
                 }

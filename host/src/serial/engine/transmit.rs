@@ -78,7 +78,8 @@ impl Engine {
 
     /// When the next `Poll` is due.
     fn poll_at(&self) -> Duration {
-        let keep = self.last_said + POLL_EVERY.min(self.silence / 4);
+        let every = POLL_EVERY.min(self.silence / 4);
+        let keep = self.last_said + every;
         let is_waiting = self.reader.is_waiting() || !self.sender.is_done();
         if !is_waiting || self.sender.has_due() {
             return keep;

@@ -1,0 +1,40 @@
+//! `incircle devices`: the serial ports of this machine, and who is there.
+
+use std::time::Duration;
+
+use incircle::serial::{self, Address, PortInfo};
+
+use crate::arguments::DevicesArguments;
+use crate::failure::{printable, Exit, Failure};
+use crate::output;
+
+/// Time for a port: a device that a killed program left at a high rate answers after two seconds.
+const GREET_TIMEOUT: Duration = Duration::from_secs(4);
+
+/// Runs the subcommand: a line per port, with what the system knows of it, and with what is there if it is greeted.
+pub fn run(arguments: &DevicesArguments) -> Result<(), Failure> {
+    let ports = serial::ports().map_err(|fault| Failure::new(Exit::NoDevice, format!("no ports: {fault}")))?;
+    if ports.is_empty() {
+        output::note("the system knows of no serial port; pseudo-terminals are not listed");
+    }
+    for port in ports {
+        let there = if arguments.greet { format!(": {}", greet(&port)) } else { String::new() };
+        output::print(&printable(&format!("{} ({}){there}", port.name, port.what)))?;
+        output::print("\n")?;
+    }
+    Ok(())
+}
+
+/// Who is at a port, or why nobody is known to be.
+fn greet(port: &PortInfo) -> String {
+    match serial::greet(&Address::of_port(&*port.name), GREET_TIMEOUT) {
+        Ok(greeting) => {
+            let identity = greeting.identity;
+            format!(
+                "incircle, {} points of {} bits, {} insertions at once, up to {} bits per second",
+                identity.capacity, identity.coord_bits, identity.contexts, greeting.max_rate
+            )
+        }
+        Err(error) => error.to_string(),
+    }
+}
