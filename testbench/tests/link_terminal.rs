@@ -70,6 +70,26 @@ fn a_job_through_the_pins_and_the_next_one() {
     println!("{figures:?}");
 }
 
+/// Runs the command, which must do well.
+fn command(arguments: &[&str]) {
+    let arguments = ["incircle"].into_iter().chain(arguments.iter().copied()).map(std::ffi::OsString::from);
+    assert_eq!(incircle_cli::run(arguments), std::process::ExitCode::SUCCESS);
+}
+
+#[test]
+fn the_command_writes_the_same_files_through_the_pins() {
+    let board = served(Detail::Pins, "");
+    let folder = std::env::temp_dir().join(format!("incircle-link-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = |name: &str| folder.join(name).display().to_string();
+    let (points, model, serial) = (file("points.csv"), file("model.obj"), file("serial.obj"));
+    command(&["generate", "kuzmin", "-n", "90", "-o", &points]);
+    command(&["triangulate", &points, "-o", &model, "--backend", "model"]);
+    command(&["triangulate", &points, "-o", &serial, "--backend", &board.address(RATE)]);
+    assert_eq!(std::fs::read(&model).unwrap(), std::fs::read(&serial).unwrap());
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
 #[test]
 fn faults_of_bits_and_bytes_at_the_pins() {
     survive(Detail::Pins, &CLASSES[..4], 80);
