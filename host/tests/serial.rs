@@ -91,6 +91,7 @@ fn both_directions_carry_nine_tenths_of_what_the_line_can() {
         let since = rig.now;
         let read = rig.ask(&[command_word(Opcode::Read), 0, answer[6]]).expect("a sound line");
         let back = goodput(4 * read.len(), rig.now - since);
+        println!("{rate} bits per second: {there:.3} of what the line carries are words there, {back:.3} back");
         assert!(there > 0.9 && back > 0.9, "{rate}: {there} {back}");
     }
 }
