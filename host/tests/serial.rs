@@ -91,6 +91,7 @@ fn both_directions_carry_nine_tenths_of_what_the_line_can() {
         let since = rig.now;
         let read = rig.ask(&[command_word(Opcode::Read), 0, answer[6]]).expect("a sound line");
         let back = goodput(4 * read.len(), rig.now - since);
+        println!("{rate} bits per second: {there:.3} of what the line carries are words there, {back:.3} back");
         assert!(there > 0.9 && back > 0.9, "{rate}: {there} {back}");
     }
 }
@@ -209,6 +210,44 @@ fn a_device_that_was_reset_is_told() {
     let since = rig.now;
     assert_eq!(fault(rig.ask(&HELLO)), SerialFault::Reset { silence_ms: 2000 });
     assert!(rig.now - since < Duration::from_secs(1));
+}
+
+#[test]
+fn a_line_that_another_host_took_is_told() {
+    let mut rig = rig();
+    rig.ask(&HELLO).expect("a sound line");
+    // The other host keeps it awake.
+    rig.board.reset();
+    rig.board.session = 99;
+    rig.board.greeting[5] = 60_000;
+    assert_eq!(fault(rig.ask(&HELLO)), SerialFault::Taken { session: 99 });
+}
+
+#[test]
+fn digests_are_compared_both_ways() {
+    let mut one = rig();
+    one.ask(&HELLO).expect("a sound line");
+    one.board.lies[0] = 1;
+    let payload = fault(one.ask(&HELLO));
+    assert!(matches!(payload, SerialFault::PayloadDigest { found, expected } if found ^ expected == 1), "{payload}");
+    let mut other = rig();
+    other.board.lies[1] = 1;
+    let answer = fault(other.ask(&HELLO));
+    assert!(matches!(answer, SerialFault::AnswerDigest { found, expected } if found ^ expected == 1), "{answer}");
+    assert_eq!((payload.kind(), answer.kind()), (ErrorKind::Device, ErrorKind::Device));
+}
+
+/// The acknowledgement of the only frame of the command is lost: the answer acknowledges it, and is not believed before the digest has come.
+#[test]
+fn no_answer_is_believed_before_the_digest() {
+    let mut rig = rig();
+    rig.ask(&HELLO).expect("a sound line");
+    let acknowledgement = rig.frames[1];
+    rig.faults =
+        Box::new(move |to_host, frame| if to_host && frame == acknowledgement { Fate::Lost } else { Fate::Passes });
+    let polls = rig.engine.statistics().polls;
+    rig.ask(&HELLO).expect("one frame is lost");
+    assert_eq!(rig.engine.statistics().polls, polls + 1);
 }
 
 #[test]

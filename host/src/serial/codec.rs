@@ -194,7 +194,7 @@ pub(super) mod tests {
         line.extend([9; 5000]);
         line.push(0);
         let mut bad = device_frame([7, 0x83, 2, 1, 0, 0, 1], &[1, 2, 3, 4]);
-        bad[3] ^= 1;
+        bad[1] ^= 1;
         line.extend(bad);
         line.extend(device_frame([7, 0x86, 2, 1, 0, 0, 1], &[4, 1, 0, 1, 2, 3, 4, 5, 6, 7, 8]));
         for chunk in [1, 3, 4096] {

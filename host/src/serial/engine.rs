@@ -158,8 +158,8 @@ impl Engine {
         if let Some(fault) = &self.fault {
             return Err(fault.clone());
         }
-        if self.queued.is_some() || self.reader.is_waiting() {
-            return Err(SerialFault::Command("the command before has no answer yet"));
+        if self.queued.is_some() || self.reader.is_waiting() || self.reader.has_answer() {
+            return Err(SerialFault::Command("the answer to the command before was not taken yet"));
         }
         let needs_nothing = command
             .first()
@@ -204,10 +204,13 @@ impl Engine {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// The answer to the command, once, when all of it has come: header, length, payload. Its words are in order and no more
-    /// than the command may bring; what they say is not checked.
+    /// The answer to the command, once, when all of it has come, and the device has proved by the digest that it took what was sent: header,
+    /// length, payload. Its words are in order and no more than the command may bring; what they say is not checked.
     pub fn take_answer(&mut self) -> Option<Vec<u32>> {
-        self.reader.take_answer().filter(|_| self.fault.is_none())
+        if self.fault.is_some() || !self.sender.is_proved() {
+            return None;
+        }
+        self.reader.take_answer()
     }
 
     /// Ends the session, so that the next host finds the device at the first rate; [`Engine::is_closed`] tells when it is done,

@@ -105,6 +105,11 @@ impl Reader {
         self.exchange.as_ref().is_some_and(|exchange| !exchange.is_done)
     }
 
+    /// True if an answer is whole and was not taken.
+    pub fn has_answer(&self) -> bool {
+        self.exchange.as_ref().is_some_and(|exchange| exchange.is_done)
+    }
+
     /// The answer, when all of it has come.
     pub fn take_answer(&mut self) -> Option<Vec<u32>> {
         let exchange = self.exchange.take_if(|exchange| exchange.is_done)?;

@@ -53,6 +53,8 @@ pub(super) struct Sender {
     digest: crc32fast::Hasher,
     /// Of all payload acknowledged.
     taken_digest: u32,
+    /// Frames whose digest the device has told, and it was ours.
+    proved: u64,
     /// Bytes of the next frames.
     size: usize,
     /// Frames taken since the last loss or growth.
@@ -71,6 +73,7 @@ impl Sender {
             free: 0,
             digest: crc32fast::Hasher::new(),
             taken_digest: 0,
+            proved: 0,
             size: FIRST_SIZE,
             clean: 0,
             resent: 0,
@@ -85,6 +88,11 @@ impl Sender {
     /// True if the device has taken all.
     pub fn is_done(&self) -> bool {
         self.stream.is_empty() && self.sent.is_empty()
+    }
+
+    /// True if the digest of all that the device has taken is known to be right.
+    pub fn is_proved(&self) -> bool {
+        self.proved == self.base
     }
 
     /// Frames acknowledged in this session.
@@ -164,8 +172,11 @@ impl Sender {
             self.out = self.out.saturating_sub(1);
         }
         self.free = free;
-        if let Some(found) = digest.filter(|&found| found != self.taken_digest) {
-            return Err(SerialFault::PayloadDigest { found, expected: self.taken_digest });
+        if let Some(found) = digest {
+            if found != self.taken_digest {
+                return Err(SerialFault::PayloadDigest { found, expected: self.taken_digest });
+            }
+            self.proved = self.base;
         }
         self.clean = self.clean.saturating_add(taken as u32);
         if self.clean >= GROW_AFTER {

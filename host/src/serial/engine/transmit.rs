@@ -80,7 +80,7 @@ impl Engine {
     fn poll_at(&self) -> Duration {
         let every = POLL_EVERY.min(self.silence / 4);
         let keep = self.last_said + every;
-        let is_waiting = self.reader.is_waiting() || !self.sender.is_done();
+        let is_waiting = self.reader.is_waiting() || !self.sender.is_done() || !self.sender.is_proved();
         if !is_waiting || self.sender.has_due() {
             return keep;
         }
