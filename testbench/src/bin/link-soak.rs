@@ -11,7 +11,7 @@ use incircle_testbench::link::{soak, Detail, Soak};
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let jobs = std::env::args().nth(1).map_or(Ok(200), |text| text.parse())?;
     let mut is_good = true;
-    for (detail, config, points) in [(Detail::Pins, SMALL, 100), (Detail::Bytes, FULL, 4000)] {
+    for (detail, config, points) in [(Detail::Pins, SMALL, 100), (Detail::Bytes, FULL, 1500)] {
         for ber in [1e-6, 1e-5, 1e-4] {
             let faults = FaultSpec { ber, seed: 1000, ..FaultSpec::default() };
             let report = soak(&Soak { detail, config, faults, rate: 12_000_000, jobs, points })?;

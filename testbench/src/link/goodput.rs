@@ -66,7 +66,7 @@ pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2],
     }
     line.ask(&[clear_word(0)], LIMIT)?;
     let mut insert = vec![command_word(Opcode::Insert), u32::try_from(points)?];
-    insert.extend(super::random_points(points, 1).iter().map(|point| point.x | point.y << 16));
+    insert.extend(super::random_points(points, 1).iter().map(|point| point.x | (point.y << 16)));
     let begun = line.now();
     let report = line.ask(&insert, LIMIT)?;
     let status = report.first().map(|&header| answer_status(header));
@@ -89,13 +89,13 @@ pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2],
 pub fn document() -> Result<String, Box<dyn Error>> {
     let mut text = String::from(
         "# Goodput of the serial link\n\n\
-         Made by `cargo run --release -p incircle-testbench --bin goodput`: the driver's engine before the Verilated `incircle_serial_top`, its pins driven \
-         and sampled bit by bit, with 1 ms of round trip besides the bits, in virtual time, so the same everywhere. The core is `full`, \
+         Made by `cargo run --release -p incircle-testbench --bin goodput`: the driver's engine before the Verilated `incircle_serial_top`, its pins\n\
+         driven and sampled bit by bit, with 1 ms of round trip besides the bits, in virtual time, so the same everywhere. The core is `full`,\n\
          its link has 16,384 bytes of FIFO.\n\n\
-         Payload is what the core and its user see: the words of one `Insert` with its points, the words of one `Read` answer with its records. The time is \
-         that of the whole command, from the call of the driver to the last word of the answer in its hands, so the round trip, frame \
-         headers, check sums, encoding, acknowledgements and the core's own work all count as losses. The limit is the rate \
-         over ten, as 8N1 sends ten bits a byte: what the line would carry if there were nothing but payload.\n\n\
+         Payload is what the core and its user see: the words of one `Insert` with its points, the words of one `Read` answer with its\n\
+         records. The time is that of the whole command, from the call of the driver to the last word of the answer in its hands, so the\n\
+         round trip, frame headers, check sums, encoding, acknowledgements and the core's own work all count as losses. The limit is the\n\
+         rate over ten, as 8N1 sends ten bits a byte: what the line would carry if there were nothing but payload.\n\n\
          | bits per second | way | payload bytes | time | bytes per second | of the limit |\n|---|---|---|---|---|---|\n",
     );
     for rate in RATES {

@@ -15,10 +15,10 @@ use super::{is_one_mesh, random_points, Detail, VirtualLine, VirtualTransport};
 
 /// Time of the board for one command of a job.
 const LIMIT: Duration = Duration::from_secs(10);
-/// Round trip besides the bits.
-const TRIP: Duration = Duration::from_millis(1);
+/// Round trip besides the bits: short, as every clock of it is simulated.
+const TRIP: Duration = Duration::from_micros(200);
 /// Jobs of a driver; then the next one opens a session of its own.
-const JOBS_OF_DRIVER: u64 = 10;
+const JOBS_OF_DRIVER: u64 = 20;
 
 /// What is run.
 #[derive(Clone, Debug)]
