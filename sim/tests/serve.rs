@@ -46,14 +46,8 @@ fn greet(link: &Path) -> FromDevice {
     let hello = FromHost { session: 0, kind: HostFrame::Hello, number: 0, payload: vec![] };
     port.write_all(&hello.to_line()).unwrap();
     let mut line = Vec::new();
-    for byte in port.bytes() {
-        match byte.unwrap() {
-            0 if !line.is_empty() => break,
-            0 => {}
-            byte => line.push(byte),
-        }
-    }
-    FromDevice::from_line(&line).expect("a frame")
+    BufReader::new(port).read_until(0, &mut line).unwrap();
+    FromDevice::from_line(&line[..line.len() - 1]).expect("a frame")
 }
 
 fn serves(name: &str, signal: &str, arguments: &[&str]) {
