@@ -5,7 +5,7 @@ use std::path::Path;
 use incircle::{Device, Point, MAX_POINTS};
 use incircle_protocol::{Config, CORE_COORD_BITS, NAMED};
 
-use crate::arguments::{BackendArguments, BackendName, ConfigName};
+use crate::arguments::{BackendArguments, BackendName, ConfigName, JobArguments};
 use crate::failure::{Exit, Failure};
 use crate::grid::failure_of;
 
@@ -20,7 +20,7 @@ const CORE_INSERT_CHUNK: usize = 16_384;
 pub struct Backend {
     /// The device.
     pub device: Device,
-    /// Its name in reports: `model`, `clock` or `sim`.
+    /// Its name in reports: `cpu`, `model`, `clock` or `sim`.
     pub name: &'static str,
     /// The configuration of a core.
     pub config: Option<Config>,
@@ -29,8 +29,19 @@ pub struct Backend {
 }
 
 impl Backend {
-    /// Holds that a core has as many contexts as are asked for. Other back ends are left to the library.
-    pub fn check_contexts(&self, asked: Option<u32>) -> Result<(), Failure> {
+    /// Holds that a job is such as the back end can do: a core has as many contexts as are asked for, and the engine on the processor
+    /// inserts nothing. The rest is left to the library.
+    pub fn check_job(&self, job: &JobArguments) -> Result<(), Failure> {
+        if self.name == "cpu" && job.wants_insertion() {
+            return Err(Failure::usage(
+                "--order and --contexts are for back ends that insert points, and cpu divides them: \
+                 leave them out, or use --backend model",
+            ));
+        }
+        self.check_contexts(job.contexts)
+    }
+
+    fn check_contexts(&self, asked: Option<u32>) -> Result<(), Failure> {
         let (Some(asked), Some(config)) = (asked, self.config) else {
             return Ok(());
         };
@@ -56,8 +67,8 @@ pub fn open(
     points: Option<&[Point]>,
     trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
-    let room = points.map(|points| match choice.backend {
-        BackendName::Model => points.len(),
+    let room = points.map(|points| match choice.name() {
+        BackendName::Cpu | BackendName::Model => points.len(),
         BackendName::Clock | BackendName::Sim => count_distinct(points),
     });
     open_with_room(choice, coord_bits, room, trace)
@@ -70,7 +81,14 @@ pub fn open_with_room(
     room: Option<usize>,
     trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
-    let (device, name, config) = match choice.backend {
+    if choice.threads.is_some() && choice.name() != BackendName::Cpu {
+        return Err(Failure::usage("--threads is for the engine on the processor: it needs --backend cpu"));
+    }
+    let (device, name, config) = match choice.name() {
+        BackendName::Cpu => {
+            check_no_config(choice)?;
+            (Device::cpu(choice.threads), "cpu", None)
+        }
         BackendName::Model => (open_model(choice, coord_bits, room.unwrap_or(MAX_POINTS))?, "model", None),
         BackendName::Clock => {
             let config = config_for(choice, coord_bits, room)?;
@@ -86,12 +104,15 @@ pub fn open_with_room(
     Ok(Backend { device, name, config, insert_chunk })
 }
 
-fn open_model(choice: &BackendArguments, coord_bits: u32, points: usize) -> Result<Device, Failure> {
-    if choice.config.is_some() {
-        return Err(Failure::usage(
-            "--config chooses a configuration of the core: it needs --backend clock or --backend sim",
-        ));
+fn check_no_config(choice: &BackendArguments) -> Result<(), Failure> {
+    if choice.config.is_none() {
+        return Ok(());
     }
+    Err(Failure::usage("--config chooses a configuration of the core: it needs --backend clock or --backend sim"))
+}
+
+fn open_model(choice: &BackendArguments, coord_bits: u32, points: usize) -> Result<Device, Failure> {
+    check_no_config(choice)?;
     let capacity = points.clamp(LEAST_CAPACITY, MAX_POINTS);
     let capacity = u32::try_from(capacity).unwrap_or(u32::MAX);
     Device::model(coord_bits, capacity).map_err(|error| failure_of(&error))

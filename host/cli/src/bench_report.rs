@@ -64,10 +64,11 @@ impl Bench<'_> {
     pub fn header(&self) -> String {
         let BenchArguments { n, coord_bits, seed, job, mhz, .. } = self.arguments;
         let config = self.config.map_or(String::new(), |config| format!(" {config}"));
-        let contexts = counted(self.contexts as usize, "context");
-        let order = job.order.name();
+        let is_cpu = self.backend == "cpu";
+        let contexts = counted(self.contexts as usize, if is_cpu { "thread" } else { "context" });
+        let order = if is_cpu { String::new() } else { format!(", order {}", job.order().name()) };
         let about = format!(
-            "{}{config}, {contexts}; sets of {}, {coord_bits} bits, seed {seed}, order {order}\n",
+            "{}{config}, {contexts}; sets of {}, {coord_bits} bits, seed {seed}{order}\n",
             self.backend,
             counted(*n as usize, "point")
         );
@@ -140,7 +141,7 @@ impl Bench<'_> {
             "config": self.config,
             "capacity": self.capacity,
             "contexts": self.contexts,
-            "order": job.order.name(),
+            "order": if self.backend == "cpu" { Value::Null } else { job.order().name().into() },
             "n": n,
             "coord_bits": coord_bits,
             "seed": seed,

@@ -14,8 +14,8 @@ use crate::grid::failure_of;
 use crate::progress::Meter;
 use crate::{interrupt, output};
 
-/// Runs of a set on the software model, of which the fastest counts. Cycles are the same in every run, so one is enough for a core.
-const MODEL_RUNS: usize = 3;
+/// Runs of a set in software, of which the fastest counts. Cycles are the same in every run, so one is enough for a core.
+const SOFTWARE_RUNS: usize = 3;
 
 /// Runs the subcommand: a row as soon as its set is done, or one JSON object at the end.
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
@@ -23,7 +23,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     let sets = sets_of(arguments);
     let room = room_for(&sets, arguments)?;
     let mut backend = backend::open_with_room(&arguments.backend, arguments.coord_bits, Some(room), None)?;
-    backend.check_contexts(arguments.job.contexts)?;
+    backend.check_job(&arguments.job)?;
     let Backend { name, config, insert_chunk, .. } = backend;
     let mut session = backend.device.session().map_err(|error| failure_of(&error))?;
     let bench = Bench {
@@ -49,6 +49,11 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// It is timed, not counted in cycles.
+fn is_software(arguments: &BenchArguments) -> bool {
+    matches!(arguments.backend.name(), BackendName::Cpu | BackendName::Model)
+}
+
 fn sets_of(arguments: &BenchArguments) -> Vec<Distribution> {
     if arguments.sets.is_empty() {
         Distribution::LITERATURE.into_iter().chain([Distribution::Lattice]).collect()
@@ -57,9 +62,9 @@ fn sets_of(arguments: &BenchArguments) -> Vec<Distribution> {
     }
 }
 
-/// Points that the back end must hold for every set: distinct ones for a core, which is small, all of them for the model.
+/// Points that the back end must hold for every set: distinct ones for a core, which is small, all of them for software.
 fn room_for(sets: &[Distribution], arguments: &BenchArguments) -> Result<usize, Failure> {
-    if arguments.backend.backend == BackendName::Model {
+    if is_software(arguments) {
         return Ok(arguments.n as usize);
     }
     let mut most = 0;
@@ -81,7 +86,7 @@ fn measure(
     arguments: &BenchArguments,
 ) -> Result<Measured, Failure> {
     let points = points_of(set, arguments)?;
-    let runs = if arguments.backend.backend == BackendName::Model { MODEL_RUNS } else { 1 };
+    let runs = if is_software(arguments) { SOFTWARE_RUNS } else { 1 };
     let mut best = run_once(session, set, &points, insert_chunk, arguments)?;
     for _ in 1..runs {
         let next = run_once(session, set, &points, insert_chunk, arguments)?;
@@ -103,7 +108,7 @@ fn run_once(
     let listener = |progress| meter.hear(progress);
     let options = Options {
         timeout: arguments.job.timeout,
-        order: arguments.job.order,
+        order: arguments.job.order(),
         progress: Some(&listener),
         contexts: arguments.job.contexts,
         insert_chunk,
