@@ -1,10 +1,12 @@
 //! Devices: opened by address, or made around a transport.
 
+use std::num::NonZeroU32;
 use std::time::Duration;
 
 use incircle_protocol::{Config, CORE_COORD_BITS, LARGE, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_COORD_BITS, NAMED};
 
 use crate::clock::{ClockTransport, CLOCK_NAME};
+use crate::cpu::{self, CPU_NAME};
 use crate::error::Error;
 use crate::link::{Limit, Link};
 use crate::model::{ModelTransport, MODEL_NAME};
@@ -15,14 +17,27 @@ use crate::transport::Transport;
 /// Time for the greeting unless chosen otherwise.
 const GREETING_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// Something that triangulates: an embedded software model, or what is behind a [`Transport`].
+/// Most threads of the engine in this process.
+const MAX_THREADS: u32 = 256;
+
+/// Something that triangulates: the engine in this process, an embedded software model, or what is behind a [`Transport`].
 pub struct Device {
-    link: Link,
+    engine: Engine,
+}
+
+/// What does the work.
+enum Engine {
+    /// The engine in this process, with so many threads.
+    Cpu(u32),
+    /// A device that is spoken to in words.
+    Link(Box<Link>),
 }
 
 impl Device {
     /// Opens the device at `address`.
     ///
+    /// - `cpu`: the fast engine in this process, with as many threads as there are processors. Coordinates up to 31 bits.
+    /// - `cpu?threads=N`: the same with `N` threads at most.
     /// - `model`: the embedded software model with 16-bit coordinates. It takes memory as points arrive.
     /// - `model?coord-bits=B`: the same with `B` bits, 1 to 31.
     /// - `model?coord-bits=B&capacity=N`: a model that holds `N` points and no more.
@@ -40,10 +55,20 @@ impl Device {
     /// [`Device::model`].
     pub fn open(address: &str) -> Result<Self, Error> {
         match Choice::parse(address).map_err(|reason| Error::Address { address: address.to_owned(), reason })? {
+            Choice::Cpu(threads) => Ok(Self::cpu(threads)),
             Choice::Model { coord_bits, capacity } => Self::model(coord_bits, capacity),
             Choice::Clock(config) => Self::clock_model(config),
             Choice::Serial(address) => Ok(Self::from_transport(Box::new(SerialTransport::open(&address)?))),
         }
+    }
+
+    /// The fast engine in this process: coordinates up to 31 bits, as many points as memory holds, and up to so many threads,
+    /// which are its contexts; `None`: as many as there are processors. Small jobs take fewer. The order of the options is
+    /// for devices that insert points one after the other; this one has its own.
+    pub fn cpu(threads: Option<NonZeroU32>) -> Self {
+        let processors = || std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = threads.map_or_else(|| u32::try_from(processors()).unwrap_or(MAX_THREADS), NonZeroU32::get);
+        Self { engine: Engine::Cpu(threads.min(MAX_THREADS)) }
     }
 
     /// The software model for `capacity` points of `coord_bits` bits. It takes memory as points arrive.
@@ -67,7 +92,7 @@ impl Device {
 
     /// The device behind a transport: a simulation, a board, a test double. Nothing is sent yet.
     pub fn from_transport(transport: Box<dyn Transport>) -> Self {
-        Self { link: Link::new(transport) }
+        Self { engine: Engine::Link(Box::new(Link::new(transport))) }
     }
 
     /// Greets the device and checks what it says of itself; gives it ten seconds, stretched for a simulation by its
@@ -77,7 +102,11 @@ impl Device {
     /// [`Error::Link`], [`Error::Timeout`], or [`Error::Device`] for one that is no incircle device, speaks another
     /// major version or an older minor one, or claims coordinate bits, a capacity or contexts that cannot be.
     pub fn session(&mut self) -> Result<Session<'_>, Error> {
-        self.session_within(GREETING_TIMEOUT.saturating_mul(self.link.pace().slow))
+        let slow = match &self.engine {
+            Engine::Cpu(_) => 1,
+            Engine::Link(link) => link.pace().slow,
+        };
+        self.session_within(GREETING_TIMEOUT.saturating_mul(slow))
     }
 
     /// As [`Device::session`], with another time for the greeting.
@@ -85,8 +114,13 @@ impl Device {
     /// # Errors
     /// As [`Device::session`].
     pub fn session_within(&mut self, timeout: Duration) -> Result<Session<'_>, Error> {
-        let identity = self.link.hello(Limit::of(timeout))?;
-        Ok(Session::new(&mut self.link, identity))
+        match &mut self.engine {
+            Engine::Cpu(threads) => Ok(Session::of_cpu(cpu::identity(*threads))),
+            Engine::Link(link) => {
+                let identity = link.hello(Limit::of(timeout))?;
+                Ok(Session::new(link, identity))
+            }
+        }
     }
 }
 
@@ -102,6 +136,7 @@ pub(crate) fn check_coord_bits(coord_bits: u32) -> Result<(), Error> {
 /// What an address asks for.
 #[derive(Debug, PartialEq, Eq)]
 enum Choice {
+    Cpu(Option<NonZeroU32>),
     Model { coord_bits: u32, capacity: u32 },
     Clock(Config),
     Serial(Address),
@@ -117,13 +152,27 @@ impl Choice {
         let items = choices.split('&').filter(|item| !item.is_empty());
         let items = items.map(|item| item.split_once('=').unwrap_or((item, "")));
         match name {
+            CPU_NAME => Self::parse_cpu(items),
             MODEL_NAME => Self::parse_model(items),
             CLOCK_NAME => Self::parse_clock(items),
             _ => Err(
-                "this library opens \"model\", \"clock\" and \"serial:PORT\" by name, other devices from a transport"
+                "this library opens \"cpu\", \"model\", \"clock\" and \"serial:PORT\" by name, other devices from a \
+                      transport"
                     .to_owned(),
             ),
         }
+    }
+
+    fn parse_cpu<'a>(items: impl Iterator<Item = (&'a str, &'a str)>) -> Result<Self, String> {
+        let mut threads = None;
+        for (key, value) in items {
+            if key != "threads" {
+                return Err(format!("\"{key}\" is unknown; \"threads\" is known"));
+            }
+            let parsed = value.parse::<NonZeroU32>();
+            threads = Some(parsed.map_err(|_| format!("\"{key}\" wants a whole number from 1 on, not \"{value}\""))?);
+        }
+        Ok(Self::Cpu(threads))
     }
 
     fn parse_model<'a>(items: impl Iterator<Item = (&'a str, &'a str)>) -> Result<Self, String> {
@@ -169,6 +218,8 @@ mod tests {
         assert_eq!(Choice::parse("model"), model(16, MAX_MODEL_POINTS));
         assert_eq!(Choice::parse("model?coord-bits=20"), model(20, MAX_MODEL_POINTS));
         assert_eq!(Choice::parse("model?coord-bits=8&capacity=99"), model(8, 99));
+        assert_eq!(Choice::parse("cpu"), Ok(Choice::Cpu(None)));
+        assert_eq!(Choice::parse("cpu?threads=3"), Ok(Choice::Cpu(NonZeroU32::new(3))));
         assert_eq!(Choice::parse("clock"), Ok(Choice::Clock(LARGE)));
         for config in NAMED {
             assert_eq!(Choice::parse(&format!("clock?config={}", config.name)), Ok(Choice::Clock(config)));
@@ -189,6 +240,9 @@ mod tests {
             "clock?config=huge",
             "clock?config",
             "clock?capacity=8",
+            "cpu?threads=0",
+            "cpu?threads=many",
+            "cpu?contexts=2",
         ] {
             let error = Device::open(address).err().expect(address);
             assert_eq!(error.kind(), ErrorKind::DeviceNotFound, "{error}");

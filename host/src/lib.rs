@@ -1,7 +1,7 @@
 //! Exact canonical Delaunay triangulation of integer points, in hardware or software.
 //!
-//! For a set of distinct grid points there is exactly one answer, and every device gives it: the embedded software
-//! model, the simulated core, a board. Where four or more points lie on one empty circle, the diagonal takes the
+//! For a set of distinct grid points there is exactly one answer, and every device gives it: the fast engine in this process, the
+//! software model, the simulated core, a board. Where four or more points lie on one empty circle, the diagonal takes the
 //! lexicographically smallest of them.
 //!
 //! ```
@@ -34,6 +34,7 @@
 mod assemble;
 mod clock;
 mod counters;
+mod cpu;
 mod device;
 mod edges;
 mod error;
@@ -70,18 +71,11 @@ pub use session::{Session, MAX_POINTS};
 pub use transport::{Pace, Transport, TransportError};
 pub use verify::{verify, VerifyError, VerifySummary};
 
-use incircle_protocol::{CORE_COORD_BITS, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_POINTS};
-
-/// Triangulates on an embedded model made for the job: coordinates up to 31 bits, default [`Options`].
+/// Triangulates in this process with the fast engine: coordinates up to 31 bits, default [`Options`], all processors for large sets.
 ///
 /// # Errors
-/// A coordinate of more than 31 bits, or more than [`MAX_POINTS`] points.
+/// A coordinate of more than 31 bits, more than [`MAX_POINTS`] points, or a job that takes longer than
+/// [`Options::default_timeout`].
 pub fn triangulate<P: Into<Point> + Copy>(points: &[P]) -> Result<Mesh, Error> {
-    let points: Vec<Point> = points.iter().map(|&point| point.into()).collect();
-    let used = points.iter().fold(0, |all, point| all | point.x | point.y);
-    let coord_bits = if used >> CORE_COORD_BITS == 0 { CORE_COORD_BITS } else { MAX_COORD_BITS };
-    let capacity = u32::try_from(points.len()).unwrap_or(u32::MAX);
-    let mut device = Device::model(coord_bits, capacity.clamp(MIN_POINTS, MAX_MODEL_POINTS))?;
-    let mut session = device.session()?;
-    session.triangulate_owned(points, &Options::default())
+    Device::cpu(None).session()?.triangulate(points)
 }

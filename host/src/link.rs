@@ -28,6 +28,14 @@ impl Limit {
         let timeout = timeout.min(YEAR);
         Self { deadline: Instant::now() + timeout, timeout }
     }
+
+    /// An error once the deadline has passed.
+    pub(crate) fn check(&self, device: &str, during: &'static str) -> Result<(), Error> {
+        if Instant::now() <= self.deadline {
+            return Ok(());
+        }
+        Err(Error::Timeout { device: device.to_owned(), during, timeout: self.timeout })
+    }
 }
 
 /// A transport with the commands of the protocol.

@@ -6,6 +6,7 @@ use incircle_protocol::{command_word, Identity, InsertReport, Layout, Opcode};
 
 use crate::assemble::Assembly;
 use crate::counters::Latencies;
+use crate::cpu::{CpuJob, CPU_NAME};
 use crate::error::Error;
 use crate::fault::DeviceFault;
 use crate::link::{Limit, Link};
@@ -24,13 +25,19 @@ const MIN_INSERT_CHUNK: usize = 3;
 
 /// Exclusive use of a device that has been greeted and checked.
 pub struct Session<'d> {
-    link: &'d mut Link,
+    /// `None`: the engine in this process.
+    link: Option<&'d mut Link>,
     identity: Identity,
 }
 
 impl<'d> Session<'d> {
     pub(crate) fn new(link: &'d mut Link, identity: Identity) -> Self {
-        Self { link, identity }
+        Self { link: Some(link), identity }
+    }
+
+    /// Use of the engine in this process.
+    pub(crate) fn of_cpu(identity: Identity) -> Self {
+        Self { link: None, identity }
     }
 
     /// What the device says of itself, checked.
@@ -62,28 +69,56 @@ impl<'d> Session<'d> {
     }
 
     pub(crate) fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Mesh, Error> {
-        let default = || Options::default_timeout(points.len()).saturating_mul(self.link.pace().slow);
+        let slow = self.link.as_ref().map_or(1, |link| link.pace().slow);
+        let default = || Options::default_timeout(points.len()).saturating_mul(slow);
         let timeout = options.timeout.unwrap_or_else(default);
-        let job = Job {
-            identity: self.identity,
-            contexts: options.contexts.unwrap_or(self.identity.contexts),
-            layout: Layout::of(self.identity.coord_bits, self.identity.capacity),
-            limit: Limit::of(timeout),
-            link: self.link,
-            options,
-            watch: Stopwatch::start(),
-            points: &points,
+        let (identity, limit, watch) = (self.identity, Limit::of(timeout), Stopwatch::start());
+        let contexts = options.contexts.unwrap_or(identity.contexts);
+        let name = self.link.as_ref().map_or_else(|| CPU_NAME.to_owned(), |link| link.name());
+        check_input(&points, contexts, &identity, name)?;
+        let answer = match &mut self.link {
+            None => CpuJob { points: &points, contexts, options, limit, watch }.run()?,
+            Some(link) => {
+                let layout = Layout::of(identity.coord_bits, identity.capacity);
+                Job { identity, contexts, layout, limit, link, options, watch, points: &points }.run()?
+            }
         };
-        job.check_input()?;
-        let answer = job.run()?;
         Ok(Mesh { points, ..answer })
     }
 }
 
+/// The device must have the contexts; every point must fit its grid, and all of them 32-bit indices.
+fn check_input(points: &[Point], asked: u32, identity: &Identity, device: String) -> Result<(), Error> {
+    let contexts = identity.contexts;
+    if !(1..=contexts).contains(&asked) {
+        return Err(Error::Contexts { asked, contexts, device });
+    }
+    if points.len() > MAX_POINTS {
+        return Err(Error::TooManyPoints { points: points.len(), max: MAX_POINTS });
+    }
+    let coord_bits = identity.coord_bits;
+    let outside = |point: &Point| (point.x | point.y) >> coord_bits != 0;
+    match points.iter().position(outside) {
+        Some(index) => Err(Error::CoordinateOutOfRange { index, x: points[index].x, y: points[index].y, coord_bits }),
+        None => Ok(()),
+    }
+}
+
+/// Tells the listener, which may cancel.
+pub(crate) fn tell(options: &Options<'_>, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
+    let Some(listener) = options.progress else {
+        return Ok(());
+    };
+    if listener(Progress { stage, done, total }).is_break() {
+        return Err(Error::Cancelled { stage: stage.name(), done, total });
+    }
+    Ok(())
+}
+
 /// Times stages.
-struct Stopwatch {
+pub(crate) struct Stopwatch {
     since: Instant,
-    stages: Vec<(&'static str, Duration)>,
+    pub(crate) stages: Vec<(&'static str, Duration)>,
 }
 
 impl Stopwatch {
@@ -91,7 +126,7 @@ impl Stopwatch {
         Self { since: Instant::now(), stages: Vec::with_capacity(4) }
     }
 
-    fn ended(&mut self, stage: Stage) {
+    pub(crate) fn ended(&mut self, stage: Stage) {
         let now = Instant::now();
         self.stages.push((stage.name(), now - self.since));
         self.since = now;
@@ -112,25 +147,6 @@ struct Job<'j> {
 }
 
 impl<'j> Job<'j> {
-    /// The device must have the contexts; every point must fit its grid, and all of them 32-bit indices.
-    fn check_input(&self) -> Result<(), Error> {
-        let (asked, contexts) = (self.contexts, self.identity.contexts);
-        if !(1..=contexts).contains(&asked) {
-            return Err(Error::Contexts { asked, contexts, device: self.link.name() });
-        }
-        if self.points.len() > MAX_POINTS {
-            return Err(Error::TooManyPoints { points: self.points.len(), max: MAX_POINTS });
-        }
-        let coord_bits = self.identity.coord_bits;
-        let outside = |point: &Point| (point.x | point.y) >> coord_bits != 0;
-        match self.points.iter().position(outside) {
-            Some(index) => {
-                Err(Error::CoordinateOutOfRange { index, x: self.points[index].x, y: self.points[index].y, coord_bits })
-            }
-            None => Ok(()),
-        }
-    }
-
     /// Everything but the points of the mesh.
     fn run(mut self) -> Result<Mesh, Error> {
         self.tell(Stage::Order, 0, self.points.len())?;
@@ -234,14 +250,7 @@ impl<'j> Job<'j> {
 
     /// Tells the listener, which may cancel.
     fn tell(&self, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
-        let Some(listener) = self.options.progress else {
-            return Ok(());
-        };
-        let progress = Progress { stage, done, total };
-        if listener(progress).is_break() {
-            return Err(Error::Cancelled { stage: stage.name(), done, total });
-        }
-        Ok(())
+        tell(self.options, stage, done, total)
     }
 }
 

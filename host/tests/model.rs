@@ -1,4 +1,4 @@
-//! The embedded model through the library: hard inputs, orders, chunks, sizes, progress.
+//! The embedded model through the library, and the engine in this process beside it: hard inputs, orders, chunks, sizes, progress.
 
 mod common;
 
@@ -6,12 +6,15 @@ use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use common::{assert_right, Random};
+use common::{assert_right, by_model, Random};
 use incircle::{triangulate, Device, Error, ErrorKind, Mesh, Options, Order, Point, Stage};
 
+/// By the model, and by the engine in this process, which must agree.
 fn mesh_of(points: &[Point]) -> Mesh {
-    let mesh = triangulate(points).expect("a mesh");
-    assert_right(&mesh);
+    let mesh = by_model(points);
+    let other = triangulate(points).expect("a mesh");
+    assert_right(&other);
+    assert_eq!((&mesh.triangles, &mesh.hull, &mesh.duplicates), (&other.triangles, &other.hull, &other.duplicates));
     mesh
 }
 

@@ -1,8 +1,9 @@
-//! The embedded model against a brute-force oracle on tiny grids, and the validator against the oracle's meshes.
+//! The embedded model and the engine in this process against a brute-force oracle on tiny grids, and the validator against the
+//! oracle's meshes.
 
 mod common;
 
-use common::{assert_right, brute_force, Random};
+use common::{assert_right, brute_force, by_model, Random};
 use incircle::{triangulate, verify, Point};
 
 #[test]
@@ -11,8 +12,10 @@ fn every_subset_of_a_three_by_four_grid() {
     for subset in 0u32..1 << 12 {
         let points: Vec<Point> = (0..12).filter(|k| subset >> k & 1 == 1).map(|k| grid[k as usize * 5 % 12]).collect();
         let mesh = triangulate(&points).expect("a mesh");
-        assert_eq!(mesh.triangles, brute_force(&points), "{points:?}");
+        let expected = brute_force(&points);
+        assert_eq!(mesh.triangles, expected, "{points:?}");
         assert_right(&mesh);
+        assert_eq!(by_model(&points).triangles, expected, "{points:?}");
     }
 }
 
@@ -27,6 +30,7 @@ fn random_sets_with_duplicates_on_a_small_grid() {
         assert_eq!(mesh.triangles, expected, "{points:?}");
         assert!(verify(&points, &expected).is_ok(), "{points:?}");
         assert_right(&mesh);
+        assert_eq!(by_model(&points).triangles, expected, "{points:?}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! The arguments of the command.
 
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -66,15 +67,32 @@ pub struct GridArguments {
 }
 
 /// Which device works.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct BackendArguments {
-    /// Who triangulates: 'model', the software model; 'clock', the core's model clock by clock; 'sim', the core's Verilog in Verilator (needs a
-    /// build with `--features sim`); 'serial:PORT', a board, such as serial:/dev/ttyUSB0 or serial:/dev/ttyUSB0?baud=12000000
-    #[arg(long, value_parser = backend_parser(), default_value = "model")]
-    pub backend: BackendChoice,
+    /// Who triangulates: 'cpu', the fast engine on the processor; 'model', the software model of the core; 'clock', its model clock by
+    /// clock; 'sim', the core's Verilog in Verilator (needs a build with `--features sim`); 'serial:PORT', a board, such as
+    /// serial:/dev/ttyUSB0 or serial:/dev/ttyUSB0?baud=12000000 (default: 'triangulate' takes 'cpu', or 'model' if --order or
+    /// --contexts is given; others take 'model')
+    #[arg(long, value_parser = backend_parser())]
+    pub backend: Option<BackendChoice>,
+    /// Threads of the back end 'cpu' (default: as many as there are processors, fewer for small sets)
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroU32>,
     /// Configuration of the core, for 'clock' and 'sim' (default: the smallest that holds the points)
     #[arg(long, value_enum)]
     pub config: Option<ConfigName>,
+}
+
+impl BackendArguments {
+    /// The back end asked for, or else the software model.
+    pub fn choice(&self) -> &BackendChoice {
+        self.backend.as_ref().unwrap_or(&BackendChoice::Model)
+    }
+
+    /// The same, or, if no back end is asked for, with this one.
+    pub fn or(&self, backend: BackendChoice) -> Self {
+        Self { backend: Some(self.backend.clone().unwrap_or(backend)), ..self.clone() }
+    }
 }
 
 /// How the device works.
@@ -84,12 +102,24 @@ pub struct JobArguments {
     /// back end has)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub contexts: Option<u32>,
-    /// Order in which points are inserted: it changes the time, never the mesh
-    #[arg(long, value_parser = order_parser(), default_value = Order::BrioHilbert.name())]
-    pub order: Order,
+    /// Order in which points are inserted: it changes the time, never the mesh (default: brio-hilbert)
+    #[arg(long, value_parser = order_parser())]
+    pub order: Option<Order>,
     /// Seconds that the device may take
     #[arg(long, value_name = "SECONDS", value_parser = seconds_from)]
     pub timeout: Option<Duration>,
+}
+
+impl JobArguments {
+    /// The order asked for, or else the best.
+    pub fn order(&self) -> Order {
+        self.order.unwrap_or_default()
+    }
+
+    /// What is asked of a job makes sense only for devices that insert one point after the other.
+    pub fn wants_insertion(&self) -> bool {
+        self.order.is_some() || self.contexts.is_some()
+    }
 }
 
 /// Arguments of `triangulate`.
@@ -225,6 +255,8 @@ pub struct CompletionsArguments {
 /// The back ends.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BackendChoice {
+    /// The fast engine: divide and conquer on the processor.
+    Cpu,
     /// The software model.
     Model,
     /// The core's model, clock by clock: answers, records and cycle counts of the core, without Verilator.

@@ -7,7 +7,7 @@ use incircle::serial::{Address, SerialTransport};
 use incircle::{Device, Point, MAX_POINTS};
 use incircle_protocol::{Config, Greeting, CORE_COORD_BITS, NAMED};
 
-use crate::arguments::{BackendArguments, BackendChoice, ConfigName};
+use crate::arguments::{BackendArguments, BackendChoice, ConfigName, JobArguments};
 use crate::failure::{Exit, Failure};
 use crate::grid::failure_of;
 
@@ -44,7 +44,7 @@ impl Board {
 pub struct Backend {
     /// The device.
     pub device: Device,
-    /// Its name in reports: `model`, `clock`, `sim` or `serial`.
+    /// Its name in reports: `cpu`, `model`, `clock`, `sim` or `serial`.
     pub name: &'static str,
     /// The configuration of a core, where it is our choice.
     pub config: Option<Config>,
@@ -60,8 +60,19 @@ impl Backend {
         self.config.is_some() || self.board.is_some()
     }
 
-    /// Holds that a core has as many contexts as are asked for. Other back ends are left to the library.
-    pub fn check_contexts(&self, asked: Option<u32>) -> Result<(), Failure> {
+    /// Holds that a job is such as the back end can do: a core has as many contexts as are asked for, and the engine on the processor
+    /// inserts nothing. The rest is left to the library.
+    pub fn check_job(&self, job: &JobArguments) -> Result<(), Failure> {
+        if self.name == "cpu" && job.wants_insertion() {
+            return Err(Failure::usage(
+                "--order and --contexts are for back ends that insert points, and cpu divides them: \
+                 leave them out, or use --backend model",
+            ));
+        }
+        self.check_contexts(job.contexts)
+    }
+
+    fn check_contexts(&self, asked: Option<u32>) -> Result<(), Failure> {
         let (Some(asked), Some(config)) = (asked, self.config) else {
             return Ok(());
         };
@@ -87,8 +98,8 @@ pub fn open(
     points: Option<&[Point]>,
     trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
-    let room = points.map(|points| match choice.backend {
-        BackendChoice::Model | BackendChoice::Serial(_) => points.len(),
+    let room = points.map(|points| match choice.choice() {
+        BackendChoice::Cpu | BackendChoice::Model | BackendChoice::Serial(_) => points.len(),
         BackendChoice::Clock | BackendChoice::Sim => count_distinct(points),
     });
     open_with_room(choice, coord_bits, room, trace)
@@ -101,8 +112,15 @@ pub fn open_with_room(
     room: Option<usize>,
     trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
-    let (device, name, config) = match &choice.backend {
+    if choice.threads.is_some() && *choice.choice() != BackendChoice::Cpu {
+        return Err(Failure::usage("--threads is for the engine on the processor: it needs --backend cpu"));
+    }
+    let (device, name, config) = match choice.choice() {
         BackendChoice::Serial(address) => return open_serial(choice, address),
+        BackendChoice::Cpu => {
+            check_no_config(choice)?;
+            (Device::cpu(choice.threads), "cpu", None)
+        }
         BackendChoice::Model => (open_model(choice, coord_bits, room.unwrap_or(MAX_POINTS))?, "model", None),
         BackendChoice::Clock => {
             let config = config_for(choice, coord_bits, room)?;

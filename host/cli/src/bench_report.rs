@@ -75,10 +75,11 @@ impl Bench<'_> {
         let mhz = self.mhz;
         let config = self.config.map_or(String::new(), |config| format!(" {config}"));
         let rate = self.rate.map_or(String::new(), |rate| format!(" at {rate} bits per second"));
-        let contexts = counted(self.contexts as usize, "context");
-        let order = job.order.name();
+        let is_cpu = self.backend == "cpu";
+        let contexts = counted(self.contexts as usize, if is_cpu { "thread" } else { "context" });
+        let order = if is_cpu { String::new() } else { format!(", order {}", job.order().name()) };
         let about = format!(
-            "{}{config}{rate}, {contexts}; sets of {}, {coord_bits} bits, seed {seed}, order {order}\n",
+            "{}{config}{rate}, {contexts}; sets of {}, {coord_bits} bits, seed {seed}{order}\n",
             self.backend,
             counted(*n as usize, "point")
         );
@@ -156,7 +157,7 @@ impl Bench<'_> {
             "config": self.config,
             "capacity": self.capacity,
             "contexts": self.contexts,
-            "order": job.order.name(),
+            "order": if self.backend == "cpu" { Value::Null } else { job.order().name().into() },
             "n": n,
             "coord_bits": coord_bits,
             "seed": seed,

@@ -38,19 +38,25 @@ impl clap::builder::TypedValueParser for BackendParser {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = clap::builder::PossibleValue> + '_>> {
-        Some(Box::new(["model", "clock", "sim", "serial:PORT"].into_iter().map(clap::builder::PossibleValue::new)))
+        Some(Box::new(
+            ["cpu", "model", "clock", "sim", "serial:PORT"].into_iter().map(clap::builder::PossibleValue::new),
+        ))
     }
 }
 
 fn backend_from(text: &str) -> Result<BackendChoice, String> {
     match text {
+        "cpu" => Ok(BackendChoice::Cpu),
         "model" => Ok(BackendChoice::Model),
         "clock" => Ok(BackendChoice::Clock),
         "sim" => Ok(BackendChoice::Sim),
-        _ => match Address::parse(text) {
-            Some(address) => address.map(BackendChoice::Serial),
-            None => Err("there are 'model', 'clock', 'sim' and 'serial:PORT', such as serial:/dev/ttyUSB0".to_owned()),
-        },
+        _ => {
+            match Address::parse(text) {
+                Some(address) => address.map(BackendChoice::Serial),
+                None => Err("there are 'cpu', 'model', 'clock', 'sim' and 'serial:PORT', such as serial:/dev/ttyUSB0"
+                    .to_owned()),
+            }
+        }
     }
 }
 

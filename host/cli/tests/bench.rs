@@ -92,9 +92,23 @@ fn the_software_model_has_host_times() {
 }
 
 #[test]
+fn the_engine_on_the_processor_has_host_times_and_no_counters() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench uniform -n 3000 --backend cpu --threads 1").ok();
+    assert!(run.stdout.starts_with("cpu, 1 thread; sets of 3000 points, 16 bits, seed 1\n"), "{run:?}");
+    let row = &rows(&run, 2)[0];
+    assert!(row[2..4].iter().all(|time| time.parse::<f64>().is_ok_and(|time| time > 1.0)), "{row:?}");
+    assert_eq!(row[4..], ["-", "-", "-"]);
+    let run = scratch.run("bench lattice -n 100 --backend cpu --json").ok();
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    assert_eq!((&bench["backend"], &bench["order"]), (&Value::from("cpu"), &Value::Null));
+    assert_eq!(bench["sets"][0]["counters"], Value::Null);
+}
+
+#[test]
 fn sets_that_the_host_answers_alone_have_dashes() {
     let scratch = Scratch::new();
-    for backend in ["model", "clock"] {
+    for backend in ["cpu", "model", "clock"] {
         let run = scratch.run(&format!("bench uniform -n 2 --backend {backend}")).ok();
         let row = run.stdout.lines().last().expect("a row");
         assert!(row.ends_with(" -") && !row.contains("NaN") && !row.contains("inf"), "{row}");

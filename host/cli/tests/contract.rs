@@ -59,7 +59,7 @@ fn sets_without_triangles_are_answers() {
 fn json_report_has_all_keys() {
     let scratch = Scratch::new();
     scratch.write("p.csv", format!("{FIVE}10,0\n"));
-    let run = scratch.run("triangulate p.csv -o m.ele --json").ok();
+    let run = scratch.run("triangulate p.csv -o m.ele --backend model --json").ok();
     assert_eq!(run.stderr, "");
     let report = report(&run.stdout);
     for (key, count) in [("points", 6), ("distinct", 5), ("duplicates", 1), ("triangles", 4), ("hull", 4)] {
@@ -78,6 +78,30 @@ fn json_report_has_all_keys() {
     for stage in ["load", "quantise", "order", "insert", "read", "assemble", "write", "total"] {
         assert!(report["seconds"][stage].is_f64(), "{stage}: {report}");
     }
+}
+
+#[test]
+fn the_processor_is_the_default() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", format!("{FIVE}10,0\n"));
+    scratch.run("triangulate p.csv -o model.ele --backend model").ok();
+    for (choice, order) in [("", "z-curve"), ("--backend cpu --threads 3", "z-curve"), ("--order input", "input")] {
+        let run = scratch.run(&format!("triangulate p.csv -o m.ele {choice} --json")).ok();
+        let report = report(&run.stdout);
+        assert_eq!(report["backend"], if order == "z-curve" { "cpu" } else { "model" });
+        assert_eq!((&report["order"], &report["distinct"]), (&Value::from(order), &Value::from(5)));
+        assert_eq!(report["counters"].is_null(), order == "z-curve");
+        for stage in ["order", "insert", "assemble", "total"] {
+            assert!(report["seconds"][stage].is_f64(), "{stage}: {report}");
+        }
+        assert_eq!(scratch.read("m.ele"), scratch.read("model.ele"));
+    }
+    let info = scratch.run("info --backend cpu --threads 3").ok();
+    assert!(info.stdout.contains("31 bits") && info.stdout.contains("3 threads"), "{info:?}");
+    scratch.run("triangulate p.csv -o m.ele --backend cpu --order hilbert").fails(2, &["--order", "--backend model"]);
+    scratch.run("triangulate p.csv -o m.ele --backend model --threads 2").fails(2, &["--threads", "--backend cpu"]);
+    scratch.run("triangulate p.csv -o m.ele --backend cpu --config tiny").fails(2, &["--config", "--backend clock"]);
+    assert_eq!(scratch.run("triangulate p.csv -o m.ele --threads 0").code, Some(2));
 }
 
 #[test]
@@ -268,7 +292,7 @@ fn quiet_is_quiet_and_verbose_says_more() {
     assert_eq!((quiet.stdout.as_str(), quiet.stderr.as_str()), ("", ""));
     let plain = scratch.run("triangulate p.csv -o m.ele").ok();
     assert!(plain.stderr.starts_with("quantised to 16 bits"), "{plain:?}");
-    let verbose = scratch.run("triangulate p.csv -o m.ele -v").ok();
+    let verbose = scratch.run("triangulate p.csv -o m.ele --backend model -v").ok();
     assert!(verbose.stderr.contains("  insertions                   3      1.000 per insertion\n"), "{verbose:?}");
     assert!(verbose.stderr.contains("  walk visits"), "{verbose:?}");
     // Nothing that needs a clock.

@@ -1,7 +1,7 @@
 //! What several tests share: a small random generator, and a brute-force oracle.
 #![allow(dead_code)] // each test file uses a part
 
-use incircle::{Mesh, Point};
+use incircle::{Device, Mesh, Point};
 
 /// A small random generator: SplitMix64.
 pub struct Random(pub u64);
@@ -21,6 +21,21 @@ impl Random {
     pub fn points(&mut self, count: usize, side: u32) -> Vec<Point> {
         (0..count).map(|_| Point::new(self.below(side), self.below(side))).collect()
     }
+}
+
+/// The mesh by the software model, as narrow as the points allow.
+pub fn by_model(points: &[Point]) -> Mesh {
+    let used = points.iter().fold(0, |all, point| all | point.x | point.y);
+    let address = if used >> 16 == 0 { "model" } else { "model?coord-bits=31" };
+    by(address, points)
+}
+
+/// The mesh by the device at this address.
+pub fn by(address: &str, points: &[Point]) -> Mesh {
+    let mut device = Device::open(address).expect("a device in this process");
+    let mesh = device.session().and_then(|mut session| session.triangulate(points)).expect("a mesh");
+    assert_right(&mesh);
+    mesh
 }
 
 fn area(a: Point, b: Point, c: Point) -> i64 {

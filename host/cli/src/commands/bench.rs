@@ -15,8 +15,8 @@ use crate::grid::failure_of;
 use crate::progress::Meter;
 use crate::{interrupt, output};
 
-/// Runs of a set on the software model, of which the fastest counts. Cycles are the same in every run, so one is enough for a core.
-const MODEL_RUNS: usize = 3;
+/// Runs of a set in software, of which the fastest counts. Cycles are the same in every run, so one is enough for a core.
+const SOFTWARE_RUNS: usize = 3;
 
 /// Parts of a set that a board does too, for the line over the points.
 const PARTS: [u32; 3] = [8, 4, 2];
@@ -30,7 +30,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     let sets = sets_of(arguments);
     let room = room_for(&sets, arguments)?;
     let mut backend = backend::open_with_room(&arguments.backend, arguments.coord_bits, Some(room), None)?;
-    backend.check_contexts(arguments.job.contexts)?;
+    backend.check_job(&arguments.job)?;
     let Backend { name, config, board, insert_chunk, .. } = backend;
     let has_clock = backend.has_clock();
     let board_mhz = board.map(|board| f64::from(board.greeting.clock_hz) / 1e6).filter(|&mhz| mhz > 0.0);
@@ -64,6 +64,11 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// It is timed, not counted in cycles.
+fn is_software(arguments: &BenchArguments) -> bool {
+    matches!(arguments.backend.choice(), BackendChoice::Cpu | BackendChoice::Model)
+}
+
 fn sets_of(arguments: &BenchArguments) -> Vec<Distribution> {
     if arguments.sets.is_empty() {
         Distribution::LITERATURE.into_iter().chain([Distribution::Lattice]).collect()
@@ -72,10 +77,10 @@ fn sets_of(arguments: &BenchArguments) -> Vec<Distribution> {
     }
 }
 
-/// Points that the back end must hold for every set: distinct ones for a core, which is small, all of them for the model.
+/// Points that the back end must hold for every set: distinct ones for a core, which is small, all of them for software.
 fn room_for(sets: &[Distribution], arguments: &BenchArguments) -> Result<usize, Failure> {
     // A board is what it is.
-    if matches!(arguments.backend.backend, BackendChoice::Model | BackendChoice::Serial(_)) {
+    if is_software(arguments) || matches!(arguments.backend.choice(), BackendChoice::Serial(_)) {
         return Ok(arguments.n as usize);
     }
     let mut most = 0;
@@ -97,7 +102,7 @@ fn measure(
     arguments: &BenchArguments,
 ) -> Result<Measured, Failure> {
     let points = points_of(set, arguments.n, arguments)?;
-    let runs = if arguments.backend.backend == BackendChoice::Model { MODEL_RUNS } else { 1 };
+    let runs = if is_software(arguments) { SOFTWARE_RUNS } else { 1 };
     let mut best = run_once(session, set, &points, insert_chunk, arguments)?;
     for _ in 1..runs {
         let next = run_once(session, set, &points, insert_chunk, arguments)?;
@@ -136,7 +141,7 @@ fn run_once(
     let listener = |progress| meter.hear(progress);
     let options = Options {
         timeout: arguments.job.timeout,
-        order: arguments.job.order,
+        order: arguments.job.order(),
         progress: Some(&listener),
         contexts: arguments.job.contexts,
         insert_chunk,

@@ -4,31 +4,33 @@ use incircle_protocol::CORE_COORD_BITS;
 
 use crate::arguments::{BackendArguments, BackendChoice, InfoArguments};
 use crate::backend::{self, Board};
-use crate::failure::Failure;
+use crate::failure::{counted, Failure};
 use crate::grid::failure_of;
 use crate::output;
 
 /// Runs the subcommand: opens the back end, greets it and prints its identity.
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let port = arguments.port.clone();
-    let port = port.map(|port| BackendArguments { backend: BackendChoice::Serial(port), config: None });
+    let port =
+        port.map(|port| BackendArguments { backend: Some(BackendChoice::Serial(port)), threads: None, config: None });
     let mut backend = backend::open(port.as_ref().unwrap_or(&arguments.backend), CORE_COORD_BITS, None, None)?;
     let board = backend.board.map_or(String::new(), about_board);
     let session = backend.device.session().map_err(|error| failure_of(&error))?;
     let identity = session.identity();
     let [major, minor, patch] = [16, 8, 0].map(|shift| identity.core_version >> shift & 0xff);
     let protocol = identity.protocol_version;
-    output::print(&format!(
-        "back end {}\nversion {major}.{minor}.{patch}, protocol {}.{}\ncoordinates of {} bits\n{} points\n\
-         {} insertions at once\ncavities of up to {} boundary edges\n{board}",
-        backend.name,
-        protocol >> 16,
-        protocol & 0xffff,
-        identity.coord_bits,
-        identity.capacity,
-        identity.contexts,
-        identity.ring_capacity
-    ))
+    let protocol = format!("protocol {}.{}", protocol >> 16, protocol & 0xffff);
+    let holds = format!("coordinates of {} bits\n{} points", identity.coord_bits, identity.capacity);
+    let contexts = identity.contexts;
+    output::print(&if backend.name == "cpu" {
+        format!("back end cpu\nversion {major}.{minor}.{patch}\n{holds}\n{}\n", counted(contexts as usize, "thread"))
+    } else {
+        format!(
+            "back end {}\nversion {major}.{minor}.{patch}, {protocol}\n{holds}\n{contexts} insertions at once\n\
+             cavities of up to {} boundary edges\n{board}",
+            backend.name, identity.ring_capacity
+        )
+    })
 }
 
 /// What is known of the line to a board.

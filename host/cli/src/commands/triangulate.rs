@@ -29,13 +29,14 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
         grid::lay(&table, &arguments.grid).map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
     watch.ended("quantise");
     let trace = trace.map(Output::reserve).transpose()?;
+    let default = if arguments.job.wants_insertion() { BackendChoice::Model } else { BackendChoice::Cpu };
     let mut backend = backend::open(
-        &arguments.backend,
+        &arguments.backend.or(default),
         arguments.grid.coord_bits,
         Some(&points),
         trace.as_ref().and_then(Written::part),
     )?;
-    backend.check_contexts(arguments.job.contexts)?;
+    backend.check_job(&arguments.job)?;
     tell_if_long(&backend, points.len(), arguments);
     watch.ended("open");
     let mesh = triangulate(&mut backend, &points, arguments)?;
@@ -68,7 +69,7 @@ fn prepare_trace(arguments: &TriangulateArguments, mesh: &Output) -> Result<Opti
     let Some(path) = &arguments.trace else {
         return Ok(None);
     };
-    if arguments.backend.backend != BackendChoice::Sim {
+    if *arguments.backend.choice() != BackendChoice::Sim {
         return Err(Failure::usage("--trace records the simulated core: it needs --backend sim"));
     }
     let trace = Output::prepare(path, Some(&arguments.points))?;
@@ -127,7 +128,7 @@ fn triangulate(
     let listener = |progress| meter.hear(progress);
     let options = Options {
         timeout: arguments.job.timeout,
-        order: arguments.job.order,
+        order: arguments.job.order(),
         progress: Some(&listener),
         contexts: arguments.job.contexts,
         insert_chunk: backend.insert_chunk,

@@ -1,0 +1,111 @@
+//! The parts of the engine against plain definitions. The whole is held by `host/tests/cpu.rs`.
+
+use std::cmp::Ordering;
+
+use proptest::prelude::*;
+
+use super::sites::sort;
+use super::view::{is_inside, Narrow, Seen, Site, View, Wide, Width};
+use crate::point::Point;
+
+/// A coordinate of so many bits, often an extreme one.
+fn coordinate(bits: u32) -> impl Strategy<Value = i32> {
+    let last = ((1u64 << bits) - 1) as i32;
+    prop_oneof![2 => 0..=last, 1 => Just(0), 1 => Just(last), 1 => Just(last / 2), 1 => Just(last - last / 2)]
+}
+
+fn site(bits: u32) -> impl Strategy<Value = Site> {
+    (coordinate(bits), coordinate(bits)).prop_map(|(x, y)| Site { x, y })
+}
+
+/// The 3x3 determinant of the points seen from `d` and lifted: positive if `d` lies inside the circle of a triangle that turns left. For
+/// up to 31 bits it fits 128 bits.
+fn lifted(a: Site, b: Site, c: Site, d: Site) -> i128 {
+    let seen = |p: Site| [i128::from(p.x) - i128::from(d.x), i128::from(p.y) - i128::from(d.y)];
+    let [a, b, c] = [a, b, c].map(seen);
+    let lift = |v: [i128; 2]| v[0] * v[0] + v[1] * v[1];
+    let minor = |u: [i128; 2], v: [i128; 2]| u[0] * v[1] - u[1] * v[0];
+    lift(a) * minor(b, c) + lift(b) * minor(c, a) + lift(c) * minor(a, b)
+}
+
+/// Whether `q` is inside the circle of `a`, `b`, `c`, the smallest of the four lowered on the paraboloid: its lift has this factor in
+/// the determinant.
+fn conflicts(a: Site, b: Site, c: Site, q: Site) -> bool {
+    let area = |p: Site, q: Site, r: Site| View::of(p, q, r).cross;
+    let lowered = match [a, b, c, q].into_iter().min() {
+        Some(smallest) if smallest == a => -area(q, b, c),
+        Some(smallest) if smallest == b => -area(q, c, a),
+        Some(smallest) if smallest == c => -area(q, a, b),
+        _ => area(a, b, c),
+    };
+    match lifted(a, b, c, q).cmp(&0) {
+        Ordering::Equal => lowered > 0,
+        unequal => unequal == Ordering::Greater,
+    }
+}
+
+#[test]
+fn ties_are_decided_by_the_smallest() {
+    let grid: Vec<Site> = (0..16).map(|k| Site { x: k / 4, y: k % 4 }).collect();
+    let mut ties = 0;
+    for (&a, &b) in grid.iter().flat_map(|a| grid.iter().map(move |b| (a, b))) {
+        let above: Vec<Seen> = grid.iter().map(|&site| Seen::new(a, b, site)).filter(|s| s.view.cross > 0).collect();
+        for (&c, &q) in above.iter().flat_map(|c| above.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
+            let expected = conflicts(a, b, c.site, q.site);
+            assert_eq!(is_inside::<Narrow>(a, b, c, q), expected);
+            assert_eq!(is_inside::<Wide>(a, b, c, q), expected);
+            ties += usize::from(lifted(a, b, c.site, q.site) == 0);
+        }
+    }
+    assert!(ties > 100, "{ties}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn narrow_determinants_are_exact(a in site(16), b in site(16), c in site(16), q in site(16)) {
+        let expected = lifted(a, b, c, q);
+        // The bound by which they fit 64 bits.
+        let side = i128::from(u16::MAX);
+        prop_assert!(2 * expected.abs() <= side * side * side * side);
+        let found = Narrow::determinant(View::of(a, b, c), View::of(a, b, q));
+        prop_assert_eq!(i128::from(found), expected);
+    }
+
+    #[test]
+    fn wide_determinants_are_exact(a in site(31), b in site(31), c in site(31), q in site(31)) {
+        prop_assert_eq!(Wide::determinant(View::of(a, b, c), View::of(a, b, q)), lifted(a, b, c, q));
+    }
+
+    #[test]
+    fn sites_are_the_distinct_points_under_their_lowest_index(
+        raw in prop::collection::vec((any::<u32>(), any::<u32>()), 0..700),
+        bits in 1u32..=31,
+        few in any::<bool>(),
+        threads in 1usize..4,
+    ) {
+        let shift = |value: u32| if few { (value >> 29) << (bits.max(3) - 3) } else { value >> (32 - bits) };
+        let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(shift(x), shift(y))).collect();
+        let sorted = sort(&points, threads);
+        prop_assert_eq!(sorted.sites.len(), sorted.ids.len());
+        prop_assert_eq!(sorted.ids.len() + sorted.duplicates.len(), points.len());
+        let lowest = |point: Point| points.iter().position(|&p| p == point).map(|index| index as u32);
+        let corner = |get: fn(&Point) -> u32| points.iter().map(get).min().unwrap_or(0);
+        let (left, bottom) = (corner(|p| p.x), corner(|p| p.y));
+        for (site, &id) in sorted.sites.iter().zip(&sorted.ids) {
+            let point = points[id as usize];
+            prop_assert_eq!(lowest(point), Some(id));
+            prop_assert_eq!(*site, Site::from(Point::new(point.x - left, point.y - bottom)));
+        }
+        for duplicate in &sorted.duplicates {
+            prop_assert_eq!(lowest(points[duplicate.index as usize]), Some(duplicate.of));
+            prop_assert!(duplicate.of < duplicate.index);
+        }
+        // Along the curve: interleaved bits rise, those of x first.
+        let position = |site: &Site| (0..31).rev().fold(0u64, |position, bit| {
+            position << 2 | u64::from(site.x as u32 >> bit & 1) << 1 | u64::from(site.y as u32 >> bit & 1)
+        });
+        prop_assert!(sorted.sites.windows(2).all(|pair| position(&pair[0]) < position(&pair[1])));
+    }
+}
