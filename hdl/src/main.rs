@@ -1,12 +1,13 @@
-//! The hardware side's command: export of the core to Verilog.
+//! The hardware side's command: export of the core to Verilog, and bitstreams for boards.
 
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
+use incircle_hdl::board::{self, Board, BoardError, Report, Request, BOARDS};
 use incircle_hdl::committed;
 use incircle_protocol::{Config, NAMED};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// The incircle core: export to Verilog.
+/// The incircle core: export to Verilog, and bitstreams for boards.
 #[derive(Parser)]
 #[command(name = "incircle-hdl", version)]
 struct Arguments {
@@ -30,6 +31,42 @@ enum Command {
         #[arg(long, requires = "config")]
         probe: bool,
     },
+    /// Make the bitstream of a board, and a report of its clock and its cells.
+    ///
+    /// Exports, synthesises, places and routes with several seeds, and packs the fastest. The clock is the largest that the median of
+    /// the seeds meets. The exit code is 0 only if there is a bitstream that meets its clock.
+    Board(Box<BoardArguments>),
+}
+
+#[derive(Args)]
+struct BoardArguments {
+    /// The board: ulx3s-85f, colorlight-i5 or ecpix-5.
+    #[arg(value_parser = named_board, required_unless_present_any = ["all", "table"], conflicts_with_all = ["all", "table"])]
+    name: Option<Board>,
+    /// All boards, each into a folder of its name.
+    #[arg(long, conflicts_with = "table")]
+    all: bool,
+    /// Write the tables of the documents anew from the boards' reports.
+    #[arg(long, conflicts_with_all = ["out", "seeds", "config", "clock", "system", "renew"])]
+    table: bool,
+    /// Folder for the bitstream, report.json, and all that the tools say.
+    #[arg(short, long, required_unless_present = "table")]
+    out: Option<PathBuf>,
+    /// Seeds of the placer; the clock is judged by their median.
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=99))]
+    seeds: u32,
+    /// Configuration of the core, if not that of the board.
+    #[arg(long, value_parser = config)]
+    config: Option<Config>,
+    /// The clock in MHz, if not the largest that is met.
+    #[arg(long, value_name = "MHZ")]
+    clock: Option<u32>,
+    /// Use yosys, nextpnr-ecp5 and ecppack from PATH, not the pinned ones.
+    #[arg(long)]
+    system: bool,
+    /// Keep the report in the board's folder, and renew the tables.
+    #[arg(long, conflicts_with = "config")]
+    renew: bool,
 }
 
 fn config(name: &str) -> Result<Config, String> {
@@ -37,21 +74,75 @@ fn config(name: &str) -> Result<Config, String> {
     Config::named(name).ok_or_else(|| format!("there is no configuration of this name: choose one of {names}"))
 }
 
-fn main() -> ExitCode {
-    let Command::Export { config, out, probe } = Arguments::parse().command;
-    let result = match config {
-        None => committed::renew().map(|files| {
-            for file in files {
+fn named_board(name: &str) -> Result<Board, String> {
+    let names = BOARDS.map(|board| board.name).join(", ");
+    Board::named(name).ok_or_else(|| format!("there is no board of this name: choose one of {names}"))
+}
+
+/// Writes one configuration's Verilog, or renews what is committed.
+fn export(config: Option<Config>, probe: bool, out: Option<PathBuf>) -> Result<(), committed::WriteError> {
+    match config {
+        None => {
+            for file in committed::renew()? {
                 println!("{}", file.display());
             }
-        }),
-        Some(config) => committed::write(config, probe, out),
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("incircle-hdl: {error}");
-            ExitCode::FAILURE
+            Ok(())
         }
+        Some(config) => committed::write(config, probe, out),
+    }
+}
+
+/// Makes what was asked for; the error of each board that failed.
+fn boards(arguments: &BoardArguments) -> Vec<BoardError> {
+    let mut errors = Vec::new();
+    if let Some(out) = &arguments.out {
+        let boards = arguments.name.map_or(BOARDS.to_vec(), |board| vec![board]);
+        for board in boards {
+            let out = if arguments.all { out.join(board.name) } else { out.clone() };
+            errors.extend(one_board(arguments, board, &out).err());
+        }
+    }
+    if arguments.table || arguments.renew {
+        errors.extend(board::renew_tables().err());
+    }
+    errors
+}
+
+fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(), BoardError> {
+    let say = |what: &str| eprintln!("{}: {what}", board.name);
+    let request = Request {
+        board,
+        config: arguments.config.unwrap_or(board.config),
+        seeds: arguments.seeds,
+        clock_mhz: arguments.clock,
+        out,
+        system_tools: arguments.system,
+        say: &say,
+    };
+    let built = board::build(&request);
+    if arguments.renew && matches!(built, Ok(_) | Err(BoardError::Timing { .. })) {
+        Report::read(&out.join("report.json"))?.write(&board.folder().join("report.json"))?;
+    }
+    let report = built?;
+    if let Some(bitstream) = report.bitstream {
+        println!("{}: {} MHz, {}", out.join(bitstream.file).display(), report.clock_mhz, bitstream.sha256);
+    }
+    Ok(())
+}
+
+fn main() -> ExitCode {
+    let errors = match Arguments::parse().command {
+        Command::Export { config, out, probe } => {
+            export(config, probe, out).err().map(|error| error.to_string()).into_iter().collect()
+        }
+        Command::Board(arguments) => boards(&arguments).iter().map(BoardError::to_string).collect::<Vec<_>>(),
+    };
+    for error in &errors {
+        eprintln!("incircle-hdl: {error}");
+    }
+    if errors.is_empty() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
     }
 }
