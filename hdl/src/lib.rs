@@ -8,4 +8,5 @@ pub mod leaf;
 pub mod link;
 pub mod mesh;
 pub mod predicate;
+pub mod serial;
 pub mod top;

@@ -1,9 +1,9 @@
 //! The hardware side's command: export of the core to Verilog, and bitstreams for boards.
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use incircle_hdl::board::{self, Board, BoardError, Report, Request, BOARDS};
-use incircle_hdl::committed;
-use incircle_protocol::{Config, NAMED};
+use incircle_hdl::committed::{self, Top};
+use incircle_protocol::{Config, LinkConfig, NAMED, SILENCE_MS};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -17,25 +17,37 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Write the Verilog of the core.
+    /// Write the Verilog of the core, or of a whole device.
     ///
     /// Without options this renews the files that the repository holds, hdl/verilog/incircle_*.v.
-    Export {
-        /// Configuration: tiny, small, full or large. Default: those the repository holds.
-        #[arg(long, value_parser = config)]
-        config: Option<Config>,
-        /// File to write; `-` is standard output. Needs --config.
-        #[arg(short, long, requires = "config")]
-        out: Option<PathBuf>,
-        /// Add the write port of the triangle memory to the ports, for simulation.
-        #[arg(long, requires = "config")]
-        probe: bool,
-    },
+    Export(ExportArguments),
     /// Make the bitstream of a board, and a report of its clock and its cells.
     ///
     /// Exports, synthesises, places and routes with several seeds, and packs the fastest. The clock is the largest that the median of
     /// the seeds meets. The exit code is 0 only if there is a bitstream that meets its clock.
     Board(Box<BoardArguments>),
+}
+
+#[derive(Args)]
+struct ExportArguments {
+    /// Configuration: tiny, small, full or large. Default: those the repository holds.
+    #[arg(long, value_parser = config)]
+    config: Option<Config>,
+    /// File to write; `-` is standard output. Needs --config.
+    #[arg(short, long, requires = "config")]
+    out: Option<PathBuf>,
+    /// Add the write port of the triangle memory to the ports, for simulation.
+    #[arg(long, requires = "config")]
+    probe: bool,
+    /// What to export: the core with its two streams of words, or the core behind a serial link.
+    #[arg(long, value_enum, default_value = "core", requires = "config")]
+    top: TopName,
+    /// Clock of the serial link in Hz.
+    #[arg(long, default_value_t = 125_000_000)]
+    clock_hz: u32,
+    /// Bytes of the serial link's receive FIFO: a power of two.
+    #[arg(long, default_value_t = 4_096)]
+    fifo_bytes: u32,
 }
 
 #[derive(Args)]
@@ -69,6 +81,14 @@ struct BoardArguments {
     renew: bool,
 }
 
+#[derive(Clone, Copy, ValueEnum)]
+enum TopName {
+    /// incircle_core
+    Core,
+    /// incircle_serial_top
+    Serial,
+}
+
 fn config(name: &str) -> Result<Config, String> {
     let names = NAMED.map(|config| config.name).join(", ");
     Config::named(name).ok_or_else(|| format!("there is no configuration of this name: choose one of {names}"))
@@ -80,16 +100,19 @@ fn named_board(name: &str) -> Result<Board, String> {
 }
 
 /// Writes one configuration's Verilog, or renews what is committed.
-fn export(config: Option<Config>, probe: bool, out: Option<PathBuf>) -> Result<(), committed::WriteError> {
-    match config {
-        None => {
-            for file in committed::renew()? {
-                println!("{}", file.display());
-            }
-            Ok(())
-        }
-        Some(config) => committed::write(config, probe, out),
+fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
+    let ExportArguments { config, out, probe, top, clock_hz, fifo_bytes } = arguments;
+    let top = match top {
+        TopName::Core => Top::Core,
+        TopName::Serial => Top::Serial(LinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS }),
+    };
+    if let Some(config) = config {
+        return committed::write(config, top, probe, out);
     }
+    for file in committed::renew()? {
+        println!("{}", file.display());
+    }
+    Ok(())
 }
 
 /// Makes what was asked for; the error of each board that failed.
@@ -132,9 +155,7 @@ fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(),
 
 fn main() -> ExitCode {
     let errors = match Arguments::parse().command {
-        Command::Export { config, out, probe } => {
-            export(config, probe, out).err().map(|error| error.to_string()).into_iter().collect()
-        }
+        Command::Export(arguments) => export(arguments).err().map(|error| error.to_string()).into_iter().collect(),
         Command::Board(arguments) => boards(&arguments).iter().map(BoardError::to_string).collect::<Vec<_>>(),
     };
     for error in &errors {

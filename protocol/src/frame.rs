@@ -198,7 +198,65 @@ pub struct LinkConfig {
     pub silence_ms: u32,
 }
 
+/// Slowest clock of a link: eight clocks a bit at the first rate.
+pub const MIN_LINK_CLOCK_HZ: u32 = 8 * FIRST_RATE;
+/// Fastest clock of a link.
+pub const MAX_LINK_CLOCK_HZ: u32 = 500_000_000;
+/// Least bytes of a receive FIFO.
+pub const MIN_FIFO_BYTES: u32 = 2_048;
+/// Most bytes of a receive FIFO.
+pub const MAX_FIFO_BYTES: u32 = 32_768;
+/// Most milliseconds of silence.
+pub const MAX_SILENCE_MS: u32 = 8_000;
+
+/// A parameter that no link can be built with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkConfigError {
+    /// Outside `MIN_LINK_CLOCK_HZ..=MAX_LINK_CLOCK_HZ`.
+    Clock(u32),
+    /// Not a power of two in `MIN_FIFO_BYTES..=MAX_FIFO_BYTES`.
+    Fifo(u32),
+    /// Outside `1..=MAX_SILENCE_MS`.
+    Silence(u32),
+}
+
+impl core::fmt::Display for LinkConfigError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Clock(given) => write!(
+                f,
+                "the clock of a serial link has {MIN_LINK_CLOCK_HZ} to {MAX_LINK_CLOCK_HZ} Hz, not {given}: choose a rate between them"
+            ),
+            Self::Fifo(given) => write!(
+                f,
+                "a receive FIFO holds a power of two of bytes, {MIN_FIFO_BYTES} to {MAX_FIFO_BYTES}, not {given}: choose the next larger one"
+            ),
+            Self::Silence(given) => write!(
+                f,
+                "a session is forgotten after 1 to {MAX_SILENCE_MS} milliseconds of silence, not {given}: choose a number between them"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for LinkConfigError {}
+
 impl LinkConfig {
+    /// Checks every parameter.
+    pub const fn check(self) -> Result<Self, LinkConfigError> {
+        let Self { clock_hz, fifo_bytes, silence_ms } = self;
+        if clock_hz < MIN_LINK_CLOCK_HZ || clock_hz > MAX_LINK_CLOCK_HZ {
+            return Err(LinkConfigError::Clock(clock_hz));
+        }
+        if fifo_bytes < MIN_FIFO_BYTES || fifo_bytes > MAX_FIFO_BYTES || !fifo_bytes.is_power_of_two() {
+            return Err(LinkConfigError::Fifo(fifo_bytes));
+        }
+        if silence_ms < 1 || silence_ms > MAX_SILENCE_MS {
+            return Err(LinkConfigError::Silence(silence_ms));
+        }
+        Ok(self)
+    }
+
     /// Most bits per second: eight clocks a bit.
     pub const fn max_rate(self) -> u32 {
         self.clock_hz / 8

@@ -1,11 +1,12 @@
 //! Export to Verilog.
 
 mod control_blocks;
+mod serial_blocks;
 mod visit_blocks;
 
 use std::fmt;
 
-use incircle_protocol::{Config, ConfigError};
+use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
@@ -15,7 +16,10 @@ use crate::leaf::{
 use crate::predicate::{
     CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
 };
-use crate::top::{wrapper, Core, CORE_NAME};
+use crate::serial::{SerialError, SerialLink};
+use crate::top::{serial_wrapper, wrapper, Core, SerialTop, CORE_NAME, SERIAL_TOP_NAME};
+
+pub use serial_blocks::QUICK_LINK;
 
 /// A design that cannot become Verilog.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,12 +32,15 @@ pub enum ExportError {
     DrivenInputs(Vec<String>),
     /// A parameter that no core can be built with.
     Config(ConfigError),
+    /// A parameter that no serial link can be built with.
+    Link(LinkConfigError),
 }
 
 impl fmt::Display for ExportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (names, fault, remedy) = match self {
             Self::Config(error) => return error.fmt(f),
+            Self::Link(error) => return error.fmt(f),
             Self::OpenSignals(names) => (names, "are driven by nothing", "assign or connect each of them"),
             Self::LogicLoops(names) => (names, "are read before they are assigned", "assign them first"),
             Self::DrivenInputs(names) => (names, "are inputs that their own block assigns", "assign them one level up"),
@@ -47,6 +54,15 @@ impl std::error::Error for ExportError {}
 impl From<ConfigError> for ExportError {
     fn from(error: ConfigError) -> Self {
         Self::Config(error)
+    }
+}
+
+impl From<SerialError> for ExportError {
+    fn from(error: SerialError) -> Self {
+        match error {
+            SerialError::Core(error) => Self::Config(error),
+            SerialError::Link(error) => Self::Link(error),
+        }
     }
 }
 
@@ -102,6 +118,30 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
     Ok(format!("{}{}", verilog(&uut, &inside)?, wrapper(&inside, with_probe)))
 }
 
+/// The whole Verilog of a core behind a serial link: the device and the ANSI wrapper
+/// [`SERIAL_TOP_NAME`](crate::top::SERIAL_TOP_NAME) around it.
+///
+/// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn serial_top(config: Config, link: LinkConfig, with_probe: bool) -> Result<String, ExportError> {
+    let mut uut = SerialTop::new(config, link)?;
+    uut.connect_all();
+    let inside = format!("{SERIAL_TOP_NAME}_logic");
+    Ok(format!("{}{}", verilog(&uut, &inside)?, serial_wrapper(&inside, with_probe)))
+}
+
+/// The Verilog of a serial link alone, as the root module `name`.
+///
+/// # Errors
+/// As [`serial_top`].
+pub fn serial_link(config: Config, link: LinkConfig, name: &str) -> Result<String, ExportError> {
+    let mut uut = SerialLink::new(config, link)?;
+    uut.connect_all();
+    verilog(&uut, name)
+}
+
 /// Every block that is tested alone: the name of its root module, and its Verilog.
 ///
 /// # Panics
@@ -142,5 +182,6 @@ pub fn blocks() -> Vec<(String, String)> {
     ];
     blocks.extend(visit_blocks::visit_blocks());
     blocks.extend(control_blocks::control_blocks());
+    blocks.extend(serial_blocks::serial_blocks());
     blocks
 }

@@ -1,7 +1,9 @@
-//! The core: everything put together.
+//! The core, everything put together, and the devices around it.
 
 mod core;
+mod serial_top;
 mod wrapper;
 
 pub use self::core::Core;
-pub use wrapper::{wrapper, CORE_NAME};
+pub use serial_top::SerialTop;
+pub use wrapper::{serial_wrapper, wrapper, CORE_NAME, SERIAL_TOP_NAME};

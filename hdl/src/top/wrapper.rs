@@ -1,15 +1,46 @@
-//! The outside of the core: a module with ANSI ports, written by hand.
+//! The outside of the core and of the devices around it: modules with ANSI ports, written by hand.
+//!
+//! The core, `incircle_core`:
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
 //! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
 //! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 32 | the answer stream |
-//! | `write_valid`, `write_id`, `write_vertices`, `write_links` | out | 1, 15, 1, 3 | with the probe: the write port of the triangle memory |
-//! | `write_v0..2`, `write_n0..2` | out | 15 | with the probe: its data |
+//!
+//! The core behind a serial link, `incircle_serial_top`:
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high, needed once |
+//! | `rx`, `tx` | in, out | 1 | the line from and to the host |
+//! | `leds` | out | 3 | alive, busy, error, from bit 0 up |
+//!
+//! With the probe both have the write port of the triangle memory as well:
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `write_valid`, `write_id`, `write_vertices`, `write_links` | out | 1, 15, 1, 3 | what is written |
+//! | `write_v0..2`, `write_n0..2` | out | 15 | its data |
 
-/// Name of the module.
+/// Name of the core's module.
 pub const CORE_NAME: &str = "incircle_core";
+/// Name of the module of a core behind a serial link.
+pub const SERIAL_TOP_NAME: &str = "incircle_serial_top";
+
+/// Ports of the core, and of a core behind a serial link, without the probe: direction, name, width.
+const CORE_PORTS: [(&str, &str, usize); 8] = [
+    ("input", "clock", 1),
+    ("input", "reset", 1),
+    ("input", "command_valid", 1),
+    ("output", "command_ready", 1),
+    ("input", "command_data", 32),
+    ("output", "response_valid", 1),
+    ("input", "response_ready", 1),
+    ("output", "response_data", 32),
+];
+const SERIAL_PORTS: [(&str, &str, usize); 5] =
+    [("input", "clock", 1), ("input", "reset", 1), ("input", "rx", 1), ("output", "tx", 1), ("output", "leds", 3)];
 
 /// The fields of the write port, lowest bit first, with their widths; the order is that of [`Write`](crate::engine::Write).
 const PROBE: [(&str, usize); 10] = [
@@ -27,47 +58,41 @@ const PROBE: [(&str, usize); 10] = [
 
 /// The Verilog of the wrapper around the root module `core`.
 pub fn wrapper(core: &str, with_probe: bool) -> String {
-    let mut ports = vec![
-        "input wire clock".to_string(),
-        "input wire reset".into(),
-        "input wire command_valid".into(),
-        "output wire command_ready".into(),
-        "input wire [31:0] command_data".into(),
-        "output wire response_valid".into(),
-        "input wire response_ready".into(),
-        "output wire [31:0] response_data".into(),
-    ];
+    around(CORE_NAME, &CORE_PORTS, ("core", core), with_probe)
+}
+
+/// The Verilog of the wrapper around the root module `device` of a core behind a serial link.
+pub fn serial_wrapper(device: &str, with_probe: bool) -> String {
+    around(SERIAL_TOP_NAME, &SERIAL_PORTS, ("device", device), with_probe)
+}
+
+/// The Verilog of a module with ANSI ports around `module` as `instance`.
+fn around(name: &str, ports: &[(&str, &str, usize)], (instance, module): (&str, &str), with_probe: bool) -> String {
+    let declared = |(direction, name, width): (&str, &str, usize)| {
+        let range = if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) };
+        format!("{direction} wire {range}{name}")
+    };
+    let mut declarations: Vec<_> = ports.iter().map(|port| declared(*port)).collect();
     // Without the probe the port ends in a wire that synthesis removes.
     let bits: usize = PROBE.iter().map(|(_, width)| width).sum();
-    let mut declaration = format!("    wire [{}:0] unused_write;\n", bits - 1);
+    let mut inside = format!("    wire [{}:0] unused_write;\n", bits - 1);
     let mut write = "unused_write".to_string();
     if with_probe {
-        let mut fields: Vec<&str> = Vec::new();
-        for (name, width) in PROBE {
-            let range = if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) };
-            ports.push(format!("output wire {range}{name}"));
-            fields.insert(0, name);
-        }
+        declarations.extend(PROBE.iter().map(|(name, width)| declared(("output", name, *width))));
+        let fields: Vec<&str> = PROBE.iter().rev().map(|(name, _)| *name).collect();
         write = format!("{{{}}}", fields.join(", "));
-        declaration = String::new();
+        inside = String::new();
     }
-    let ports = ports.join(",\n    ");
+    let connections: String = ports.iter().map(|(_, name, _)| format!("        .{name}({name}),\n")).collect();
+    let declarations = declarations.join(",\n    ");
     format!(
         "\
 `default_nettype none
-module {CORE_NAME} (
-    {ports}
+module {name} (
+    {declarations}
 );
-{declaration}    {core} core (
-        .clock(clock),
-        .reset(reset),
-        .command_valid(command_valid),
-        .command_ready(command_ready),
-        .command_data(command_data),
-        .response_valid(response_valid),
-        .response_ready(response_ready),
-        .response_data(response_data),
-        .write({write})
+{inside}    {module} {instance} (
+{connections}        .write({write})
     );
 endmodule
 `default_nettype wire

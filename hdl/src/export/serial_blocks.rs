@@ -1,0 +1,47 @@
+//! The blocks of the serial link, and the whole of it.
+
+use incircle_protocol::{LinkConfig, SMALL};
+
+use super::{block, serial_link};
+use crate::serial::{
+    AnswerPacker, BitClock, CobsDecoder, CobsEncoder, CommandProgress, CommandWords, Crc32, FrameBytes, FrameChoice,
+    FrameHeader, FrameJudge, FrameReader, FrameSender, Greeting, LineTimers, PayloadDigest, RateControl, ReceiveFifo,
+    Replies, SessionState, UartReceiver, UartTransmitter,
+};
+
+/// A link that is quick to simulate: eight and a half clocks a bit at the first rate, short silence, and the smallest FIFO.
+pub const QUICK_LINK: LinkConfig = LinkConfig { clock_hz: 1_000_000, fifo_bytes: 2_048, silence_ms: 20 };
+
+/// The name of each root module, and its Verilog.
+pub(super) fn serial_blocks() -> Vec<(String, String)> {
+    let link = |name: &str| match serial_link(SMALL, QUICK_LINK, name) {
+        Ok(text) => (name.to_string(), text),
+        Err(error) => panic!("block {name}: {error}"),
+    };
+    vec![
+        block(BitClock::at_ends(), "serial_bit_ends"),
+        block(BitClock::in_middles(), "serial_bit_middles"),
+        block(UartReceiver::default(), "serial_uart_receiver"),
+        block(UartTransmitter::default(), "serial_uart_transmitter"),
+        block(Crc32::default(), "serial_crc32"),
+        block(CobsDecoder::default(), "serial_cobs_decoder"),
+        block(CobsEncoder::default(), "serial_cobs_encoder"),
+        block(FrameReader::default(), "serial_frame_reader"),
+        block(FrameJudge::default(), "serial_frame_judge"),
+        block(SessionState::default(), "serial_session_state"),
+        block(Replies::default(), "serial_replies"),
+        block(ReceiveFifo::new(QUICK_LINK), "serial_receive_fifo"),
+        block(PayloadDigest::default(), "serial_payload_digest"),
+        block(CommandWords::default(), "serial_command_words"),
+        block(CommandProgress::default(), "serial_command_progress"),
+        block(AnswerPacker::default(), "serial_answer_packer"),
+        block(FrameChoice::default(), "serial_frame_choice"),
+        block(FrameSender::default(), "serial_frame_sender"),
+        block(FrameHeader::default(), "serial_frame_header"),
+        block(FrameBytes::default(), "serial_frame_bytes"),
+        block(Greeting::new(SMALL, QUICK_LINK), "serial_greeting"),
+        block(RateControl::new(QUICK_LINK), "serial_rate_control"),
+        block(LineTimers::new(QUICK_LINK), "serial_line_timers"),
+        link("serial_link"),
+    ]
+}

@@ -1,0 +1,205 @@
+//! Cuts the answers of the core into parts that fit a frame, and gives their words byte by byte.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset awaits an answer, number 0 |
+//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 32 | the answer stream of the core |
+//! | `is_due`, `is_last` | out | 1 | a part is ready to be sent; it is the last one of its answer |
+//! | `starts` | in | 1 | its frame begins |
+//! | `number`, `part` | out | 8, 8 | answers that have been sent to their end; the part's first word, divided by 256 |
+//! | `byte_valid`, `byte_data`, `takes` | out, out, in | 1, 8, 1 | a byte of the part; it is taken at this edge |
+//! | `byte_is_last` | out | 1 | it is the last one |
+//! | `ended` | in | 1 | the frame of the last part is over |
+//! | `awaits` | out | 1 | no word of an answer has come |
+//! | `is_ending` | out | 1 | the last word of an answer is offered by the core or taken, and its frame is not over |
+//!
+//! 1. All parts but the last have 256 words. The length of an answer is its second word, below 2^17 - 1.
+//! 2. `response_ready`, `is_due` and `byte_valid` depend on registers only.
+//! 3. A part begins when its first word is there; of the first part the second, too, which is not taken then.
+//!
+//! Latency: 3 clocks from the first two words of an answer to `is_due`.
+
+use incircle_protocol::MAX_PAYLOAD;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// What is awaited.
+#[derive(Clone, Copy, Debug, PartialEq, LogicState)]
+pub enum PackState {
+    /// The first word of an answer.
+    Head,
+    /// The second, which says how many follow.
+    Length,
+    /// The beginning of a frame.
+    Start,
+    /// The bytes of a frame to be taken.
+    Words,
+    /// The end of the last frame.
+    Rest,
+}
+
+/// Parts of answers; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct AnswerPacker {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Awaits an answer, number 0.
+    pub reset: Signal<In, Bit>,
+    /// A word is offered.
+    pub response_valid: Signal<In, Bit>,
+    /// It is taken.
+    pub response_ready: Signal<Out, Bit>,
+    /// The word.
+    pub response_data: Signal<In, Bits<32>>,
+    /// A part is ready.
+    pub is_due: Signal<Out, Bit>,
+    /// It is the last one.
+    pub is_last: Signal<Out, Bit>,
+    /// Its frame begins.
+    pub starts: Signal<In, Bit>,
+    /// Answers sent to their end.
+    pub number: Signal<Out, Bits<8>>,
+    /// Parts of the answer before this one.
+    pub part: Signal<Out, Bits<8>>,
+    /// A byte is there.
+    pub byte_valid: Signal<Out, Bit>,
+    /// It.
+    pub byte_data: Signal<Out, Bits<8>>,
+    /// It is taken.
+    pub takes: Signal<In, Bit>,
+    /// It is the last one of the part.
+    pub byte_is_last: Signal<Out, Bit>,
+    /// The frame of the last part is over.
+    pub ended: Signal<In, Bit>,
+    /// No word has come.
+    pub awaits: Signal<Out, Bit>,
+    /// The last word of an answer is under way.
+    pub is_ending: Signal<Out, Bit>,
+    state: DFF<PackState>,
+    word: DFF<Bits<32>>,
+    is_held: DFF<Bit>,
+    place: DFF<Bits<2>>,
+    /// Words of the answer behind the one that is held.
+    after: DFF<Bits<17>>,
+    /// The word that is held in its part.
+    position: DFF<Bits<8>>,
+    part_number: DFF<Bits<8>>,
+    answers: DFF<Bits<8>>,
+    is_settled: DFF<Bit>,
+    is_short: DFF<Bit>,
+    part_ends: DFF<Bit>,
+    ending: DFF<Bit>,
+    is_taking: Signal<Local, Bit>,
+    loads: Signal<Local, Bit>,
+    length: Signal<Local, Bits<17>>,
+    older_words: Signal<Local, Bits<9>>,
+    one: Signal<Local, Bits<17>>,
+    one_byte: Signal<Local, Bits<8>>,
+    one_place: Signal<Local, Bits<2>>,
+    last_place: Signal<Local, Bits<2>>,
+    last_position: Signal<Local, Bits<8>>,
+    eight: Signal<Local, Bits<32>>,
+}
+
+const _: () = assert!(MAX_PAYLOAD == 4 * 256, "the parts of this block are as long as the protocol says");
+
+impl Logic for AnswerPacker {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, state, word, is_held, place, after, position, part_number, answers);
+        dff_setup!(self, clock, is_settled, is_short, part_ends, ending);
+        self.one.next = 1.into();
+        self.one_byte.next = 1.into();
+        self.one_place.next = 1.into();
+        self.last_place.next = 3.into();
+        self.last_position.next = 255.into();
+        self.eight.next = 8.into();
+        self.is_due.next = (self.state.q.val() == PackState::Start) & self.is_settled.q.val();
+        self.is_last.next = self.is_short.q.val();
+        self.number.next = self.answers.q.val();
+        self.part.next = self.part_number.q.val();
+        self.byte_valid.next = (self.state.q.val() == PackState::Words) & self.is_held.q.val();
+        self.byte_data.next = self.word.q.val().get_bits::<8>(0);
+        self.byte_is_last.next = self.part_ends.q.val() & (self.place.q.val() == self.last_place.val());
+        self.awaits.next = self.state.q.val() == PackState::Head;
+        self.is_ending.next = self.ending.q.val();
+
+        // What follows from the words that are left, a clock later.
+        self.older_words.next = self.after.q.val().get_bits::<9>(8);
+        self.is_short.d.next = !self.older_words.val().any();
+        self.part_ends.d.next = (!self.after.q.val().any()) | (self.position.q.val() == self.last_position.val());
+        self.is_settled.d.next = self.is_held.q.val() & (self.state.q.val() == PackState::Start);
+        self.ending.d.next = (!self.after.q.val().any())
+            | ((self.after.q.val() == self.one.val()) & self.response_valid.val() & self.is_held.q.val());
+
+        self.is_taking.next = (!self.is_held.q.val())
+            & ((self.state.q.val() == PackState::Start) | (self.state.q.val() == PackState::Words));
+        self.response_ready.next = self.is_taking.val() | (self.state.q.val() == PackState::Head);
+        self.loads.next = self.is_taking.val() & self.response_valid.val();
+        self.length.next = self.response_data.val().get_bits::<17>(0);
+        if self.loads.val() {
+            self.word.d.next = self.response_data.val();
+            self.is_held.d.next = true;
+            self.after.d.next = self.after.q.val() - self.one.val();
+            self.position.d.next = self.position.q.val() + self.one_byte.val();
+            if self.position.q.val() == self.last_position.val() {
+                self.part_number.d.next = self.part_number.q.val() + self.one_byte.val();
+            }
+        }
+        match self.state.q.val() {
+            PackState::Head => {
+                self.word.d.next = self.response_data.val();
+                self.is_held.d.next = self.response_valid.val();
+                self.place.d.next = 0.into();
+                self.position.d.next = 0.into();
+                self.part_number.d.next = 0.into();
+                self.ending.d.next = false;
+                if self.response_valid.val() {
+                    self.state.d.next = PackState::Length;
+                }
+            }
+            PackState::Length => {
+                self.after.d.next = self.length.val() + self.one.val();
+                self.ending.d.next = false;
+                if self.response_valid.val() {
+                    self.state.d.next = PackState::Start;
+                }
+            }
+            PackState::Start => {
+                if self.starts.val() {
+                    self.state.d.next = PackState::Words;
+                }
+            }
+            PackState::Words => {
+                if self.takes.val() {
+                    self.place.d.next = self.place.q.val() + self.one_place.val();
+                    self.word.d.next = self.word.q.val() >> self.eight.val();
+                    if self.place.q.val() == self.last_place.val() {
+                        self.is_held.d.next = false;
+                        if self.part_ends.q.val() {
+                            self.state.d.next = PackState::Start;
+                            if !self.after.q.val().any() {
+                                self.state.d.next = PackState::Rest;
+                            }
+                        }
+                    }
+                }
+            }
+            PackState::Rest => {
+                if self.ended.val() {
+                    self.answers.d.next = self.answers.q.val() + self.one_byte.val();
+                    self.state.d.next = PackState::Head;
+                }
+            }
+            _ => {
+                self.state.d.next = PackState::Head;
+            }
+        }
+        if self.reset.val() {
+            self.state.d.next = PackState::Head;
+            self.answers.d.next = 0.into();
+            self.is_held.d.next = false;
+            self.ending.d.next = false;
+        }
+    }
+}

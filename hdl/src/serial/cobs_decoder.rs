@@ -1,0 +1,111 @@
+//! Takes frames out of COBS: the bytes of a frame, and its end.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset awaits a frame |
+//! | `byte_valid`, `byte_data` | in | 1, 8 | a byte from the line |
+//! | `noise` | in | 1 | a byte from the line was lost |
+//! | `data_valid`, `data` | out | 1, 8 | a byte of a frame |
+//! | `frame_ends`, `is_broken` | out | 1 | the frame is over; it lacks bytes |
+//!
+//! 1. A zero ends a frame. Nothing between two zeros is no frame.
+//! 2. A frame is broken if it ends inside a piece, or a byte of it was lost. Noise between frames changes nothing.
+//!
+//! Latency: 1 clock. A byte from the line gives one byte of a frame at most: a length byte gives the zero before its piece.
+//!
+//! The frame 11 0 22, then one that ends too early; numbers of the wave are decimal:
+//! ```text
+//! byte_valid      ___/^^\__/^^^^^^^^^^^^^^\_____/^^^^^^^^\__________
+//! byte              .  2  . 11  2 22  0  0  .  5 33  0  .  .  .  .
+//! data_valid      _________/^^^^^^^^^^^\______________/^^\_________
+//! ```
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Frames out of COBS; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct CobsDecoder {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Awaits a frame.
+    pub reset: Signal<In, Bit>,
+    /// A byte from the line.
+    pub byte_valid: Signal<In, Bit>,
+    /// It.
+    pub byte_data: Signal<In, Bits<8>>,
+    /// A byte was lost.
+    pub noise: Signal<In, Bit>,
+    /// A byte of a frame.
+    pub data_valid: Signal<Out, Bit>,
+    /// It.
+    pub data: Signal<Out, Bits<8>>,
+    /// The frame is over.
+    pub frame_ends: Signal<Out, Bit>,
+    /// It lacks bytes.
+    pub is_broken: Signal<Out, Bit>,
+    /// Bytes before the next length byte.
+    left: DFF<Bits<8>>,
+    in_frame: DFF<Bit>,
+    /// A zero stands behind the present piece, if another one follows.
+    owes_zero: DFF<Bit>,
+    lacks: DFF<Bit>,
+    gives: DFF<Bit>,
+    value: DFF<Bits<8>>,
+    ends: DFF<Bit>,
+    ends_broken: DFF<Bit>,
+    is_end: Signal<Local, Bit>,
+    is_length: Signal<Local, Bit>,
+    one: Signal<Local, Bits<8>>,
+    longest: Signal<Local, Bits<8>>,
+}
+
+impl Logic for CobsDecoder {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, left, in_frame, owes_zero, lacks, gives, value, ends, ends_broken);
+        self.one.next = 1.into();
+        self.longest.next = 255.into();
+        self.data_valid.next = self.gives.q.val();
+        self.data.next = self.value.q.val();
+        self.frame_ends.next = self.ends.q.val();
+        self.is_broken.next = self.ends_broken.q.val();
+
+        self.is_end.next = !self.byte_data.val().any();
+        self.is_length.next = !self.left.q.val().any();
+        self.gives.d.next = false;
+        self.ends.d.next = false;
+        if self.noise.val() {
+            self.lacks.d.next = self.in_frame.q.val();
+        }
+        if self.byte_valid.val() {
+            if self.is_end.val() {
+                self.ends.d.next = self.in_frame.q.val();
+                self.ends_broken.d.next = self.lacks.q.val() | (!self.is_length.val());
+                self.in_frame.d.next = false;
+                self.owes_zero.d.next = false;
+                self.lacks.d.next = false;
+                self.left.d.next = 0.into();
+            } else {
+                self.left.d.next = self.left.q.val() - self.one.val();
+                self.value.d.next = self.byte_data.val();
+                self.gives.d.next = true;
+                if self.is_length.val() {
+                    self.left.d.next = self.byte_data.val() - self.one.val();
+                    self.value.d.next = 0.into();
+                    self.gives.d.next = self.owes_zero.q.val();
+                    self.owes_zero.d.next = self.byte_data.val() != self.longest.val();
+                    self.in_frame.d.next = true;
+                }
+            }
+        }
+        if self.reset.val() {
+            self.left.d.next = 0.into();
+            self.in_frame.d.next = false;
+            self.owes_zero.d.next = false;
+            self.lacks.d.next = false;
+            self.gives.d.next = false;
+            self.ends.d.next = false;
+        }
+    }
+}

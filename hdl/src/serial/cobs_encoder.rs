@@ -1,0 +1,126 @@
+//! Puts frames into reverse COBS: no byte of a frame is zero, and a zero ends it.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset awaits a frame |
+//! | `data_valid`, `data_ready`, `data` | in, out, in | 1, 1, 8 | the bytes of a frame |
+//! | `ends`, `cuts` | in | 1 | no byte follows, held until `ended`; with `cuts` the frame is to be invalid |
+//! | `ended` | out | 1 | the zero behind the frame is taken |
+//! | `byte_valid`, `byte_ready`, `byte_data` | out, in, out | 1, 1, 8 | bytes for the line |
+//!
+//! 1. A byte that is not zero goes out as it comes. For a zero, and at the end, goes out a length byte: the bytes since the last one, plus
+//!    one. After 254 bytes goes out a 255.
+//! 2. A frame that is cut ends in a zero at once, without a length byte: its check sum is missing.
+//! 3. `byte_valid` and `byte_data` depend on the frame's side at once, `data_ready` on `byte_ready`.
+//!
+//! Latency: none (combinational) for a byte.
+//!
+//! The frame 11 0 22, sent to a line that takes a byte every second clock; numbers of the wave are decimal:
+//! ```text
+//! data_valid      ___/^^^^^^^^^^^^^^^^^\________________
+//! ```
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// What goes out next.
+#[derive(Clone, Copy, Debug, PartialEq, LogicState)]
+pub enum EncodeState {
+    /// A byte of the frame, or the length byte for it.
+    Frame,
+    /// A 255 behind 254 bytes.
+    Longest,
+    /// The zero.
+    Zero,
+}
+
+/// Frames into reverse COBS; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct CobsEncoder {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Awaits a frame.
+    pub reset: Signal<In, Bit>,
+    /// A byte of a frame is offered.
+    pub data_valid: Signal<In, Bit>,
+    /// It is taken.
+    pub data_ready: Signal<Out, Bit>,
+    /// The byte.
+    pub data: Signal<In, Bits<8>>,
+    /// No byte follows.
+    pub ends: Signal<In, Bit>,
+    /// The frame is to be invalid.
+    pub cuts: Signal<In, Bit>,
+    /// The frame is over.
+    pub ended: Signal<Out, Bit>,
+    /// A byte is offered to the line.
+    pub byte_valid: Signal<Out, Bit>,
+    /// It is taken.
+    pub byte_ready: Signal<In, Bit>,
+    /// The byte.
+    pub byte_data: Signal<Out, Bits<8>>,
+    state: DFF<EncodeState>,
+    /// Bytes since the last length byte, plus one.
+    length: DFF<Bits<8>>,
+    is_zero: Signal<Local, Bit>,
+    is_frame: Signal<Local, Bit>,
+    one: Signal<Local, Bits<8>>,
+    last_length: Signal<Local, Bits<8>>,
+}
+
+impl Logic for CobsEncoder {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, state, length);
+        self.one.next = 1.into();
+        self.last_length.next = 254.into();
+        self.is_zero.next = !self.data.val().any();
+        self.is_frame.next = self.state.q.val() == EncodeState::Frame;
+        self.data_ready.next = self.is_frame.val() & self.byte_ready.val();
+        self.ended.next = (self.state.q.val() == EncodeState::Zero) & self.byte_ready.val();
+        self.byte_valid.next = true;
+        self.byte_data.next = 0.into();
+        match self.state.q.val() {
+            EncodeState::Frame => {
+                self.byte_valid.next = self.data_valid.val() | (self.ends.val() & (!self.cuts.val()));
+                self.byte_data.next = self.data.val();
+                if (!self.data_valid.val()) | self.is_zero.val() {
+                    self.byte_data.next = self.length.q.val();
+                }
+                if self.data_valid.val() & self.byte_ready.val() {
+                    self.length.d.next = self.length.q.val() + self.one.val();
+                    if self.is_zero.val() {
+                        self.length.d.next = 1.into();
+                    } else {
+                        if self.length.q.val() == self.last_length.val() {
+                            self.state.d.next = EncodeState::Longest;
+                        }
+                    }
+                }
+                if (!self.data_valid.val()) & self.ends.val() & (self.byte_ready.val() | self.cuts.val()) {
+                    self.state.d.next = EncodeState::Zero;
+                }
+            }
+            EncodeState::Longest => {
+                self.byte_data.next = 255.into();
+                self.length.d.next = 1.into();
+                if self.byte_ready.val() {
+                    self.state.d.next = EncodeState::Frame;
+                }
+            }
+            EncodeState::Zero => {
+                self.length.d.next = 1.into();
+                if self.byte_ready.val() {
+                    self.state.d.next = EncodeState::Frame;
+                }
+            }
+            _ => {
+                self.state.d.next = EncodeState::Frame;
+            }
+        }
+        if self.reset.val() {
+            self.state.d.next = EncodeState::Frame;
+            self.length.d.next = 1.into();
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Bytes as the words of the core's command stream, the low byte first.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset forgets the bytes of a word |
+//! | `byte_valid`, `byte_data`, `takes` | in, in, out | 1, 8, 1 | a byte; it is taken at this edge |
+//! | `word_valid`, `word_ready`, `word` | out, in, out | 1, 1, 32 | a word |
+//!
+//! 1. A word once offered stays until it is taken.
+//!
+//! Latency: 1 clock from the fourth byte.
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Words of commands; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct CommandWords {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Forgets the bytes of a word.
+    pub reset: Signal<In, Bit>,
+    /// A byte is there.
+    pub byte_valid: Signal<In, Bit>,
+    /// It.
+    pub byte_data: Signal<In, Bits<8>>,
+    /// It is taken.
+    pub takes: Signal<Out, Bit>,
+    /// A word is offered.
+    pub word_valid: Signal<Out, Bit>,
+    /// It is taken.
+    pub word_ready: Signal<In, Bit>,
+    /// The word.
+    pub word: Signal<Out, Bits<32>>,
+    bytes: DFF<Bits<32>>,
+    count: DFF<Bits<2>>,
+    is_full: DFF<Bit>,
+    takes_byte: Signal<Local, Bit>,
+    older: Signal<Local, Bits<32>>,
+    wide: Signal<Local, Bits<32>>,
+    newest: Signal<Local, Bits<32>>,
+    eight: Signal<Local, Bits<32>>,
+    three_bytes: Signal<Local, Bits<32>>,
+    one: Signal<Local, Bits<2>>,
+    last: Signal<Local, Bits<2>>,
+}
+
+impl Logic for CommandWords {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, bytes, count, is_full);
+        self.eight.next = 8.into();
+        self.three_bytes.next = 24.into();
+        self.one.next = 1.into();
+        self.last.next = 3.into();
+        self.word_valid.next = self.is_full.q.val();
+        self.word.next = self.bytes.q.val();
+        self.takes_byte.next = self.byte_valid.val() & (!self.is_full.q.val());
+        self.takes.next = self.takes_byte.val();
+        self.older.next = self.bytes.q.val() >> self.eight.val();
+        self.wide.next = bit_cast::<32, 8>(self.byte_data.val());
+        self.newest.next = self.wide.val() << self.three_bytes.val();
+        if self.word_ready.val() {
+            self.is_full.d.next = false;
+        }
+        if self.takes_byte.val() {
+            self.bytes.d.next = self.older.val() | self.newest.val();
+            self.count.d.next = self.count.q.val() + self.one.val();
+            self.is_full.d.next = self.count.q.val() == self.last.val();
+        }
+        if self.reset.val() {
+            self.count.d.next = 0.into();
+            self.is_full.d.next = false;
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! A running CRC-32 over bytes, a bit at a time.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | |
+//! | `sets`, `start` | in | 1, 32 | begin with this state at this edge |
+//! | `takes`, `byte_data` | in | 1, 8 | one more byte |
+//! | `is_busy` | out | 1 | the last byte is not in the state yet |
+//! | `state` | out | 32 | the state: all ones in the beginning, and the check sum is its complement |
+//!
+//! 1. A byte is taken only while `is_busy` is low, or the byte before is lost.
+//! 2. `sets` forgets a byte that is under way.
+//!
+//! Latency: 9 clocks. A byte of a line takes 80 or more, and a bit at a time is a quarter of the logic.
+//!
+//! Source: polynomial 04C11DB7, reflected, as Ethernet and zip have it.
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// A running check sum; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Crc32 {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Begin with `start`.
+    pub sets: Signal<In, Bit>,
+    /// A state.
+    pub start: Signal<In, Bits<32>>,
+    /// One more byte.
+    pub takes: Signal<In, Bit>,
+    /// It.
+    pub byte_data: Signal<In, Bits<8>>,
+    /// The last byte is not in the state yet.
+    pub is_busy: Signal<Out, Bit>,
+    /// The state.
+    pub state: Signal<Out, Bits<32>>,
+    remainder: DFF<Bits<32>>,
+    bits: DFF<Bits<8>>,
+    left: DFF<Bits<4>>,
+    shifted: Signal<Local, Bits<32>>,
+    one: Signal<Local, Bits<32>>,
+    one_bit: Signal<Local, Bits<8>>,
+    one_left: Signal<Local, Bits<4>>,
+    polynomial: Signal<Local, Bits<32>>,
+    feeds_back: Signal<Local, Bit>,
+}
+
+impl Crc32 {
+    /// The state before the first byte.
+    pub const FIRST: u64 = 0xffff_ffff;
+    /// The state after a frame with its own check sum behind it, if that is right.
+    pub const SOUND: u64 = 0xdebb_20e3;
+}
+
+impl Logic for Crc32 {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, remainder, bits, left);
+        self.one.next = 1.into();
+        self.one_bit.next = 1.into();
+        self.one_left.next = 1.into();
+        self.state.next = self.remainder.q.val();
+        self.is_busy.next = self.left.q.val().any();
+        self.feeds_back.next = self.remainder.q.val().get_bit(0) ^ self.bits.q.val().get_bit(0);
+        self.shifted.next = self.remainder.q.val() >> self.one.val();
+        self.polynomial.next = 0.into();
+        if self.feeds_back.val() {
+            self.polynomial.next = 0xedb8_8320u64.into();
+        }
+        if self.left.q.val().any() {
+            self.remainder.d.next = self.shifted.val() ^ self.polynomial.val();
+            self.bits.d.next = self.bits.q.val() >> self.one_bit.val();
+            self.left.d.next = self.left.q.val() - self.one_left.val();
+        }
+        if self.takes.val() {
+            self.bits.d.next = self.byte_data.val();
+            self.left.d.next = 8.into();
+        }
+        if self.sets.val() {
+            self.remainder.d.next = self.start.val();
+            self.left.d.next = 0.into();
+        }
+    }
+}

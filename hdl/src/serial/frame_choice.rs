@@ -1,0 +1,121 @@
+//! Decides which frame goes to the host next.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | |
+//! | `is_idle` | in | 1 | no frame is under way |
+//! | `reply_is_due`, `reply_kind` | in | 1, 8 | a control frame is due; its type |
+//! | `answer_is_due`, `answer_is_last` | in | 1 | a part of an answer is; it is the last one |
+//! | `holds` | in | 1 | no frame may begin |
+//! | `cuts` | in | 1 | no answer may begin |
+//! | `starts`, `starts_reply`, `starts_answer` | out | 1 | a frame begins at this edge; which of the two |
+//! | `kind` | out | 8 | type of the frame under way |
+//! | `has_greeting`, `has_digest`, `has_answer`, `ends_answer` | out | 1 | what it has |
+//!
+//! 1. A control frame goes before an answer.
+//! 2. What is said of the frame under way stands from the clock after `starts` to the end of the frame.
+//!
+//! Latency: none to `starts` (combinational), 1 clock to the type.
+
+use incircle_protocol::DeviceFrame;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The next frame; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct FrameChoice {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// No frame is under way.
+    pub is_idle: Signal<In, Bit>,
+    /// A control frame is due.
+    pub reply_is_due: Signal<In, Bit>,
+    /// Its type.
+    pub reply_kind: Signal<In, Bits<8>>,
+    /// A part of an answer is due.
+    pub answer_is_due: Signal<In, Bit>,
+    /// It is the last one.
+    pub answer_is_last: Signal<In, Bit>,
+    /// No frame may begin.
+    pub holds: Signal<In, Bit>,
+    /// No answer may begin.
+    pub cuts: Signal<In, Bit>,
+    /// A frame begins.
+    pub starts: Signal<Out, Bit>,
+    /// A control frame.
+    pub starts_reply: Signal<Out, Bit>,
+    /// One of an answer.
+    pub starts_answer: Signal<Out, Bit>,
+    /// Type of the frame under way.
+    pub kind: Signal<Out, Bits<8>>,
+    /// It has a greeting.
+    pub has_greeting: Signal<Out, Bit>,
+    /// It has a digest behind its header.
+    pub has_digest: Signal<Out, Bit>,
+    /// It has words of an answer.
+    pub has_answer: Signal<Out, Bit>,
+    /// It has the last ones, and a digest behind them.
+    pub ends_answer: Signal<Out, Bit>,
+    kind_byte: DFF<Bits<8>>,
+    is_hello: DFF<Bit>,
+    is_receipt: DFF<Bit>,
+    is_answer: DFF<Bit>,
+    is_end: DFF<Bit>,
+    may_start: Signal<Local, Bit>,
+    begins_reply: Signal<Local, Bit>,
+    begins_answer: Signal<Local, Bit>,
+    hello_kind: Signal<Local, Bits<8>>,
+    ack_kind: Signal<Local, Bits<8>>,
+    nak_kind: Signal<Local, Bits<8>>,
+}
+
+// The kernel names types by number, because rust-hdl takes literals only; a change in the protocol must come here.
+const _: () = assert!(
+    DeviceFrame::Hello as u8 == 0x81
+        && DeviceFrame::Ack as u8 == 0x83
+        && DeviceFrame::Nak as u8 == 0x84
+        && DeviceFrame::Answer as u8 == 0x85
+        && DeviceFrame::AnswerEnd as u8 == 0x86,
+    "the frames of this block follow the protocol"
+);
+
+impl Logic for FrameChoice {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, kind_byte, is_hello, is_receipt, is_answer, is_end);
+        self.hello_kind.next = 0x81.into();
+        self.ack_kind.next = 0x83.into();
+        self.nak_kind.next = 0x84.into();
+        self.kind.next = self.kind_byte.q.val();
+        self.has_greeting.next = self.is_hello.q.val();
+        self.has_digest.next = self.is_receipt.q.val();
+        self.has_answer.next = self.is_answer.q.val();
+        self.ends_answer.next = self.is_end.q.val();
+
+        self.may_start.next = self.is_idle.val() & (!self.holds.val());
+        self.begins_reply.next = self.may_start.val() & self.reply_is_due.val();
+        self.begins_answer.next =
+            self.may_start.val() & self.answer_is_due.val() & (!self.reply_is_due.val()) & (!self.cuts.val());
+        self.starts_reply.next = self.begins_reply.val();
+        self.starts_answer.next = self.begins_answer.val();
+        self.starts.next = self.begins_reply.val() | self.begins_answer.val();
+        if self.begins_reply.val() {
+            self.kind_byte.d.next = self.reply_kind.val();
+            self.is_hello.d.next = self.reply_kind.val() == self.hello_kind.val();
+            self.is_receipt.d.next =
+                (self.reply_kind.val() == self.ack_kind.val()) | (self.reply_kind.val() == self.nak_kind.val());
+            self.is_answer.d.next = false;
+            self.is_end.d.next = false;
+        }
+        if self.begins_answer.val() {
+            self.kind_byte.d.next = 0x85.into();
+            if self.answer_is_last.val() {
+                self.kind_byte.d.next = 0x86.into();
+            }
+            self.is_hello.d.next = false;
+            self.is_receipt.d.next = false;
+            self.is_answer.d.next = true;
+            self.is_end.d.next = self.answer_is_last.val();
+        }
+    }
+}

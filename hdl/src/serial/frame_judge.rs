@@ -1,0 +1,237 @@
+//! What a frame of a host asks for.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset forgets a frame that is under way |
+//! | `session`, `kind`, `number`, `length` | in | 8, 8, 8, 11 | its header, from `FrameReader` |
+//! | `header_comes` | in | 1 | it is complete |
+//! | `comes`, `is_sound` | in | 1 | the frame is over; its check sum and its length are right |
+//! | `is_open`, `open_session`, `expected` | in | 1, 8, 8 | the session, and the number of the `Data` frame that is awaited |
+//! | `free` | in | 16 | bytes of the receive FIFO that are free |
+//! | `takes_payload` | out | 1 | the payload belongs into the FIFO, if the frame turns out to be sound |
+//! | `asked` | out | Asked | what is asked for, at the end of the frame |
+//!
+//! 1. Exactly one of the fields of `asked` but `hears` is high at the end of a frame, or none: for frames of another session.
+//! 2. `takes_payload` is decided 3 clocks after the header and stays until the end; `length` bytes fit the FIFO then.
+//! 3. Bytes of a frame come at least 16 clocks apart, so what the header says is compared in ranks of registers.
+//!
+//! Latency: 1 clock.
+
+use crate::packed;
+use incircle_protocol::{HostFrame, MAX_PAYLOAD};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+packed! {
+    /// What a frame asks for.
+    pub struct Asked {
+        /// A sound frame: there is a host.
+        pub hears: bool,
+        /// `Hello`.
+        pub hello: bool,
+        /// `Open`.
+        pub opens: bool,
+        /// `Rate` of the open session.
+        pub rate: bool,
+        /// `Poll` of the open session.
+        pub polls: bool,
+        /// `Close` of the open session.
+        pub closes: bool,
+        /// `Data` that is taken.
+        pub takes: bool,
+        /// `Data` that has been taken before.
+        pub repeats: bool,
+        /// `Data` behind a gap, or without room.
+        pub gap: bool,
+        /// A frame of a session, and none is open.
+        pub no_session: bool,
+        /// A frame that is not sound.
+        pub drops: bool,
+    }
+}
+
+/// What a frame asks for; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct FrameJudge {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Forgets a frame that is under way.
+    pub reset: Signal<In, Bit>,
+    /// Session of the frame.
+    pub session: Signal<In, Bits<8>>,
+    /// Its type.
+    pub kind: Signal<In, Bits<8>>,
+    /// Its number.
+    pub number: Signal<In, Bits<8>>,
+    /// Bytes of its payload.
+    pub length: Signal<In, Bits<11>>,
+    /// These are complete.
+    pub header_comes: Signal<In, Bit>,
+    /// The frame is over.
+    pub comes: Signal<In, Bit>,
+    /// Its check sum and its length are right.
+    pub is_sound: Signal<In, Bit>,
+    /// A session is open.
+    pub is_open: Signal<In, Bit>,
+    /// Its number.
+    pub open_session: Signal<In, Bits<8>>,
+    /// Number of the frame that is awaited.
+    pub expected: Signal<In, Bits<8>>,
+    /// Bytes of the FIFO that are free.
+    pub free: Signal<In, Bits<16>>,
+    /// The payload belongs into the FIFO.
+    pub takes_payload: Signal<Out, Bit>,
+    /// What is asked for.
+    pub asked: Signal<Out, Asked>,
+    // First rank: what the header says.
+    kind_low: DFF<Bits<3>>,
+    is_host_kind: DFF<Bit>,
+    is_this_session: DFF<Bit>,
+    names_session: DFF<Bit>,
+    is_none: DFF<Bit>,
+    is_four: DFF<Bit>,
+    is_words: DFF<Bit>,
+    distance: DFF<Bits<8>>,
+    has_room: DFF<Bit>,
+    // Second rank: what follows.
+    is_fit: DFF<Bit>,
+    is_next: DFF<Bit>,
+    is_data: DFF<Bit>,
+    // Third rank: the decision.
+    header_before: DFF<Bit>,
+    header_first: DFF<Bit>,
+    taking: DFF<Bit>,
+    answer: DFF<Asked>,
+    high_kind: Signal<Local, Bits<5>>,
+    low_length: Signal<Local, Bits<2>>,
+    wide_length: Signal<Local, Bits<16>>,
+    four: Signal<Local, Bits<11>>,
+    is_wanted: Signal<Local, Bit>,
+}
+
+// The kernel names types by number, because rust-hdl takes literals only; a change in the protocol must come here.
+const _: () = assert!(
+    HostFrame::Hello as u8 == 1
+        && HostFrame::Open as u8 == 2
+        && HostFrame::Rate as u8 == 3
+        && HostFrame::Poll as u8 == 4
+        && HostFrame::Data as u8 == 5
+        && HostFrame::Close as u8 == 6
+        && MAX_PAYLOAD == 1024,
+    "the frames of this block follow the protocol"
+);
+
+impl Logic for FrameJudge {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, kind_low, is_host_kind, is_this_session, names_session, is_none, is_four, is_words);
+        dff_setup!(
+            self,
+            clock,
+            distance,
+            has_room,
+            is_fit,
+            is_next,
+            is_data,
+            header_before,
+            header_first,
+            taking,
+            answer
+        );
+        self.four.next = 4.into();
+        self.takes_payload.next = self.taking.q.val();
+        self.asked.next = self.answer.q.val();
+
+        self.kind_low.d.next = self.kind.val().get_bits::<3>(0);
+        self.high_kind.next = self.kind.val().get_bits::<5>(3);
+        self.is_host_kind.d.next = !self.high_kind.val().any();
+        self.is_this_session.d.next = self.is_open.val() & (self.session.val() == self.open_session.val());
+        self.names_session.d.next = self.session.val().any();
+        self.is_none.d.next = !self.length.val().any();
+        self.is_four.d.next = self.length.val() == self.four.val();
+        self.low_length.next = self.length.val().get_bits::<2>(0);
+        self.is_words.d.next = self.length.val().any() & (!self.low_length.val().any());
+        self.distance.d.next = self.number.val() - self.expected.val();
+        self.wide_length.next = bit_cast::<16, 11>(self.length.val());
+        self.has_room.d.next = self.free.val() >= self.wide_length.val();
+
+        self.is_data.d.next = false;
+        self.is_next.d.next = !self.distance.q.val().any();
+        self.is_fit.d.next = self.is_none.q.val() & self.is_host_kind.q.val();
+        match self.kind_low.q.val().index() {
+            0 => {
+                self.is_fit.d.next = false;
+            }
+            2 => {
+                self.is_fit.d.next = self.is_none.q.val() & self.names_session.q.val() & self.is_host_kind.q.val();
+            }
+            3 => {
+                self.is_fit.d.next = self.is_four.q.val() & self.is_host_kind.q.val();
+            }
+            5 => {
+                self.is_fit.d.next = self.is_words.q.val() & self.is_host_kind.q.val();
+                self.is_data.d.next = self.is_words.q.val() & self.is_host_kind.q.val();
+            }
+            7 => {
+                self.is_fit.d.next = false;
+            }
+            _ => {}
+        }
+
+        // Whether the payload is taken is decided once, before its first byte: room that comes later comes too late.
+        self.header_before.d.next = self.header_comes.val();
+        self.header_first.d.next = self.header_before.q.val();
+        if self.header_first.q.val() {
+            self.taking.d.next =
+                self.is_data.q.val() & self.is_next.q.val() & self.has_room.q.val() & self.is_this_session.q.val();
+        }
+        self.is_wanted.next = self.comes.val() & self.is_sound.val() & self.is_fit.q.val();
+        self.answer.d.next.hears = self.is_wanted.val();
+        self.answer.d.next.drops = self.comes.val() & (!self.is_wanted.val());
+        self.answer.d.next.hello = false;
+        self.answer.d.next.opens = false;
+        self.answer.d.next.rate = false;
+        self.answer.d.next.polls = false;
+        self.answer.d.next.closes = false;
+        self.answer.d.next.takes = false;
+        self.answer.d.next.repeats = false;
+        self.answer.d.next.gap = false;
+        self.answer.d.next.no_session = false;
+        if self.is_wanted.val() {
+            match self.kind_low.q.val().index() {
+                1 => {
+                    self.answer.d.next.hello = true;
+                }
+                2 => {
+                    self.answer.d.next.opens = true;
+                }
+                3 => {
+                    self.answer.d.next.rate = self.is_this_session.q.val();
+                    self.answer.d.next.no_session = !self.is_open.val();
+                }
+                4 => {
+                    self.answer.d.next.polls = self.is_this_session.q.val();
+                    self.answer.d.next.no_session = !self.is_open.val();
+                }
+                5 => {
+                    self.answer.d.next.takes = self.taking.q.val() & self.is_this_session.q.val();
+                    self.answer.d.next.repeats = self.is_this_session.q.val() & self.distance.q.val().get_bit(7);
+                    self.answer.d.next.gap =
+                        self.is_this_session.q.val() & (!self.taking.q.val()) & (!self.distance.q.val().get_bit(7));
+                    self.answer.d.next.no_session = !self.is_open.val();
+                }
+                _ => {
+                    self.answer.d.next.closes = self.is_this_session.q.val();
+                    self.answer.d.next.no_session = !self.is_open.val();
+                }
+            }
+        }
+        if self.comes.val() | self.reset.val() {
+            self.taking.d.next = false;
+        }
+        if self.reset.val() {
+            self.header_before.d.next = false;
+            self.header_first.d.next = false;
+        }
+    }
+}

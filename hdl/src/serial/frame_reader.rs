@@ -1,0 +1,225 @@
+//! Reads the frames of a host: header, payload, check sum.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset awaits a frame |
+//! | `data_valid`, `data` | in | 1, 8 | a byte of a frame |
+//! | `frame_ends`, `is_broken` | in | 1 | the frame is over; it lacks bytes |
+//! | `session`, `kind`, `number`, `length` | out | 8, 8, 8, 11 | the header |
+//! | `header_comes` | out | 1 | it is complete, and stands until the next frame |
+//! | `payload_valid`, `payload` | out | 1, 8 | a byte of the payload |
+//! | `value` | out | 32 | the last four bytes of the payload |
+//! | `comes`, `is_sound` | out | 1 | a frame is over; its check sum and its length are right |
+//!
+//! 1. Bytes, and the end of a frame, come at least 16 clocks apart.
+//! 2. A frame whose header says more than 1,024 bytes has no payload and is not sound.
+//! 3. The payload comes before the check sum is known.
+//!
+//! Latency: 1 clock.
+
+use super::Crc32;
+use incircle_protocol::{CRC_BYTES, HOST_HEADER_BYTES, MAX_PAYLOAD};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// What the next byte is.
+#[derive(Clone, Copy, Debug, PartialEq, LogicState)]
+pub enum ReadState {
+    /// Number of a session.
+    Session,
+    /// Type of the frame.
+    Kind,
+    /// Number of the frame.
+    Number,
+    /// Length, the low byte.
+    LengthLow,
+    /// Length, the high byte.
+    LengthHigh,
+    /// A byte of the payload.
+    Payload,
+    /// A byte of the check sum.
+    Sum,
+    /// One too many.
+    Excess,
+}
+
+/// Frames of a host; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct FrameReader {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Awaits a frame.
+    pub reset: Signal<In, Bit>,
+    /// A byte of a frame.
+    pub data_valid: Signal<In, Bit>,
+    /// It.
+    pub data: Signal<In, Bits<8>>,
+    /// The frame is over.
+    pub frame_ends: Signal<In, Bit>,
+    /// It lacks bytes.
+    pub is_broken: Signal<In, Bit>,
+    /// Session of the frame.
+    pub session: Signal<Out, Bits<8>>,
+    /// Its type.
+    pub kind: Signal<Out, Bits<8>>,
+    /// Its number.
+    pub number: Signal<Out, Bits<8>>,
+    /// Bytes of its payload.
+    pub length: Signal<Out, Bits<11>>,
+    /// These are complete.
+    pub header_comes: Signal<Out, Bit>,
+    /// A byte of the payload.
+    pub payload_valid: Signal<Out, Bit>,
+    /// It.
+    pub payload: Signal<Out, Bits<8>>,
+    /// The last four bytes of the payload.
+    pub value: Signal<Out, Bits<32>>,
+    /// A frame is over.
+    pub comes: Signal<Out, Bit>,
+    /// Check sum and length are right.
+    pub is_sound: Signal<Out, Bit>,
+    state: DFF<ReadState>,
+    session_byte: DFF<Bits<8>>,
+    kind_byte: DFF<Bits<8>>,
+    number_byte: DFF<Bits<8>>,
+    length_word: DFF<Bits<11>>,
+    /// Bytes of the payload or of the check sum that are to come.
+    left: DFF<Bits<11>>,
+    has_header: DFF<Bit>,
+    gives: DFF<Bit>,
+    given: DFF<Bits<8>>,
+    last_bytes: DFF<Bits<32>>,
+    is_over: DFF<Bit>,
+    is_good: DFF<Bit>,
+    crc: Crc32,
+    low_length: Signal<Local, Bits<16>>,
+    high_length: Signal<Local, Bits<16>>,
+    full_length: Signal<Local, Bits<16>>,
+    wide_data: Signal<Local, Bits<32>>,
+    top_byte: Signal<Local, Bits<32>>,
+    older_bytes: Signal<Local, Bits<32>>,
+    most: Signal<Local, Bits<16>>,
+    eight: Signal<Local, Bits<16>>,
+    wide_eight: Signal<Local, Bits<32>>,
+    three_bytes: Signal<Local, Bits<32>>,
+    one: Signal<Local, Bits<11>>,
+    first_state: Signal<Local, Bits<32>>,
+    sound_state: Signal<Local, Bits<32>>,
+}
+
+// The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+const _: () = assert!(
+    HOST_HEADER_BYTES == 5
+        && MAX_PAYLOAD == 1024
+        && CRC_BYTES == 4
+        && Crc32::FIRST == 0xffff_ffff
+        && Crc32::SOUND == 0xdebb_20e3,
+    "the frames of this block follow the protocol"
+);
+
+impl Logic for FrameReader {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, state, session_byte, kind_byte, number_byte, length_word, left, has_header);
+        dff_setup!(self, clock, gives, given, last_bytes, is_over, is_good);
+        clock!(self, clock, crc);
+        self.most.next = 1024.into();
+        self.eight.next = 8.into();
+        self.wide_eight.next = 8.into();
+        self.three_bytes.next = 24.into();
+        self.one.next = 1.into();
+        self.first_state.next = 0xffff_ffffu64.into();
+        self.sound_state.next = 0xdebb_20e3u64.into();
+        self.session.next = self.session_byte.q.val();
+        self.kind.next = self.kind_byte.q.val();
+        self.number.next = self.number_byte.q.val();
+        self.length.next = self.length_word.q.val();
+        self.header_comes.next = self.has_header.q.val();
+        self.payload_valid.next = self.gives.q.val();
+        self.payload.next = self.given.q.val();
+        self.value.next = self.last_bytes.q.val();
+        self.comes.next = self.is_over.q.val();
+        self.is_sound.next = self.is_good.q.val();
+
+        // The check sum covers all bytes, its own included.
+        self.crc.sets.next = self.reset.val() | self.frame_ends.val();
+        self.crc.start.next = self.first_state.val();
+        self.crc.takes.next = self.data_valid.val();
+        self.crc.byte_data.next = self.data.val();
+
+        self.low_length.next = bit_cast::<16, 11>(self.length_word.q.val());
+        self.high_length.next = bit_cast::<16, 8>(self.data.val()) << self.eight.val();
+        self.full_length.next = self.low_length.val() | self.high_length.val();
+        self.wide_data.next = bit_cast::<32, 8>(self.data.val());
+        self.top_byte.next = self.wide_data.val() << self.three_bytes.val();
+        self.older_bytes.next = self.last_bytes.q.val() >> self.wide_eight.val();
+        self.given.d.next = self.data.val();
+        self.gives.d.next = false;
+        self.has_header.d.next = false;
+        if self.data_valid.val() {
+            self.left.d.next = self.left.q.val() - self.one.val();
+            match self.state.q.val() {
+                ReadState::Session => {
+                    self.session_byte.d.next = self.data.val();
+                    self.state.d.next = ReadState::Kind;
+                }
+                ReadState::Kind => {
+                    self.kind_byte.d.next = self.data.val();
+                    self.state.d.next = ReadState::Number;
+                }
+                ReadState::Number => {
+                    self.number_byte.d.next = self.data.val();
+                    self.state.d.next = ReadState::LengthLow;
+                }
+                ReadState::LengthLow => {
+                    self.length_word.d.next = bit_cast::<11, 8>(self.data.val());
+                    self.state.d.next = ReadState::LengthHigh;
+                }
+                ReadState::LengthHigh => {
+                    self.length_word.d.next = self.full_length.val().get_bits::<11>(0);
+                    self.left.d.next = self.full_length.val().get_bits::<11>(0);
+                    self.has_header.d.next = true;
+                    self.state.d.next = ReadState::Payload;
+                    if !self.full_length.val().any() {
+                        self.left.d.next = 4.into();
+                        self.state.d.next = ReadState::Sum;
+                    }
+                    if self.full_length.val() > self.most.val() {
+                        self.has_header.d.next = false;
+                        self.state.d.next = ReadState::Excess;
+                    }
+                }
+                ReadState::Payload => {
+                    self.gives.d.next = true;
+                    self.last_bytes.d.next = self.older_bytes.val() | self.top_byte.val();
+                    if self.left.q.val() == self.one.val() {
+                        self.left.d.next = 4.into();
+                        self.state.d.next = ReadState::Sum;
+                    }
+                }
+                ReadState::Sum => {
+                    if !self.left.q.val().any() {
+                        self.state.d.next = ReadState::Excess;
+                    }
+                }
+                _ => {
+                    self.state.d.next = ReadState::Excess;
+                }
+            }
+        }
+        self.is_over.d.next = self.frame_ends.val();
+        self.is_good.d.next = (self.state.q.val() == ReadState::Sum)
+            & (!self.left.q.val().any())
+            & (self.crc.state.val() == self.sound_state.val())
+            & (!self.crc.is_busy.val())
+            & (!self.is_broken.val());
+        if self.frame_ends.val() | self.reset.val() {
+            self.state.d.next = ReadState::Session;
+        }
+        if self.reset.val() {
+            self.is_over.d.next = false;
+            self.gives.d.next = false;
+            self.has_header.d.next = false;
+        }
+    }
+}

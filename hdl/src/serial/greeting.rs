@@ -1,0 +1,165 @@
+//! The greeting, byte by byte: a memory of constants.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | |
+//! | `index` | in | 6 | a byte of the greeting, 0 to 51 |
+//! | `byte_data` | out | 8 | it |
+//!
+//! Latency: 1 clock.
+
+use incircle_protocol::{
+    Config, Greeting as GreetingWords, Identity, LinkConfig, CORE_COORD_BITS, CORE_VERSION, GREETING_WORDS, LINK_MAGIC,
+    LINK_VERSION, MAGIC, PROTOCOL_VERSION,
+};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+const _: () = assert!(GREETING_WORDS == 13, "the kernel of this block lists the words of the greeting");
+
+/// The greeting; see the top of this file.
+#[derive(LogicBlock)]
+pub struct Greeting {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// A byte of the greeting.
+    pub index: Signal<In, Bits<6>>,
+    /// It.
+    pub byte_data: Signal<Out, Bits<8>>,
+    chosen: DFF<Bits<8>>,
+    word: Signal<Local, Bits<32>>,
+    word_index: Signal<Local, Bits<4>>,
+    place: Signal<Local, Bits<2>>,
+    word0: Constant<Bits<32>>,
+    word1: Constant<Bits<32>>,
+    word2: Constant<Bits<32>>,
+    word3: Constant<Bits<32>>,
+    word4: Constant<Bits<32>>,
+    word5: Constant<Bits<32>>,
+    word6: Constant<Bits<32>>,
+    word7: Constant<Bits<32>>,
+    word8: Constant<Bits<32>>,
+    word9: Constant<Bits<32>>,
+    word10: Constant<Bits<32>>,
+    word11: Constant<Bits<32>>,
+    word12: Constant<Bits<32>>,
+}
+
+impl Greeting {
+    /// The greeting of a core behind a link.
+    pub fn new(config: Config, link: LinkConfig) -> Self {
+        let words = Self::words(config, link);
+        let word = |index: usize| Constant::new(u64::from(words[index]).into());
+        Self {
+            clock: Signal::default(),
+            index: Signal::default(),
+            byte_data: Signal::default(),
+            chosen: DFF::default(),
+            word: Signal::default(),
+            word_index: Signal::default(),
+            place: Signal::default(),
+            word0: word(0),
+            word1: word(1),
+            word2: word(2),
+            word3: word(3),
+            word4: word(4),
+            word5: word(5),
+            word6: word(6),
+            word7: word(7),
+            word8: word(8),
+            word9: word(9),
+            word10: word(10),
+            word11: word(11),
+            word12: word(12),
+        }
+    }
+
+    /// Its words.
+    fn words(config: Config, link: LinkConfig) -> [u32; GREETING_WORDS] {
+        let LinkConfig { clock_hz, fifo_bytes, silence_ms } = link;
+        let identity = Identity {
+            magic: MAGIC,
+            protocol_version: PROTOCOL_VERSION,
+            core_version: CORE_VERSION,
+            coord_bits: CORE_COORD_BITS,
+            capacity: config.points,
+            contexts: config.contexts,
+            ring_capacity: config.ring,
+        };
+        let max_rate = link.max_rate();
+        GreetingWords {
+            magic: LINK_MAGIC,
+            link_version: LINK_VERSION,
+            clock_hz,
+            fifo_bytes,
+            max_rate,
+            silence_ms,
+            identity,
+        }
+        .to_words()
+    }
+}
+
+impl Logic for Greeting {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, chosen);
+        self.byte_data.next = self.chosen.q.val();
+        self.word_index.next = self.index.val().get_bits::<4>(2);
+        self.place.next = self.index.val().get_bits::<2>(0);
+        self.word.next = self.word12.val();
+        match self.word_index.val().index() {
+            0 => {
+                self.word.next = self.word0.val();
+            }
+            1 => {
+                self.word.next = self.word1.val();
+            }
+            2 => {
+                self.word.next = self.word2.val();
+            }
+            3 => {
+                self.word.next = self.word3.val();
+            }
+            4 => {
+                self.word.next = self.word4.val();
+            }
+            5 => {
+                self.word.next = self.word5.val();
+            }
+            6 => {
+                self.word.next = self.word6.val();
+            }
+            7 => {
+                self.word.next = self.word7.val();
+            }
+            8 => {
+                self.word.next = self.word8.val();
+            }
+            9 => {
+                self.word.next = self.word9.val();
+            }
+            10 => {
+                self.word.next = self.word10.val();
+            }
+            11 => {
+                self.word.next = self.word11.val();
+            }
+            _ => {}
+        }
+        match self.place.val().index() {
+            0 => {
+                self.chosen.d.next = self.word.val().get_bits::<8>(0);
+            }
+            1 => {
+                self.chosen.d.next = self.word.val().get_bits::<8>(8);
+            }
+            2 => {
+                self.chosen.d.next = self.word.val().get_bits::<8>(16);
+            }
+            _ => {
+                self.chosen.d.next = self.word.val().get_bits::<8>(24);
+            }
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Silence, breaks, and a beat to see.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | after reset silence begins anew |
+//! | `is_low` | in | 1 | the line is low |
+//! | `hears` | in | 1 | a sound frame has come |
+//! | `is_broken` | out | 1 | the line has been low for a millisecond, and is |
+//! | `is_silent` | out | 1 | no sound frame has come for as long as the parameter says |
+//! | `beat` | out | 1 | high for about half a second, low for as long |
+//!
+//! 1. Time is counted in eighths of a millisecond, of which the first may be short: both last up to an eighth longer.
+//! 2. `is_silent` falls a clock after `hears`.
+//!
+//! Latency: 2 clocks from the end of the time.
+
+use incircle_protocol::{LinkConfig, BREAK_MS};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+const _: () = assert!(BREAK_MS == 1, "eight eighths of this block are a break, and a short one");
+
+/// Times of the line; see the top of this file.
+#[derive(LogicBlock)]
+pub struct LineTimers {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Silence begins anew.
+    pub reset: Signal<In, Bit>,
+    /// The line is low.
+    pub is_low: Signal<In, Bit>,
+    /// A sound frame has come.
+    pub hears: Signal<In, Bit>,
+    /// The line has been low for long.
+    pub is_broken: Signal<Out, Bit>,
+    /// No sound frame has come for long.
+    pub is_silent: Signal<Out, Bit>,
+    /// High, then low.
+    pub beat: Signal<Out, Bit>,
+    clocks: DFF<Bits<16>>,
+    ticks: DFF<Bit>,
+    low_for: DFF<Bits<4>>,
+    breaks: DFF<Bit>,
+    left: DFF<Bits<16>>,
+    silent: DFF<Bit>,
+    beats: DFF<Bits<13>>,
+    one: Signal<Local, Bits<16>>,
+    one_eighth: Signal<Local, Bits<4>>,
+    one_beat: Signal<Local, Bits<13>>,
+    longest: Signal<Local, Bits<4>>,
+    last_clock: Constant<Bits<16>>,
+    silence: Constant<Bits<16>>,
+}
+
+impl LineTimers {
+    /// Parts of a millisecond.
+    pub const PARTS: u32 = 8;
+
+    /// The timers of a link that has passed [`LinkConfig::check`].
+    pub fn new(link: LinkConfig) -> Self {
+        let part = link.clock_hz.div_ceil(1000 * Self::PARTS);
+        Self {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            is_low: Signal::default(),
+            hears: Signal::default(),
+            is_broken: Signal::default(),
+            is_silent: Signal::default(),
+            beat: Signal::default(),
+            clocks: DFF::default(),
+            ticks: DFF::default(),
+            low_for: DFF::default(),
+            breaks: DFF::default(),
+            left: DFF::default(),
+            silent: DFF::default(),
+            beats: DFF::default(),
+            one: Signal::default(),
+            one_eighth: Signal::default(),
+            one_beat: Signal::default(),
+            longest: Signal::default(),
+            last_clock: Constant::new(u64::from(part - 1).into()),
+            silence: Constant::new(u64::from(link.silence_ms * Self::PARTS + 1).into()),
+        }
+    }
+}
+
+impl Logic for LineTimers {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, clocks, ticks, low_for, breaks, left, silent, beats);
+        self.one.next = 1.into();
+        self.one_eighth.next = 1.into();
+        self.one_beat.next = 1.into();
+        self.longest.next = 9.into();
+        self.is_broken.next = self.breaks.q.val();
+        self.is_silent.next = self.silent.q.val();
+        self.beat.next = self.beats.q.val().get_bit(12);
+
+        self.ticks.d.next = !self.clocks.q.val().any();
+        self.clocks.d.next = self.clocks.q.val() - self.one.val();
+        if !self.clocks.q.val().any() {
+            self.clocks.d.next = self.last_clock.val();
+        }
+        self.breaks.d.next = self.low_for.q.val() == self.longest.val();
+        self.silent.d.next = !self.left.q.val().any();
+        if self.ticks.q.val() {
+            self.beats.d.next = self.beats.q.val() + self.one_beat.val();
+            if self.low_for.q.val() != self.longest.val() {
+                self.low_for.d.next = self.low_for.q.val() + self.one_eighth.val();
+            }
+            if self.left.q.val().any() {
+                self.left.d.next = self.left.q.val() - self.one.val();
+            }
+        }
+        if !self.is_low.val() {
+            self.low_for.d.next = 0.into();
+            self.breaks.d.next = false;
+        }
+        if self.hears.val() | self.reset.val() {
+            self.left.d.next = self.silence.val();
+            self.silent.d.next = false;
+        }
+        if self.reset.val() {
+            self.clocks.d.next = 0.into();
+            self.low_for.d.next = 0.into();
+            self.breaks.d.next = false;
+            self.beats.d.next = 0.into();
+        }
+    }
+}

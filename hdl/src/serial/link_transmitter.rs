@@ -1,0 +1,244 @@
+//! From the core to the line: answers and control frames, their headers and check sums, bytes.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | |
+//! | `step`, `tx` | in, out | 22, 1 | rate, and the line |
+//! | `asked`, `saw_gap` | in | Asked, 1 | what a frame of the host asks for; a gap was seen before it |
+//! | `session`, `expected`, `free`, `digest` | in | 8, 8, 16, 32 | what a frame to the host says |
+//! | `is_open`, `is_refused`, `is_busy` | in | 1 | its status |
+//! | `fails`, `forgets`, `holds` | in | 1 | the session ends; its answers are over; no frame may begin |
+//! | `acknowledges`, `closes` | out | 1 | an `Ack` or `Nak` begins; a `Closed` |
+//! | `is_quiet` | out | 1 | no frame is under way, and the last stop bit is over |
+//! | `is_ending`, `answer_ended` | out | 1 | the last word of an answer is offered or taken; its frame is over |
+//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 32 | the answer stream |
+//!
+//! 1. A frame says what was true when it began.
+//!
+//! ```text
+//! asked -> Replies -----+-> FrameChoice -> FrameSender -> CobsEncoder -> UartTransmitter -> tx
+//! answers -> AnswerPacker -+                   | ^
+//!    FrameHeader, Greeting, Crc32 -> FrameBytes -+
+//! ```
+//! Latency: see the blocks.
+
+use super::{
+    AnswerPacker, Asked, CobsEncoder, Crc32, FrameBytes, FrameChoice, FrameHeader, FrameSender, Greeting, Replies,
+    UartTransmitter,
+};
+use incircle_protocol::{Config, LinkConfig};
+use rust_hdl_core::prelude::*;
+
+/// From the core to the line; see the top of this file.
+#[derive(LogicBlock)]
+pub struct LinkTransmitter {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Begins anew.
+    pub reset: Signal<In, Bit>,
+    /// Rate.
+    pub step: Signal<In, Bits<22>>,
+    /// The line.
+    pub tx: Signal<Out, Bit>,
+    /// What a frame asks for.
+    pub asked: Signal<In, Asked>,
+    /// A gap was seen.
+    pub saw_gap: Signal<In, Bit>,
+    /// The open session.
+    pub session: Signal<In, Bits<8>>,
+    /// Number of the frame that is awaited.
+    pub expected: Signal<In, Bits<8>>,
+    /// Bytes of the FIFO that are free.
+    pub free: Signal<In, Bits<16>>,
+    /// State of the payload's check sum.
+    pub digest: Signal<In, Bits<32>>,
+    /// A session is open.
+    pub is_open: Signal<In, Bit>,
+    /// The last `Rate` was refused.
+    pub is_refused: Signal<In, Bit>,
+    /// A command is under way.
+    pub is_busy: Signal<In, Bit>,
+    /// The session ends.
+    pub fails: Signal<In, Bit>,
+    /// Its answers are over.
+    pub forgets: Signal<In, Bit>,
+    /// No frame may begin.
+    pub holds: Signal<In, Bit>,
+    /// An `Ack` or `Nak` begins.
+    pub acknowledges: Signal<Out, Bit>,
+    /// A `Closed` begins.
+    pub closes: Signal<Out, Bit>,
+    /// The line is idle.
+    pub is_quiet: Signal<Out, Bit>,
+    /// The last word of an answer is under way.
+    pub is_ending: Signal<Out, Bit>,
+    /// The answer has ended.
+    pub answer_ended: Signal<Out, Bit>,
+    /// An answer word is offered.
+    pub response_valid: Signal<In, Bit>,
+    /// It is taken.
+    pub response_ready: Signal<Out, Bit>,
+    /// The word.
+    pub response_data: Signal<In, Bits<32>>,
+    replies: Replies,
+    packer: AnswerPacker,
+    choice: FrameChoice,
+    sender: FrameSender,
+    header: FrameHeader,
+    greeting: Greeting,
+    bytes: FrameBytes,
+    frame_sum: Crc32,
+    answer_digest: Crc32,
+    encoder: CobsEncoder,
+    uart: UartTransmitter,
+    is_over: Signal<Local, Bit>,
+    first_state: Signal<Local, Bits<32>>,
+}
+
+const _: () = assert!(Crc32::FIRST == 0xffff_ffff, "the literal of this block follows the check sum");
+
+impl LinkTransmitter {
+    /// The transmitter of a core behind a link that has passed [`LinkConfig::check`].
+    pub fn new(config: Config, link: LinkConfig) -> Self {
+        Self {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            step: Signal::default(),
+            tx: Signal::default(),
+            asked: Signal::default(),
+            saw_gap: Signal::default(),
+            session: Signal::default(),
+            expected: Signal::default(),
+            free: Signal::default(),
+            digest: Signal::default(),
+            is_open: Signal::default(),
+            is_refused: Signal::default(),
+            is_busy: Signal::default(),
+            fails: Signal::default(),
+            forgets: Signal::default(),
+            holds: Signal::default(),
+            acknowledges: Signal::default(),
+            closes: Signal::default(),
+            is_quiet: Signal::default(),
+            is_ending: Signal::default(),
+            answer_ended: Signal::default(),
+            response_valid: Signal::default(),
+            response_ready: Signal::default(),
+            response_data: Signal::default(),
+            replies: Replies::default(),
+            packer: AnswerPacker::default(),
+            choice: FrameChoice::default(),
+            sender: FrameSender::default(),
+            header: FrameHeader::default(),
+            greeting: Greeting::new(config, link),
+            bytes: FrameBytes::default(),
+            frame_sum: Crc32::default(),
+            answer_digest: Crc32::default(),
+            encoder: CobsEncoder::default(),
+            uart: UartTransmitter::default(),
+            is_over: Signal::default(),
+            first_state: Signal::default(),
+        }
+    }
+}
+
+impl Logic for LinkTransmitter {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, replies, packer, choice, sender, header, greeting, bytes);
+        clock!(self, clock, frame_sum, answer_digest, encoder, uart);
+        self.first_state.next = 0xffff_ffffu64.into();
+        self.is_over.next = self.forgets.val() | self.reset.val();
+
+        // What is due, and what goes.
+        self.replies.reset.next = self.reset.val();
+        self.replies.asked.next = self.asked.val();
+        self.replies.saw_gap.next = self.saw_gap.val();
+        self.replies.fails.next = self.fails.val();
+        self.replies.starts.next = self.choice.starts_reply.val();
+        self.choice.is_idle.next = self.sender.is_idle.val();
+        self.choice.reply_is_due.next = self.replies.is_due.val();
+        self.choice.reply_kind.next = self.replies.kind.val();
+        self.choice.answer_is_due.next = self.packer.is_due.val();
+        self.choice.answer_is_last.next = self.packer.is_last.val();
+        self.choice.holds.next = self.holds.val();
+        self.choice.cuts.next = self.is_over.val();
+        self.acknowledges.next = self.choice.starts_reply.val() & self.replies.acknowledges.val();
+        self.closes.next = self.choice.starts_reply.val() & self.replies.closes.val();
+
+        // Answers.
+        self.packer.reset.next = self.is_over.val();
+        self.packer.response_valid.next = self.response_valid.val();
+        self.packer.response_data.next = self.response_data.val();
+        self.response_ready.next = self.packer.response_ready.val();
+        self.packer.starts.next = self.choice.starts_answer.val();
+        self.packer.takes.next = self.sender.loads_word.val();
+        self.packer.ended.next = self.sender.answer_ended.val();
+        self.is_ending.next = self.packer.is_ending.val();
+        self.answer_ended.next = self.sender.answer_ended.val();
+        self.answer_digest.sets.next = self.packer.awaits.val();
+        self.answer_digest.start.next = self.first_state.val();
+        self.answer_digest.takes.next = self.sender.loads_word.val();
+        self.answer_digest.byte_data.next = self.bytes.byte_data.val();
+
+        // The frame.
+        self.sender.reset.next = self.reset.val();
+        self.sender.starts.next = self.choice.starts.val();
+        self.sender.has_greeting.next = self.choice.has_greeting.val();
+        self.sender.has_digest.next = self.choice.has_digest.val();
+        self.sender.has_answer.next = self.choice.has_answer.val();
+        self.sender.ends_answer.next = self.choice.ends_answer.val();
+        self.sender.cuts.next = self.is_over.val();
+        self.sender.byte_data.next = self.bytes.byte_data.val();
+        self.sender.sum_is_busy.next = self.frame_sum.is_busy.val() | self.answer_digest.is_busy.val();
+        self.sender.word_byte_valid.next = self.packer.byte_valid.val();
+        self.sender.word_byte_is_last.next = self.packer.byte_is_last.val();
+        self.frame_sum.sets.next = self.choice.starts.val();
+        self.frame_sum.start.next = self.first_state.val();
+        self.frame_sum.takes.next = self.sender.loads.val();
+        self.frame_sum.byte_data.next = self.bytes.byte_data.val();
+
+        // Its bytes.
+        self.header.reset.next = self.reset.val();
+        self.header.starts.next = self.choice.starts.val();
+        self.header.session.next = self.session.val();
+        self.header.expected.next = self.expected.val();
+        self.header.answers.next = self.packer.number.val();
+        self.header.free.next = self.free.val();
+        self.header.is_open.next = self.is_open.val();
+        self.header.is_refused.next = self.is_refused.val();
+        self.header.is_busy.next = self.is_busy.val();
+        self.header.drops.next = self.asked.val().drops;
+        self.header.digest.next = self.digest.val();
+        self.header.kind.next = self.choice.kind.val();
+        self.header.index.next = self.sender.index.val().get_bits::<3>(0);
+        self.greeting.index.next = self.sender.index.val();
+        self.bytes.part.next = self.sender.part.val();
+        self.bytes.index.next = self.sender.index.val().get_bits::<2>(0);
+        self.bytes.ends_answer.next = self.choice.ends_answer.val();
+        self.bytes.header.next = self.header.byte_data.val();
+        self.bytes.greeting.next = self.greeting.byte_data.val();
+        self.bytes.word.next = self.packer.byte_data.val();
+        self.bytes.answers.next = self.packer.number.val();
+        self.bytes.answer_part.next = self.packer.part.val();
+        self.bytes.payload_state.next = self.header.digest_taken.val();
+        self.bytes.answer_state.next = self.answer_digest.state.val();
+        self.bytes.sum_state.next = self.frame_sum.state.val();
+
+        // The line.
+        self.encoder.reset.next = self.reset.val();
+        self.encoder.data_valid.next = self.sender.data_valid.val();
+        self.encoder.data.next = self.sender.data.val();
+        self.sender.data_ready.next = self.encoder.data_ready.val();
+        self.encoder.ends.next = self.sender.ends.val();
+        self.encoder.cuts.next = self.sender.is_cut.val();
+        self.sender.ended.next = self.encoder.ended.val();
+        self.uart.reset.next = self.reset.val();
+        self.uart.step.next = self.step.val();
+        self.uart.byte_valid.next = self.encoder.byte_valid.val();
+        self.uart.byte_data.next = self.encoder.byte_data.val();
+        self.encoder.byte_ready.next = self.uart.byte_ready.val();
+        self.tx.next = self.uart.tx.val();
+        self.is_quiet.next = self.sender.is_idle.val() & self.uart.is_idle.val();
+    }
+}

@@ -1,0 +1,140 @@
+//! The receive FIFO: bytes of payload, which count when their frame has turned out to be sound.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset empties it |
+//! | `begins` | in | 1 | forget the bytes that do not count yet |
+//! | `push`, `push_data` | in | 1, 8 | one more byte, which does not count yet |
+//! | `commits` | in | 1 | all bytes count |
+//! | `free` | out | 16 | bytes that may be pushed, apart from those that do not count yet |
+//! | `byte_valid`, `byte_data`, `takes` | out, out, in | 1, 8, 1 | the oldest byte that counts; it is taken at this edge |
+//!
+//! 1. `takes` only while `byte_valid`. Without it the byte stays.
+//! 2. The user pushes no more bytes than `free` says before the first of them: there is no check.
+//! 3. `commits` comes 3 clocks or more after the last `push`.
+//!
+//! Latency: 3 clocks from `commits` to `free`, and 2 to `byte_valid` if the FIFO was empty; 4 clocks from a byte taken to the next.
+//!
+//! Source: three pointers into a block RAM: where the next byte goes, where those that count end, and the oldest. They have 16 bits, of
+//! which the memory uses as many as it has: the difference of two is the number of bytes between them.
+
+use crate::leaf::BlockMemory;
+use incircle_protocol::LinkConfig;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Bits of an address of the largest FIFO.
+const ADDRESS_BITS: usize = 15;
+
+/// The receive FIFO; see the top of this file.
+#[derive(LogicBlock)]
+pub struct ReceiveFifo {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Empties it.
+    pub reset: Signal<In, Bit>,
+    /// Forget bytes that do not count yet.
+    pub begins: Signal<In, Bit>,
+    /// One more byte.
+    pub push: Signal<In, Bit>,
+    /// It.
+    pub push_data: Signal<In, Bits<8>>,
+    /// All bytes count.
+    pub commits: Signal<In, Bit>,
+    /// Bytes that may be pushed.
+    pub free: Signal<Out, Bits<16>>,
+    /// A byte is there.
+    pub byte_valid: Signal<Out, Bit>,
+    /// The oldest.
+    pub byte_data: Signal<Out, Bits<8>>,
+    /// It is taken.
+    pub takes: Signal<In, Bit>,
+    memory: BlockMemory<ADDRESS_BITS, 8>,
+    provisional: DFF<Bits<16>>,
+    committed: DFF<Bits<16>>,
+    oldest: DFF<Bits<16>>,
+    used: DFF<Bits<16>>,
+    unused: DFF<Bits<16>>,
+    holds: DFF<Bit>,
+    /// Clocks for which the oldest byte has been read, up to 3.
+    read_for: DFF<Bits<2>>,
+    size: Constant<Bits<16>>,
+    one: Signal<Local, Bits<16>>,
+    one_clock: Signal<Local, Bits<2>>,
+    longest: Signal<Local, Bits<2>>,
+}
+
+impl ReceiveFifo {
+    /// The FIFO of a link that has passed [`LinkConfig::check`].
+    pub fn new(link: LinkConfig) -> Self {
+        Self {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            begins: Signal::default(),
+            push: Signal::default(),
+            push_data: Signal::default(),
+            commits: Signal::default(),
+            free: Signal::default(),
+            byte_valid: Signal::default(),
+            byte_data: Signal::default(),
+            takes: Signal::default(),
+            memory: BlockMemory::new(link.fifo_bytes.trailing_zeros() as usize, 8),
+            provisional: DFF::default(),
+            committed: DFF::default(),
+            oldest: DFF::default(),
+            used: DFF::default(),
+            unused: DFF::default(),
+            holds: DFF::default(),
+            read_for: DFF::default(),
+            size: Constant::new(u64::from(link.fifo_bytes).into()),
+            one: Signal::default(),
+            one_clock: Signal::default(),
+            longest: Signal::default(),
+        }
+    }
+}
+
+impl Logic for ReceiveFifo {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, provisional, committed, oldest, used, unused, holds, read_for);
+        clock!(self, clock, memory);
+        self.one.next = 1.into();
+        self.one_clock.next = 1.into();
+        self.longest.next = 3.into();
+        self.memory.write_address.next = self.provisional.q.val().get_bits::<15>(0);
+        self.memory.write_data.next = self.push_data.val();
+        self.memory.write_enable.next = self.push.val();
+        self.memory.read_address.next = self.oldest.q.val().get_bits::<15>(0);
+        self.byte_data.next = self.memory.read_data.val();
+        self.byte_valid.next = self.holds.q.val() & (self.read_for.q.val() == self.longest.val());
+        self.free.next = self.unused.q.val();
+
+        self.used.d.next = self.committed.q.val() - self.oldest.q.val();
+        self.unused.d.next = self.size.val() - self.used.q.val();
+        self.holds.d.next = self.committed.q.val() != self.oldest.q.val();
+        if self.read_for.q.val() != self.longest.val() {
+            self.read_for.d.next = self.read_for.q.val() + self.one_clock.val();
+        }
+        if self.push.val() {
+            self.provisional.d.next = self.provisional.q.val() + self.one.val();
+        }
+        if self.commits.val() {
+            self.committed.d.next = self.provisional.q.val();
+        }
+        if self.begins.val() {
+            self.provisional.d.next = self.committed.q.val();
+        }
+        if self.takes.val() {
+            self.oldest.d.next = self.oldest.q.val() + self.one.val();
+            self.read_for.d.next = 0.into();
+        }
+        if self.reset.val() {
+            self.provisional.d.next = 0.into();
+            self.committed.d.next = 0.into();
+            self.oldest.d.next = 0.into();
+            self.holds.d.next = false;
+            self.read_for.d.next = 0.into();
+        }
+    }
+}

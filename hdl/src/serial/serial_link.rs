@@ -1,0 +1,208 @@
+//! The serial link: a line on one side, the streams of a core on the other.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
+//! | `rx`, `tx` | in, out | 1 | the line, high when idle |
+//! | `alive`, `busy`, `error` | out | 1 | for lamps: a beat, or steady in a session; a command is under way; a frame was dropped in this session |
+//! | `core_reset` | out | 1 | reset of the core |
+//! | `command_valid`, `command_ready`, `command_data` | out, in, out | 1, 1, 32 | the command stream |
+//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 32 | the answer stream |
+//!
+//! 1. `protocol/SERIAL.md` says what passes on the line.
+//! 2. The core is held in reset while no session is open, and reset when one begins.
+//!
+//! ```text
+//! rx -> LinkReceiver ------ commands -----------> core
+//!         | asked, credit, digest                  |
+//!         v                                        |
+//!       SessionState, RateControl, LineTimers      |
+//!         |                                        v
+//! tx <- LinkTransmitter <---- answers ----- CommandProgress
+//! ```
+//! Latency: see the blocks.
+
+use super::{CommandProgress, LineTimers, LinkReceiver, LinkTransmitter, RateControl, SessionState};
+use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The serial link; see the top of this file.
+#[derive(LogicBlock)]
+pub struct SerialLink {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Synchronous reset.
+    pub reset: Signal<In, Bit>,
+    /// The line from the host.
+    pub rx: Signal<In, Bit>,
+    /// The line to the host.
+    pub tx: Signal<Out, Bit>,
+    /// A beat, or steady in a session.
+    pub alive: Signal<Out, Bit>,
+    /// A command is under way.
+    pub busy: Signal<Out, Bit>,
+    /// A frame was dropped.
+    pub error: Signal<Out, Bit>,
+    /// Reset of the core.
+    pub core_reset: Signal<Out, Bit>,
+    /// A command word is offered.
+    pub command_valid: Signal<Out, Bit>,
+    /// It is taken.
+    pub command_ready: Signal<In, Bit>,
+    /// The word.
+    pub command_data: Signal<Out, Bits<32>>,
+    /// An answer word is offered.
+    pub response_valid: Signal<In, Bit>,
+    /// It is taken.
+    pub response_ready: Signal<Out, Bit>,
+    /// The word.
+    pub response_data: Signal<In, Bits<32>>,
+    receiver: LinkReceiver,
+    transmitter: LinkTransmitter,
+    session: SessionState,
+    rate: RateControl,
+    timers: LineTimers,
+    progress: CommandProgress,
+    resets_core: DFF<Bit>,
+    has_failed: DFF<Bit>,
+    dropped: DFF<Bit>,
+    takes_command: Signal<Local, Bit>,
+    clears: Signal<Local, Bit>,
+}
+
+/// Parameters that no device with a serial link can be built with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SerialError {
+    /// One of the core.
+    Core(ConfigError),
+    /// One of the link.
+    Link(LinkConfigError),
+}
+
+impl From<ConfigError> for SerialError {
+    fn from(error: ConfigError) -> Self {
+        Self::Core(error)
+    }
+}
+
+impl From<LinkConfigError> for SerialError {
+    fn from(error: LinkConfigError) -> Self {
+        Self::Link(error)
+    }
+}
+
+impl SerialLink {
+    /// The link of a core of this configuration.
+    ///
+    /// # Errors
+    /// If a parameter is out of range; the error says which and what is possible.
+    pub fn new(config: Config, link: LinkConfig) -> Result<Self, SerialError> {
+        let (config, link) = (config.check()?, link.check()?);
+        Ok(Self {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            rx: Signal::default(),
+            tx: Signal::default(),
+            alive: Signal::default(),
+            busy: Signal::default(),
+            error: Signal::default(),
+            core_reset: Signal::default(),
+            command_valid: Signal::default(),
+            command_ready: Signal::default(),
+            command_data: Signal::default(),
+            response_valid: Signal::default(),
+            response_ready: Signal::default(),
+            response_data: Signal::default(),
+            receiver: LinkReceiver::new(link),
+            transmitter: LinkTransmitter::new(config, link),
+            session: SessionState::default(),
+            rate: RateControl::new(link),
+            timers: LineTimers::new(link),
+            progress: CommandProgress::default(),
+            resets_core: DFF::default(),
+            has_failed: DFF::default(),
+            dropped: DFF::default(),
+            takes_command: Signal::default(),
+            clears: Signal::default(),
+        })
+    }
+}
+
+impl Logic for SerialLink {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, resets_core, has_failed, dropped);
+        clock!(self, clock, receiver, transmitter, session, rate, timers, progress);
+        self.receiver.reset.next = self.reset.val();
+        self.transmitter.reset.next = self.reset.val();
+        self.session.reset.next = self.reset.val();
+        self.rate.reset.next = self.reset.val();
+        self.timers.reset.next = self.reset.val();
+        self.clears.next = self.session.forgets.val() | self.reset.val();
+        self.progress.reset.next = self.clears.val();
+        self.resets_core.d.next = self.clears.val();
+        self.core_reset.next = self.resets_core.q.val();
+
+        // From the line to the core.
+        self.receiver.step.next = self.rate.step.val();
+        self.receiver.rx.next = self.rx.val();
+        self.receiver.is_open.next = self.session.is_open.val();
+        self.receiver.open_session.next = self.session.number.val();
+        self.receiver.expected.next = self.session.expected.val();
+        self.receiver.forgets.next = self.session.forgets.val();
+        self.takes_command.next =
+            self.receiver.command_valid.val() & self.command_ready.val() & (!self.resets_core.q.val());
+        self.command_valid.next = self.receiver.command_valid.val();
+        self.command_data.next = self.receiver.command_data.val();
+        self.receiver.command_ready.next = self.takes_command.val();
+
+        // The session.
+        self.timers.is_low.next = self.receiver.is_low.val();
+        self.timers.hears.next = self.receiver.asked.val().hears;
+        self.has_failed.d.next = self.timers.is_broken.val()
+            | (self.timers.is_silent.val() & self.session.is_open.val() & (!self.receiver.asked.val().hears));
+        self.session.asked.next = self.receiver.asked.val();
+        self.session.session.next = self.receiver.session.val();
+        self.session.fails.next = self.has_failed.q.val();
+        self.rate.asked.next = self.receiver.asked.val();
+        self.rate.value.next = self.receiver.value.val();
+        self.rate.fails.next = self.has_failed.q.val();
+        self.rate.acknowledges.next = self.transmitter.acknowledges.val();
+        self.rate.closes.next = self.transmitter.closes.val();
+        self.rate.is_quiet.next = self.transmitter.is_quiet.val();
+        self.progress.takes.next = self.takes_command.val();
+        self.progress.is_ending.next = self.transmitter.is_ending.val();
+        self.progress.answer_ended.next = self.transmitter.answer_ended.val();
+
+        // From the core to the line.
+        self.transmitter.step.next = self.rate.step.val();
+        self.transmitter.asked.next = self.receiver.asked.val();
+        self.transmitter.saw_gap.next = self.session.saw_gap.val();
+        self.transmitter.session.next = self.session.number.val();
+        self.transmitter.expected.next = self.session.expected.val();
+        self.transmitter.free.next = self.receiver.free.val();
+        self.transmitter.digest.next = self.receiver.digest.val();
+        self.transmitter.is_open.next = self.session.is_open.val();
+        self.transmitter.is_refused.next = self.rate.is_refused.val();
+        self.transmitter.is_busy.next = self.progress.is_busy.val();
+        self.transmitter.fails.next = self.has_failed.q.val();
+        self.transmitter.forgets.next = self.session.forgets.val();
+        self.transmitter.holds.next = self.rate.holds.val() | self.session.settles.val();
+        self.transmitter.response_valid.next = self.response_valid.val() & (!self.resets_core.q.val());
+        self.transmitter.response_data.next = self.response_data.val();
+        self.response_ready.next = self.transmitter.response_ready.val();
+        self.tx.next = self.transmitter.tx.val();
+
+        // Lamps.
+        if self.receiver.asked.val().drops {
+            self.dropped.d.next = true;
+        }
+        if self.clears.val() {
+            self.dropped.d.next = false;
+        }
+        self.alive.next = self.session.is_open.val() | self.timers.beat.val();
+        self.busy.next = self.progress.is_busy.val();
+        self.error.next = self.dropped.q.val();
+    }
+}

@@ -1,0 +1,100 @@
+//! The session: whether one is open, its number, and the number of the `Data` frame that is awaited.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | after reset no session is open |
+//! | `asked`, `session` | in | Asked, 8 | what a frame asks for, and the session it names |
+//! | `fails` | in | 1 | silence or a break: the session ends at this edge |
+//! | `is_open`, `number` | out | 1, 8 | a session is open; its number, or 0 |
+//! | `expected` | out | 8 | number of the `Data` frame that is awaited |
+//! | `saw_gap` | out | 1 | a `Data` frame behind it has come, or one without room, since the last that was taken |
+//! | `forgets` | out | 1 | whatever belongs to a session is to be forgotten: none is open, or one begins |
+//! | `settles` | out | 1 | something has just changed: no frame to the host may begin |
+//!
+//! 1. `forgets` lasts a clock at least when a session begins, also if one was open before.
+//! 2. An `Open` at the very clock of `fails` opens a session.
+//! 3. `settles` lasts 7 clocks from a change on: then what a frame says of number, credit and digest is of one and the same moment.
+//!
+//! Latency: 1 clock.
+
+use super::Asked;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The session; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct SessionState {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// No session is open.
+    pub reset: Signal<In, Bit>,
+    /// What a frame asks for.
+    pub asked: Signal<In, Asked>,
+    /// The session that it names.
+    pub session: Signal<In, Bits<8>>,
+    /// The session ends.
+    pub fails: Signal<In, Bit>,
+    /// A session is open.
+    pub is_open: Signal<Out, Bit>,
+    /// Its number.
+    pub number: Signal<Out, Bits<8>>,
+    /// Number of the frame that is awaited.
+    pub expected: Signal<Out, Bits<8>>,
+    /// There is a gap before a frame that has come.
+    pub saw_gap: Signal<Out, Bit>,
+    /// Forget what belongs to a session.
+    pub forgets: Signal<Out, Bit>,
+    /// No frame may begin.
+    pub settles: Signal<Out, Bit>,
+    opened: DFF<Bit>,
+    session_number: DFF<Bits<8>>,
+    awaited: DFF<Bits<8>>,
+    gap: DFF<Bit>,
+    begins: DFF<Bit>,
+    settling: DFF<Bits<3>>,
+    one: Signal<Local, Bits<8>>,
+    one_clock: Signal<Local, Bits<3>>,
+}
+
+impl Logic for SessionState {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, opened, session_number, awaited, gap, begins, settling);
+        self.one.next = 1.into();
+        self.one_clock.next = 1.into();
+        self.is_open.next = self.opened.q.val();
+        self.number.next = self.session_number.q.val();
+        self.expected.next = self.awaited.q.val();
+        self.saw_gap.next = self.gap.q.val();
+        self.forgets.next = self.begins.q.val() | (!self.opened.q.val());
+        self.settles.next = self.settling.q.val().any();
+
+        if self.settling.q.val().any() {
+            self.settling.d.next = self.settling.q.val() - self.one_clock.val();
+        }
+        if self.asked.val().hears {
+            self.settling.d.next = 7.into();
+        }
+        if self.asked.val().takes {
+            self.awaited.d.next = self.awaited.q.val() + self.one.val();
+            self.gap.d.next = false;
+        }
+        if self.asked.val().gap {
+            self.gap.d.next = true;
+        }
+        if self.asked.val().closes | self.fails.val() | self.reset.val() {
+            self.opened.d.next = false;
+            self.session_number.d.next = 0.into();
+            self.awaited.d.next = 0.into();
+            self.gap.d.next = false;
+            self.settling.d.next = 7.into();
+        }
+        self.begins.d.next = self.asked.val().opens;
+        if self.asked.val().opens & (!self.reset.val()) {
+            self.opened.d.next = true;
+            self.session_number.d.next = self.session.val();
+            self.awaited.d.next = 0.into();
+            self.gap.d.next = false;
+        }
+    }
+}

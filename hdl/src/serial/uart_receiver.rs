@@ -1,0 +1,190 @@
+//! Bytes from a line: 8 data bits, no parity, one stop bit, at any rate.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset awaits a byte |
+//! | `step` | in | 22 | a bit takes `2^24 / step` clocks, at least 8 |
+//! | `rx` | in | 1 | the line, high when idle; it may change at any time |
+//! | `byte_valid`, `byte_data` | out | 1, 8 | a byte has come |
+//! | `noise` | out | 1 | a byte without a stop bit has come: it is lost |
+//! | `is_low` | out | 1 | the line as it is, for the detection of a break |
+//!
+//! 1. The line passes two registers before it is used. A bit is what two of three samples around its middle say.
+//! 2. A start bit that is high in its middle was none: nothing happens.
+//! 3. After a byte without a stop bit the line must be high before another begins: a break is one such byte.
+//! 4. A byte ends in the middle of its stop bit, so the next may begin half a bit early.
+//!
+//! Latency: 5 clocks from the middle of the stop bit to `byte_valid`.
+//!
+//! Source: the two registers are the usual guard against metastability. All store the line inverted, so that they begin as an idle one.
+
+use super::BitClock;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// What the line is at.
+#[derive(Clone, Copy, Debug, PartialEq, LogicState)]
+pub enum ReceiveState {
+    /// Nothing: a start bit is awaited.
+    Idle,
+    /// A start bit.
+    Start,
+    /// A data bit.
+    Data,
+    /// The stop bit.
+    Stop,
+    /// A low line that should be high.
+    Recover,
+}
+
+/// Bytes from a line; see the top of this file.
+#[derive(LogicBlock)]
+pub struct UartReceiver {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Awaits a byte.
+    pub reset: Signal<In, Bit>,
+    /// Rate.
+    pub step: Signal<In, Bits<22>>,
+    /// The line.
+    pub rx: Signal<In, Bit>,
+    /// A byte has come.
+    pub byte_valid: Signal<Out, Bit>,
+    /// It.
+    pub byte_data: Signal<Out, Bits<8>>,
+    /// A byte is lost.
+    pub noise: Signal<Out, Bit>,
+    /// The line is low.
+    pub is_low: Signal<Out, Bit>,
+    unsettled: DFF<Bit>,
+    sample: DFF<Bit>,
+    sample_before: DFF<Bit>,
+    sample_first: DFF<Bit>,
+    vote: DFF<Bit>,
+    state: DFF<ReceiveState>,
+    bits: DFF<Bits<8>>,
+    place: DFF<Bits<3>>,
+    comes: DFF<Bit>,
+    is_noise: DFF<Bit>,
+    bit_clock: BitClock,
+    shifted: Signal<Local, Bits<8>>,
+    one: Signal<Local, Bits<8>>,
+    one_place: Signal<Local, Bits<3>>,
+    last_place: Signal<Local, Bits<3>>,
+    top_bit: Signal<Local, Bits<8>>,
+}
+
+impl Default for UartReceiver {
+    fn default() -> Self {
+        Self {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            step: Signal::default(),
+            rx: Signal::default(),
+            byte_valid: Signal::default(),
+            byte_data: Signal::default(),
+            noise: Signal::default(),
+            is_low: Signal::default(),
+            unsettled: DFF::default(),
+            sample: DFF::default(),
+            sample_before: DFF::default(),
+            sample_first: DFF::default(),
+            vote: DFF::default(),
+            state: DFF::default(),
+            bits: DFF::default(),
+            place: DFF::default(),
+            comes: DFF::default(),
+            is_noise: DFF::default(),
+            bit_clock: BitClock::in_middles(),
+            shifted: Signal::default(),
+            one: Signal::default(),
+            one_place: Signal::default(),
+            last_place: Signal::default(),
+            top_bit: Signal::default(),
+        }
+    }
+}
+
+impl Logic for UartReceiver {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, unsettled, sample, sample_before, sample_first, vote);
+        dff_setup!(self, clock, state, bits, place, comes, is_noise);
+        clock!(self, clock, bit_clock);
+        self.one.next = 1.into();
+        self.one_place.next = 1.into();
+        self.last_place.next = 7.into();
+        self.byte_valid.next = self.comes.q.val();
+        self.byte_data.next = self.bits.q.val();
+        self.noise.next = self.is_noise.q.val();
+        self.is_low.next = self.sample.q.val();
+
+        // The line, inverted, and what three samples of it say.
+        self.unsettled.d.next = !self.rx.val();
+        self.sample.d.next = self.unsettled.q.val();
+        self.sample_before.d.next = self.sample.q.val();
+        self.sample_first.d.next = self.sample_before.q.val();
+        self.vote.d.next = (self.sample.q.val() & self.sample_before.q.val())
+            | (self.sample.q.val() & self.sample_first.q.val())
+            | (self.sample_before.q.val() & self.sample_first.q.val());
+
+        self.bit_clock.step.next = self.step.val();
+        self.bit_clock.starts.next = false;
+        self.shifted.next = self.bits.q.val() >> self.one.val();
+        self.top_bit.next = 0x80.into();
+        if self.vote.q.val() {
+            self.top_bit.next = 0.into();
+        }
+        self.comes.d.next = false;
+        self.is_noise.d.next = false;
+        match self.state.q.val() {
+            ReceiveState::Idle => {
+                if self.sample.q.val() {
+                    self.bit_clock.starts.next = true;
+                    self.state.d.next = ReceiveState::Start;
+                }
+            }
+            ReceiveState::Start => {
+                if self.bit_clock.ticks.val() {
+                    self.place.d.next = 0.into();
+                    self.state.d.next = ReceiveState::Idle;
+                    if self.vote.q.val() {
+                        self.state.d.next = ReceiveState::Data;
+                    }
+                }
+            }
+            ReceiveState::Data => {
+                if self.bit_clock.ticks.val() {
+                    self.bits.d.next = self.shifted.val() | self.top_bit.val();
+                    self.place.d.next = self.place.q.val() + self.one_place.val();
+                    if self.place.q.val() == self.last_place.val() {
+                        self.state.d.next = ReceiveState::Stop;
+                    }
+                }
+            }
+            ReceiveState::Stop => {
+                if self.bit_clock.ticks.val() {
+                    self.comes.d.next = !self.vote.q.val();
+                    self.is_noise.d.next = self.vote.q.val();
+                    self.state.d.next = ReceiveState::Idle;
+                    if self.vote.q.val() {
+                        self.state.d.next = ReceiveState::Recover;
+                    }
+                }
+            }
+            ReceiveState::Recover => {
+                if !self.vote.q.val() {
+                    self.state.d.next = ReceiveState::Idle;
+                }
+            }
+            _ => {
+                self.state.d.next = ReceiveState::Idle;
+            }
+        }
+        if self.reset.val() {
+            self.state.d.next = ReceiveState::Idle;
+            self.comes.d.next = false;
+            self.is_noise.d.next = false;
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Bytes onto a line: 8 data bits, no parity, one stop bit, at any rate.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset leaves the line high |
+//! | `step` | in | 22 | a bit takes `2^24 / step` clocks |
+//! | `byte_valid`, `byte_ready`, `byte_data` | in, out, in | 1, 1, 8 | the bytes |
+//! | `tx` | out | 1 | the line, high when idle |
+//! | `is_idle` | out | 1 | the last stop bit is over |
+//!
+//! 1. `byte_ready` depends on registers only, and lasts a clock: a byte is taken between two bits.
+//! 2. Bytes that are always there follow each other without a gap; a byte that comes later waits for up to a bit.
+//!
+//! Latency: 1 clock from the byte taken to its start bit.
+//!
+//! Source: the line is stored inverted, so that it is high before reset too.
+
+use super::BitClock;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Bytes onto a line; see the top of this file.
+#[derive(LogicBlock)]
+pub struct UartTransmitter {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Leaves the line high.
+    pub reset: Signal<In, Bit>,
+    /// Rate.
+    pub step: Signal<In, Bits<22>>,
+    /// A byte is offered.
+    pub byte_valid: Signal<In, Bit>,
+    /// It is taken.
+    pub byte_ready: Signal<Out, Bit>,
+    /// The byte.
+    pub byte_data: Signal<In, Bits<8>>,
+    /// The line.
+    pub tx: Signal<Out, Bit>,
+    /// The last stop bit is over.
+    pub is_idle: Signal<Out, Bit>,
+    is_low: DFF<Bit>,
+    /// Data bits that are still to come, inverted; the stop bit follows them as zeros.
+    bits: DFF<Bits<8>>,
+    /// Bits of the byte, the one on the line included.
+    left: DFF<Bits<4>>,
+    bit_clock: BitClock,
+    is_over: Signal<Local, Bit>,
+    all: Signal<Local, Bits<8>>,
+    one: Signal<Local, Bits<8>>,
+    one_bit: Signal<Local, Bits<4>>,
+}
+
+impl Default for UartTransmitter {
+    fn default() -> Self {
+        Self {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            step: Signal::default(),
+            byte_valid: Signal::default(),
+            byte_ready: Signal::default(),
+            byte_data: Signal::default(),
+            tx: Signal::default(),
+            is_idle: Signal::default(),
+            is_low: DFF::default(),
+            bits: DFF::default(),
+            left: DFF::default(),
+            bit_clock: BitClock::at_ends(),
+            is_over: Signal::default(),
+            all: Signal::default(),
+            one: Signal::default(),
+            one_bit: Signal::default(),
+        }
+    }
+}
+
+impl Logic for UartTransmitter {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, is_low, bits, left);
+        clock!(self, clock, bit_clock);
+        self.all.next = 0xff.into();
+        self.one.next = 1.into();
+        self.one_bit.next = 1.into();
+        self.tx.next = !self.is_low.q.val();
+        self.is_idle.next = !self.left.q.val().any();
+        self.bit_clock.step.next = self.step.val();
+        self.bit_clock.starts.next = self.reset.val();
+        self.is_over.next = !self.left.q.val().get_bits::<3>(1).any();
+        self.byte_ready.next = self.bit_clock.ticks.val() & self.is_over.val();
+        if self.bit_clock.ticks.val() {
+            self.is_low.d.next = self.bits.q.val().get_bit(0);
+            self.bits.d.next = self.bits.q.val() >> self.one.val();
+            self.left.d.next = self.left.q.val() - self.one_bit.val();
+            if self.is_over.val() {
+                self.is_low.d.next = self.byte_valid.val();
+                self.bits.d.next = self.byte_data.val() ^ self.all.val();
+                self.left.d.next = 0.into();
+                if self.byte_valid.val() {
+                    self.left.d.next = 10.into();
+                }
+            }
+        }
+        if self.reset.val() {
+            self.is_low.d.next = false;
+            self.left.d.next = 0.into();
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! A whole device: the core behind its serial link.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
+//! | `rx`, `tx` | in, out | 1 | the line, high when idle |
+//! | `leds` | out | 3 | alive, busy, error, from bit 0 up; see `SerialLink` |
+//! | `write` | out | Write | the write port of the triangle memory, for simulation |
+//!
+//! 1. `reset` is needed once, after power-up.
+//!
+//! Latency: see the blocks.
+
+use super::Core;
+use crate::engine::Write;
+use crate::serial::{SerialError, SerialLink};
+use incircle_protocol::{Config, LinkConfig};
+use rust_hdl_core::prelude::*;
+
+/// The core behind its serial link; see the top of this file.
+#[derive(LogicBlock)]
+pub struct SerialTop {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Synchronous reset.
+    pub reset: Signal<In, Bit>,
+    /// The line from the host.
+    pub rx: Signal<In, Bit>,
+    /// The line to the host.
+    pub tx: Signal<Out, Bit>,
+    /// Alive, busy, error.
+    pub leds: Signal<Out, Bits<3>>,
+    /// The write port of the triangle memory.
+    pub write: Signal<Out, Write>,
+    core: Core,
+    link: SerialLink,
+    alive: Signal<Local, Bits<3>>,
+    busy: Signal<Local, Bits<3>>,
+    error: Signal<Local, Bits<3>>,
+}
+
+impl SerialTop {
+    /// The device of a configuration of the core and of the link.
+    ///
+    /// # Errors
+    /// If a parameter is out of range; the error says which and what is possible.
+    pub fn new(config: Config, link: LinkConfig) -> Result<Self, SerialError> {
+        Ok(Self {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            rx: Signal::default(),
+            tx: Signal::default(),
+            leds: Signal::default(),
+            write: Signal::default(),
+            core: Core::new(config)?,
+            link: SerialLink::new(config, link)?,
+            alive: Signal::default(),
+            busy: Signal::default(),
+            error: Signal::default(),
+        })
+    }
+}
+
+impl Logic for SerialTop {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, core, link);
+        self.link.reset.next = self.reset.val();
+        self.link.rx.next = self.rx.val();
+        self.tx.next = self.link.tx.val();
+        self.core.reset.next = self.link.core_reset.val();
+        self.core.command_valid.next = self.link.command_valid.val();
+        self.core.command_data.next = self.link.command_data.val();
+        self.link.command_ready.next = self.core.command_ready.val();
+        self.link.response_valid.next = self.core.response_valid.val();
+        self.link.response_data.next = self.core.response_data.val();
+        self.core.response_ready.next = self.link.response_ready.val();
+        self.write.next = self.core.write.val();
+
+        self.alive.next = 0.into();
+        self.busy.next = 0.into();
+        self.error.next = 0.into();
+        if self.link.alive.val() {
+            self.alive.next = 1.into();
+        }
+        if self.link.busy.val() {
+            self.busy.next = 2.into();
+        }
+        if self.link.error.val() {
+            self.error.next = 4.into();
+        }
+        self.leds.next = self.alive.val() | self.busy.val() | self.error.val();
+    }
+}
