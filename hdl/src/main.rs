@@ -1,7 +1,7 @@
 //! The hardware side's command: export of the core to Verilog, and bitstreams for boards.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use incircle_hdl::board::{self, Board, BoardError, Report, Request, BOARDS};
+use incircle_hdl::board::{self, Board, BoardError, Origin, Report, Request, BOARDS};
 use incircle_hdl::committed::{self, Top};
 use incircle_protocol::{Config, LinkConfig, NAMED, SILENCE_MS};
 use std::path::{Path, PathBuf};
@@ -59,7 +59,7 @@ struct BoardArguments {
     #[arg(long, conflicts_with = "table")]
     all: bool,
     /// Write the tables of the documents anew from the boards' reports.
-    #[arg(long, conflicts_with_all = ["out", "seeds", "config", "clock", "system", "renew"])]
+    #[arg(long, conflicts_with_all = ["out", "seeds", "config", "clock", "system", "system_yosys", "renew"])]
     table: bool,
     /// Folder for the bitstream, report.json, and all that the tools say.
     #[arg(short, long, required_unless_present = "table")]
@@ -76,6 +76,9 @@ struct BoardArguments {
     /// Use yosys, nextpnr-ecp5 and ecppack from PATH, not the pinned ones.
     #[arg(long)]
     system: bool,
+    /// Use yosys from PATH, and the pinned nextpnr-ecp5 and ecppack.
+    #[arg(long, conflicts_with = "system")]
+    system_yosys: bool,
     /// Keep the report in the board's folder, and renew the tables.
     #[arg(long, conflicts_with = "config")]
     renew: bool,
@@ -139,7 +142,11 @@ fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(),
         seeds: arguments.seeds,
         clock_mhz: arguments.clock,
         out,
-        system_tools: arguments.system,
+        tools: match (arguments.system, arguments.system_yosys) {
+            (true, _) => Origin::System,
+            (_, true) => Origin::SystemYosys,
+            _ => Origin::Pinned,
+        },
         say: &say,
     };
     let built = board::build(&request);
@@ -153,17 +160,28 @@ fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(),
     Ok(())
 }
 
+/// Exit code if the tools cannot be fetched, so that a script can tell that from a fault.
+const NO_TOOLS: u8 = 3;
+
 fn main() -> ExitCode {
-    let errors = match Arguments::parse().command {
-        Command::Export(arguments) => export(arguments).err().map(|error| error.to_string()).into_iter().collect(),
-        Command::Board(arguments) => boards(&arguments).iter().map(BoardError::to_string).collect::<Vec<_>>(),
-    };
-    for error in &errors {
-        eprintln!("incircle-hdl: {error}");
-    }
-    if errors.is_empty() {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
+    match Arguments::parse().command {
+        Command::Export(arguments) => match export(arguments) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => {
+                eprintln!("incircle-hdl: {error}");
+                ExitCode::FAILURE
+            }
+        },
+        Command::Board(arguments) => {
+            let errors = boards(&arguments);
+            for error in &errors {
+                eprintln!("incircle-hdl: {error}");
+            }
+            match errors.first() {
+                None => ExitCode::SUCCESS,
+                Some(BoardError::Install(_)) => NO_TOOLS.into(),
+                Some(_) => ExitCode::FAILURE,
+            }
+        }
     }
 }

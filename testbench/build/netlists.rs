@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use incircle_hdl::board::mapping;
 use incircle_hdl::export;
 use incircle_hdl::top::CORE_NAME;
 use incircle_protocol::{Config, SMALL};
@@ -11,9 +12,11 @@ use incircle_protocol::{Config, SMALL};
 /// Models of the cells that synthesis maps to.
 const CELLS: [&str; 8] = ["CCU2C", "DP16KD", "L6MUX21", "LUT4", "MULT18X18D", "PFUMX", "TRELLIS_DPR16X4", "TRELLIS_FF"];
 
-/// The flow of `incircle-hdl board`, up to placement. Nets that only have a name are dropped: they would be simulated too.
-const PASSES: &str = "read_verilog -D INCIRCLE_ECP5 design.v; synth_ecp5 -abc9 -top incircle_core; check -assert; \
-                      opt_clean -purge; write_verilog -noattr netlist.v";
+/// The passes: those of the boards. Nets that only have a name are dropped: they would be simulated too.
+fn passes() -> String {
+    let mapping = mapping(CORE_NAME);
+    format!("read_verilog -D INCIRCLE_ECP5 design.v; {mapping}; opt_clean -purge; write_verilog -noattr netlist.v")
+}
 
 /// Synthesis leaves pins of cells open that a mode does not use.
 const OPEN_PINS: &str = "/* verilator lint_off PINMISSING */\n";
@@ -39,7 +42,7 @@ fn netlist(name: &str, config: Config) -> String {
 /// The netlist of a design; from the last build, if the design and yosys are the same.
 fn synthesised(name: &str, design: &str) -> String {
     let folder = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets it")).join("netlists").join(name);
-    let key = [&yosys(&["-V"], Path::new(".")), PASSES, CORE_NAME, design].join("\n");
+    let key = [&yosys(&["-V"], Path::new(".")), &passes(), design].join("\n");
     let [key_file, design_file, netlist_file] = ["key", "design.v", "netlist.v"].map(|file| folder.join(file));
     let read = |path: &Path| fs::read_to_string(path).ok();
     if let (true, Some(netlist)) = (read(&key_file).is_some_and(|kept| kept == key), read(&netlist_file)) {
@@ -53,7 +56,7 @@ fn synthesised(name: &str, design: &str) -> String {
     }
     fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     write(&design_file, design);
-    yosys(&["-q", "-p", PASSES], &folder);
+    yosys(&["-q", "-p", &passes()], &folder);
     let netlist = read(&netlist_file).unwrap_or_else(|| panic!("yosys has left no {}", netlist_file.display()));
     // Last, so that a build that was cut short is not taken for a whole one.
     write(&key_file, &key);

