@@ -19,7 +19,7 @@ use crate::predicate::{
 use crate::serial::{SerialError, SerialLink};
 use crate::top::{serial_wrapper, wrapper, Core, SerialTop, CORE_NAME, SERIAL_TOP_NAME};
 
-pub use serial_blocks::QUICK_LINK;
+pub use serial_blocks::{HASTY_LINK, QUICK_LINK};
 
 /// A design that cannot become Verilog.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -126,10 +126,22 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
 /// # Errors
 /// If a parameter is out of range, or the design is not fit for export.
 pub fn serial_top(config: Config, link: LinkConfig, with_probe: bool) -> Result<String, ExportError> {
-    let mut uut = SerialTop::new(config, link)?;
-    uut.connect_all();
-    let inside = format!("{SERIAL_TOP_NAME}_logic");
-    Ok(format!("{}{}", verilog(&uut, &inside)?, serial_wrapper(&inside, with_probe)))
+    on_large_stack(|| {
+        let mut uut = SerialTop::new(config, link)?;
+        uut.connect_all();
+        let inside = format!("{SERIAL_TOP_NAME}_logic");
+        Ok(format!("{}{}", verilog(&uut, &inside)?, serial_wrapper(&inside, with_probe)))
+    })
+}
+
+/// Runs this in a thread with room for a whole device, which is built by value: several copies of 300 kB, too much for the usual stack
+/// of a thread. Where no thread can be had, the caller's stack must do.
+fn on_large_stack<T: Send>(work: impl Fn() -> T + Sync) -> T {
+    const STACK_BYTES: usize = 16 << 20;
+    std::thread::scope(|scope| match std::thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, &work) {
+        Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+        Err(_) => work(),
+    })
 }
 
 /// The Verilog of a serial link alone, as the root module `name`.

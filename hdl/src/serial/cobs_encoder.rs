@@ -17,7 +17,13 @@
 //!
 //! The frame 11 0 22, sent to a line that takes a byte every second clock; numbers of the wave are decimal:
 //! ```text
-//! data_valid      ___/^^^^^^^^^^^^^^^^^\________________
+//! data_valid      ___/^^^^^^^^^^^^^^^^^\___________
+//! data              . 11 11  0  0 22 22  .  .  .  .
+//! data_ready      ______/^^\__/^^\__/^^\___________
+//! ends            _____________________/^^^^^^^^^^^
+//! byte_ready      /^^\__/^^\__/^^\__/^^\__/^^\__/^^
+//! byte_data         .  . 11  .  2  . 22  .  2  .  0
+//! ended           ______________________________/^^
 //! ```
 
 use rust_hdl_core::prelude::*;

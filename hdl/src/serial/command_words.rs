@@ -9,6 +9,16 @@
 //! 1. A word once offered stays until it is taken.
 //!
 //! Latency: 1 clock from the fourth byte.
+//!
+//! A word that has to wait; `takes` shows where a byte is taken:
+//! ```text
+//! byte_valid      ___/^^^^^^^^^^^^^^^^^^^^^^^^^^
+//! byte_data         5  5  0  0  0  7  7  7  7  0
+//! takes           ___/^^^^^^^^^^^\________/^^^^^
+//! word_valid      _______________/^^^^^^^^\_____
+//! word_ready      _____________________/^^^^^^^^
+//! word              .  .  .  .  .  5  5  5  .  .
+//! ```
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

@@ -122,6 +122,7 @@ impl Logic for LineTimers {
         }
         if self.reset.val() {
             self.clocks.d.next = 0.into();
+            self.ticks.d.next = false;
             self.low_for.d.next = 0.into();
             self.breaks.d.next = false;
             self.beats.d.next = 0.into();

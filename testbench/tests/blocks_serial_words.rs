@@ -1,0 +1,658 @@
+//! The serial link between frames and the core: FIFO, digests, words, answers, headers. Rust, Verilog and plain code agree.
+
+mod block_ports;
+mod serial_host;
+mod stepper;
+
+use std::collections::VecDeque;
+
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::export::QUICK_LINK;
+use incircle_hdl::serial::{
+    AnswerPacker, CommandProgress, CommandWords, FrameBytes, FrameChoice, FrameHeader, FrameSender, Greeting,
+    PayloadDigest, ReceiveFifo,
+};
+use incircle_protocol::{CORE_VERSION, SMALL};
+use serial_host::crc32_state;
+use stepper::{named_ports, Cell, Stepper, Wave};
+
+named_ports!(ReceiveFifo, [reset, begins, push, push_data, commits, takes], [free, byte_valid, byte_data], clock);
+named_ports!(PayloadDigest, [reset, begins, push, push_data, commits], [state], clock);
+named_ports!(CommandWords, [reset, byte_valid, byte_data, word_ready], [takes, word_valid, word], clock);
+named_ports!(CommandProgress, [reset, takes, is_ending, answer_ended], [is_busy], clock);
+named_ports!(
+    AnswerPacker,
+    [reset, response_valid, response_data, starts, takes, ended],
+    [response_ready, is_due, is_last, number, part, byte_valid, byte_data, byte_is_last, awaits, is_ending],
+    clock
+);
+named_ports!(
+    FrameChoice,
+    [is_idle, reply_is_due, reply_kind, answer_is_due, answer_is_last, holds, cuts],
+    [starts, starts_reply, starts_answer, kind, has_greeting, has_digest, has_answer, ends_answer],
+    clock
+);
+named_ports!(
+    FrameSender,
+    [
+        reset,
+        starts,
+        has_greeting,
+        has_digest,
+        has_answer,
+        ends_answer,
+        cuts,
+        byte_data,
+        sum_is_busy,
+        word_byte_valid,
+        word_byte_is_last,
+        data_ready,
+        ended
+    ],
+    [part, index, loads, loads_word, data_valid, data, ends, is_cut, answer_ended, is_idle],
+    clock
+);
+named_ports!(
+    FrameHeader,
+    [reset, starts, session, expected, answers, free, is_open, is_refused, is_busy, drops, digest, kind, index],
+    [byte_data, digest_taken],
+    clock
+);
+named_ports!(
+    FrameBytes,
+    [part, index, ends_answer, header, greeting, word, answers, answer_part, payload_state, answer_state, sum_state],
+    [byte_data],
+    clock
+);
+named_ports!(Greeting, [index], [byte_data], clock);
+
+#[test]
+fn fifo_gives_what_was_committed_and_nothing_else() {
+    let size = QUICK_LINK.fifo_bytes as usize;
+    let mut random = SplitMix64::new(1);
+    let mut block = Stepper::new("serial_receive_fifo", ReceiveFifo::new(QUICK_LINK), 1);
+    let mut committed: VecDeque<u8> = VecDeque::new();
+    let mut provisional: Vec<u8> = Vec::new();
+    // Clocks for which nothing has been pushed, and for which `free` can have followed.
+    let (mut rests_for, mut still_for) = (0, 0);
+    let (mut commits, mut windings, mut fullest) = (0, 0, 0);
+    for clock in 0..150_000 {
+        // Now it fills, now it empties.
+        let (fills, empties) = if clock / 20_000 % 2 == 0 { (2, 40) } else { (12, 3) };
+        let reset = clock == 0 || random.below(40_000) == 0;
+        let has_room = committed.len() + provisional.len() < size;
+        let push = clock > 0 && has_room && random.below(fills) == 0;
+        let commit = !push && rests_for >= 3 && random.below(8) == 0;
+        let begins = !push && !commit && random.below(1500) == 0;
+        let byte = random.below(256) as u8;
+        for (port, bit) in [("reset", reset), ("push", push), ("commits", commit), ("begins", begins), ("takes", false)]
+        {
+            block.set(port, bit);
+        }
+        block.set("push_data", byte);
+        block.settle();
+        let mut takes = false;
+        if clock > 0 {
+            if still_for >= 2 {
+                block.expect("free", (size - committed.len()) as u64);
+            }
+            let is_there = block.is("byte_valid");
+            assert!(!is_there || !committed.is_empty(), "a byte that was not committed");
+            assert!(is_there || committed.is_empty() || still_for < 4, "no byte in clock {clock}");
+            if let (true, Some(first)) = (is_there, committed.front()) {
+                block.expect("byte_data", *first);
+                takes = random.below(empties) == 0;
+            }
+        }
+        block.set("takes", takes);
+        block.settle();
+        block.edge();
+        (rests_for, still_for) = (rests_for + 1, still_for + 1);
+        if takes {
+            committed.pop_front();
+            still_for = 0;
+        }
+        if push {
+            provisional.push(byte);
+            rests_for = 0;
+        }
+        if commit {
+            commits += 1;
+            committed.extend(provisional.drain(..));
+            still_for = 0;
+        }
+        if begins {
+            windings += usize::from(!provisional.is_empty());
+            provisional.clear();
+        }
+        if reset {
+            committed.clear();
+            provisional.clear();
+            (rests_for, still_for) = (0, 0);
+        }
+        fullest = fullest.max(committed.len());
+    }
+    assert!(
+        commits > 300 && windings > 10 && fullest == size,
+        "{commits} commits, {windings} windings, {fullest} full"
+    );
+}
+
+#[test]
+fn digest_covers_what_was_committed() {
+    let mut random = SplitMix64::new(2);
+    let mut block = Stepper::new("serial_payload_digest", PayloadDigest::default(), 1);
+    let (mut committed, mut provisional): (Vec<u8>, Vec<u8>) = Default::default();
+    for run in 0..1500 {
+        let byte = random.below(256) as u8;
+        let event = if run == 0 { 0 } else { 1 + random.below(12) };
+        for (port, bit) in
+            [("reset", event == 0 || run == 700), ("begins", event == 1), ("commits", event == 2), ("push", event > 2)]
+        {
+            block.set(port, bit);
+        }
+        block.set("push_data", byte);
+        block.settle();
+        block.edge();
+        match event {
+            1 => provisional.clear(),
+            2 => committed.append(&mut provisional),
+            3.. => provisional.push(byte),
+            _ => {}
+        }
+        if event == 0 || run == 700 {
+            committed.clear();
+            provisional.clear();
+        }
+        ["reset", "begins", "commits", "push"].into_iter().for_each(|port| block.set(port, false));
+        for _ in 0..9 {
+            block.settle();
+            block.expect("state", crc32_state(&committed));
+            block.edge();
+        }
+    }
+}
+
+#[test]
+fn command_words_are_put_together_low_byte_first() {
+    let mut random = SplitMix64::new(3);
+    let mut block = Stepper::new("serial_command_words", CommandWords::default(), 1);
+    let mut bytes: Vec<u8> = Vec::new();
+    let mut words = 0;
+    for clock in 0..8000 {
+        let reset = clock == 0 || random.below(700) == 0;
+        let (valid, ready) = (random.below([1, 4][clock / 400 % 2]) == 0, random.below([1, 9][clock / 800 % 2]) == 0);
+        let byte = random.below(256) as u8;
+        block.set("byte_data", byte);
+        for (port, bit) in [("reset", reset), ("byte_valid", valid), ("word_ready", ready)] {
+            block.set(port, bit);
+        }
+        block.settle();
+        let is_full = bytes.len() == 4;
+        if clock > 0 {
+            block.expect("word_valid", is_full);
+            block.expect("takes", valid && !is_full);
+            if is_full {
+                block.expect("word", u32::from_le_bytes(bytes[..].try_into().expect("four bytes")));
+            }
+        }
+        block.edge();
+        if is_full && ready {
+            bytes.clear();
+            words += 1;
+        }
+        if valid && !is_full {
+            bytes.push(byte);
+        }
+        if reset {
+            bytes.clear();
+        }
+    }
+    assert!(words > 200, "{words} words");
+}
+
+#[test]
+fn command_words_show_the_wave_of_their_header() {
+    let mut block = Stepper::new("serial_command_words", CommandWords::default(), 1);
+    let mut wave = Wave::default();
+    let mut bytes = [5u8, 0, 0, 0, 7, 0].into_iter().peekable();
+    for clock in 0..14 {
+        let valid = clock > 0;
+        block.set("reset", clock == 0);
+        block.set("byte_valid", valid);
+        block.set("byte_data", *bytes.peek().unwrap_or(&0));
+        block.set("word_ready", clock >= 7);
+        block.settle();
+        let (takes, gives) = (valid && block.is("takes"), clock > 0 && block.is("word_valid"));
+        wave.take(&[
+            ("byte_valid", Cell::Bit(valid)),
+            ("byte_data", bytes.peek().map_or(Cell::Open, |byte| Cell::Number((*byte).into()))),
+            ("takes", Cell::Bit(takes)),
+            ("word_valid", Cell::Bit(gives)),
+            ("word_ready", Cell::Bit(clock >= 7)),
+            ("word", if gives { Cell::Number(block.get("word")) } else { Cell::Open }),
+        ]);
+        block.edge();
+        if takes {
+            bytes.next();
+        }
+        if bytes.peek().is_none() {
+            break;
+        }
+    }
+    wave.assert_drawn_in(include_str!("../../hdl/src/serial/command_words.rs"));
+}
+
+#[test]
+fn a_command_is_under_way_until_the_last_answer_has_ended() {
+    let mut random = SplitMix64::new(4);
+    let mut block = Stepper::new("serial_command_progress", CommandProgress::default(), 1);
+    let (mut carried, mut rested) = (0, 0);
+    for run in 0..400 {
+        // A command's words, its answer, and the first words of the next command before it has ended, or none.
+        let (words, before) = (1 + random.below(5), random.below(3));
+        let ends_at = 40 + random.below(20);
+        for clock in 0..80 {
+            let takes = clock < words || (30..30 + before).contains(&clock);
+            block.set("reset", run == 0 && clock == 0);
+            block.set("takes", takes && !(run == 0 && clock == 0));
+            block.set("is_ending", (32..=ends_at).contains(&clock));
+            block.set("answer_ended", clock == ends_at);
+            block.settle();
+            if run > 0 && (words + 4..=ends_at).contains(&clock) {
+                block.expect("is_busy", true);
+            }
+            if run > 0 && clock > ends_at {
+                block.expect("is_busy", before > 0);
+            }
+            block.edge();
+        }
+        *(if before > 0 { &mut carried } else { &mut rested }) += 1;
+    }
+    assert!(carried > 50 && rested > 50);
+}
+
+/// Sends the parts of answers as frames would, and compares every byte.
+#[test]
+fn packer_cuts_answers_into_parts() {
+    let mut random = SplitMix64::new(5);
+    let mut block = Stepper::new("serial_answer_packer", AnswerPacker::default(), 1);
+    let lengths = [0, 1, 253, 254, 255, 256, 510, 511, 3, 1030];
+    let mut pending: VecDeque<u32> = VecDeque::new();
+    let (mut offered, mut number, mut clock) = (None, 0u64, 0);
+    // Inputs of one clock, before its edge.
+    let mut step =
+        |block: &mut Stepper<AnswerPacker>, inputs: [bool; 4], random: &mut SplitMix64, more: Option<Vec<u32>>| {
+            pending.extend(more.into_iter().flatten());
+            for (port, bit) in ["reset", "starts", "takes", "ended"].into_iter().zip(inputs) {
+                block.set(port, bit);
+            }
+            if offered.is_none() && random.below([1, 5][clock / 3000 % 2]) == 0 {
+                offered = pending.pop_front();
+            }
+            clock += 1;
+            block.set("response_valid", offered.is_some());
+            block.set("response_data", offered.unwrap_or(0xffff_ffff));
+            block.settle();
+            if !inputs[0] && block.is("response_ready") {
+                offered = None;
+            }
+            if inputs[0] {
+                offered = None;
+                pending.clear();
+            }
+        };
+    step(&mut block, [true, false, false, false], &mut random, None);
+    block.edge();
+    for run in 0..40 {
+        let length = lengths[run % lengths.len()];
+        let mut words = vec![random.below(1 << 32) as u32, length];
+        words.extend((0..length).map(|_| random.below(1 << 32) as u32));
+        let mut more = Some(words.clone());
+        let is_dropped = run % 13 == 12;
+        let mut sent: Vec<u8> = Vec::new();
+        let mut part = 0u64;
+        'answer: loop {
+            // Until a part is due.
+            loop {
+                step(&mut block, [false; 4], &mut random, more.take());
+                let is_due = block.is("is_due");
+                block.edge();
+                if is_due {
+                    break;
+                }
+            }
+            for _ in 0..random.below(5) {
+                step(&mut block, [false; 4], &mut random, None);
+                assert!(block.is("is_due"));
+                block.edge();
+            }
+            let left = words.len() - sent.len() / 4;
+            step(&mut block, [false, true, false, false], &mut random, None);
+            block.expect("is_last", left <= 256);
+            block.expect("number", number % 256);
+            block.expect("part", part % 256);
+            block.edge();
+            part += 1;
+            for byte in 0..4 * left.min(256) {
+                if is_dropped && sent.len() == 40.min(4 * words.len() - 1) {
+                    step(&mut block, [true, false, false, false], &mut random, None);
+                    block.edge();
+                    number = 0;
+                    break 'answer;
+                }
+                let mut waits = random.below([1, 4][run % 2]);
+                loop {
+                    // `takes` follows the byte within the clock.
+                    step(&mut block, [false; 4], &mut random, None);
+                    let takes = block.is("byte_valid") && waits == 0;
+                    waits = waits.saturating_sub(1);
+                    if takes {
+                        block.set("takes", true);
+                        block.settle();
+                        sent.push(block.get("byte_data") as u8);
+                        block.expect("byte_is_last", byte + 1 == 4 * left.min(256));
+                    }
+                    block.edge();
+                    if takes {
+                        break;
+                    }
+                }
+            }
+            if left <= 256 {
+                break;
+            }
+        }
+        if is_dropped {
+            continue;
+        }
+        let expected: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+        assert!(sent == expected, "an answer of {length} words");
+        for wait in 0..3 + random.below(9) {
+            step(&mut block, [false; 4], &mut random, None);
+            assert!(wait < 3 || block.is("is_ending"));
+            assert!(!block.is("byte_valid") && !block.is("is_due") && !block.is("awaits"));
+            block.edge();
+        }
+        step(&mut block, [false, false, false, true], &mut random, None);
+        block.edge();
+        number += 1;
+        step(&mut block, [false; 4], &mut random, None);
+        assert!(block.is("awaits"));
+        block.expect("number", number % 256);
+        block.edge();
+    }
+}
+
+#[test]
+fn choice_sends_replies_before_answers() {
+    let mut random = SplitMix64::new(6);
+    let mut block = Stepper::new("serial_frame_choice", FrameChoice::default(), 1);
+    let mut kind = None;
+    let mut counts = [0; 2];
+    for _ in 0..6000 {
+        let reply_kind = [0x81, 0x82, 0x83, 0x84, 0x87, 0x88][random.below(6) as usize];
+        let mut bit = |times| random.below(times) == 0;
+        let (is_idle, reply, answer, last) = (bit(2), bit(3), bit(2), bit(2));
+        let (holds, cuts) = (bit(3), bit(3));
+        block.set("reply_kind", reply_kind as u32);
+        for (port, bit) in [
+            ("is_idle", is_idle),
+            ("reply_is_due", reply),
+            ("answer_is_due", answer),
+            ("answer_is_last", last),
+            ("holds", holds),
+            ("cuts", cuts),
+        ] {
+            block.set(port, bit);
+        }
+        block.settle();
+        let may = is_idle && !holds;
+        let (starts_reply, starts_answer) = (may && reply, may && answer && !reply && !cuts);
+        block.expect("starts_reply", starts_reply);
+        block.expect("starts_answer", starts_answer);
+        block.expect("starts", starts_reply || starts_answer);
+        if let Some(kind) = kind {
+            block.expect("kind", kind);
+            block.expect("has_greeting", kind == 0x81);
+            block.expect("has_digest", kind == 0x83 || kind == 0x84);
+            block.expect("has_answer", kind == 0x85 || kind == 0x86);
+            block.expect("ends_answer", kind == 0x86);
+        }
+        block.edge();
+        counts[0] += usize::from(starts_reply);
+        counts[1] += usize::from(starts_answer);
+        if starts_reply {
+            kind = Some(reply_kind as u64);
+        }
+        if starts_answer {
+            kind = Some(if last { 0x86 } else { 0x85 });
+        }
+    }
+    assert!(counts.iter().all(|count| *count > 200), "{counts:?}");
+}
+
+#[test]
+fn sender_asks_for_the_bytes_of_a_frame_in_order() {
+    let mut random = SplitMix64::new(7);
+    let mut block = Stepper::new("serial_frame_sender", FrameSender::default(), 1);
+    for port in ["starts", "cuts", "sum_is_busy", "word_byte_valid", "word_byte_is_last", "data_ready", "ended"] {
+        block.set(port, false);
+    }
+    for port in ["has_greeting", "has_digest", "has_answer", "ends_answer"] {
+        block.set(port, false);
+    }
+    block.set("byte_data", 0u8);
+    block.set("reset", true);
+    block.settle();
+    block.edge();
+    block.set("reset", false);
+    for run in 0..120 {
+        // Greeting, digest, answer, last of an answer, and none of them.
+        let shape = run % 5;
+        let words = if shape == 2 || shape == 3 { 1 + random.below(30) as usize } else { 0 };
+        let mut expected: Vec<(u64, u64)> = (0..7).map(|index| (0, index)).collect();
+        expected.extend((0..52).filter(|_| shape == 0).map(|index| (1, index)));
+        expected.extend((0..4).filter(|_| shape == 1).map(|index| (2, index)));
+        expected.extend((0..3).filter(|_| words > 0).map(|index| (3, index)));
+        expected.extend((0..words).map(|_| (4, 0)));
+        expected.extend((0..4).filter(|_| shape == 3).map(|index| (2, index)));
+        expected.extend((0..4).map(|index| (5, index)));
+        let cut_at = (words > 0 && run % 3 == 0).then(|| random.below(expected.len() as u64) as usize);
+        block.expect("is_idle", true);
+        block.set("starts", true);
+        block.settle();
+        block.edge();
+        block.set("starts", false);
+        for (port, bit) in [
+            ("has_greeting", shape == 0),
+            ("has_digest", shape == 1),
+            ("has_answer", words > 0),
+            ("ends_answer", shape == 3),
+        ] {
+            block.set(port, bit);
+        }
+        let (mut taken, mut words_left) = (0, words);
+        // The byte of a place comes two clocks later, as a number of the place.
+        let mut pipe: VecDeque<u64> = VecDeque::from([0, 0]);
+        let mut busy = 0u64;
+        let mut is_cut = false;
+        loop {
+            let cuts = cut_at == Some(taken) && !is_cut && random.below(8) == 0;
+            let ready = random.below([1, 6][run % 2]) == 0;
+            let has_word = words_left > 0 && (words_left < words || random.below(3) > 0);
+            for (port, bit) in [
+                ("cuts", cuts),
+                ("data_ready", ready),
+                ("sum_is_busy", busy > 0),
+                ("word_byte_valid", has_word),
+                ("word_byte_is_last", words_left == 1),
+            ] {
+                block.set(port, bit);
+            }
+            block.set("byte_data", pipe[0]);
+            block.settle();
+            let (part, index) = (block.get("part") as u64, block.get("index") as u64);
+            let place = if part == 4 { 0x80 + words_left as u64 } else { part << 4 ^ index };
+            if block.is("loads") {
+                busy = 9;
+            }
+            if block.is("loads_word") {
+                assert!(block.is("loads") && part == 4);
+                words_left -= 1;
+            }
+            if block.is("data_valid") && ready && !cuts && !is_cut {
+                let (part, index) = expected[taken];
+                let place = if part == 4 {
+                    0x80 + (words - (taken - expected.iter().position(|place| place.0 == 4).expect("words"))) as u64
+                } else {
+                    part << 4 ^ index
+                };
+                block.expect("data", place & 0xff);
+                taken += 1;
+            }
+            assert!(!is_cut || !block.is("data_valid"), "a frame that was cut offers a byte");
+            if block.is("ends") {
+                assert_eq!((taken == expected.len(), block.is("is_cut")), (!is_cut, is_cut));
+                break;
+            }
+            block.edge();
+            pipe.pop_front();
+            pipe.push_back(place & 0xff);
+            busy = busy.saturating_sub(1);
+            is_cut |= cuts;
+        }
+        block.set("cuts", false);
+        for _ in 0..random.below(4) {
+            block.settle();
+            block.expect("ends", true);
+            block.expect("answer_ended", false);
+            block.edge();
+        }
+        block.set("ended", true);
+        block.settle();
+        block.expect("answer_ended", shape == 3 && !is_cut);
+        block.edge();
+        block.set("ended", false);
+        block.settle();
+    }
+}
+
+#[test]
+fn header_says_what_was_true_when_the_frame_began() {
+    let mut random = SplitMix64::new(8);
+    let mut block = Stepper::new("serial_frame_header", FrameHeader::default(), 1);
+    let (mut header, mut digest, mut has_dropped) = ([0u8; 7], 0, false);
+    for clock in 0..6000 {
+        let [session, expected, answers, kind] = [0; 4].map(|_: u8| random.below(256) as u8);
+        let (free, state) = (random.below(1 << 16) as u16, random.below(1 << 32) as u32);
+        let [is_open, is_refused, is_busy] = [0; 3].map(|_: u8| random.below(2) == 0);
+        let (starts, drops) = (clock == 1 || clock > 1 && random.below(9) == 0, random.below(12) == 0);
+        let index = random.below(7) as usize;
+        let reset = clock == 0;
+        for (port, value) in [
+            ("session", session.into()),
+            ("expected", expected.into()),
+            ("answers", answers.into()),
+            ("kind", kind.into()),
+            ("free", free.into()),
+            ("digest", state),
+            ("is_open", is_open.into()),
+            ("is_refused", is_refused.into()),
+            ("is_busy", is_busy.into()),
+            ("starts", starts.into()),
+            ("drops", drops.into()),
+            ("reset", reset.into()),
+            ("index", index as u32),
+        ] {
+            block.set(port, value);
+        }
+        block.settle();
+        if clock > 1 {
+            header[1] = kind;
+            block.expect("byte_data", header[index]);
+            block.expect("digest_taken", digest);
+        }
+        block.edge();
+        if starts {
+            let [low, high] = free.to_le_bytes();
+            let status = [is_open, is_refused, has_dropped, is_busy]
+                .iter()
+                .rev()
+                .fold(0, |status, bit| status << 1 | u8::from(*bit));
+            (header, digest) = ([session, kind, expected, answers, low, high, status], state);
+            has_dropped = false;
+        }
+        has_dropped = (has_dropped || drops) && !reset;
+    }
+}
+
+#[test]
+fn bytes_of_a_frame_come_from_their_parts() {
+    let mut random = SplitMix64::new(9);
+    let mut block = Stepper::new("serial_frame_bytes", FrameBytes::default(), 1);
+    let mut expected = None;
+    for _ in 0..4000 {
+        let (part, index) = (random.below(6) as u32, random.below(4) as usize);
+        let ends = random.below(2) == 0;
+        let [header, greeting, word, answers, answer_part] = [0; 5].map(|_: u8| random.below(256) as u8);
+        let [payload, answer, sum] = [0; 3].map(|_: u8| random.below(1 << 32) as u32);
+        for (port, value) in [
+            ("part", part),
+            ("index", index as u32),
+            ("ends_answer", ends.into()),
+            ("header", header.into()),
+            ("greeting", greeting.into()),
+            ("word", word.into()),
+            ("answers", answers.into()),
+            ("answer_part", answer_part.into()),
+            ("payload_state", payload),
+            ("answer_state", answer),
+            ("sum_state", sum),
+        ] {
+            block.set(port, value);
+        }
+        block.settle();
+        if let Some(byte) = expected {
+            block.expect("byte_data", byte);
+        }
+        block.edge();
+        let first_word = u32::from(answer_part) * 256;
+        expected = Some(match part {
+            0 => header,
+            1 => greeting,
+            2 => (!if ends { answer } else { payload }).to_le_bytes()[index],
+            3 if index < 3 => [answers, first_word as u8, (first_word >> 8) as u8][index],
+            3 => answer_part,
+            4 => word,
+            _ => (!sum).to_le_bytes()[index],
+        });
+    }
+}
+
+#[test]
+fn greeting_is_that_of_the_page() {
+    let mut block = Stepper::new("serial_greeting", Greeting::new(SMALL, QUICK_LINK), 1);
+    let words = [
+        0x696e_436c,
+        0x0001_0000,
+        QUICK_LINK.clock_hz,
+        QUICK_LINK.fifo_bytes,
+        QUICK_LINK.clock_hz / 8,
+        QUICK_LINK.silence_ms,
+        0x696e_4369,
+        0x0001_0001,
+        CORE_VERSION,
+        16,
+        SMALL.points,
+        SMALL.contexts,
+        SMALL.ring,
+    ];
+    for index in 0..52 {
+        block.set("index", index as u32);
+        block.settle();
+        block.edge();
+        block.settle();
+        block.expect("byte_data", words[index / 4].to_le_bytes()[index % 4]);
+    }
+}

@@ -1,0 +1,50 @@
+//! A core behind a serial link passes the gate; and what the link takes on an ECP5 stays in bounds.
+
+use incircle_hdl::export;
+use incircle_hdl::top::SERIAL_TOP_NAME;
+use incircle_protocol::{Config, LinkConfig, FULL, SILENCE_MS, SMALL};
+use incircle_testbench::gate::{self, Cells};
+
+/// The links of boards.
+const LINK: LinkConfig = LinkConfig { clock_hz: 125_000_000, fifo_bytes: 4_096, silence_ms: SILENCE_MS };
+const FULL_LINK: LinkConfig = LinkConfig { fifo_bytes: 16_384, ..LINK };
+
+/// The link of a small core by Yosys 0.23. Logic that a constant swept away, or that a change doubles, leaves the 5 % around it.
+const MEASURED: Cells =
+    Cells { lut4: 1110, carry: 156, distributed_ram: 0, flip_flops: 945, multipliers: 0, block_ram: 2 };
+
+/// Most tables of four inputs for the link, those of carry cells included.
+const MOST_TABLES: u64 = 1500;
+/// Block memories of the FIFO of a small board; the link has no other.
+const FIFO_MEMORIES: u64 = 2;
+
+#[test]
+fn devices_with_a_serial_link_pass_lint_and_synthesis() {
+    let devices: [(Config, LinkConfig, bool); 3] =
+        [(SMALL, LINK, false), (SMALL, LINK, true), (FULL, FULL_LINK, false)];
+    for (config, link, with_probe) in devices {
+        let passed = gate::pass(&export::serial_top(config, link, with_probe).unwrap(), SERIAL_TOP_NAME);
+        assert!(passed.is_ok(), "{} with probe {with_probe}: {}", config.name, passed.unwrap_err());
+    }
+}
+
+#[test]
+fn the_link_alone_is_small() {
+    let cells = gate::cell_count(&export::serial_link(SMALL, LINK, "serial_link").unwrap(), "serial_link").unwrap();
+    println!("serial link on ECP5: {cells:?}");
+    let tables = cells.lut4 + 2 * cells.carry + 4 * cells.distributed_ram;
+    assert!(tables <= MOST_TABLES, "{tables} tables, more than {MOST_TABLES}");
+    assert_eq!((cells.block_ram, cells.multipliers), (FIFO_MEMORIES, 0));
+    for (name, count, measured) in [
+        ("LUT4", cells.lut4, MEASURED.lut4),
+        ("carry cells", cells.carry, MEASURED.carry),
+        ("distributed RAMs", cells.distributed_ram, MEASURED.distributed_ram),
+        ("flip-flops", cells.flip_flops, MEASURED.flip_flops),
+        ("block RAMs", cells.block_ram, MEASURED.block_ram),
+    ] {
+        assert!(
+            20 * count.abs_diff(measured) <= measured,
+            "{count} {name}, but {measured} were measured: find out why"
+        );
+    }
+}
