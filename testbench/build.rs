@@ -1,18 +1,25 @@
-//! Verilates every block that incircle-hdl exports, and whole cores for lock-step, sound ones and broken ones, so that tests can
-//! run any of them by name.
+//! Verilates every block that incircle-hdl exports, and whole cores for lock-step: sound ones, broken ones, and one as the
+//! netlist that synthesis makes of it. So tests can run any of them by name.
 
+#[path = "build/boards.rs"]
+mod boards;
 #[path = "build/cells.rs"]
 mod cells;
 #[path = "build/cores.rs"]
 mod cores;
+#[path = "build/netlists.rs"]
+mod netlists;
 
 use verilated::build::{Builder, ModelSource, Optimisation};
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=build/boards.rs");
     println!("cargo:rerun-if-changed=build/cells.rs");
     println!("cargo:rerun-if-changed=build/cores.rs");
+    println!("cargo:rerun-if-changed=build/netlists.rs");
     println!("cargo:rerun-if-changed=cells");
+    println!("cargo:rerun-if-changed=../constraints");
     println!("cargo:rerun-if-env-changed=INCIRCLE_ONLY");
     // For work on a few blocks: only models whose name begins with one of these prefixes, separated by commas, are built.
     let only = std::env::var("INCIRCLE_ONLY").unwrap_or_default();
@@ -33,6 +40,15 @@ fn main() {
                 .random_initial_state(true)
                 .optimisation(Optimisation::Fast),
         );
+    }
+    let netlists = if only.is_empty() || only.contains("netlist") { netlists::all() } else { Vec::new() };
+    for (name, verilog) in netlists.into_iter().filter(|(name, _)| is_wanted(name)) {
+        // Quick to compile: it is large, and runs no more than some hundred thousand clocks.
+        builder =
+            builder.model(ModelSource::new(name, incircle_hdl::top::CORE_NAME, verilog).random_initial_state(true));
+    }
+    for (name, verilog) in boards::all().into_iter().filter(|(name, _)| is_wanted(name)) {
+        builder = builder.model(ModelSource::new(&name, boards::NAME, verilog).random_initial_state(true));
     }
     builder.compile();
 }

@@ -1,5 +1,6 @@
-//! The incircle core in rust-hdl, and its export to Verilog.
+//! The incircle core in rust-hdl, its export to Verilog, and the boards it runs on.
 
+pub mod board;
 pub mod committed;
 pub mod engine;
 pub mod export;

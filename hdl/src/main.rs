@@ -1,12 +1,13 @@
-//! The hardware side's command: export of the core to Verilog.
+//! The hardware side's command: export of the core to Verilog, and bitstreams for boards.
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use incircle_hdl::board::{self, Board, BoardError, Origin, Report, Request, BOARDS};
 use incircle_hdl::committed::{self, Top};
 use incircle_protocol::{Config, LinkConfig, NAMED, SILENCE_MS};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// The incircle core: export to Verilog.
+/// The incircle core: export to Verilog, and bitstreams for boards.
 #[derive(Parser)]
 #[command(name = "incircle-hdl", version)]
 struct Arguments {
@@ -19,26 +20,68 @@ enum Command {
     /// Write the Verilog of the core, or of a whole device.
     ///
     /// Without options this renews the files that the repository holds, hdl/verilog/incircle_*.v.
-    Export {
-        /// Configuration: tiny, small, full or large. Default: those the repository holds.
-        #[arg(long, value_parser = config)]
-        config: Option<Config>,
-        /// File to write; `-` is standard output. Needs --config.
-        #[arg(short, long, requires = "config")]
-        out: Option<PathBuf>,
-        /// Add the write port of the triangle memory to the ports, for simulation.
-        #[arg(long, requires = "config")]
-        probe: bool,
-        /// What to export: the core with its two streams of words, or the core behind a serial link.
-        #[arg(long, value_enum, default_value = "core", requires = "config")]
-        top: TopName,
-        /// Clock of the serial link in Hz.
-        #[arg(long, default_value_t = 125_000_000)]
-        clock_hz: u32,
-        /// Bytes of the serial link's receive FIFO: a power of two.
-        #[arg(long, default_value_t = 4_096)]
-        fifo_bytes: u32,
-    },
+    Export(ExportArguments),
+    /// Make the bitstream of a board, and a report of its clock and its cells.
+    ///
+    /// Exports, synthesises, places and routes with several seeds, and packs the fastest. The clock is the largest that the median of
+    /// the seeds meets. The exit code is 0 only if there is a bitstream that meets its clock.
+    Board(Box<BoardArguments>),
+}
+
+#[derive(Args)]
+struct ExportArguments {
+    /// Configuration: tiny, small, full or large. Default: those the repository holds.
+    #[arg(long, value_parser = config)]
+    config: Option<Config>,
+    /// File to write; `-` is standard output. Needs --config.
+    #[arg(short, long, requires = "config")]
+    out: Option<PathBuf>,
+    /// Add the write port of the triangle memory to the ports, for simulation.
+    #[arg(long, requires = "config")]
+    probe: bool,
+    /// What to export: the core with its two streams of words, or the core behind a serial link.
+    #[arg(long, value_enum, default_value = "core", requires = "config")]
+    top: TopName,
+    /// Clock of the serial link in Hz.
+    #[arg(long, default_value_t = 125_000_000)]
+    clock_hz: u32,
+    /// Bytes of the serial link's receive FIFO: a power of two.
+    #[arg(long, default_value_t = 4_096)]
+    fifo_bytes: u32,
+}
+
+#[derive(Args)]
+struct BoardArguments {
+    /// The board: ulx3s-85f, colorlight-i5 or ecpix-5.
+    #[arg(value_parser = named_board, required_unless_present_any = ["all", "table"], conflicts_with_all = ["all", "table"])]
+    name: Option<Board>,
+    /// All boards, each into a folder of its name.
+    #[arg(long, conflicts_with = "table")]
+    all: bool,
+    /// Write the tables of the documents anew from the boards' reports.
+    #[arg(long, conflicts_with_all = ["out", "seeds", "config", "clock", "system", "system_yosys", "renew"])]
+    table: bool,
+    /// Folder for the bitstream, report.json, and all that the tools say.
+    #[arg(short, long, required_unless_present = "table")]
+    out: Option<PathBuf>,
+    /// Seeds of the placer; the clock is judged by their median.
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=99))]
+    seeds: u32,
+    /// Configuration of the core, if not that of the board.
+    #[arg(long, value_parser = config)]
+    config: Option<Config>,
+    /// The clock in MHz, if not the largest that is met.
+    #[arg(long, value_name = "MHZ")]
+    clock: Option<u32>,
+    /// Use yosys, nextpnr-ecp5 and ecppack from PATH, not the pinned ones.
+    #[arg(long)]
+    system: bool,
+    /// Use yosys from PATH, and the pinned nextpnr-ecp5 and ecppack.
+    #[arg(long, conflicts_with = "system")]
+    system_yosys: bool,
+    /// Keep the report in the board's folder, and renew the tables.
+    #[arg(long, conflicts_with = "config")]
+    renew: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -54,25 +97,91 @@ fn config(name: &str) -> Result<Config, String> {
     Config::named(name).ok_or_else(|| format!("there is no configuration of this name: choose one of {names}"))
 }
 
-fn main() -> ExitCode {
-    let Command::Export { config, out, probe, top, clock_hz, fifo_bytes } = Arguments::parse().command;
+fn named_board(name: &str) -> Result<Board, String> {
+    let names = BOARDS.map(|board| board.name).join(", ");
+    Board::named(name).ok_or_else(|| format!("there is no board of this name: choose one of {names}"))
+}
+
+/// Writes one configuration's Verilog, or renews what is committed.
+fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
+    let ExportArguments { config, out, probe, top, clock_hz, fifo_bytes } = arguments;
     let top = match top {
         TopName::Core => Top::Core,
         TopName::Serial => Top::Serial(LinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS }),
     };
-    let result = match config {
-        None => committed::renew().map(|files| {
-            for file in files {
-                println!("{}", file.display());
-            }
-        }),
-        Some(config) => committed::write(config, top, probe, out),
+    if let Some(config) = config {
+        return committed::write(config, top, probe, out);
+    }
+    for file in committed::renew()? {
+        println!("{}", file.display());
+    }
+    Ok(())
+}
+
+/// Makes what was asked for; the error of each board that failed.
+fn boards(arguments: &BoardArguments) -> Vec<BoardError> {
+    let mut errors = Vec::new();
+    if let Some(out) = &arguments.out {
+        let boards = arguments.name.map_or(BOARDS.to_vec(), |board| vec![board]);
+        for board in boards {
+            let out = if arguments.all { out.join(board.name) } else { out.clone() };
+            errors.extend(one_board(arguments, board, &out).err());
+        }
+    }
+    if arguments.table || arguments.renew {
+        errors.extend(board::renew_tables().err());
+    }
+    errors
+}
+
+fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(), BoardError> {
+    let say = |what: &str| eprintln!("{}: {what}", board.name);
+    let request = Request {
+        board,
+        config: arguments.config.unwrap_or(board.config),
+        seeds: arguments.seeds,
+        clock_mhz: arguments.clock,
+        out,
+        tools: match (arguments.system, arguments.system_yosys) {
+            (true, _) => Origin::System,
+            (_, true) => Origin::SystemYosys,
+            _ => Origin::Pinned,
+        },
+        say: &say,
     };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("incircle-hdl: {error}");
-            ExitCode::FAILURE
+    let built = board::build(&request);
+    if arguments.renew && matches!(built, Ok(_) | Err(BoardError::Timing { .. })) {
+        Report::read(&out.join("report.json"))?.write(&board.folder().join("report.json"))?;
+    }
+    let report = built?;
+    if let Some(bitstream) = report.bitstream {
+        println!("{}: {} MHz, {}", out.join(bitstream.file).display(), report.clock_mhz, bitstream.sha256);
+    }
+    Ok(())
+}
+
+/// Exit code if the tools cannot be fetched, so that a script can tell that from a fault.
+const NO_TOOLS: u8 = 3;
+
+fn main() -> ExitCode {
+    match Arguments::parse().command {
+        Command::Export(arguments) => match export(arguments) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => {
+                eprintln!("incircle-hdl: {error}");
+                ExitCode::FAILURE
+            }
+        },
+        Command::Board(arguments) => {
+            let errors = boards(&arguments);
+            for error in &errors {
+                eprintln!("incircle-hdl: {error}");
+            }
+            match errors.first() {
+                None => ExitCode::SUCCESS,
+                Some(BoardError::Install(_)) => NO_TOOLS.into(),
+                Some(_) => ExitCode::FAILURE,
+            }
         }
     }
 }

@@ -218,7 +218,7 @@ fn first_mismatch(name: &str, config: Config, jobs: &[Job]) -> Option<(Mismatch,
         let mut random = SplitMix64::new(1);
         let mismatch = pair.run(job, Stalls::NONE, &mut || random.next_u64()).err()?;
         let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.vcd"));
-        pair.leave_waveform(&path);
+        pair.leave_waveform(&path).unwrap();
         Some((mismatch, path))
     })
 }

@@ -11,7 +11,7 @@ use incircle_model::{ClockModel, Inputs, Outputs, Write};
 use incircle_protocol::Config;
 use report::History;
 use std::path::Path;
-use verilated::{Model, PortId};
+use verilated::{Model, PortId, TraceError};
 
 /// Input ports of the core, in the order in which [`drive`] sets them.
 const INPUTS: [&str; 4] = ["reset", "command_valid", "command_data", "response_ready"];
@@ -39,7 +39,7 @@ const TRACED: usize = 2000;
 /// A core and its model, always at the same clock.
 pub struct Lockstep {
     name: String,
-    seed: u32,
+    seed: Option<u32>,
     core: Model,
     model: ClockModel,
     inputs: [PortId; INPUTS.len()],
@@ -56,6 +56,18 @@ impl Lockstep {
     /// # Panics
     /// If there is no such core, or one of its ports is missing.
     pub fn new(name: &str, config: Config, seed: u32) -> Self {
+        Self::from_state(name, config, Some(seed))
+    }
+
+    /// As [`Lockstep::new`], out of registers and memories that are all zero: the state that an ECP5 has after configuration.
+    ///
+    /// # Panics
+    /// As [`Lockstep::new`].
+    pub fn configured(name: &str, config: Config) -> Self {
+        Self::from_state(name, config, None)
+    }
+
+    fn from_state(name: &str, config: Config, seed: Option<u32>) -> Self {
         let core = started(name, seed);
         let port = |name: &str| core.port(name).unwrap_or_else(|error| panic!("{error}"));
         let outputs = OUTPUTS.map(port);
@@ -67,19 +79,20 @@ impl Lockstep {
 
     /// Replays everything since the start on a fresh core, and leaves the last clocks of it as a waveform.
     ///
-    /// # Panics
-    /// If the file cannot be made.
-    pub fn leave_waveform(&self, path: &Path) {
+    /// # Errors
+    /// The file cannot be made, or the core was built without waveforms.
+    pub fn leave_waveform(&self, path: &Path) -> Result<(), TraceError> {
         let mut core = started(&self.name, self.seed);
         let shown = self.recording.len().saturating_sub(TRACED);
         for (clock, inputs) in self.recording.iter().enumerate() {
             if clock == shown {
-                core.trace_to(path).unwrap_or_else(|error| panic!("{error}"));
+                core.trace_to(path)?;
             }
             drive(&mut core, &self.inputs, inputs);
             core.clock();
         }
         core.trace_close();
+        Ok(())
     }
 
     /// Clocks since the start.
@@ -115,9 +128,9 @@ impl Lockstep {
     }
 }
 
-/// A core after one clock with reset, out of random registers and memories.
-fn started(name: &str, seed: u32) -> Model {
-    let mut core = blocks::randomized(name, seed);
+/// A core after one clock with reset, out of random registers and memories, or zero ones.
+fn started(name: &str, seed: Option<u32>) -> Model {
+    let mut core = seed.map_or_else(|| blocks::model(name), |seed| blocks::randomized(name, seed));
     let reset = core.port(INPUTS[0]).unwrap_or_else(|error| panic!("{error}"));
     core.set(reset, 1);
     core.clock();

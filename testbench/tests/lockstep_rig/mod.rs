@@ -70,6 +70,11 @@ impl Rig {
         }
     }
 
+    /// Out of the state that an ECP5 has after configuration.
+    pub fn configured(name: &'static str, config: Config) -> Self {
+        Self { pair: Lockstep::configured(name, config), ..Self::new(name, config, 1) }
+    }
+
     /// Another random initial state.
     pub fn start_anew(&mut self, salt: u32) {
         self.clocks += self.pair.clocks();
@@ -175,8 +180,11 @@ impl Rig {
 
     fn fail(&self, mismatch: &Mismatch, job: &Job) -> ! {
         let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{}.vcd", self.name));
-        self.pair.leave_waveform(&path);
-        panic!("{}: {mismatch}\nwaveform: {}\njob {:x?}", self.name, path.display(), job.commands);
+        let waveform = match self.pair.leave_waveform(&path) {
+            Ok(()) => format!("waveform: {}", path.display()),
+            Err(error) => format!("no waveform: {error}"),
+        };
+        panic!("{}: {mismatch}\n{waveform}\njob {:x?}", self.name, job.commands);
     }
 
     fn by_commands(&self, job: &Job) -> Vec<u32> {

@@ -1,0 +1,109 @@
+//! Why there is no bitstream.
+
+use crate::export::ExportError;
+use std::path::PathBuf;
+
+/// Why there is no bitstream, or no table.
+#[derive(Debug, thiserror::Error)]
+pub enum BoardError {
+    /// The device is not fit for export.
+    #[error("{0}")]
+    Export(#[from] ExportError),
+    /// A file cannot be read or written.
+    #[error("cannot use {}: {source}", path.display())]
+    File {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A tool cannot be started.
+    #[error("cannot start {program} ({source}): {remedy}")]
+    Missing {
+        /// The program.
+        program: String,
+        /// What the system says.
+        source: std::io::Error,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A tool ended with an error.
+    #[error("{program} ends with {status}, the end of {} being\n{tail}", log.display())]
+    Failed {
+        /// The program.
+        program: String,
+        /// Its exit status.
+        status: std::process::ExitStatus,
+        /// All it printed.
+        log: PathBuf,
+        /// The end of that.
+        tail: String,
+    },
+    /// The tools cannot be fetched.
+    #[error("the tools cannot be installed, which needs python3 with venv and a network, the first time: {0}")]
+    Install(Box<BoardError>),
+    /// A tool ended well and warned of what nobody has judged.
+    #[error("{program} warns, see {}: judge these warnings and change the source, or the list of those accepted\n{warnings}", log.display())]
+    Warned {
+        /// The program.
+        program: String,
+        /// All it printed.
+        log: PathBuf,
+        /// The warnings.
+        warnings: String,
+    },
+    /// A file of a tool, or of the repository, is not in the form known.
+    #[error("{} cannot be understood: {reason}", path.display())]
+    Form {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A clock that the board's PLL cannot make.
+    #[error(
+        "the PLL of {board} makes no clock of {clock_mhz} MHz: choose a multiple of 5 from {least_mhz} to {most_mhz}"
+    )]
+    Clock {
+        /// The board.
+        board: &'static str,
+        /// What was asked for.
+        clock_mhz: u32,
+        /// The smallest clock possible.
+        least_mhz: u32,
+        /// The largest.
+        most_mhz: u32,
+    },
+    /// No clock asked for is met.
+    #[error(
+        "{board} does not meet {clock_mhz} MHz: the median of {seeds} seeds reaches {median_mhz:.1} MHz; {} says more, and --clock {possible_mhz} is within reach",
+        report.display()
+    )]
+    Timing {
+        /// The board.
+        board: &'static str,
+        /// The clock that is missed.
+        clock_mhz: u32,
+        /// Seeds placed.
+        seeds: usize,
+        /// What their median reaches.
+        median_mhz: f64,
+        /// A multiple of 5 MHz that is met.
+        possible_mhz: u32,
+        /// The report.
+        report: PathBuf,
+    },
+}
+
+impl BoardError {
+    /// A file that cannot be read or written.
+    pub(super) fn file(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        |source| Self::File { path, source }
+    }
+
+    /// A file that is not in the form known.
+    pub(super) fn form(path: impl Into<PathBuf>, reason: impl ToString) -> Self {
+        Self::Form { path: path.into(), reason: reason.to_string() }
+    }
+}

@@ -1,0 +1,246 @@
+//! Export, synthesis, place and route with several seeds, bitstream, report.
+//!
+//! The clock is the largest of the board's list that the median of the seeds meets. A clock that is missed says what is within reach,
+//! so the next one tried is the largest below that.
+
+use super::mapping::{mapping, PLACER};
+use super::readings;
+use super::report::dividers;
+use super::tools::{run_strictly, Origin, Tools};
+use super::{
+    constraints, date, Attempt, Bitstream, Board, BoardError, Cells, Parts, Report, Seed, Serial, Summary, Versions,
+};
+use crate::export;
+use incircle_protocol::Config;
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+
+/// Where the core is in the synthesised board: its instance is called `core`.
+const CORE: &str = "c:device.*.core.*";
+
+/// What the bitstream is made of.
+pub struct Request<'a> {
+    /// The board.
+    pub board: Board,
+    /// Configuration of the core.
+    pub config: Config,
+    /// Seeds of the placer, from 1 on.
+    pub seeds: u32,
+    /// The clock, in MHz; without it the largest that is met.
+    pub clock_mhz: Option<u32>,
+    /// Folder for the bitstream, the report, and the folder `work` with all the tools say.
+    pub out: &'a Path,
+    /// Where the tools come from.
+    pub tools: Origin,
+    /// Told what is being done.
+    pub say: &'a dyn Fn(&str),
+}
+
+/// One clock, placed with every seed.
+struct Placed {
+    clock_mhz: u32,
+    seeds: Vec<Seed>,
+    cells: Parts,
+}
+
+impl Placed {
+    fn summary(&self) -> Summary {
+        Summary::of(&self.seeds)
+    }
+
+    fn is_met(&self) -> bool {
+        self.summary().median >= f64::from(self.clock_mhz)
+    }
+
+    fn fastest(&self) -> Option<u32> {
+        self.seeds.iter().max_by(|a, b| a.fmax_mhz.total_cmp(&b.fmax_mhz)).map(|seed| seed.seed)
+    }
+}
+
+/// Makes the bitstream and its report in the folder.
+///
+/// # Errors
+/// A tool fails or warns, or no clock asked for is met; then the report is there all the same.
+pub fn build(request: &Request) -> Result<Report, BoardError> {
+    let clocks = clocks(request)?;
+    let work = request.out.join("work");
+    if work.exists() {
+        std::fs::remove_dir_all(&work).map_err(BoardError::file(&work))?;
+    }
+    std::fs::create_dir_all(&work).map_err(BoardError::file(&work))?;
+    let tools = Tools::find(request.tools, request.say)?;
+    let mut missed = Vec::new();
+    let mut rest = clocks.as_slice();
+    loop {
+        let [clock_mhz, lower @ ..] = rest else {
+            // The list of clocks is never empty, and the loop ends with its last.
+            return Err(BoardError::form(&work, "no clock is left to try"));
+        };
+        let placed = place(request, &tools, &work, *clock_mhz)?;
+        let median = placed.summary().median;
+        let within_reach = lower.partition_point(|&clock| f64::from(clock) > median);
+        rest = lower.get(within_reach..).unwrap_or_default();
+        if placed.is_met() || rest.is_empty() {
+            return finish(request, &tools, &work, &placed, missed);
+        }
+        missed.push(Attempt { clock_mhz: placed.clock_mhz, fmax_mhz: placed.summary() });
+    }
+}
+
+/// The clocks to try, largest first.
+fn clocks(request: &Request) -> Result<Vec<u32>, BoardError> {
+    let board = request.board;
+    match request.clock_mhz {
+        None => Ok(board.clocks()),
+        Some(clock_mhz) if board.pll(clock_mhz).is_some() => Ok(vec![clock_mhz]),
+        Some(clock_mhz) => Err(BoardError::Clock {
+            board: board.name,
+            clock_mhz,
+            least_mhz: board.least_mhz,
+            most_mhz: board.most_mhz,
+        }),
+    }
+}
+
+/// Synthesises the board for a clock, and places it with every seed.
+fn place(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Result<Placed, BoardError> {
+    let board = request.board;
+    (request.say)(&format!("synthesis of {} for {clock_mhz} MHz", board.title));
+    let (core, all) = synthesise(request, tools, work, clock_mhz)?;
+    let mut seeds = Vec::new();
+    let (mut placed, mut available) = Default::default();
+    for seed in 1..=request.seeds {
+        let (report, config) = (format!("report-{seed}.json"), format!("seed-{seed}.config"));
+        let seed_text = seed.to_string();
+        let mut arguments = [&board.chip[..], &PLACER].concat();
+        arguments.extend(["--json", "netlist.json", "--lpf", "pins.lpf", "--textcfg", &config, "--report", &report]);
+        // Whether the clock is met is judged here, over all seeds.
+        arguments.extend(["--seed", &seed_text, "--timing-allow-fail"]);
+        run_strictly(&tools.nextpnr, &arguments, work, &format!("place-{seed}.log"))?;
+        let report = work.join(report);
+        let fmax_mhz = readings::fmax(&report, clock_mhz)?;
+        (request.say)(&format!("seed {seed} reaches {fmax_mhz:.1} MHz"));
+        seeds.push(Seed { seed, fmax_mhz });
+        (placed, available) = readings::cells(&report)?;
+    }
+    let shell = Cells {
+        lut: all.lut.saturating_sub(core.lut),
+        ff: all.ff.saturating_sub(core.ff),
+        dsp: all.dsp.saturating_sub(core.dsp),
+        ebr: all.ebr.saturating_sub(core.ebr),
+    };
+    Ok(Placed { clock_mhz, seeds, cells: Parts { core, shell, placed, available } })
+}
+
+/// Exports the device and maps the board's top; the cells of the core, and all.
+fn synthesise(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Result<(Cells, Cells), BoardError> {
+    let board = request.board;
+    let pll = board.pll(clock_mhz).ok_or_else(|| BoardError::form(work, "the PLL cannot make this clock"))?;
+    let device = export::serial_top(request.config, board.link(clock_mhz), false)?;
+    let written = work.join("device.v");
+    std::fs::write(&written, device).map_err(BoardError::file(&written))?;
+    let copies = [
+        (constraints().join("ecp5").join("clock.v"), "clock.v"),
+        (board.folder().join("top.v"), "top.v"),
+        (board.folder().join("pins.lpf"), "pins.lpf"),
+    ];
+    for (from, to) in copies {
+        std::fs::copy(&from, work.join(to)).map_err(BoardError::file(from))?;
+    }
+    let counts = "counts.txt";
+    let mut script = format!(
+        "read_verilog -D INCIRCLE_ECP5 -D {} device.v clock.v top.v; {}; write_json netlist.json",
+        pll.define(),
+        mapping(board.top)
+    );
+    for cell in readings::COUNTED {
+        script += &format!("; tee -a {counts} select -count t:{cell}");
+        script += &format!("; tee -a {counts} select -count {CORE} t:{cell} %i");
+    }
+    let counts = work.join(counts);
+    if counts.exists() {
+        std::fs::remove_file(&counts).map_err(BoardError::file(&counts))?;
+    }
+    run_strictly(&tools.yosys, &["-p", &script], work, "synthesis.log")?;
+    readings::counts(&counts)
+}
+
+/// Packs the fastest seed if the clock is met, and writes the report in any case.
+fn finish(
+    request: &Request,
+    tools: &Tools,
+    work: &Path,
+    placed: &Placed,
+    missed: Vec<Attempt>,
+) -> Result<Report, BoardError> {
+    let picked_seed = placed.fastest().filter(|_| placed.is_met());
+    let bitstream = picked_seed.map(|seed| pack(request, tools, work, seed)).transpose()?;
+    let report = Report { picked_seed, bitstream, missed, ..describe(request, placed, tools.versions(work)?) };
+    let file = request.out.join("report.json");
+    report.write(&file)?;
+    if report.met {
+        return Ok(report);
+    }
+    let median_mhz = report.fmax_mhz.median;
+    Err(BoardError::Timing {
+        board: request.board.name,
+        clock_mhz: report.clock_mhz,
+        seeds: report.seeds.len(),
+        median_mhz,
+        possible_mhz: within_reach(median_mhz),
+        report: file,
+    })
+}
+
+/// All but the bitstream and the clocks that were missed.
+fn describe(request: &Request, placed: &Placed, tools: Versions) -> Report {
+    let Placed { clock_mhz, cells, .. } = *placed;
+    let (board, config) = (request.board, request.config);
+    let link = board.link(clock_mhz);
+    Report {
+        board: board.name.into(),
+        device: board.device.into(),
+        date: date::today(),
+        met: placed.is_met(),
+        clock_mhz,
+        fmax_mhz: placed.summary(),
+        seeds: placed.seeds.clone(),
+        picked_seed: None,
+        missed: Vec::new(),
+        configuration: config.name.into(),
+        points: config.points,
+        ring: config.ring,
+        contexts: config.contexts,
+        cells,
+        serial: Serial {
+            bridge: board.bridge.into(),
+            bits_per_second: board.bridge_rate.min(link.max_rate()),
+            fifo_bytes: link.fifo_bytes,
+        },
+        pll: board.pll(clock_mhz).map(dividers).unwrap_or_default(),
+        tools,
+        bitstream: None,
+    }
+}
+
+/// The largest multiple of 5 MHz that is not above this.
+fn within_reach(median_mhz: f64) -> u32 {
+    (0..u32::from(u8::MAX))
+        .map(|multiple| 5 * multiple)
+        .take_while(|&mhz| f64::from(mhz) <= median_mhz)
+        .last()
+        .unwrap_or(0)
+}
+
+/// Makes the bitstream of a placed seed.
+fn pack(request: &Request, tools: &Tools, work: &Path, seed: u32) -> Result<Bitstream, BoardError> {
+    let file = format!("{}.bit", request.board.name);
+    let config = format!("seed-{seed}.config");
+    run_strictly(&tools.ecppack, &["--compress", "--input", &config, "--bit", &file], work, "pack.log")?;
+    let packed: PathBuf = work.join(&file);
+    let bytes = std::fs::read(&packed).map_err(BoardError::file(&packed))?;
+    let to = request.out.join(&file);
+    std::fs::copy(&packed, &to).map_err(BoardError::file(to))?;
+    let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    Ok(Bitstream { file, bytes: bytes.len() as u64, sha256 })
+}

@@ -1,0 +1,110 @@
+//! What the tools' reports say.
+
+use super::{BoardError, Cells};
+use serde_json::Value;
+use std::path::Path;
+
+/// Cells that are counted after synthesis.
+pub(super) const COUNTED: [&str; 6] = ["LUT4", "CCU2C", "TRELLIS_DPR16X4", "TRELLIS_FF", "MULT18X18D", "DP16KD"];
+
+/// The counts that synthesis wrote: of the core, and of all.
+pub(super) fn counts(path: &Path) -> Result<(Cells, Cells), BoardError> {
+    let text = std::fs::read_to_string(path).map_err(BoardError::file(path))?;
+    counts_of(&text).map_err(|reason| BoardError::form(path, reason))
+}
+
+/// For each of [`COUNTED`] a line with all, and one with those of the core.
+fn counts_of(text: &str) -> Result<(Cells, Cells), String> {
+    let counts: Vec<u64> =
+        text.lines().filter_map(|line| line.strip_suffix(" objects.")?.trim().parse().ok()).collect();
+    let [luts, core_luts, carries, core_carries, memories, core_memories, ffs, core_ffs, dsps, core_dsps, ebrs, core_ebrs] =
+        counts[..]
+    else {
+        return Err(format!("it holds {} counts, not {}", counts.len(), 2 * COUNTED.len()));
+    };
+    // A carry cell has two tables, a distributed memory keeps its bits in two.
+    let lut = |luts: u64, carries: u64, memories: u64| luts + 2 * carries + 2 * memories;
+    let core = Cells { lut: lut(core_luts, core_carries, core_memories), ff: core_ffs, dsp: core_dsps, ebr: core_ebrs };
+    Ok((core, Cells { lut: lut(luts, carries, memories), ff: ffs, dsp: dsps, ebr: ebrs }))
+}
+
+fn json(path: &Path) -> Result<Value, BoardError> {
+    let text = std::fs::read_to_string(path).map_err(BoardError::file(path))?;
+    serde_json::from_str(&text).map_err(|error| BoardError::form(path, error))
+}
+
+/// What the one clock of the board reaches, in MHz.
+pub(super) fn fmax(path: &Path, clock_mhz: u32) -> Result<f64, BoardError> {
+    fmax_of(&json(path)?, clock_mhz).map_err(|reason| BoardError::form(path, reason))
+}
+
+/// The clock must be meant to be `clock_mhz`, by what nextpnr derives from the pins and the PLL.
+fn fmax_of(report: &Value, clock_mhz: u32) -> Result<f64, String> {
+    let clocks = report.get("fmax").and_then(Value::as_object).ok_or("it has no fmax")?;
+    let mut clocks = clocks.values();
+    let (Some(clock), None) = (clocks.next(), clocks.next()) else {
+        return Err("a board has one clock, and it does not name one".into());
+    };
+    let number = |key: &str| clock.get(key).and_then(Value::as_f64);
+    let constraint = number("constraint").ok_or("its clock has no constraint")?;
+    // nextpnr counts in whole picoseconds.
+    if (constraint / f64::from(clock_mhz) - 1.0).abs() > 1e-3 {
+        return Err(format!("the clock is to be {clock_mhz} MHz, and is {constraint} MHz"));
+    }
+    number("achieved").ok_or_else(|| "its clock has no achieved frequency".into())
+}
+
+/// Cells after placement, and those of the device.
+pub(super) fn cells(path: &Path) -> Result<(Cells, Cells), BoardError> {
+    cells_of(&json(path)?).ok_or_else(|| BoardError::form(path, "it does not say what is used"))
+}
+
+fn cells_of(report: &Value) -> Option<(Cells, Cells)> {
+    let cells = |of: &str| {
+        let count = |cell: &str| report.pointer(&format!("/utilization/{cell}/{of}"))?.as_u64();
+        Some(Cells {
+            lut: count("TRELLIS_COMB")?,
+            ff: count("TRELLIS_FF")?,
+            dsp: count("MULT18X18D")?,
+            ebr: count("DP16KD")?,
+        })
+    };
+    cells("used").zip(cells("available"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn counts_are_told_apart() {
+        let lines = [10, 9, 4, 3, 2, 1, 50, 40, 20, 20, 31, 27].map(|count| format!("{count} objects.\n"));
+        let (core, all) = counts_of(&lines.concat()).unwrap();
+        assert_eq!(core, Cells { lut: 9 + 6 + 2, ff: 40, dsp: 20, ebr: 27 });
+        assert_eq!(all, Cells { lut: 10 + 8 + 4, ff: 50, dsp: 20, ebr: 31 });
+        assert_eq!(counts_of(&lines[1..].concat()).unwrap_err(), "it holds 11 counts, not 12");
+    }
+
+    #[test]
+    fn the_clock_is_the_one_that_was_meant() {
+        let clock = json!({"achieved": 89.3, "constraint": 60.002});
+        assert_eq!(fmax_of(&json!({"fmax": {"clock": clock}}), 60), Ok(89.3));
+        assert!(fmax_of(&json!({"fmax": {"clock": clock}}), 65).unwrap_err().contains("is to be 65 MHz"));
+        assert!(fmax_of(&json!({"fmax": {"a": clock, "b": clock}}), 60).unwrap_err().contains("one clock"));
+        assert!(fmax_of(&json!({"fmax": {}}), 60).is_err());
+        assert!(fmax_of(&json!({}), 60).is_err());
+    }
+
+    #[test]
+    fn cells_are_read() {
+        let count = |used: u64| json!({"used": used, "available": 100});
+        let report = json!({"utilization": {
+            "TRELLIS_COMB": count(1), "TRELLIS_FF": count(2), "MULT18X18D": count(3), "DP16KD": count(4)
+        }});
+        let (used, available) = cells_of(&report).unwrap();
+        assert_eq!(used, Cells { lut: 1, ff: 2, dsp: 3, ebr: 4 });
+        assert_eq!(available, Cells { lut: 100, ff: 100, dsp: 100, ebr: 100 });
+        assert_eq!(cells_of(&json!({"utilization": {}})), None);
+    }
+}

@@ -1,0 +1,205 @@
+//! The tables of the documents, from the reports in the boards' folders and the table of cycles. No figure in them is typed.
+
+use super::{constraints, repository, Board, BoardError, Cells, Report, Summary, BOARDS, MHZ};
+use std::path::PathBuf;
+
+/// What stands before a table in a document, and behind it.
+const BEGIN: &str = "<!-- made by `cargo run --release -p incircle-hdl -- board --table` -->\n";
+const END: &str = "<!-- end -->\n";
+
+/// The row of the table of cycles that counts.
+const POINT_SET: &str = "uniform";
+
+/// The documents with a table: the two with all boards first, then that of each board.
+pub fn documents() -> Vec<PathBuf> {
+    let all = [repository().join("README.md"), constraints().join("README.md")];
+    all.into_iter().chain(BOARDS.iter().map(|board| board.folder().join("README.md"))).collect()
+}
+
+/// Every document and what it must hold.
+///
+/// # Errors
+/// A document, a report or the table of cycles cannot be read or understood.
+pub fn pages() -> Result<Vec<(PathBuf, String)>, BoardError> {
+    let mut measured = Vec::new();
+    for board in BOARDS {
+        measured.push((board, measurement(&board)?));
+    }
+    let overview = overview(&measured);
+    // Links in it are seen from the root.
+    let beside = overview.replace("](constraints/", "](");
+    let single = measured.iter().map(|(_, measurement)| details(measurement.as_ref()));
+    let tables = [overview, beside].into_iter().chain(single);
+    let fill = |(path, table): (PathBuf, String)| {
+        let text = held_text(&path)?;
+        let parts = text.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
+        let (before, after) =
+            parts.ok_or_else(|| BoardError::form(&path, format!("it has no {BEGIN:?} and {END:?}")))?;
+        Ok((path, format!("{before}{BEGIN}{table}{END}{after}")))
+    };
+    documents().into_iter().zip(tables).map(fill).collect()
+}
+
+/// The text of a document as it is.
+///
+/// # Errors
+/// It cannot be read.
+pub fn held_text(path: &PathBuf) -> Result<String, BoardError> {
+    std::fs::read_to_string(path).map_err(BoardError::file(path))
+}
+
+/// Writes the tables of all documents anew.
+///
+/// # Errors
+/// As [`pages`], and if a document cannot be written.
+pub fn renew_tables() -> Result<(), BoardError> {
+    for (path, text) in pages()? {
+        std::fs::write(&path, text).map_err(BoardError::file(path))?;
+    }
+    Ok(())
+}
+
+/// A report, and the cycles of one insertion in that core if the table of cycles has them.
+struct Measurement {
+    report: Report,
+    cycles: Option<f64>,
+}
+
+impl Measurement {
+    /// Insertions in a second.
+    fn points_per_second(&self) -> Option<f64> {
+        self.cycles.map(|cycles| f64::from(self.report.clock_mhz * MHZ) / cycles)
+    }
+
+    fn cycles(&self) -> String {
+        self.cycles.map_or("-".into(), |cycles| format!("{cycles:.2}"))
+    }
+
+    fn rate(&self) -> String {
+        self.points_per_second().map_or("-".into(), |rate| format!("{:.2} million", rate / f64::from(MHZ)))
+    }
+
+    fn clock(&self) -> String {
+        let met = if self.report.met { "" } else { ", **missed**" };
+        format!("{} MHz{met}", self.report.clock_mhz)
+    }
+}
+
+fn measurement(board: &Board) -> Result<Option<Measurement>, BoardError> {
+    let path = board.folder().join("report.json");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let report = Report::read(&path)?;
+    let cycles = cycles(report.points, report.contexts)?;
+    Ok(Some(Measurement { report, cycles }))
+}
+
+/// Cycles of an insertion from the committed table: of so many points, with so many contexts.
+fn cycles(points: u32, contexts: u32) -> Result<Option<f64>, BoardError> {
+    let path = repository().join("testbench").join("cycles.md");
+    let text = held_text(&path)?;
+    let Some((_, section)) = text.split_once(&format!("## {points} points\n")) else { return Ok(None) };
+    let rows = section.lines().take_while(|line| !line.starts_with("##")).filter(|line| line.starts_with('|'));
+    let cells = |row: &str| row.split('|').map(|cell| cell.trim().to_string()).collect::<Vec<_>>();
+    let rows: Vec<_> = rows.map(cells).collect();
+    let column = rows.first().and_then(|head| head.iter().position(|cell| *cell == format!("K = {contexts}")));
+    let row = rows.iter().find(|row| row.get(1).is_some_and(|set| set == POINT_SET));
+    let (Some(column), Some(row)) = (column, row) else { return Ok(None) };
+    let cycles = row.get(column).and_then(|cell| cell.parse().ok());
+    cycles.map(Some).ok_or_else(|| BoardError::form(path, format!("no number of cycles for {points} points")))
+}
+
+fn three(Summary { min, median, max }: Summary) -> String {
+    format!("{min:.1} / {median:.1} / {max:.1}")
+}
+
+/// The table of all boards.
+fn overview(measured: &[(Board, Option<Measurement>)]) -> String {
+    let mut text = String::from(
+        "\n| board | points, contexts | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max | clock | cycles an insertion | insertions a second | serial |\n\
+         |---|---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for (board, measurement) in measured {
+        let link = format!("[{}](constraints/{}/README.md), {}", board.title, board.name, board.device);
+        let Some(measurement) = measurement else {
+            text += &format!("| {link} | not measured |{}\n", " |".repeat(9));
+            continue;
+        };
+        let Report { points, contexts, cells, fmax_mhz, serial, .. } = &measurement.report;
+        let sum = |of: fn(&Cells) -> u64| format!("{} + {}", of(&cells.core), of(&cells.shell));
+        text += &format!(
+            "| {link} | {points}, {contexts} | {} | {} | {} | {} | {} | {} | {} | {} | {} bit/s |\n",
+            sum(|cells| cells.lut),
+            sum(|cells| cells.ff),
+            sum(|cells| cells.dsp),
+            sum(|cells| cells.ebr),
+            three(*fmax_mhz),
+            measurement.clock(),
+            measurement.cycles(),
+            measurement.rate(),
+            serial.bits_per_second,
+        );
+    }
+    let mut measurements: Vec<_> = measured
+        .iter()
+        .filter_map(|(board, measurement)| {
+            let report = &measurement.as_ref()?.report;
+            Some(format!("{} {}, {} seeds, {}", board.title, report.date, report.seeds.len(), tools(report)))
+        })
+        .collect();
+    measurements.push(format!("cycles of {POINT_SET} points to the brim: testbench/cycles.md"));
+    text += &format!("\nMeasured: {}.\n", measurements.join("; "));
+    text
+}
+
+fn tools(report: &Report) -> String {
+    let tools = &report.tools;
+    format!("yosys {}, nextpnr {}", tools.yosys, tools.nextpnr)
+}
+
+/// The table of one board.
+fn details(measurement: Option<&Measurement>) -> String {
+    let Some(measurement) = measurement else { return "\nNot measured.\n".into() };
+    let report = &measurement.report;
+    let cells = &report.cells;
+    let seeds: Vec<_> = report.seeds.iter().map(|seed| format!("{:.1} (seed {})", seed.fmax_mhz, seed.seed)).collect();
+    let row = |name: &str, of: fn(&Cells) -> u64| {
+        let (core, shell, placed, available) = (&cells.core, &cells.shell, &cells.placed, &cells.available);
+        let share = 100.0 * of(placed) as f64 / of(available).max(1) as f64;
+        let shown = [of(core), of(shell), of(placed), of(available)];
+        let [core, shell, placed, available] = shown.map(|count| count.to_string());
+        format!("| {name} | {core} | {shell} | {placed} of {available}, {share:.0} % |\n")
+    };
+    let mut text = String::from("\n| | core | link, clock, reset | placed |\n|---|---|---|---|\n");
+    text += &row("LUT", |cells| cells.lut);
+    text += &row("FF", |cells| cells.ff);
+    text += &row("DSP", |cells| cells.dsp);
+    text += &row("EBR", |cells| cells.ebr);
+    text += "\n| | |\n|---|---|\n";
+    let bitstream = report.bitstream.as_ref();
+    let lines = [
+        ("configuration", format!("{}: {} points, {} contexts", report.configuration, report.points, report.contexts)),
+        ("clock", measurement.clock()),
+        ("Fmax, MHz", seeds.join(", ")),
+        ("Fmax, min / median / max", three(report.fmax_mhz)),
+        ("cycles an insertion", measurement.cycles()),
+        ("insertions a second", measurement.rate()),
+        (
+            "serial",
+            format!(
+                "{} bit/s ({}), FIFO of {} bytes",
+                report.serial.bits_per_second, report.serial.bridge, report.serial.fifo_bytes
+            ),
+        ),
+        (
+            "bitstream, SHA-256",
+            bitstream.map_or("none".into(), |made| format!("`{}`, {} bytes", made.sha256, made.bytes)),
+        ),
+        ("measured", format!("{}, {}, ecppack {}", report.date, tools(report), report.tools.ecppack)),
+    ];
+    for (name, value) in lines {
+        text += &format!("| {name} | {value} |\n");
+    }
+    text
+}

@@ -1,0 +1,92 @@
+//! The boards: their folders agree with what the command knows of them, and the tables in the documents with the reports.
+
+use incircle_hdl::board::{held_text, pages, Board, Report, Summary, BOARDS};
+use std::collections::BTreeSet;
+
+fn file(board: &Board, name: &str) -> String {
+    held_text(&board.folder().join(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The pins that `pins.lpf` names after a keyword, as in `LOCATE COMP "led[0]" SITE "B2";`.
+fn constrained(lpf: &str, keyword: &str) -> BTreeSet<String> {
+    let lines = lpf.lines().filter_map(|line| line.strip_prefix(keyword)?.split('"').nth(1));
+    lines.map(str::to_string).collect()
+}
+
+/// The pins of the one module in `top.v`, bit by bit.
+fn pins(top: &str) -> BTreeSet<String> {
+    let ports = top.lines().filter_map(|line| {
+        let line = line.trim().trim_end_matches(',');
+        line.strip_prefix("input wire ").or_else(|| line.strip_prefix("output wire "))
+    });
+    let mut pins = BTreeSet::new();
+    for port in ports {
+        match port.strip_prefix('[').and_then(|range| range.split_once(":0] ")) {
+            None => _ = pins.insert(port.to_string()),
+            Some((high, name)) => {
+                let high: usize = high.parse().unwrap();
+                pins.extend((0..=high).map(|bit| format!("{name}[{bit}]")));
+            }
+        }
+    }
+    pins
+}
+
+#[test]
+fn every_pin_has_a_site_and_a_kind() {
+    for board in BOARDS {
+        let (top, lpf) = (file(&board, "top.v"), file(&board, "pins.lpf"));
+        let pins = pins(&top);
+        assert!(pins.len() >= 6, "{}: {pins:?}", board.name);
+        assert_eq!(constrained(&lpf, "LOCATE COMP"), pins, "{}", board.name);
+        assert_eq!(constrained(&lpf, "IOBUF PORT"), pins, "{}", board.name);
+        assert!(top.contains(&format!("module {} (", board.top)), "{}", board.name);
+        let sites: Vec<_> = lpf.lines().filter_map(|line| line.strip_prefix("LOCATE")?.split('"').nth(3)).collect();
+        assert_eq!(sites.iter().collect::<BTreeSet<_>>().len(), pins.len(), "{}: one site for two pins", board.name);
+        let readme = file(&board, "README.md");
+        for (pin, site) in lpf.lines().filter_map(|line| {
+            let mut quoted = line.strip_prefix("LOCATE")?.split('"');
+            Some((quoted.nth(1)?, quoted.nth(1)?))
+        }) {
+            assert!(readme.contains(&format!("| `{pin}` | {site} |")), "{}: README on {pin}, {site}", board.name);
+        }
+    }
+}
+
+#[test]
+fn the_oscillator_is_constrained_as_the_pll_is_computed() {
+    for board in BOARDS {
+        let lpf = file(&board, "pins.lpf");
+        let constraint = format!("{:.1} MHZ;", f64::from(board.oscillator_hz) / 1e6);
+        let lines: Vec<_> = lpf.lines().filter(|line| line.starts_with("FREQUENCY PORT")).collect();
+        assert!(lines.len() == 1 && lines[0].ends_with(&constraint), "{}: {lines:?}", board.name);
+        let clocks = board.clocks();
+        assert!(clocks.len() > 10 && clocks.is_sorted_by(|a, b| a > b), "{}: {clocks:?}", board.name);
+        assert!(clocks.contains(&125), "{}: {clocks:?}", board.name);
+    }
+}
+
+#[test]
+fn tables_are_what_the_reports_say() {
+    for (path, expected) in pages().unwrap() {
+        let held = held_text(&path).unwrap();
+        assert!(held == expected, "{}: run `cargo run --release -p incircle-hdl -- board --table`", path.display());
+    }
+}
+
+#[test]
+fn reports_are_whole() {
+    for board in BOARDS {
+        let path = board.folder().join("report.json");
+        if !path.exists() {
+            continue;
+        }
+        let report = Report::read(&path).unwrap();
+        assert_eq!((report.board.as_str(), report.device.as_str()), (board.name, board.device));
+        assert!(report.seeds.len() >= 3, "{}: {} seeds", board.name, report.seeds.len());
+        assert_eq!(report.fmax_mhz, Summary::of(&report.seeds));
+        assert_eq!(report.met, report.fmax_mhz.median >= f64::from(report.clock_mhz));
+        assert_eq!(report.met, report.bitstream.is_some() && report.picked_seed.is_some());
+        assert_eq!((report.points, report.contexts), (board.config.points, board.config.contexts), "{}", board.name);
+    }
+}

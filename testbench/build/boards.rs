@@ -1,0 +1,61 @@
+//! The tops of the boards with a tiny device behind a quick link, so that their pins can be tried.
+
+use std::fs;
+
+use incircle_hdl::board::BOARDS;
+use incircle_hdl::export::{self, QUICK_LINK};
+use incircle_protocol::TINY;
+
+/// Name of the module around each top, which gives all boards the same pins; lamps are 1 when lit.
+pub const NAME: &str = "board_under_test";
+
+const PORTS: &str = "input wire clock, input wire rx, input wire button, output wire tx, output wire [2:0] lamps";
+
+/// What stands in that module, by the board's top.
+const INSIDE: [(&str, &str); 3] = [
+    (
+        "ulx3s_85f",
+        "ulx3s_85f board (.clk_25mhz(clock), .ftdi_txd(rx), .ftdi_rxd(tx), .btn_fire1(button), .led(lamps));",
+    ),
+    (
+        "colorlight_i5",
+        "wire led_n;
+        colorlight_i5 board (.clk_25mhz(clock), .uart_rx(rx), .uart_tx(tx), .led_n(led_n), .pmod(lamps[2:1]));
+        assign lamps[0] = !led_n;",
+    ),
+    (
+        "ecpix_5",
+        "wire [2:0] dark;
+        ecpix_5 board (.clk_100mhz(clock), .uart_rx(rx), .uart_tx(tx), .ld5_g(dark[0]), .ld6_b(dark[1]), .ld7_r(dark[2]));
+        assign lamps = ~dark;",
+    ),
+];
+
+/// Clock and reset alone.
+const CLOCK: &str = "module board_under_test (input wire clock, input wire asks_reset, output wire reset);
+    wire through;
+    clock_and_reset #(1, 25, 5) clock_and_reset (
+        .board_clock(clock), .asks_reset(asks_reset), .clock(through), .reset(reset)
+    );
+endmodule
+";
+
+/// Pins of the PLL are left open.
+const OPEN_PINS: &str = "/* verilator lint_off PINMISSING */\n";
+
+/// The models' names and texts; all have the root module [`NAME`].
+pub fn all() -> Vec<(String, String)> {
+    let read = |path: &str| fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let clock = OPEN_PINS.to_string() + &read("cells/EHXPLLL.v") + &read("../constraints/ecp5/clock.v");
+    let device = export::serial_top(TINY, QUICK_LINK, false).unwrap_or_else(|error| panic!("device: {error}"));
+    let mut models = vec![("board_clock".to_string(), clock.clone() + CLOCK)];
+    for board in BOARDS {
+        let inside = INSIDE.iter().find(|(top, _)| *top == board.top);
+        let (_, inside) = inside.unwrap_or_else(|| panic!("no pins for {}: add them to build/boards.rs", board.name));
+        let top = read(&format!("../constraints/{}/top.v", board.name));
+        let text =
+            format!("`define BOARD_PLL 1,25,5\n{clock}{top}{device}module {NAME} ({PORTS});\n{inside}\nendmodule\n");
+        models.push((format!("board_{}", board.top), text));
+    }
+    models
+}

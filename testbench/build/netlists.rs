@@ -1,0 +1,74 @@
+//! Cores after synthesis for the ECP5, as cells, with models of the cells, so that lock-step runs what is placed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use incircle_hdl::board::mapping;
+use incircle_hdl::export;
+use incircle_hdl::top::CORE_NAME;
+use incircle_protocol::{Config, SMALL};
+
+/// Models of the cells that synthesis maps to.
+const CELLS: [&str; 8] = ["CCU2C", "DP16KD", "L6MUX21", "LUT4", "MULT18X18D", "PFUMX", "TRELLIS_DPR16X4", "TRELLIS_FF"];
+
+/// The passes: those of the boards. Nets that only have a name are dropped: they would be simulated too.
+fn passes() -> String {
+    let mapping = mapping(CORE_NAME);
+    format!("read_verilog -D INCIRCLE_ECP5 design.v; {mapping}; opt_clean -purge; write_verilog -noattr netlist.v")
+}
+
+/// Synthesis leaves pins of cells open that a mode does not use.
+const OPEN_PINS: &str = "/* verilator lint_off PINMISSING */\n";
+
+/// Cores that are simulated as netlists.
+const NETLISTS: [(&str, Config); 1] = [("netlist_small", SMALL)];
+
+/// Every netlist, with the probe.
+pub fn all() -> Vec<(&'static str, String)> {
+    NETLISTS.map(|(name, config)| (name, netlist(name, config))).into()
+}
+
+fn netlist(name: &str, config: Config) -> String {
+    let design = export::core(config, true).unwrap_or_else(|error| panic!("core {}: {error}", config.name));
+    let mut text = OPEN_PINS.to_string() + &synthesised(name, &design);
+    for cell in CELLS {
+        let path = format!("cells/{cell}.v");
+        text += &fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    }
+    text
+}
+
+/// The netlist of a design; from the last build, if the design and yosys are the same.
+fn synthesised(name: &str, design: &str) -> String {
+    let folder = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets it")).join("netlists").join(name);
+    let key = [&yosys(&["-V"], Path::new(".")), &passes(), design].join("\n");
+    let [key_file, design_file, netlist_file] = ["key", "design.v", "netlist.v"].map(|file| folder.join(file));
+    let read = |path: &Path| fs::read_to_string(path).ok();
+    if let (true, Some(netlist)) = (read(&key_file).is_some_and(|kept| kept == key), read(&netlist_file)) {
+        return netlist;
+    }
+    let write = |path: &Path, text: &str| {
+        fs::write(path, text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    };
+    if folder.exists() {
+        fs::remove_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    }
+    fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    write(&design_file, design);
+    yosys(&["-q", "-p", &passes()], &folder);
+    let netlist = read(&netlist_file).unwrap_or_else(|| panic!("yosys has left no {}", netlist_file.display()));
+    // Last, so that a build that was cut short is not taken for a whole one.
+    write(&key_file, &key);
+    netlist
+}
+
+/// What yosys prints.
+fn yosys(arguments: &[&str], folder: &Path) -> String {
+    let output = Command::new("yosys").args(arguments).current_dir(folder).output();
+    let output =
+        output.unwrap_or_else(|error| panic!("cannot start yosys ({error}): install the Debian package yosys"));
+    let printed = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).concat();
+    assert!(output.status.success(), "yosys ends with {}:\n{printed}", output.status);
+    printed
+}
