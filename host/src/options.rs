@@ -3,6 +3,9 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
+use crate::order::{self, Alpha, Curve};
+use crate::point::Point;
+
 /// The order in which points reach the device. The mesh does not depend on it, the time does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Order {
@@ -14,11 +17,42 @@ pub enum Order {
     Hilbert,
     /// As the points come.
     Input,
+    /// Random, in an order that follows from the coordinates.
+    Random,
+    /// One pass along a curve.
+    Along(Curve),
+    /// Rounds of growing random samples, each along a curve.
+    Brio(Curve, Alpha),
 }
+
+/// Every order once: Hilbert's curve has names of its own.
+const ALL: [Order; 3 + 1 + (Curve::ALL.len() - 1) + (3 * Curve::ALL.len() - 1)] = {
+    let mut all = [Order::BrioHilbert; 3 + 1 + (Curve::ALL.len() - 1) + (3 * Curve::ALL.len() - 1)];
+    all[1] = Order::Hilbert;
+    all[2] = Order::Input;
+    all[3] = Order::Random;
+    let (mut place, mut which) = (4, 0);
+    while which < Curve::ALL.len() {
+        let curve = Curve::ALL[which];
+        let is_hilbert = matches!(curve, Curve::Hilbert);
+        if !is_hilbert {
+            all[place] = Order::Along(curve);
+            all[place + 1] = Order::Brio(curve, Alpha::Quarter);
+            place += 2;
+        }
+        all[place] = Order::Brio(curve, Alpha::Half);
+        all[place + 1] = Order::Brio(curve, Alpha::Eighth);
+        place += 2;
+        which += 1;
+    }
+    all
+};
 
 impl Order {
     /// All orders.
-    pub const ALL: [Self; 3] = [Self::BrioHilbert, Self::Hilbert, Self::Input];
+    pub const ALL: [Self; ALL.len()] = ALL;
+    /// The best, the plainest curve, and none.
+    pub const BASIC: [Self; 3] = [Self::BrioHilbert, Self::Hilbert, Self::Input];
 
     /// The name in reports and on the command line.
     pub const fn name(self) -> &'static str {
@@ -26,6 +60,21 @@ impl Order {
             Self::BrioHilbert => "brio-hilbert",
             Self::Hilbert => "hilbert",
             Self::Input => "input",
+            Self::Random => "random",
+            Self::Along(curve) => curve.name(),
+            Self::Brio(curve, alpha) => curve.brio_name(alpha),
+        }
+    }
+
+    /// The points in this order: a permutation of `0..points.len()`.
+    pub fn order(self, points: &[Point]) -> Vec<u32> {
+        match self {
+            Self::BrioHilbert => order::brio_hilbert(points),
+            Self::Hilbert => order::hilbert(points),
+            Self::Input => (0..=u32::MAX).take(points.len()).collect(),
+            Self::Random => order::random(points),
+            Self::Along(curve) => curve.order(points),
+            Self::Brio(curve, alpha) => order::brio(points, curve, alpha),
         }
     }
 
@@ -131,6 +180,7 @@ mod tests {
         for order in Order::ALL {
             assert_eq!(Order::named(order.name()), Some(order));
         }
+        assert_eq!(Order::named("brio-half-squarified-peano"), Some(Order::Brio(Curve::SquarifiedPeano, Alpha::Half)));
         assert_eq!(Order::named("spiral"), None);
     }
 

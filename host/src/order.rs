@@ -7,14 +7,26 @@
 //!
 //! Indices are 32 bits wide: points past the 2^32nd are left out.
 
+mod adaptive;
+mod curve;
+#[cfg(test)]
+mod drawing;
+mod median;
+mod morton;
+mod peano;
+mod pieces;
+mod random;
+mod sierpinski;
+mod squarified;
+
+pub use curve::Curve;
+
 use crate::hilbert::{position_16, position_32};
 use crate::point::Point;
 use crate::sort::{sort_by_key, Entry, Narrow, Wide};
 
 /// The first round of a biased order has at least about this many points.
 const FIRST_ROUND: usize = 16;
-/// Each round has four times the points of all before it, less one part: α = 1/4 as a shift.
-const ALPHA_SHIFT: u32 = 2;
 
 /// The biased randomised order of α = 1/4 along a Hilbert curve: a permutation of `0..points.len()`.
 ///
@@ -80,20 +92,79 @@ pub fn brio_hilbert_dealt(points: &[Point], contexts: u32) -> Vec<u32> {
     rounds(&along_curve(points)).deal(contexts)
 }
 
+/// The share of the points that all rounds but the last have together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Alpha {
+    /// 1/2, as the authors have it: a coin is thrown for each point.
+    Half,
+    /// 1/4: fewer rounds, and still none that is much larger than all before it.
+    #[default]
+    Quarter,
+    /// 1/8.
+    Eighth,
+}
+
+impl Alpha {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Half, Self::Quarter, Self::Eighth];
+
+    /// α is 2 to minus this.
+    const fn shift(self) -> u32 {
+        match self {
+            Self::Half => 1,
+            Self::Quarter => 2,
+            Self::Eighth => 3,
+        }
+    }
+}
+
+/// The biased randomised order of this α with any curve in its rounds: a permutation of `0..points.len()`. The round of a point follows
+/// from a hash of its coordinates.
+///
+/// Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003.
+pub fn brio(points: &[Point], curve: Curve, alpha: Alpha) -> Vec<u32> {
+    brio_rounds(points, curve, alpha).order
+}
+
+/// The rounds of [`brio`].
+pub(crate) fn brio_rounds(points: &[Point], curve: Curve, alpha: Alpha) -> Rounds {
+    let mut rounds = match along_curve(points) {
+        Hilbert::Narrow(entries) => sort_into_rounds(&entries, alpha),
+        Hilbert::Wide(entries) => sort_into_rounds(&entries, alpha),
+    };
+    if curve == Curve::Hilbert {
+        return rounds;
+    }
+    let ends = rounds.starts.iter().skip(1).copied().chain([points.len()]);
+    for (start, end) in rounds.starts.iter().copied().zip(ends) {
+        let round = rounds.order[start..end].to_vec();
+        let within: Vec<Point> = round.iter().map(|&index| points[index as usize]).collect();
+        for (slot, place) in rounds.order[start..end].iter_mut().zip(curve.order(&within)) {
+            *slot = round[place as usize];
+        }
+    }
+    rounds
+}
+
+/// A random permutation of `0..points.len()`, which follows from the coordinates alone.
+pub fn random(points: &[Point]) -> Vec<u32> {
+    random::order(points)
+}
+
 /// One pass along the Hilbert curve: a permutation of `0..points.len()`. Equal points stay together, in input order.
 pub fn hilbert(points: &[Point]) -> Vec<u32> {
     along_curve(points).into_indices()
 }
 
 /// Points sorted along the curve, in the smallest form that holds them.
-pub(crate) enum Curve {
+pub(crate) enum Hilbert {
     /// Coordinates below 2^16: 8 bytes per point.
     Narrow(Vec<Narrow>),
     /// Any: 16 bytes per point.
     Wide(Vec<Wide>),
 }
 
-impl Curve {
+impl Hilbert {
     /// The indices along the curve.
     pub(crate) fn into_indices(self) -> Vec<u32> {
         match self {
@@ -104,7 +175,7 @@ impl Curve {
 }
 
 /// Sorts indices by position along the curve; equal positions are equal points, and stay in input order.
-pub(crate) fn along_curve(points: &[Point]) -> Curve {
+pub(crate) fn along_curve(points: &[Point]) -> Hilbert {
     let all = points.iter().fold(0, |all, point| all | point.x | point.y);
     if all < 1 << 16 {
         let mut entries: Vec<Narrow> = points
@@ -113,7 +184,7 @@ pub(crate) fn along_curve(points: &[Point]) -> Curve {
             .map(|(point, index)| Narrow::new(position_16(point.x, point.y), index))
             .collect();
         sort_by_key(&mut entries);
-        Curve::Narrow(entries)
+        Hilbert::Narrow(entries)
     } else {
         let mut entries: Vec<Wide> = points
             .iter()
@@ -121,21 +192,23 @@ pub(crate) fn along_curve(points: &[Point]) -> Curve {
             .map(|(point, index)| Wide::new(position_32(point.x, point.y), index))
             .collect();
         sort_by_key(&mut entries);
-        Curve::Wide(entries)
+        Hilbert::Wide(entries)
     }
 }
 
 /// Deals points that are sorted along the curve into rounds.
-pub(crate) fn rounds(curve: &Curve) -> Rounds {
+pub(crate) fn rounds(curve: &Hilbert) -> Rounds {
     match curve {
-        Curve::Narrow(entries) => sort_into_rounds(entries),
-        Curve::Wide(entries) => sort_into_rounds(entries),
+        Hilbert::Narrow(entries) => sort_into_rounds(entries, Alpha::default()),
+        Hilbert::Wide(entries) => sort_into_rounds(entries, Alpha::default()),
     }
 }
 
 /// Counting sort by round, first round first; the curve's order stays inside a round.
-fn sort_into_rounds<E: Entry>(entries: &[E]) -> Rounds {
-    let last = last_level(entries.len());
+fn sort_into_rounds<E: Entry>(entries: &[E], alpha: Alpha) -> Rounds {
+    let shift = alpha.shift();
+    let level = |key: u64, last: usize| level(key, last, shift);
+    let last = last_level(entries.len(), shift);
     let mut starts = [0usize; LEVELS];
     for entry in entries {
         starts[level(entry.key(), last)] += 1;
@@ -156,23 +229,23 @@ fn sort_into_rounds<E: Entry>(entries: &[E]) -> Rounds {
     Rounds { order, starts: rounds }
 }
 
-/// Levels there can be: the trailing zeros of a 64-bit hash in steps of `ALPHA_SHIFT`, and all of them zero.
-const LEVELS: usize = (u64::BITS / ALPHA_SHIFT) as usize + 1;
+/// Levels there can be: the trailing zeros of a 64-bit hash, and all of them zero.
+const LEVELS: usize = u64::BITS as usize + 1;
 
 /// How many levels below the last round `points` points have.
-fn last_level(points: usize) -> usize {
+fn last_level(points: usize, shift: u32) -> usize {
     let mut level = 0;
-    let mut sample = points >> ALPHA_SHIFT;
+    let mut sample = points >> shift;
     while sample >= FIRST_ROUND {
         level += 1;
-        sample >>= ALPHA_SHIFT;
+        sample >>= shift;
     }
     level
 }
 
-/// The level of a point: 0 is the last round, and one in four reaches the next level.
-fn level(key: u64, last: usize) -> usize {
-    ((mix(key).trailing_zeros() / ALPHA_SHIFT) as usize).min(last)
+/// The level of a point: 0 is the last round, and one in 2^`shift` reaches the next level.
+fn level(key: u64, last: usize, shift: u32) -> usize {
+    ((mix(key).trailing_zeros() / shift) as usize).min(last)
 }
 
 /// A fixed hash: the output function of the SplitMix64 generator (Steele, Lea, Flood 2014), at the state `key`
@@ -197,12 +270,12 @@ mod tests {
     fn a_quarter_of_a_lattice_comes_before_the_last_round() {
         let points = lattice(64, 1000);
         let curve = along_curve(&points);
-        let Curve::Narrow(entries) = &curve else {
+        let Hilbert::Narrow(entries) = &curve else {
             panic!("16-bit points take the narrow form");
         };
-        let last = last_level(points.len());
+        let last = last_level(points.len(), 2);
         assert_eq!(last, 4);
-        let early = entries.iter().filter(|e| level(crate::sort::Keyed::key(*e), last) > 0).count();
+        let early = entries.iter().filter(|e| level(crate::sort::Keyed::key(*e), last, 2) > 0).count();
         assert!((900..1150).contains(&early), "{early} of 4096 before the last round");
     }
 
@@ -248,6 +321,30 @@ mod tests {
         let points = lattice(30, 9);
         assert_eq!(brio_hilbert_dealt(&points, 1), brio_hilbert(&points));
         assert_ne!(brio_hilbert_dealt(&points, 2), brio_hilbert(&points));
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        #[test]
+        fn every_order_is_a_permutation_and_keeps_equal_points_together(
+            raw in prop::collection::vec((any::<u32>(), any::<u32>()), 0..300),
+            (wide, high) in (0u32..32, 0u32..32),
+        ) {
+            let cut = |value: u32, bits: u32| if bits == 0 { 0 } else { value >> (32 - bits) };
+            let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(cut(x, wide), cut(y, high))).collect();
+            let along = Curve::ALL.map(|curve| curve.order(&points));
+            let rounds = Curve::ALL.into_iter().flat_map(|c| Alpha::ALL.map(|alpha| brio(&points, c, alpha)));
+            for order in along.into_iter().chain(rounds).chain([random(&points)]) {
+                let mut seen = std::collections::HashSet::new();
+                for pair in order.chunk_by(|&one, &other| points[one as usize] == points[other as usize]) {
+                    prop_assert!(seen.insert(points[pair[0] as usize]), "{} comes twice", points[pair[0] as usize]);
+                }
+                let mut sorted = order;
+                sorted.sort_unstable();
+                prop_assert!(sorted.iter().copied().eq(0..points.len() as u32));
+            }
+        }
     }
 
     proptest! {

@@ -3,7 +3,7 @@
 
 use crate::mesh::Duplicate;
 use crate::options::Order;
-use crate::order::{along_curve, rounds, Curve, Rounds};
+use crate::order::{along_curve, brio_rounds, random, rounds, Hilbert, Rounds};
 use crate::point::Point;
 use crate::sort::Entry;
 
@@ -23,12 +23,18 @@ pub(crate) struct Prepared {
 pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared {
     let mut curve = along_curve(points);
     let mut duplicates = match &mut curve {
-        Curve::Narrow(entries) => remove_duplicates(entries),
-        Curve::Wide(entries) => remove_duplicates(entries),
+        Hilbert::Narrow(entries) => remove_duplicates(entries),
+        Hilbert::Wide(entries) => remove_duplicates(entries),
     };
     duplicates.sort_unstable();
+    let single = |choose: &dyn Fn(&[Point]) -> Vec<u32>, curve: Hilbert| {
+        chosen(points, curve.into_indices(), |distinct| Rounds::single(choose(distinct)))
+    };
     let mut rounds = match order {
         Order::BrioHilbert => rounds(&curve),
+        Order::Random => single(&random, curve),
+        Order::Along(by) => single(&|distinct| by.order(distinct), curve),
+        Order::Brio(by, alpha) => chosen(points, curve.into_indices(), |distinct| brio_rounds(distinct, by, alpha)),
         Order::Hilbert => Rounds::single(curve.into_indices()),
         Order::Input => {
             let mut indices = curve.into_indices();
@@ -39,12 +45,20 @@ pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared
     let collinear = !start_with_a_triangle(&mut rounds, points);
     let mut order = match order {
         Order::Input => rounds.order,
-        Order::BrioHilbert | Order::Hilbert => rounds.deal(contexts),
+        _ => rounds.deal(contexts),
     };
     if collinear {
         order.sort_unstable_by_key(|&index| points[index as usize]);
     }
     Prepared { order, duplicates, collinear }
+}
+
+/// The rounds of the points with these indices, in which their places are replaced by the indices.
+fn chosen(points: &[Point], indices: Vec<u32>, rounds: impl FnOnce(&[Point]) -> Rounds) -> Rounds {
+    let distinct: Vec<Point> = indices.iter().map(|&index| points[index as usize]).collect();
+    let mut rounds = rounds(&distinct);
+    rounds.order.iter_mut().for_each(|place| *place = indices[*place as usize]);
+    rounds
 }
 
 /// Keeps the first entry of each key, which has the lowest index because the sort was stable.
@@ -165,7 +179,7 @@ mod tests {
         #[test]
         fn every_distinct_point_is_there_once_under_its_lowest_index(
             raw in prop::collection::vec((0u32..6, 0u32..6), 0..60),
-            which in 0usize..3,
+            which in 0usize..Order::ALL.len(),
             contexts in 1u32..25,
             shift in prop::sample::select(vec![0u32, 20]),
         ) {

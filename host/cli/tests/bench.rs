@@ -127,3 +127,30 @@ fn what_does_not_fit_is_told_before_any_row() {
     let run = scratch.run("bench box -n 20000 --backend clock").ok();
     assert!(run.stdout.starts_with("clock full,"), "{run:?}");
 }
+
+#[test]
+fn orders_are_compared_as_table_csv_and_drawing() {
+    let scratch = Scratch::new();
+    let run = scratch
+        .run("bench orders uniform parabola -n 300,600 --order hilbert,brio-hilbert,random --csv o.csv --plot o.svg")
+        .ok();
+    let rows = rows(&run, 2);
+    assert_eq!(rows.len(), 2 * 2 * 3);
+    let csv = scratch.read("o.csv");
+    assert_eq!(csv.lines().next(), Some("set,points,order,order_ns,total_ns,walk,tests,cavity,cycles"));
+    assert_eq!(csv.lines().count(), 1 + rows.len());
+    for row in &rows {
+        assert_eq!(row.len(), 9, "{row:?}");
+        let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
+        assert!((3..9).all(|column| value(column) > 0.0), "{row:?}");
+        // What is removed was tested, or is where the walk ended.
+        assert!(value(7) <= value(6) + 1.0, "{row:?}");
+    }
+    // A walk from anywhere is longer than one along a curve.
+    let walk = |order: usize| rows[3 + order][5].parse::<f64>().expect("a number");
+    assert!(walk(2) > 2.0 * walk(0), "{rows:?}");
+    let drawing = scratch.read("o.svg");
+    assert!(drawing.starts_with("<svg ") && drawing.matches("<rect").count() == 1 + 2 * rows.len(), "{drawing}");
+    let wide = scratch.run("bench orders uniform -n 100 --coord-bits 20 --order hilbert").ok();
+    assert!(wide.stdout.lines().last().is_some_and(|line| line.ends_with(" -")), "{wide:?}");
+}

@@ -75,3 +75,24 @@ fn more_points_than_memory_end_with_seven() {
     }
     assert!(scratch.files().is_empty());
 }
+
+#[test]
+fn orders_are_drawn_and_points_written_in_them() {
+    let scratch = Scratch::new();
+    scratch.run("generate lattice -n 64 --order hilbert -o order.svg").ok();
+    let drawing = scratch.read("order.svg");
+    assert!(drawing.starts_with("<svg ") && drawing.contains("64 points, lattice, in the order hilbert"), "{drawing}");
+    scratch.run("generate lattice -n 64 -o order2.svg").fails(2, &["--order", ".csv"]);
+    scratch.run("generate uniform -n 500 -o p.csv").ok();
+    scratch.run("generate uniform -n 500 --order brio-squarified-peano -o q.csv").ok();
+    let lines = |name: &str| {
+        let mut lines: Vec<String> = scratch.read(name).lines().map(str::to_owned).collect();
+        let in_file = lines.clone();
+        lines.sort();
+        (lines, in_file)
+    };
+    let ((sorted, plain), (sorted_too, ordered)) = (lines("p.csv"), lines("q.csv"));
+    assert_eq!(sorted, sorted_too);
+    assert_ne!(plain, ordered);
+    assert_eq!(scratch.run("generate uniform -n 5 --order zigzag -o p.csv").code, Some(2));
+}

@@ -4,9 +4,10 @@ use std::time::Instant;
 
 use incircle::{Options, Point, Report, Session};
 
-use crate::arguments::{BackendChoice, BenchArguments};
+use crate::arguments::{BackendChoice, BenchArguments, BenchCommand};
 use crate::backend::{self, Backend};
 use crate::bench_report::{Bench, Measured};
+use crate::commands::bench_orders;
 use crate::commands::generate::{check_count, make};
 use crate::failure::Failure;
 use crate::fit::Fit;
@@ -26,6 +27,9 @@ const DEFAULT_MHZ: f64 = 125.0;
 
 /// Runs the subcommand: a row as soon as its set is done, or one JSON object at the end.
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
+    if let Some(BenchCommand::Orders(orders)) = &arguments.command {
+        return bench_orders::run(orders);
+    }
     check_count(arguments.n)?;
     let sets = sets_of(arguments);
     let room = room_for(&sets, arguments)?;

@@ -1,10 +1,10 @@
 //! `incircle generate`: point sets by name.
 
-use incircle::MAX_POINTS;
+use incircle::{Order, Point, MAX_POINTS};
 
 use crate::arguments::GenerateArguments;
 use crate::failure::{Exit, Failure};
-use crate::formats::{csv, extension, node, xyz, PointFormat};
+use crate::formats::{csv, curve, extension, node, xyz, PointFormat};
 use crate::generate::{generate, Distribution, GenerateError};
 use crate::output::{self, Output};
 use crate::source;
@@ -12,6 +12,9 @@ use crate::source;
 /// Runs the subcommand.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     let path = arguments.output.as_path();
+    if extension(path) == "svg" {
+        return draw(arguments);
+    }
     // What has no extension (standard output, a device) takes CSV.
     let format = match extension(path) {
         "" => Some(PointFormat::Csv),
@@ -22,14 +25,39 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         Some(PointFormat::Xyz) => xyz::write_points,
         Some(PointFormat::Node) => node::write_points,
         _ => {
-            return Err(Failure::usage(format!("{}: points are written as .csv, .xyz or .node", source::name(path))));
+            return Err(Failure::usage(format!(
+                "{}: points are written as .csv, .xyz or .node, and their --order as .svg",
+                source::name(path)
+            )));
         }
     };
     check_count(arguments.n)?;
     let output = Output::prepare(path, None)?;
-    let points = make(arguments.distribution, arguments.n, arguments.bits, arguments.seed)?;
+    let mut points = make(arguments.distribution, arguments.n, arguments.bits, arguments.seed)?;
+    if let Some(order) = arguments.order {
+        points = ordered(&points, order);
+    }
     let written = output.write(|out| write_points(&points, out))?;
     output::finish([written], || Ok(()))
+}
+
+/// Draws an order instead of writing points.
+fn draw(arguments: &GenerateArguments) -> Result<(), Failure> {
+    let Some(order) = arguments.order else {
+        return Err(Failure::usage("an .svg shows an order of the points: add --order, or write .csv, .xyz or .node"));
+    };
+    check_count(arguments.n)?;
+    let output = Output::prepare(&arguments.output, None)?;
+    let points = ordered(&make(arguments.distribution, arguments.n, arguments.bits, arguments.seed)?, order);
+    let title = format!("{} points, {}, in the order {}", arguments.n, arguments.distribution, order.name());
+    let written = output.write(|out| curve::write(&points, &title, out))?;
+    output::finish([written], || Ok(()))
+}
+
+/// The points in an order.
+fn ordered(points: &[[u32; 2]], order: Order) -> Vec<[u32; 2]> {
+    let grid: Vec<Point> = points.iter().copied().map(Point::from).collect();
+    order.order(&grid).into_iter().map(|index| points[index as usize]).collect()
 }
 
 /// Refuses more points than a job may have.

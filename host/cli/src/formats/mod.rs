@@ -1,6 +1,7 @@
 //! File formats: one file each, with all that is read and written in it.
 
 pub mod csv;
+pub mod curve;
 pub mod ele;
 pub mod geojson;
 pub mod json;

@@ -1,0 +1,44 @@
+//! The Z-curve: quadrants in the order lower left, upper left, lower right, upper right, each the same way.
+//!
+//! Morton, *A computer oriented geodetic data base*, 1966. The position is the coordinates' bits in turn, so it is the cheapest of all
+//! curves; from one half to the other it jumps.
+
+use super::curve::{by_key, square};
+use crate::point::Point;
+
+/// The points along the curve over the square around them.
+pub(super) fn order(points: &[Point]) -> Vec<u32> {
+    let (corner, _) = square(points);
+    by_key(points, |point| position(point.x - corner.x, point.y - corner.y))
+}
+
+/// The position of a cell.
+fn position(x: u32, y: u32) -> u64 {
+    spread(x) << 1 | spread(y)
+}
+
+/// The bits of a number, each with a zero above it.
+fn spread(value: u32) -> u64 {
+    let fold = |bits: u64, shift: u32, mask: u64| (bits | bits << shift) & mask;
+    let bits = fold(value.into(), 16, 0x0000_ffff_0000_ffff);
+    let bits = fold(bits, 8, 0x00ff_00ff_00ff_00ff);
+    let bits = fold(bits, 4, 0x0f0f_0f0f_0f0f_0f0f);
+    let bits = fold(bits, 2, 0x3333_3333_3333_3333);
+    fold(bits, 1, 0x5555_5555_5555_5555)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::order::drawing::draw;
+    use crate::order::Curve;
+
+    #[test]
+    fn it_looks_like_a_z() {
+        assert_eq!(draw(Curve::Morton, 4), ["  5  7 13 15", "  4  6 12 14", "  1  3  9 11", "  0  2  8 10"]);
+    }
+
+    #[test]
+    fn the_widest_coordinates_have_positions() {
+        assert_eq!(super::position(u32::MAX, u32::MAX), u64::MAX);
+    }
+}

@@ -1,0 +1,26 @@
+//! Random order: the classic randomised incremental construction.
+//!
+//! Clarkson and Shor, *Applications of random sampling in computational geometry II*, 1989. The expected number of changes is O(n) for
+//! any set; but each point must be found from far away.
+
+use super::curve::by_key;
+use super::mix;
+use crate::point::Point;
+
+/// The points in an order that is random, and follows from their coordinates alone.
+pub(super) fn order(points: &[Point]) -> Vec<u32> {
+    by_key(points, |point| mix(u64::from(point.x) << 32 | u64::from(point.y)))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::order::random;
+    use crate::point::Point;
+
+    #[test]
+    fn half_of_the_steps_of_a_line_lead_back() {
+        let points: Vec<Point> = (0..1000).map(|k| Point::new(k, 5)).collect();
+        let back = random(&points).windows(2).filter(|pair| pair[1] < pair[0]).count();
+        assert!((400..600).contains(&back), "{back}");
+    }
+}
