@@ -100,6 +100,7 @@ pub struct InsertionEngine {
     solo: Solo,
     seeder: Seeder,
     write_port: WritePort,
+    completes: DFF<Bit>,
     pushes: DFF<Bit>,
     pushed: DFF<Bundle>,
     first_vertex: Signal<Local, Bits<15>>,
@@ -115,7 +116,7 @@ impl InsertionEngine {
 impl Logic for InsertionEngine {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, pushes, pushed);
+        dff_setup!(self, clock, completes, pushes, pushed);
         clock!(self, clock, insertions, pipeline, solo, seeder, write_port);
         self.first_vertex.next = 0.into();
         self.insertions.reset.next = self.reset.val();
@@ -162,7 +163,7 @@ impl Logic for InsertionEngine {
         self.pipeline.clear_id.next = self.insertions.clear_id.val();
         self.pipeline.clear_enable.next = self.insertions.clear_enable.val();
 
-        // The insertions in flight.
+        // The insertions in flight. No visit is out when an insertion alone starts or ends, so a clock earlier makes no difference.
         self.insertions.ring.next = self.ring.val();
         self.insertions.last_id.next = self.last_id.val();
         self.insertions.all.next = self.all.val();
@@ -171,7 +172,8 @@ impl Logic for InsertionEngine {
         self.insertions.arrived.next = self.arrived.val();
         self.insertions.came.next = self.came.val();
         self.insertions.now.next = self.now.val();
-        self.insertions.done.next = self.pipeline.done.val() & (!self.solo.is_at_work.val());
+        self.completes.d.next = self.pipeline.early_done.val() & (!self.solo.is_at_work.val()) & (!self.reset.val());
+        self.insertions.done.next = self.completes.q.val();
         self.insertions.token.next = self.pipeline.token.val();
         self.insertions.turned.next = self.pipeline.turned.val();
         self.insertions.verdict.next = self.pipeline.verdict.val();

@@ -116,6 +116,7 @@ pub struct Insertions {
     dispatcher: Dispatcher,
     attempts: Attempts,
     commits: CommitPath,
+    may_push: Signal<Local, Bit>,
 }
 
 impl Insertions {
@@ -180,7 +181,10 @@ impl Logic for Insertions {
         self.dispatcher.root_enable.next = self.attempts.root_enable.val();
         self.dispatcher.root.next = self.attempts.root.val();
         self.dispatcher.hands_over.next = self.attempts.commit_enable.val() | self.attempts.release_enable.val();
-        self.dispatcher.pushes.next = self.attempts.push.val();
+        // Whether it does is known too late: all count but tests that find their edge final.
+        self.may_push.next =
+            self.done.val() & ((!self.token.val().rotates) | self.verdict.val().conflict | self.turned.val().foreign);
+        self.dispatcher.may_push.next = self.may_push.val();
         self.dispatcher.commit_ends.next = self.commits.ends.val();
         self.dispatcher.commit_owner.next = self.commits.job.val().owner;
         self.dispatcher.hint.next = self.commits.hint.val();
@@ -224,7 +228,7 @@ impl Logic for Insertions {
         // The visits that follow, else those of a context that starts.
         self.push.next = self.attempts.push.val() | self.dispatcher.starts.val();
         self.bundle.next = self.attempts.bundle.val();
-        if !self.attempts.push.val() {
+        if !self.may_push.val() {
             self.bundle.next.is_pair = false;
             self.bundle.next.is_triple = false;
             self.bundle.next.owner = self.dispatcher.starter.val();

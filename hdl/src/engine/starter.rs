@@ -10,7 +10,7 @@
 //! | `asleep`, `keeping`, `busy`, `began`, `hinted` | in | 24 | see `ContextFlags` |
 //! | `solo_valid` | in | 1 | somebody wants to be alone: nobody starts |
 //! | `is_urgent`, `waiter` | in | 1, 5 | nobody but this context may try again |
-//! | `is_blocked` | in | 1 | the queue takes another bundle at this edge |
+//! | `is_blocked` | in | 1 | the queue may take another bundle at this edge |
 //! | `root_enable`, `root_owner`, `root` | in | 1, 5, 15 | where a context goes on when it tries again |
 //! | `hint_enable`, `hint_owner`, `hint` | in | 1, 5, 15 | where its next walk starts |
 //! | `starts`, `owner`, `u` | out | 1, 5, 15 | this context starts to walk at this record |
@@ -22,7 +22,7 @@
 //! 1. A context starts if it sleeps and has a point to try again, no commit or release is due, and it has rested: contexts that try again
 //!    start in every fourth round of the pointer only, which spreads them.
 //! 2. Or if it sleeps and its next point has come. Until context 0 has taken vertex 16, no other context works.
-//!    A start that finds the queue or the vertex memory's port taken is made in the next clock; the pointer waits.
+//!    A start that may find the queue taken, or the vertex memory's port, is made in the next clock; the pointer waits.
 //! 3. The walk of a new point starts at the star of the context's last commit, record 0 if there is none.
 //! 4. Who wants to be alone starts when everybody rests and the pointer passes it.
 //!
@@ -91,7 +91,7 @@ pub struct Starter {
     pub solo_is_at_work: Signal<In, Bit>,
     /// No visit is out, no lock held.
     pub all_rest: Signal<In, Bit>,
-    /// The queue takes another bundle.
+    /// The queue may take another bundle.
     pub is_blocked: Signal<In, Bit>,
     /// A root to go on from.
     pub root_enable: Signal<In, Bit>,

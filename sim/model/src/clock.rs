@@ -24,7 +24,7 @@ mod starter;
 mod watchdog;
 mod wires;
 
-use attempts::Tables;
+use attempts::{Outcome, Tables};
 use command_port::CommandPort;
 use commit::Commit;
 use contexts::Contexts;
@@ -84,6 +84,8 @@ struct Registers {
     counters: Counters,
     /// The counters as they were a clock ago: the hardware counts an event a clock after it.
     counted: Counters,
+    /// What the visit that completed in the clock before leads to: contexts take note of it in this clock.
+    outcome: Option<Outcome>,
     /// The bundle that enters the queue in this clock.
     push: Option<Bundle>,
     write: Write,
@@ -205,6 +207,7 @@ impl ClockModel {
         now.watchdog.clock(&was, &wires, self.config);
         now.counters.clock(&was, &wires, &self.pipeline);
         now.counted = was.counters;
+        now.outcome = wires.outcome;
         now.push =
             wires.outcome.and_then(|outcome| outcome.push).or(wires.solo_push).or(wires.start.map(|start| start.push));
         self.latencies.clock(&was, &wires);

@@ -52,7 +52,7 @@ impl Contexts {
     }
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, built: u32, defect: Option<Defect>) {
-        if let Some(outcome) = &wires.outcome {
+        if let Some(outcome) = &was.outcome {
             self.take_outcome(was, outcome, defect);
         }
         if let Some(context) = wires.start.map(|start| start.context) {

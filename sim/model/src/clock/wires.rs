@@ -32,7 +32,7 @@ pub(super) struct Wires {
     pub new_vertex: Option<(u32, Point)>,
     /// A context starts to walk.
     pub start: Option<Start>,
-    /// A context would, but the queue takes another bundle, or the vertex memory a point: it comes first in the next clock.
+    /// A context would, but the queue may take another bundle, or the vertex memory takes a point: it comes first in the next clock.
     pub start_is_blocked: bool,
     /// The last record of the first triangle is written.
     pub seeds: bool,
@@ -74,9 +74,10 @@ impl ClockModel {
         });
         let solo_push = was.solo.push_request(was);
         let wanted = was.starter.wants(was, &self.tables, &self.memory, self.defect);
-        // The queue takes one bundle, and the vertex memory has one port for points that arrive and points that are taken.
+        // The queue takes one bundle, and the vertex memory has one port for points that arrive and points that are taken. Whether a
+        // visit that completes asks for others is known too late: all count but those that find their edge final.
         let start_is_blocked = wanted.is_some_and(|start| start.id.is_some() && was.command.came)
-            || wanted.is_some() && outcome.is_some_and(|outcome| outcome.push.is_some());
+            || wanted.is_some() && outcome.is_some() && done.is_some_and(|done| done.may_ask());
         let stored = was.command.state == CommandState::Points && was.command.stores_points(was, config);
         let head = self.ring.head;
         let rests = was.contexts.all_rest(config.contexts);
