@@ -7,7 +7,7 @@
 //! | `contexts`, `arrived`, `came` | in | 5, 15, 1 | contexts that work; points that have come; one is being stored |
 //! | `seeded`, `collinear`, `is_seeding`, `seeds` | in | 1 | the first triangle |
 //! | `owner`, `sleeps` ... `overflows`, `root_enable`, `root` | in | | what became of the context whose visit completes |
-//! | `may_push` | in | 1 | a visit completes that may ask for others: the queue is not free for a start |
+//! | `is_done`, `may_ask` | in | 1 | a visit completes; it may ask for others: the queue is not free for a start |
 //! | `commit_ends`, `commit_owner`, `hint` | in | 1, 5, 15 | a commit is finished |
 //! | `released`, `released_owner` | in | 1, 5 | the last lock of a context is released |
 //! | `solo_is_at_work`, `solo_ends` | in | 1 | the insertion alone |
@@ -77,8 +77,10 @@ pub struct Dispatcher {
     pub root_enable: Signal<In, Bit>,
     /// The goal.
     pub root: Signal<In, Bits<15>>,
-    /// A visit may ask for others.
-    pub may_push: Signal<In, Bit>,
+    /// A visit completes.
+    pub is_done: Signal<In, Bit>,
+    /// It may ask for others.
+    pub may_ask: Signal<In, Bit>,
     /// A commit is finished.
     pub commit_ends: Signal<In, Bit>,
     /// Whose.
@@ -215,7 +217,8 @@ impl Logic for Dispatcher {
         self.start.solo_owner.next = self.flags.solo_owner.val();
         self.start.solo_is_at_work.next = self.solo_is_at_work.val();
         self.start.all_rest.next = self.flags.all_rest.val();
-        self.start.is_blocked.next = self.may_push.val();
+        self.start.is_done.next = self.is_done.val();
+        self.start.is_blocked.next = self.may_ask.val();
         self.start.root_enable.next = self.found_root_enable.q.val();
         self.start.root_owner.next = self.found_owner.q.val();
         self.start.root.next = self.found_root.q.val();

@@ -47,7 +47,7 @@ impl Counters {
         self.write_cycles += u32::from(was.write.valid);
         self.commit_cycles += u32::from(was.commit.state != CommitState::Idle);
         self.release_cycles += u32::from(wires.clear.is_some() && was.command.inserting);
-        self.tests += u32::from(was.solo.tests(wires.done));
+        self.tests += u32::from(was.solo.tests());
         self.duplicates += u32::from(wires.solo_ends && !wires.solo_inserts);
         self.count_outcome(was, wires);
         if let Some(job) = wires.committed {
