@@ -4938,12 +4938,12 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  [14:0] insertions$arrived;
     reg  insertions$came;
     reg  [21:0] insertions$now;
-    reg  insertions$done;
+    reg  insertions$early_done;
+    reg  [54:0] insertions$early_token;
+    reg  [97:0] insertions$early_turned;
     reg  [54:0] insertions$token;
     reg  [97:0] insertions$turned;
     reg  [19:0] insertions$verdict;
-    reg  [4:0] insertions$early_owner;
-    reg  [5:0] insertions$early_entry;
     reg  insertions$seeded;
     reg  insertions$collinear;
     reg  insertions$is_seeding;
@@ -4951,8 +4951,12 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  insertions$solo_is_at_work;
     reg  insertions$solo_ends;
     reg  insertions$solo_inserts;
-    wire  insertions$push;
-    wire  [92:0] insertions$bundle;
+    wire  insertions$asks;
+    wire  insertions$may_ask;
+    wire  [92:0] insertions$follows;
+    wire  insertions$starts;
+    wire  [4:0] insertions$starter;
+    wire  [14:0] insertions$u;
     wire  insertions$looks;
     wire  [14:0] insertions$fetch_id;
     wire  insertions$position_enable;
@@ -4960,7 +4964,6 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     wire  insertions$solo_starts;
     wire  [4:0] insertions$solo_owner;
     wire  [14:0] insertions$solo_p;
-    wire  [14:0] insertions$solo_u;
     wire  [109:0] insertions$write;
     wire  [14:0] insertions$records;
     wire  [14:0] insertions$fresh;
@@ -4984,8 +4987,9 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     wire  [54:0] pipeline$token;
     wire  [97:0] pipeline$turned;
     wire  [19:0] pipeline$verdict;
-    wire  [4:0] pipeline$early_owner;
-    wire  [5:0] pipeline$early_entry;
+    wire  pipeline$early_done;
+    wire  [54:0] pipeline$early_token;
+    wire  [97:0] pipeline$early_turned;
     reg  pipeline$read;
     reg  [14:0] pipeline$read_id;
     wire  pipeline$read_done;
@@ -5036,6 +5040,19 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     wire  seeder$seeds;
     wire  seeder$is_at_work;
     wire  [109:0] seeder$write;
+    reg  push_port$clock;
+    reg  push_port$reset;
+    reg  push_port$asks;
+    reg  push_port$may_ask;
+    reg  [92:0] push_port$follows;
+    reg  push_port$starts;
+    reg  [4:0] push_port$starter;
+    reg  [14:0] push_port$u;
+    reg  push_port$is_alone;
+    reg  push_port$solo_asks;
+    reg  [92:0] push_port$solo;
+    wire  push_port$push;
+    wire  [92:0] push_port$bundle;
     reg  write_port$clock;
     reg  write_port$reset;
     reg  [109:0] write_port$commit;
@@ -5043,12 +5060,6 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  [109:0] write_port$seed;
     wire  [109:0] write_port$write;
     wire  [3:0] write_port$enables;
-    reg  pushes$d;
-    wire  pushes$q;
-    reg  pushes$clock;
-    reg  [92:0] pushed$d;
-    wire  [92:0] pushed$q;
-    reg  pushed$clock;
     
     // Local signals
     reg  [14:0] first_vertex;
@@ -5066,12 +5077,12 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .arrived(insertions$arrived),
         .came(insertions$came),
         .now(insertions$now),
-        .done(insertions$done),
+        .early_done(insertions$early_done),
+        .early_token(insertions$early_token),
+        .early_turned(insertions$early_turned),
         .token(insertions$token),
         .turned(insertions$turned),
         .verdict(insertions$verdict),
-        .early_owner(insertions$early_owner),
-        .early_entry(insertions$early_entry),
         .seeded(insertions$seeded),
         .collinear(insertions$collinear),
         .is_seeding(insertions$is_seeding),
@@ -5079,8 +5090,12 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .solo_is_at_work(insertions$solo_is_at_work),
         .solo_ends(insertions$solo_ends),
         .solo_inserts(insertions$solo_inserts),
-        .push(insertions$push),
-        .bundle(insertions$bundle),
+        .asks(insertions$asks),
+        .may_ask(insertions$may_ask),
+        .follows(insertions$follows),
+        .starts(insertions$starts),
+        .starter(insertions$starter),
+        .u(insertions$u),
         .looks(insertions$looks),
         .fetch_id(insertions$fetch_id),
         .position_enable(insertions$position_enable),
@@ -5088,7 +5103,6 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .solo_starts(insertions$solo_starts),
         .solo_owner(insertions$solo_owner),
         .solo_p(insertions$solo_p),
-        .solo_u(insertions$solo_u),
         .write(insertions$write),
         .records(insertions$records),
         .fresh(insertions$fresh),
@@ -5114,8 +5128,9 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .token(pipeline$token),
         .turned(pipeline$turned),
         .verdict(pipeline$verdict),
-        .early_owner(pipeline$early_owner),
-        .early_entry(pipeline$early_entry),
+        .early_done(pipeline$early_done),
+        .early_token(pipeline$early_token),
+        .early_turned(pipeline$early_turned),
         .read(pipeline$read),
         .read_id(pipeline$read_id),
         .read_done(pipeline$read_done),
@@ -5171,6 +5186,21 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .is_at_work(seeder$is_at_work),
         .write(seeder$write)
     );
+    incircle_core_logic$engine$push_port push_port(
+        .clock(push_port$clock),
+        .reset(push_port$reset),
+        .asks(push_port$asks),
+        .may_ask(push_port$may_ask),
+        .follows(push_port$follows),
+        .starts(push_port$starts),
+        .starter(push_port$starter),
+        .u(push_port$u),
+        .is_alone(push_port$is_alone),
+        .solo_asks(push_port$solo_asks),
+        .solo(push_port$solo),
+        .push(push_port$push),
+        .bundle(push_port$bundle)
+    );
     incircle_core_logic$engine$write_port write_port(
         .clock(write_port$clock),
         .reset(write_port$reset),
@@ -5180,33 +5210,21 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .write(write_port$write),
         .enables(write_port$enables)
     );
-    incircle_core_logic$engine$pushes pushes(
-        .d(pushes$d),
-        .q(pushes$q),
-        .clock(pushes$clock)
-    );
-    incircle_core_logic$engine$pushed pushed(
-        .d(pushed$d),
-        .q(pushed$q),
-        .clock(pushed$clock)
-    );
     
     // Update code
     always @(*) begin
-        pushes$clock = clock;
-        pushed$clock = clock;
-        pushes$d = pushes$q;
-        pushed$d = pushed$q;
         insertions$clock = clock;
         pipeline$clock = clock;
         solo$clock = clock;
         seeder$clock = clock;
+        push_port$clock = clock;
         write_port$clock = clock;
         first_vertex = 32'h0;
         insertions$reset = reset;
         pipeline$reset = reset;
         solo$reset = reset;
         seeder$reset = reset;
+        push_port$reset = reset;
         write_port$reset = reset;
         insertions$clears = clears;
         seeder$clears = clears;
@@ -5227,8 +5245,8 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         write = write_port$write;
         pipeline$infinite = infinite;
         pipeline$records = insertions$records;
-        pipeline$push = pushes$q;
-        pipeline$bundle = pushed$q;
+        pipeline$push = push_port$push;
+        pipeline$bundle = push_port$bundle;
         pipeline$position_enable = insertions$position_enable;
         pipeline$position_owner = insertions$position_owner;
         pipeline$position = pipeline$fetched;
@@ -5250,12 +5268,12 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         insertions$arrived = arrived;
         insertions$came = came;
         insertions$now = now;
-        insertions$done = pipeline$done & (~solo$is_at_work);
+        insertions$early_done = pipeline$early_done & (~solo$is_at_work) & (~reset);
+        insertions$early_token = pipeline$early_token;
+        insertions$early_turned = pipeline$early_turned;
         insertions$token = pipeline$token;
         insertions$turned = pipeline$turned;
         insertions$verdict = pipeline$verdict;
-        insertions$early_owner = pipeline$early_owner;
-        insertions$early_entry = pipeline$early_entry;
         insertions$seeded = seeder$seeded;
         insertions$collinear = seeder$collinear;
         insertions$seeds = seeder$seeds;
@@ -5270,17 +5288,21 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         solo$starts = insertions$solo_starts;
         solo$owner = insertions$solo_owner;
         solo$p = insertions$solo_p;
-        solo$start = insertions$solo_u;
+        solo$start = insertions$u;
         solo$records = insertions$fresh;
         solo$done = pipeline$done;
         solo$token = pipeline$token;
         solo$turned = pipeline$turned;
         solo$verdict = pipeline$verdict;
-        pushes$d = insertions$push | solo$push;
-        pushed$d = insertions$bundle;
-        if (solo$push) begin
-            pushed$d = solo$bundle;
-        end
+        push_port$asks = insertions$asks;
+        push_port$may_ask = insertions$may_ask;
+        push_port$follows = insertions$follows;
+        push_port$starts = insertions$starts;
+        push_port$starter = insertions$starter;
+        push_port$u = insertions$u;
+        push_port$is_alone = solo$is_at_work;
+        push_port$solo_asks = solo$push;
+        push_port$solo = solo$bundle;
         write_port$commit = insertions$write;
         write_port$solo = solo$write;
         write_port$seed = seeder$write;
@@ -5289,15 +5311,12 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         events[(64'h1b)+:(1)] = solo$flips;
         events[(64'h2d)+:(1)] = pipeline$is_issuing;
         events[(64'h2e)+:(1)] = write_port$write[(64'h0)+:(1)];
-        if (reset) begin
-            pushes$d = 1'b0;
-        end
     end
     
 endmodule // incircle_core_logic$engine
 
 
-module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,contexts,arrived,came,now,done,token,turned,verdict,early_owner,early_entry,seeded,collinear,is_seeding,seeds,solo_is_at_work,solo_ends,solo_inserts,push,bundle,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,solo_u,write,records,fresh,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
+module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,contexts,arrived,came,now,early_done,early_token,early_turned,token,turned,verdict,seeded,collinear,is_seeding,seeds,solo_is_at_work,solo_ends,solo_inserts,asks,may_ask,follows,starts,starter,u,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,write,records,fresh,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
     
     // Module arguments
     input wire  clock;
@@ -5311,12 +5330,12 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     input wire  [14:0] arrived;
     input wire  came;
     input wire  [21:0] now;
-    input wire  done;
+    input wire  early_done;
+    input wire  [54:0] early_token;
+    input wire  [97:0] early_turned;
     input wire  [54:0] token;
     input wire  [97:0] turned;
     input wire  [19:0] verdict;
-    input wire  [4:0] early_owner;
-    input wire  [5:0] early_entry;
     input wire  seeded;
     input wire  collinear;
     input wire  is_seeding;
@@ -5324,8 +5343,12 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     input wire  solo_is_at_work;
     input wire  solo_ends;
     input wire  solo_inserts;
-    output reg  push;
-    output reg  [92:0] bundle;
+    output reg  asks;
+    output reg  may_ask;
+    output reg  [92:0] follows;
+    output reg  starts;
+    output reg  [4:0] starter;
+    output reg  [14:0] u;
     output reg  looks;
     output reg  [14:0] fetch_id;
     output reg  position_enable;
@@ -5333,7 +5356,6 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     output reg  solo_starts;
     output reg  [4:0] solo_owner;
     output reg  [14:0] solo_p;
-    output reg  [14:0] solo_u;
     output reg  [109:0] write;
     output reg  [14:0] records;
     output reg  [14:0] fresh;
@@ -5368,7 +5390,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     reg  dispatcher$duplicate;
     reg  dispatcher$root_enable;
     reg  [14:0] dispatcher$root;
-    reg  dispatcher$pushes;
+    reg  dispatcher$is_done;
+    reg  dispatcher$may_ask;
     reg  dispatcher$commit_ends;
     reg  [4:0] dispatcher$commit_owner;
     reg  [14:0] dispatcher$hint;
@@ -5394,12 +5417,12 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     wire  dispatcher$stuck;
     reg  attempts$clock;
     reg  [6:0] attempts$ring;
-    reg  attempts$done;
+    reg  attempts$early_done;
+    reg  [54:0] attempts$early_token;
+    reg  [97:0] attempts$early_turned;
     reg  [54:0] attempts$token;
     reg  [97:0] attempts$turned;
     reg  [19:0] attempts$verdict;
-    reg  [4:0] attempts$early_owner;
-    reg  [5:0] attempts$early_entry;
     reg  attempts$seeded;
     reg  [23:0] attempts$busy;
     reg  attempts$waiter_valid;
@@ -5408,8 +5431,10 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     reg  [4:0] attempts$taker;
     reg  [14:0] attempts$taken_id;
     reg  [21:0] attempts$now;
-    wire  attempts$push;
+    wire  attempts$asks;
+    wire  attempts$may_ask;
     wire  [92:0] attempts$bundle;
+    wire  attempts$is_done;
     wire  [4:0] attempts$owner;
     wire  attempts$sleeps;
     wire  attempts$keeps;
@@ -5499,7 +5524,8 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         .duplicate(dispatcher$duplicate),
         .root_enable(dispatcher$root_enable),
         .root(dispatcher$root),
-        .pushes(dispatcher$pushes),
+        .is_done(dispatcher$is_done),
+        .may_ask(dispatcher$may_ask),
         .commit_ends(dispatcher$commit_ends),
         .commit_owner(dispatcher$commit_owner),
         .hint(dispatcher$hint),
@@ -5527,12 +5553,12 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     incircle_core_logic$engine$insertions$attempts attempts(
         .clock(attempts$clock),
         .ring(attempts$ring),
-        .done(attempts$done),
+        .early_done(attempts$early_done),
+        .early_token(attempts$early_token),
+        .early_turned(attempts$early_turned),
         .token(attempts$token),
         .turned(attempts$turned),
         .verdict(attempts$verdict),
-        .early_owner(attempts$early_owner),
-        .early_entry(attempts$early_entry),
         .seeded(attempts$seeded),
         .busy(attempts$busy),
         .waiter_valid(attempts$waiter_valid),
@@ -5541,8 +5567,10 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         .taker(attempts$taker),
         .taken_id(attempts$taken_id),
         .now(attempts$now),
-        .push(attempts$push),
+        .asks(attempts$asks),
+        .may_ask(attempts$may_ask),
         .bundle(attempts$bundle),
+        .is_done(attempts$is_done),
         .owner(attempts$owner),
         .sleeps(attempts$sleeps),
         .keeps(attempts$keeps),
@@ -5620,12 +5648,12 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         commits$reset = reset;
         commits$clears = clears;
         attempts$ring = ring;
-        attempts$done = done;
+        attempts$early_done = early_done;
+        attempts$early_token = early_token;
+        attempts$early_turned = early_turned;
         attempts$token = token;
         attempts$turned = turned;
         attempts$verdict = verdict;
-        attempts$early_owner = early_owner;
-        attempts$early_entry = early_entry;
         attempts$seeded = seeded;
         attempts$now = now;
         attempts$busy = dispatcher$busy;
@@ -5635,6 +5663,9 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         attempts$taken_id = dispatcher$taken_id;
         attempts$taker = dispatcher$starter;
         looks = attempts$looks;
+        asks = attempts$asks;
+        may_ask = attempts$may_ask;
+        follows = attempts$bundle;
         dispatcher$all = all;
         dispatcher$patience = patience;
         dispatcher$contexts = contexts;
@@ -5657,12 +5688,16 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         dispatcher$root_enable = attempts$root_enable;
         dispatcher$root = attempts$root;
         dispatcher$hands_over = attempts$commit_enable | attempts$release_enable;
-        dispatcher$pushes = attempts$push;
+        dispatcher$is_done = attempts$is_done;
+        dispatcher$may_ask = attempts$may_ask;
         dispatcher$commit_ends = commits$ends;
         dispatcher$commit_owner = commits$job[(64'h0)+:(5)];
         dispatcher$hint = commits$hint;
         dispatcher$released = commits$released;
         dispatcher$released_owner = commits$released_owner;
+        starts = dispatcher$starts;
+        starter = dispatcher$starter;
+        u = dispatcher$u;
         fetch_id = dispatcher$taken_id;
         position_enable = dispatcher$position_enable;
         position_owner = dispatcher$position_owner;
@@ -5671,7 +5706,6 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         solo_p = dispatcher$solo_p;
         is_quiet = dispatcher$is_quiet;
         stuck = dispatcher$stuck;
-        solo_u = dispatcher$u;
         commits$last_id = last_id;
         commits$seeds = seeds;
         commits$solo_inserts = solo_inserts;
@@ -5695,16 +5729,6 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         clear_enable = commits$clear_enable;
         clear_id = commits$clear_id;
         sweeps = commits$sweeps;
-        push = attempts$push | dispatcher$starts;
-        bundle = attempts$bundle;
-        if (~attempts$push) begin
-            bundle[(64'h0)+:(1)] = 1'b0;
-            bundle[(64'h1)+:(1)] = 1'b0;
-            bundle[(64'h2)+:(5)] = dispatcher$starter;
-            bundle[(64'h7)+:(1)] = 1'b0;
-            bundle[(64'h8)+:(1)] = 1'b0;
-            bundle[(64'h2a)+:(15)] = dispatcher$u;
-        end
         events[(64'h0)+:(1)] = seeds;
         events[(64'h1)+:(1)] = commits$ends;
         events[(64'h2)+:(22)] = commits$job[(64'h22)+:(22)];
@@ -5732,17 +5756,17 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
 endmodule // incircle_core_logic$engine$insertions
 
 
-module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turned,verdict,early_owner,early_entry,seeded,busy,waiter_valid,waiter,takes,taker,taken_id,now,push,bundle,owner,sleeps,keeps,root_enable,root,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job,asks_to_wait,waits,stops_waiting,overflows,duplicate,looks,walk_visit,root_visit,test,revisit,gives_up,retries,cavity_triangles);
+module incircle_core_logic$engine$insertions$attempts(clock,ring,early_done,early_token,early_turned,token,turned,verdict,seeded,busy,waiter_valid,waiter,takes,taker,taken_id,now,asks,may_ask,bundle,is_done,owner,sleeps,keeps,root_enable,root,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job,asks_to_wait,waits,stops_waiting,overflows,duplicate,looks,walk_visit,root_visit,test,revisit,gives_up,retries,cavity_triangles);
     
     // Module arguments
     input wire  clock;
     input wire  [6:0] ring;
-    input wire  done;
+    input wire  early_done;
+    input wire  [54:0] early_token;
+    input wire  [97:0] early_turned;
     input wire  [54:0] token;
     input wire  [97:0] turned;
     input wire  [19:0] verdict;
-    input wire  [4:0] early_owner;
-    input wire  [5:0] early_entry;
     input wire  seeded;
     input wire  [23:0] busy;
     input wire  waiter_valid;
@@ -5751,8 +5775,10 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     input wire  [4:0] taker;
     input wire  [14:0] taken_id;
     input wire  [21:0] now;
-    output reg  push;
+    output reg  asks;
+    output reg  may_ask;
     output reg  [92:0] bundle;
+    output reg  is_done;
     output reg  [4:0] owner;
     output reg  sleeps;
     output reg  keeps;
@@ -5796,10 +5822,11 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     wire  store$is_last;
     wire  store$is_full;
     wire  store$edge_was_passed;
+    wire  [63:0] store$entry_bit;
     reg  store$opens;
     reg  store$splits;
     reg  store$repeats;
-    reg  store$writes;
+    reg  store$is_test;
     reg  store$passes_root;
     reg  [92:0] store$after;
     reg  points$clock;
@@ -5810,15 +5837,17 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     reg  [4:0] points$owner;
     wire  [14:0] points$p;
     wire  [21:0] points$since;
-    reg  meaning$done;
-    reg  [54:0] meaning$token;
-    reg  [97:0] meaning$turned;
-    reg  [19:0] meaning$verdict;
+    reg  meaning$clock;
+    reg  meaning$early_done;
+    reg  [54:0] meaning$early_token;
+    reg  [97:0] meaning$early_turned;
     reg  meaning$seeded;
     reg  meaning$is_busy;
     reg  meaning$is_waiter;
+    reg  [19:0] meaning$verdict;
     reg  meaning$drains;
     reg  meaning$is_full;
+    wire  meaning$is_done;
     wire  meaning$is_walk;
     wire  meaning$is_root;
     wire  meaning$is_test;
@@ -5836,13 +5865,14 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     wire  meaning$gives_up;
     wire  meaning$walk_duplicate;
     wire  meaning$root_duplicate;
+    wire  meaning$asks;
+    wire  meaning$may_ask;
     reg  [92:0] step$attempt;
     reg  step$is_last;
     reg  step$edge_was_passed;
-    reg  [5:0] step$f_entry;
+    reg  [63:0] step$entry_bit;
     reg  step$took;
     reg  step$is_test;
-    reg  step$opens;
     reg  step$splits;
     reg  step$repeats;
     reg  step$gives_up;
@@ -5852,16 +5882,13 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     wire  step$succeeds;
     wire  step$finds_inner;
     wire  step$passes_root;
-    reg  [54:0] visits$token;
-    reg  [97:0] visits$turned;
-    reg  [14:0] visits$walk_next;
-    reg  [5:0] visits$entry;
-    reg  visits$repeats;
+    reg  visits$clock;
+    reg  [54:0] visits$early_token;
+    reg  [97:0] visits$early_turned;
     reg  visits$walks_on;
     reg  visits$locates;
-    reg  visits$opens;
-    reg  visits$splits;
-    wire  visits$push;
+    reg  [14:0] visits$walk_next;
+    reg  [5:0] visits$entry;
     wire  [92:0] visits$bundle;
     reg  lists$done;
     reg  [54:0] lists$token;
@@ -5909,10 +5936,11 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         .is_last(store$is_last),
         .is_full(store$is_full),
         .edge_was_passed(store$edge_was_passed),
+        .entry_bit(store$entry_bit),
         .opens(store$opens),
         .splits(store$splits),
         .repeats(store$repeats),
-        .writes(store$writes),
+        .is_test(store$is_test),
         .passes_root(store$passes_root),
         .after(store$after)
     );
@@ -5927,15 +5955,17 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         .since(points$since)
     );
     incircle_core_logic$engine$insertions$attempts$meaning meaning(
-        .done(meaning$done),
-        .token(meaning$token),
-        .turned(meaning$turned),
-        .verdict(meaning$verdict),
+        .clock(meaning$clock),
+        .early_done(meaning$early_done),
+        .early_token(meaning$early_token),
+        .early_turned(meaning$early_turned),
         .seeded(meaning$seeded),
         .is_busy(meaning$is_busy),
         .is_waiter(meaning$is_waiter),
+        .verdict(meaning$verdict),
         .drains(meaning$drains),
         .is_full(meaning$is_full),
+        .is_done(meaning$is_done),
         .is_walk(meaning$is_walk),
         .is_root(meaning$is_root),
         .is_test(meaning$is_test),
@@ -5952,16 +5982,17 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         .gives_up_root(meaning$gives_up_root),
         .gives_up(meaning$gives_up),
         .walk_duplicate(meaning$walk_duplicate),
-        .root_duplicate(meaning$root_duplicate)
+        .root_duplicate(meaning$root_duplicate),
+        .asks(meaning$asks),
+        .may_ask(meaning$may_ask)
     );
     incircle_core_logic$engine$insertions$attempts$step step(
         .attempt(step$attempt),
         .is_last(step$is_last),
         .edge_was_passed(step$edge_was_passed),
-        .f_entry(step$f_entry),
+        .entry_bit(step$entry_bit),
         .took(step$took),
         .is_test(step$is_test),
-        .opens(step$opens),
         .splits(step$splits),
         .repeats(step$repeats),
         .gives_up(step$gives_up),
@@ -5973,16 +6004,13 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         .passes_root(step$passes_root)
     );
     incircle_core_logic$engine$insertions$attempts$visits visits(
-        .token(visits$token),
-        .turned(visits$turned),
-        .walk_next(visits$walk_next),
-        .entry(visits$entry),
-        .repeats(visits$repeats),
+        .clock(visits$clock),
+        .early_token(visits$early_token),
+        .early_turned(visits$early_turned),
         .walks_on(visits$walks_on),
         .locates(visits$locates),
-        .opens(visits$opens),
-        .splits(visits$splits),
-        .push(visits$push),
+        .walk_next(visits$walk_next),
+        .entry(visits$entry),
         .bundle(visits$bundle)
     );
     incircle_core_logic$engine$insertions$attempts$lists lists(
@@ -6018,12 +6046,15 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
     always @(*) begin
         store$clock = clock;
         points$clock = clock;
+        meaning$clock = clock;
+        visits$clock = clock;
         two = 32'h2;
-        context_index = token[(64'h0)+:(5)];
+        context_index = early_token[(64'h0)+:(5)];
         owner = token[(64'h0)+:(5)];
+        is_done = meaning$is_done;
         store$ring = ring;
-        store$early_owner = early_owner;
-        store$early_entry = early_entry;
+        store$early_owner = early_token[(64'h0)+:(5)];
+        store$early_entry = early_token[(64'h13)+:(6)];
         store$owner = token[(64'h0)+:(5)];
         store$f_entry = token[(64'h13)+:(6)];
         count = store$attempt[(64'h8)+:(7)];
@@ -6032,22 +6063,21 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         points$taker = taker;
         points$taken_id = taken_id;
         points$now = now;
-        meaning$done = done;
-        meaning$token = token;
-        meaning$turned = turned;
+        meaning$early_done = early_done;
+        meaning$early_token = early_token;
+        meaning$early_turned = early_turned;
         meaning$verdict = verdict;
         meaning$seeded = seeded;
         meaning$is_busy = busy[context_index];
-        meaning$is_waiter = waiter_valid & (waiter == token[(64'h0)+:(5)]);
+        meaning$is_waiter = waiter_valid & (waiter == early_token[(64'h0)+:(5)]);
         meaning$drains = store$attempt[(64'h0)+:(1)];
         meaning$is_full = store$is_full;
         step$attempt = store$attempt;
         step$is_last = store$is_last;
         step$edge_was_passed = store$edge_was_passed;
-        step$f_entry = token[(64'h13)+:(6)];
+        step$entry_bit = store$entry_bit;
         step$took = turned[(64'h5c)+:(1)];
         step$is_test = meaning$is_test;
-        step$opens = meaning$opens;
         step$splits = meaning$splits;
         step$repeats = meaning$repeats;
         step$gives_up = meaning$gives_up;
@@ -6055,19 +6085,17 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         store$opens = meaning$opens;
         store$splits = meaning$splits;
         store$repeats = meaning$repeats;
-        store$writes = meaning$opens | meaning$is_test;
+        store$is_test = meaning$is_test;
         store$passes_root = step$passes_root;
         store$after = step$after;
-        visits$token = token;
-        visits$turned = turned;
-        visits$walk_next = verdict[(64'h5)+:(15)];
-        visits$entry = count[(32'h0)+:(6)];
-        visits$repeats = meaning$repeats;
+        visits$early_token = early_token;
+        visits$early_turned = early_turned;
         visits$walks_on = meaning$walks_on;
         visits$locates = meaning$locates;
-        visits$opens = meaning$opens;
-        visits$splits = meaning$splits;
-        push = visits$push;
+        visits$walk_next = verdict[(64'h5)+:(15)];
+        visits$entry = count[(32'h0)+:(6)];
+        asks = meaning$asks;
+        may_ask = meaning$may_ask;
         bundle = visits$bundle;
         fails = step$is_over & (~step$succeeds);
         stops_at_root = meaning$root_duplicate | meaning$retries;
@@ -6084,7 +6112,7 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,done,token,turn
         overflows = meaning$overflows;
         duplicate = meaning$walk_duplicate | meaning$root_duplicate;
         looks = meaning$looks;
-        lists$done = done;
+        lists$done = meaning$is_done;
         lists$token = token;
         lists$turned = turned;
         lists$attempt = store$attempt;
@@ -6191,18 +6219,20 @@ module incircle_core_logic$engine$insertions$attempts$lists(done,token,turned,at
 endmodule // incircle_core_logic$engine$insertions$attempts$lists
 
 
-module incircle_core_logic$engine$insertions$attempts$meaning(done,token,turned,verdict,seeded,is_busy,is_waiter,drains,is_full,is_walk,is_root,is_test,looks,repeats,waits,walks_on,locates,opens,retries,splits,settles,overflows,gives_up_root,gives_up,walk_duplicate,root_duplicate);
+module incircle_core_logic$engine$insertions$attempts$meaning(clock,early_done,early_token,early_turned,seeded,is_busy,is_waiter,verdict,drains,is_full,is_done,is_walk,is_root,is_test,looks,repeats,waits,walks_on,locates,opens,retries,splits,settles,overflows,gives_up_root,gives_up,walk_duplicate,root_duplicate,asks,may_ask);
     
     // Module arguments
-    input wire  done;
-    input wire  [54:0] token;
-    input wire  [97:0] turned;
-    input wire  [19:0] verdict;
+    input wire  clock;
+    input wire  early_done;
+    input wire  [54:0] early_token;
+    input wire  [97:0] early_turned;
     input wire  seeded;
     input wire  is_busy;
     input wire  is_waiter;
+    input wire  [19:0] verdict;
     input wire  drains;
     input wire  is_full;
+    output reg  is_done;
     output reg  is_walk;
     output reg  is_root;
     output reg  is_test;
@@ -6220,55 +6250,510 @@ module incircle_core_logic$engine$insertions$attempts$meaning(done,token,turned,
     output reg  gives_up;
     output reg  walk_duplicate;
     output reg  root_duplicate;
+    output reg  asks;
+    output reg  may_ask;
+    
+    // Stub signals
+    reg  completed$d;
+    wire  completed$q;
+    reg  completed$clock;
+    reg  looked$d;
+    wire  looked$q;
+    reg  looked$clock;
+    reg  walked$d;
+    wire  walked$q;
+    reg  walked$clock;
+    reg  walk_counts$d;
+    wire  walk_counts$q;
+    reg  walk_counts$clock;
+    reg  walk_is_torn$d;
+    wire  walk_is_torn$q;
+    reg  walk_is_torn$clock;
+    reg  context_is_busy$d;
+    wire  context_is_busy$q;
+    reg  context_is_busy$clock;
+    reg  rooted$d;
+    wire  rooted$q;
+    reg  rooted$clock;
+    reg  root_is_held$d;
+    wire  root_is_held$q;
+    reg  root_is_held$clock;
+    reg  root_is_awaited$d;
+    wire  root_is_awaited$q;
+    reg  root_is_awaited$clock;
+    reg  root_is_refused$d;
+    wire  root_is_refused$q;
+    reg  root_is_refused$clock;
+    reg  tested$d;
+    wire  tested$q;
+    reg  tested$clock;
+    reg  test_counts$d;
+    wire  test_counts$q;
+    reg  test_counts$clock;
+    reg  test_is_awaited$d;
+    wire  test_is_awaited$q;
+    reg  test_is_awaited$clock;
+    reg  test_is_refused$d;
+    wire  test_is_refused$q;
+    reg  test_is_refused$clock;
+    reg  may_ask_anyway$d;
+    wire  may_ask_anyway$q;
+    reg  may_ask_anyway$clock;
     
     // Local signals
     reg  walks;
     reg  visits_root;
     reg  tests;
-    reg  is_clear;
+    reg  foreign;
     reg  is_located;
     reg  is_corner;
-    reg  is_blocked;
-    reg  holds_root;
     reg  is_live;
-    reg  is_tested;
     reg  looks_again;
+    reg  passes;
     reg  asks_again;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$attempts$meaning$completed completed(
+        .d(completed$d),
+        .q(completed$q),
+        .clock(completed$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$looked looked(
+        .d(looked$d),
+        .q(looked$q),
+        .clock(looked$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$walked walked(
+        .d(walked$d),
+        .q(walked$q),
+        .clock(walked$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$walk_counts walk_counts(
+        .d(walk_counts$d),
+        .q(walk_counts$q),
+        .clock(walk_counts$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$walk_is_torn walk_is_torn(
+        .d(walk_is_torn$d),
+        .q(walk_is_torn$q),
+        .clock(walk_is_torn$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$context_is_busy context_is_busy(
+        .d(context_is_busy$d),
+        .q(context_is_busy$q),
+        .clock(context_is_busy$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$rooted rooted(
+        .d(rooted$d),
+        .q(rooted$q),
+        .clock(rooted$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$root_is_held root_is_held(
+        .d(root_is_held$d),
+        .q(root_is_held$q),
+        .clock(root_is_held$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$root_is_awaited root_is_awaited(
+        .d(root_is_awaited$d),
+        .q(root_is_awaited$q),
+        .clock(root_is_awaited$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$root_is_refused root_is_refused(
+        .d(root_is_refused$d),
+        .q(root_is_refused$q),
+        .clock(root_is_refused$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$tested tested(
+        .d(tested$d),
+        .q(tested$q),
+        .clock(tested$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$test_counts test_counts(
+        .d(test_counts$d),
+        .q(test_counts$q),
+        .clock(test_counts$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$test_is_awaited test_is_awaited(
+        .d(test_is_awaited$d),
+        .q(test_is_awaited$q),
+        .clock(test_is_awaited$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$test_is_refused test_is_refused(
+        .d(test_is_refused$d),
+        .q(test_is_refused$q),
+        .clock(test_is_refused$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$meaning$may_ask_anyway may_ask_anyway(
+        .d(may_ask_anyway$d),
+        .q(may_ask_anyway$q),
+        .clock(may_ask_anyway$clock)
+    );
     
     // Update code
     always @(*) begin
-        walks = done & (~token[(64'h5)+:(1)]) & (~token[(64'h6)+:(1)]);
-        visits_root = done & (~token[(64'h5)+:(1)]) & token[(64'h6)+:(1)];
-        tests = done & token[(64'h5)+:(1)];
-        is_walk = walks & seeded;
-        is_root = visits_root;
-        is_test = tests;
-        looks = walks & (~seeded);
+        looked$clock = clock;
+        walked$clock = clock;
+        walk_counts$clock = clock;
+        walk_is_torn$clock = clock;
+        context_is_busy$clock = clock;
+        rooted$clock = clock;
+        root_is_held$clock = clock;
+        looked$d = looked$q;
+        walked$d = walked$q;
+        walk_counts$d = walk_counts$q;
+        walk_is_torn$d = walk_is_torn$q;
+        context_is_busy$d = context_is_busy$q;
+        rooted$d = rooted$q;
+        root_is_held$d = root_is_held$q;
+        root_is_awaited$clock = clock;
+        root_is_refused$clock = clock;
+        tested$clock = clock;
+        test_counts$clock = clock;
+        test_is_awaited$clock = clock;
+        root_is_awaited$d = root_is_awaited$q;
+        root_is_refused$d = root_is_refused$q;
+        tested$d = tested$q;
+        test_counts$d = test_counts$q;
+        test_is_awaited$d = test_is_awaited$q;
+        test_is_refused$clock = clock;
+        may_ask_anyway$clock = clock;
+        completed$clock = clock;
+        test_is_refused$d = test_is_refused$q;
+        may_ask_anyway$d = may_ask_anyway$q;
+        completed$d = completed$q;
+        walks = early_done & (~early_token[(64'h5)+:(1)]) & (~early_token[(64'h6)+:(1)]);
+        visits_root = early_done & (~early_token[(64'h5)+:(1)]) & early_token[(64'h6)+:(1)];
+        tests = early_done & early_token[(64'h5)+:(1)];
+        foreign = early_turned[(64'h5d)+:(1)];
+        looked$d = walks & (~seeded);
+        walked$d = walks & seeded;
+        walk_counts$d = walks & seeded & (~early_turned[(64'h5e)+:(1)]);
+        walk_is_torn$d = walks & seeded & early_turned[(64'h5e)+:(1)];
+        context_is_busy$d = is_busy;
+        rooted$d = visits_root;
+        root_is_held$d = visits_root & (~foreign);
+        root_is_awaited$d = visits_root & foreign & is_waiter;
+        root_is_refused$d = visits_root & foreign & (~is_waiter);
+        tested$d = tests;
+        test_counts$d = tests & (~foreign);
+        test_is_awaited$d = tests & foreign & is_waiter;
+        test_is_refused$d = tests & foreign & (~is_waiter);
+        may_ask_anyway$d = early_done & ((~early_token[(64'h5)+:(1)]) | foreign);
+        completed$d = early_done;
+        is_done = completed$q;
+        is_walk = walked$q;
+        is_root = rooted$q;
+        is_test = tested$q;
+        looks = looked$q;
         is_located = verdict[(64'h1)+:(1)] & (~verdict[(64'h2)+:(1)]);
         is_corner = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
-        is_clear = walks & seeded & (~turned[(64'h5e)+:(1)]);
-        is_blocked = is_located & is_busy;
-        looks_again = walks & seeded & (turned[(64'h5e)+:(1)] | is_blocked);
-        walks_on = is_clear & (~verdict[(64'h1)+:(1)]);
-        walk_duplicate = is_clear & is_corner;
-        locates = is_clear & is_located & (~is_busy);
-        holds_root = visits_root & (~turned[(64'h5d)+:(1)]);
-        gives_up_root = visits_root & turned[(64'h5d)+:(1)] & (~is_waiter);
-        opens = holds_root & is_located;
-        root_duplicate = holds_root & is_corner;
-        retries = holds_root & (~verdict[(64'h1)+:(1)]);
-        is_live = tests & (~drains);
-        is_tested = is_live & (~turned[(64'h5d)+:(1)]);
-        gives_up = is_live & turned[(64'h5d)+:(1)] & (~is_waiter);
-        settles = is_tested & (~verdict[(64'h0)+:(1)]);
-        overflows = is_tested & verdict[(64'h0)+:(1)] & is_full;
-        splits = is_tested & verdict[(64'h0)+:(1)] & (~is_full);
-        asks_again = turned[(64'h5d)+:(1)] & is_waiter & (visits_root | is_live);
+        looks_again = walk_is_torn$q | (walk_counts$q & is_located & context_is_busy$q);
+        walks_on = walk_counts$q & (~verdict[(64'h1)+:(1)]);
+        walk_duplicate = walk_counts$q & is_corner;
+        locates = walk_counts$q & is_located & (~context_is_busy$q);
+        gives_up_root = root_is_refused$q;
+        opens = root_is_held$q & is_located;
+        root_duplicate = root_is_held$q & is_corner;
+        retries = root_is_held$q & (~verdict[(64'h1)+:(1)]);
+        is_live = test_counts$q & (~drains);
+        passes = is_live & verdict[(64'h0)+:(1)] & (~is_full);
+        gives_up = test_is_refused$q & (~drains);
+        settles = is_live & (~verdict[(64'h0)+:(1)]);
+        overflows = is_live & verdict[(64'h0)+:(1)] & is_full;
+        splits = passes;
+        asks_again = root_is_awaited$q | (test_is_awaited$q & (~drains));
         waits = asks_again;
         repeats = looks_again | asks_again;
+        asks = walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_located) | passes | asks_again;
+        may_ask = may_ask_anyway$q | (test_counts$q & verdict[(64'h0)+:(1)]);
     end
     
 endmodule // incircle_core_logic$engine$insertions$attempts$meaning
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$completed(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$completed
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$context_is_busy(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$context_is_busy
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$looked(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$looked
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$may_ask_anyway(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$may_ask_anyway
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$root_is_awaited(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$root_is_awaited
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$root_is_held(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$root_is_held
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$root_is_refused(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$root_is_refused
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$rooted(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$rooted
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$test_counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$test_counts
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$test_is_awaited(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$test_is_awaited
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$test_is_refused(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$test_is_refused
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$tested(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$tested
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$walk_counts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$walk_counts
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$walk_is_torn(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$walk_is_torn
+
+
+module incircle_core_logic$engine$insertions$attempts$meaning$walked(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$meaning$walked
 
 
 module incircle_core_logic$engine$insertions$attempts$points(clock,takes,taker,taken_id,now,owner,p,since);
@@ -6500,16 +6985,15 @@ module incircle_core_logic$engine$insertions$attempts$points$times(clock,write_a
 endmodule // incircle_core_logic$engine$insertions$attempts$points$times
 
 
-module incircle_core_logic$engine$insertions$attempts$step(attempt,is_last,edge_was_passed,f_entry,took,is_test,opens,splits,repeats,gives_up,overflows,after,is_over,succeeds,finds_inner,passes_root);
+module incircle_core_logic$engine$insertions$attempts$step(attempt,is_last,edge_was_passed,entry_bit,took,is_test,splits,repeats,gives_up,overflows,after,is_over,succeeds,finds_inner,passes_root);
     
     // Module arguments
     input wire  [92:0] attempt;
     input wire  is_last;
     input wire  edge_was_passed;
-    input wire  [5:0] f_entry;
+    input wire  [63:0] entry_bit;
     input wire  took;
     input wire  is_test;
-    input wire  opens;
     input wire  splits;
     input wire  repeats;
     input wire  gives_up;
@@ -6527,8 +7011,7 @@ module incircle_core_logic$engine$insertions$attempts$step(attempt,is_last,edge_
     reg  root_keeps_an_edge;
     reg  passes_last_edge;
     reg  [63:0] half_open;
-    reg  [5:0] entry;
-    reg  [5:0] root_entry;
+    reg  [63:0] second_bit;
     reg  [6:0] outstanding;
     reg  [6:0] count;
     reg  [6:0] inners;
@@ -6538,18 +7021,17 @@ module incircle_core_logic$engine$insertions$attempts$step(attempt,is_last,edge_
     // Update code
     always @(*) begin
         one = 32'h1;
-        root_entry = 32'h0;
+        second_bit = 32'h2;
         outstanding = attempt[(64'h1)+:(7)];
         count = attempt[(64'h8)+:(7)];
         inners = attempt[(64'hf)+:(7)];
         logged = attempt[(64'h16)+:(7)];
         half_open = attempt[(64'h1d)+:(64)];
-        entry = f_entry;
         fails = attempt[(64'h0)+:(1)] | gives_up | overflows;
         ends_here = is_test & is_last & (~splits) & (~repeats);
         is_over = ends_here;
         succeeds = ends_here & (~fails);
-        root_keeps_an_edge = (entry == root_entry) & (~half_open[32'h1]);
+        root_keeps_an_edge = entry_bit[32'h0] & (~half_open[32'h1]);
         passes_last_edge = splits & edge_was_passed & (~root_keeps_an_edge);
         finds_inner = passes_last_edge;
         passes_second = splits & edge_was_passed & root_keeps_an_edge;
@@ -6566,28 +7048,20 @@ module incircle_core_logic$engine$insertions$attempts$step(attempt,is_last,edge_
         if (splits) begin
             after[(64'h1)+:(7)] = outstanding + one;
             after[(64'h8)+:(7)] = count + one;
-            after[(64'h1d)+:(64)] = (half_open & ~(1 << (entry)) | ((1'b1) << (entry)));
+            after[(64'h1d)+:(64)] = half_open | entry_bit;
             if (passes_second) begin
-                after[(64'h1d)+:(64)] = (half_open & ~(1 << (32'h1)) | ((1'b1) << (32'h1)));
+                after[(64'h1d)+:(64)] = half_open | second_bit;
             end
         end
         if (passes_last_edge) begin
             after[(64'hf)+:(7)] = inners + one;
-        end
-        if (opens) begin
-            after[(64'h0)+:(1)] = 1'b0;
-            after[(64'h1)+:(7)] = 32'h3;
-            after[(64'h8)+:(7)] = 32'h3;
-            after[(64'hf)+:(7)] = 32'h0;
-            after[(64'h16)+:(7)] = 32'h1;
-            after[(64'h1d)+:(64)] = 32'h0;
         end
     end
     
 endmodule // incircle_core_logic$engine$insertions$attempts$step
 
 
-module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_owner,early_entry,owner,f_entry,attempt,is_last,is_full,edge_was_passed,opens,splits,repeats,writes,passes_root,after);
+module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_owner,early_entry,owner,f_entry,attempt,is_last,is_full,edge_was_passed,entry_bit,opens,splits,repeats,is_test,passes_root,after);
     
     // Module arguments
     input wire  clock;
@@ -6600,12 +7074,16 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_own
     output reg  is_last;
     output reg  is_full;
     output reg  edge_was_passed;
+    output reg  [63:0] entry_bit;
     input wire  opens;
     input wire  splits;
     input wire  repeats;
-    input wire  writes;
+    input wire  is_test;
     input wire  passes_root;
     input wire  [92:0] after;
+    
+    // Constant declarations
+    localparam  all_entries = 64'hffffffff;
     
     // Stub signals
     reg  states$clock;
@@ -6628,23 +7106,37 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_own
     reg  [1:0] flag_bits$d;
     wire  [1:0] flag_bits$q;
     reg  flag_bits$clock;
-    reg  passed$d;
-    wire  passed$q;
-    reg  passed$clock;
+    reg  kept_passed$d;
+    wire  kept_passed$q;
+    reg  kept_passed$clock;
+    reg  stored_passed$d;
+    wire  stored_passed$q;
+    reg  stored_passed$clock;
+    reg  went_round$d;
+    wire  went_round$q;
+    reg  went_round$clock;
+    reg  [63:0] named_entry$d;
+    wire  [63:0] named_entry$q;
+    reg  named_entry$clock;
     
     // Local signals
-    reg  [92:0] after_bits;
+    reg  [92:0] written;
+    reg  [92:0] written_bits;
+    reg  [1:0] written_flags;
     reg  goes_round;
     reg  is_same_entry;
     reg  is_second_entry;
     reg  [63:0] kept_edges;
+    reg  [63:0] edges_after;
     reg  [63:0] stored_edges;
     reg  [5:0] entry;
+    reg  [63:0] wide_entry;
+    reg  [63:0] first_bit;
     reg  becomes_last;
     reg  becomes_full;
     reg  [1:0] last_flag;
     reg  [1:0] full_flag;
-    reg  becomes_passed;
+    reg  opens_full;
     reg  [1:0] flags_after;
     reg  [6:0] outstanding;
     reg  [6:0] count;
@@ -6685,20 +7177,41 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_own
         .q(flag_bits$q),
         .clock(flag_bits$clock)
     );
-    incircle_core_logic$engine$insertions$attempts$store$passed passed(
-        .d(passed$d),
-        .q(passed$q),
-        .clock(passed$clock)
+    incircle_core_logic$engine$insertions$attempts$store$kept_passed kept_passed(
+        .d(kept_passed$d),
+        .q(kept_passed$q),
+        .clock(kept_passed$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$store$stored_passed stored_passed(
+        .d(stored_passed$d),
+        .q(stored_passed$q),
+        .clock(stored_passed$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$store$went_round went_round(
+        .d(went_round$d),
+        .q(went_round$q),
+        .clock(went_round$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$store$named_entry named_entry(
+        .d(named_entry$d),
+        .q(named_entry$q),
+        .clock(named_entry$clock)
     );
     
     // Update code
     always @(*) begin
         state$clock = clock;
         flag_bits$clock = clock;
-        passed$clock = clock;
+        kept_passed$clock = clock;
+        stored_passed$clock = clock;
+        went_round$clock = clock;
+        named_entry$clock = clock;
         state$d = state$q;
         flag_bits$d = flag_bits$q;
-        passed$d = passed$q;
+        kept_passed$d = kept_passed$q;
+        stored_passed$d = stored_passed$q;
+        went_round$d = went_round$q;
+        named_entry$d = named_entry$q;
         states$clock = clock;
         flags$clock = clock;
         one = 32'h1;
@@ -6708,7 +7221,10 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_own
         attempt = state$q;
         is_last = flag_bits$q[32'h0];
         is_full = flag_bits$q[32'h1];
-        edge_was_passed = passed$q;
+        edge_was_passed = stored_passed$q;
+        if (went_round$q) begin
+            edge_was_passed = kept_passed$q;
+        end
         outstanding = state$q[(64'h1)+:(7)];
         count = state$q[(64'h8)+:(7)];
         before_full = ring - one;
@@ -6721,10 +7237,6 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_own
             becomes_last = 1'b0;
             becomes_full = count == before_full;
         end
-        if (opens) begin
-            becomes_last = 1'b0;
-            becomes_full = ring == three;
-        end
         last_flag = 32'h0;
         full_flag = 32'h0;
         if (becomes_last) begin
@@ -6734,30 +7246,51 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_own
             full_flag = 32'h2;
         end
         flags_after = last_flag | full_flag;
-        after_bits = after;
+        written = after;
+        written_flags = flags_after;
+        opens_full = ring == three;
+        if (opens) begin
+            written[(64'h0)+:(1)] = 1'b0;
+            written[(64'h1)+:(7)] = 32'h3;
+            written[(64'h8)+:(7)] = 32'h3;
+            written[(64'hf)+:(7)] = 32'h0;
+            written[(64'h16)+:(7)] = 32'h1;
+            written[(64'h1d)+:(64)] = 32'h0;
+            written_flags = 32'h0;
+            if (opens_full) begin
+                written_flags = 32'h2;
+            end
+        end
+        written_bits = written;
         states$write_address = owner;
-        states$write_data = after_bits;
-        states$write_enable = writes;
+        states$write_data = written_bits;
+        states$write_enable = is_test | opens;
         states$read_address = early_owner;
         flags$write_address = owner;
-        flags$write_data = flags_after;
-        flags$write_enable = writes;
+        flags$write_data = written_flags;
+        flags$write_enable = is_test | opens;
         flags$read_address = early_owner;
         stored$bits = states$read_data;
         entry = early_entry;
+        first_bit = 32'h1;
+        wide_entry = ((early_entry) & 64'hffffffffffffffff);
+        named_entry$d = first_bit << wide_entry;
+        entry_bit = named_entry$q & all_entries;
         kept_edges = state$q[(64'h1d)+:(64)];
         stored_edges = stored$value[(64'h1d)+:(64)];
         is_same_entry = early_entry == f_entry;
         is_second_entry = early_entry == second_entry;
-        becomes_passed = (~opens) & (kept_edges[entry] | (splits & is_same_entry) | (passes_root & is_second_entry));
-        goes_round = writes & (early_owner == owner);
+        stored_passed$d = stored_edges[entry];
+        kept_passed$d = kept_edges[entry] | (splits & is_same_entry) | (passes_root & is_second_entry);
+        edges_after = after[(64'h1d)+:(64)];
+        goes_round = is_test & (early_owner == owner);
+        went_round$d = goes_round;
         state$d = stored$value;
         flag_bits$d = flags$read_data;
-        passed$d = stored_edges[entry];
         if (goes_round) begin
             state$d = after;
+            state$d[(64'h1d)+:(64)] = edges_after & all_entries;
             flag_bits$d = flags_after;
-            passed$d = becomes_passed;
         end
     end
     
@@ -6806,7 +7339,7 @@ module incircle_core_logic$engine$insertions$attempts$store$flags(clock,write_ad
 endmodule // incircle_core_logic$engine$insertions$attempts$store$flags
 
 
-module incircle_core_logic$engine$insertions$attempts$store$passed(d,q,clock);
+module incircle_core_logic$engine$insertions$attempts$store$kept_passed(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -6822,7 +7355,26 @@ module incircle_core_logic$engine$insertions$attempts$store$passed(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$attempts$store$passed
+endmodule // incircle_core_logic$engine$insertions$attempts$store$kept_passed
+
+
+module incircle_core_logic$engine$insertions$attempts$store$named_entry(d,q,clock);
+    
+    // Module arguments
+    input wire  [63:0] d;
+    output reg  [63:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 64'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$store$named_entry
 
 
 module incircle_core_logic$engine$insertions$attempts$store$state(d,q,clock);
@@ -6879,58 +7431,167 @@ module incircle_core_logic$engine$insertions$attempts$store$stored(bits,value);
 endmodule // incircle_core_logic$engine$insertions$attempts$store$stored
 
 
-module incircle_core_logic$engine$insertions$attempts$visits(token,turned,walk_next,entry,repeats,walks_on,locates,opens,splits,push,bundle);
+module incircle_core_logic$engine$insertions$attempts$store$stored_passed(d,q,clock);
     
     // Module arguments
-    input wire  [54:0] token;
-    input wire  [97:0] turned;
-    input wire  [14:0] walk_next;
-    input wire  [5:0] entry;
-    input wire  repeats;
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$store$stored_passed
+
+
+module incircle_core_logic$engine$insertions$attempts$store$went_round(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$store$went_round
+
+
+module incircle_core_logic$engine$insertions$attempts$visits(clock,early_token,early_turned,walks_on,locates,walk_next,entry,bundle);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [54:0] early_token;
+    input wire  [97:0] early_turned;
     input wire  walks_on;
     input wire  locates;
-    input wire  opens;
-    input wire  splits;
-    output reg  push;
+    input wire  [14:0] walk_next;
+    input wire  [5:0] entry;
     output reg  [92:0] bundle;
+    
+    // Stub signals
+    reg  [92:0] prepared$d;
+    wire  [92:0] prepared$q;
+    reg  prepared$clock;
+    reg  halves$d;
+    wire  halves$q;
+    reg  halves$clock;
+    
+    // Local signals
+    reg  opens;
+    reg  splits;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$attempts$visits$prepared prepared(
+        .d(prepared$d),
+        .q(prepared$q),
+        .clock(prepared$clock)
+    );
+    incircle_core_logic$engine$insertions$attempts$visits$halves halves(
+        .d(halves$d),
+        .q(halves$q),
+        .clock(halves$clock)
+    );
     
     // Update code
     always @(*) begin
-        push = repeats | walks_on | locates | opens | splits;
-        bundle[(64'h0)+:(1)] = opens | splits;
-        bundle[(64'h1)+:(1)] = opens;
-        bundle[(64'h2)+:(5)] = token[(64'h0)+:(5)];
-        bundle[(64'h7)+:(1)] = token[(64'h5)+:(1)] | opens;
-        bundle[(64'h8)+:(1)] = token[(64'h6)+:(1)] | locates;
-        bundle[(64'h9)+:(6)] = token[(64'h7)+:(6)];
-        bundle[(64'hf)+:(6)] = token[(64'hd)+:(6)];
-        bundle[(64'h15)+:(6)] = token[(64'h13)+:(6)];
-        bundle[(64'h1b)+:(15)] = token[(64'h19)+:(15)];
-        bundle[(64'h2a)+:(15)] = token[(64'h28)+:(15)];
-        bundle[(64'h39)+:(6)] = token[(64'hd)+:(6)];
-        bundle[(64'h3f)+:(15)] = turned[(64'h4b)+:(15)];
-        bundle[(64'h4e)+:(15)] = turned[(64'h4b)+:(15)];
+        prepared$clock = clock;
+        halves$clock = clock;
+        prepared$d = prepared$q;
+        halves$d = halves$q;
+        opens = (~early_token[(64'h5)+:(1)]) & early_token[(64'h6)+:(1)] & (~early_turned[(64'h5d)+:(1)]);
+        splits = early_token[(64'h5)+:(1)] & (~early_turned[(64'h5d)+:(1)]);
+        prepared$d[(64'h0)+:(1)] = opens | splits;
+        prepared$d[(64'h1)+:(1)] = opens;
+        prepared$d[(64'h2)+:(5)] = early_token[(64'h0)+:(5)];
+        prepared$d[(64'h7)+:(1)] = early_token[(64'h5)+:(1)] | opens;
+        prepared$d[(64'h8)+:(1)] = early_token[(64'h6)+:(1)];
+        prepared$d[(64'h9)+:(6)] = early_token[(64'h7)+:(6)];
+        prepared$d[(64'hf)+:(6)] = early_token[(64'hd)+:(6)];
+        prepared$d[(64'h15)+:(6)] = early_token[(64'h13)+:(6)];
+        prepared$d[(64'h1b)+:(15)] = early_token[(64'h19)+:(15)];
+        prepared$d[(64'h2a)+:(15)] = early_token[(64'h28)+:(15)];
+        prepared$d[(64'h39)+:(6)] = early_token[(64'hd)+:(6)];
+        prepared$d[(64'h3f)+:(15)] = early_turned[(64'h4b)+:(15)];
+        prepared$d[(64'h4e)+:(15)] = early_turned[(64'h4b)+:(15)];
+        if (splits) begin
+            prepared$d[(64'h1b)+:(15)] = early_token[(64'h28)+:(15)];
+            prepared$d[(64'h2a)+:(15)] = early_turned[(64'h3c)+:(15)];
+        end
+        if (opens) begin
+            prepared$d[(64'h9)+:(6)] = 32'h0;
+            prepared$d[(64'hf)+:(6)] = 32'h1;
+            prepared$d[(64'h15)+:(6)] = 32'h0;
+            prepared$d[(64'h1b)+:(15)] = early_token[(64'h28)+:(15)];
+            prepared$d[(64'h2a)+:(15)] = early_turned[(64'h2d)+:(15)];
+            prepared$d[(64'h39)+:(6)] = 32'h2;
+            prepared$d[(64'h3f)+:(15)] = early_turned[(64'h3c)+:(15)];
+        end
+        halves$d = splits;
+        bundle = prepared$q;
+        if (locates) begin
+            bundle[(64'h8)+:(1)] = 1'b1;
+        end
         if (walks_on) begin
             bundle[(64'h2a)+:(15)] = walk_next;
         end
-        if (splits) begin
+        if (halves$q) begin
             bundle[(64'hf)+:(6)] = entry;
             bundle[(64'h15)+:(6)] = entry;
-            bundle[(64'h1b)+:(15)] = token[(64'h28)+:(15)];
-            bundle[(64'h2a)+:(15)] = turned[(64'h3c)+:(15)];
-        end
-        if (opens) begin
-            bundle[(64'h9)+:(6)] = 32'h0;
-            bundle[(64'hf)+:(6)] = 32'h1;
-            bundle[(64'h15)+:(6)] = 32'h0;
-            bundle[(64'h1b)+:(15)] = token[(64'h28)+:(15)];
-            bundle[(64'h2a)+:(15)] = turned[(64'h2d)+:(15)];
-            bundle[(64'h39)+:(6)] = 32'h2;
-            bundle[(64'h3f)+:(15)] = turned[(64'h3c)+:(15)];
         end
     end
     
 endmodule // incircle_core_logic$engine$insertions$attempts$visits
+
+
+module incircle_core_logic$engine$insertions$attempts$visits$halves(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$visits$halves
+
+
+module incircle_core_logic$engine$insertions$attempts$visits$prepared(d,q,clock);
+    
+    // Module arguments
+    input wire  [92:0] d;
+    output reg  [92:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 93'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$attempts$visits$prepared
 
 
 module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,owner,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job,seeds,solo_inserts,write,ends,job,hint,records,fresh,is_at_work,clear_enable,clear_id,released,released_owner,sweeps);
@@ -8965,6 +9626,15 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
     reg  [6:0] place$d;
     wire  [6:0] place$q;
     reg  place$clock;
+    reg  one_is_left$d;
+    wire  one_is_left$q;
+    reg  one_is_left$clock;
+    reg  two_are_left$d;
+    wire  two_are_left$q;
+    reg  two_are_left$clock;
+    reg  [6:0] left$d;
+    wire  [6:0] left$q;
+    reg  left$clock;
     reg  array_valid$d;
     wire  array_valid$q;
     reg  array_valid$clock;
@@ -9008,6 +9678,8 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
     reg  [14:0] after_cleared;
     reg  [6:0] first_place;
     reg  [6:0] one_place;
+    reg  [6:0] two_places;
+    reg  [6:0] three_places;
     reg  [14:0] one;
     reg  [14:0] before_first;
     
@@ -9067,6 +9739,21 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
         .q(place$q),
         .clock(place$clock)
     );
+    incircle_core_logic$engine$insertions$commits$lock_release$one_is_left one_is_left(
+        .d(one_is_left$d),
+        .q(one_is_left$q),
+        .clock(one_is_left$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$lock_release$two_are_left two_are_left(
+        .d(two_are_left$d),
+        .q(two_are_left$q),
+        .clock(two_are_left$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$lock_release$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
     incircle_core_logic$engine$insertions$commits$lock_release$array_valid array_valid(
         .d(array_valid$d),
         .q(array_valid$q),
@@ -9125,6 +9812,12 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
     
     // Update code
     always @(*) begin
+        one_is_left$clock = clock;
+        two_are_left$clock = clock;
+        left$clock = clock;
+        one_is_left$d = one_is_left$q;
+        two_are_left$d = two_are_left$q;
+        left$d = left$q;
         works$clock = clock;
         at_work$clock = clock;
         place$clock = clock;
@@ -9174,7 +9867,7 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
         read_at$place = place$q;
         log$read_address = read_at$address;
         after_place = place$q + one_place;
-        fetches_last = works$q & (after_place == at_work$q[(64'h5)+:(7)]);
+        fetches_last = works$q & one_is_left$q;
         takes = (~works$q) | fetches_last;
         commit_bits = commit_job;
         commits$reset = reset;
@@ -9190,11 +9883,19 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
         if (commits$waits) begin
             upcoming$bits = commits$head;
         end
+        three_places = 32'h3;
+        two_places = 32'h2;
         place$d = after_place;
+        left$d = left$q - one_place;
+        one_is_left$d = two_are_left$q;
+        two_are_left$d = left$q == three_places;
         if (takes) begin
             works$d = commits$waits | failures$waits;
             at_work$d = upcoming$value;
             place$d = first_place;
+            left$d = upcoming$value[(64'h5)+:(7)];
+            one_is_left$d = upcoming$value[(64'h5)+:(7)] == one_place;
+            two_are_left$d = upcoming$value[(64'h5)+:(7)] == two_places;
         end
         array_valid$d = works$q;
         array_is_last$d = fetches_last;
@@ -9850,6 +10551,25 @@ module incircle_core_logic$engine$insertions$commits$lock_release$is_last(d,q,cl
 endmodule // incircle_core_logic$engine$insertions$commits$lock_release$is_last
 
 
+module incircle_core_logic$engine$insertions$commits$lock_release$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$left
+
+
 module incircle_core_logic$engine$insertions$commits$lock_release$log(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
@@ -9914,6 +10634,25 @@ module incircle_core_logic$engine$insertions$commits$lock_release$log(clock,writ
     end
     `endif
 endmodule // incircle_core_logic$engine$insertions$commits$lock_release$log
+
+
+module incircle_core_logic$engine$insertions$commits$lock_release$one_is_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$one_is_left
 
 
 module incircle_core_logic$engine$insertions$commits$lock_release$output_is_last(d,q,clock);
@@ -10056,6 +10795,25 @@ module incircle_core_logic$engine$insertions$commits$lock_release$sweeping(d,q,c
 endmodule // incircle_core_logic$engine$insertions$commits$lock_release$sweeping
 
 
+module incircle_core_logic$engine$insertions$commits$lock_release$two_are_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$lock_release$two_are_left
+
+
 module incircle_core_logic$engine$insertions$commits$lock_release$upcoming(bits,value);
     
     // Module arguments
@@ -10146,6 +10904,7 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
     reg  [5:0] list$place;
     reg  [52:0] list$entry;
     reg  [4:0] list$reader;
+    reg  [23:0] list$reader_bit;
     reg  [5:0] list$read_place;
     reg  list$moves;
     wire  [5:0] list$after;
@@ -10154,6 +10913,9 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
     reg  [55:0] ring$d;
     wire  [55:0] ring$q;
     reg  ring$clock;
+    reg  [23:0] ring_bit$d;
+    wire  [23:0] ring_bit$q;
+    reg  ring_bit$clock;
     reg  pointer_valid$d;
     wire  pointer_valid$q;
     reg  pointer_valid$clock;
@@ -10216,9 +10978,13 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
     reg  [55:0] job_bits;
     reg  moves;
     reg  ring_is_through;
+    reg  pointer_counts;
     reg  shares_with_last;
     reg  shares_with_first;
     reg  [5:0] first_place;
+    reg  [23:0] first_bit;
+    reg  [23:0] wide_owner;
+    reg  [23:0] oldest_bit;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$commits$rings$rings rings(
@@ -10241,6 +11007,7 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         .place(list$place),
         .entry(list$entry),
         .reader(list$reader),
+        .reader_bit(list$reader_bit),
         .read_place(list$read_place),
         .moves(list$moves),
         .after(list$after),
@@ -10251,6 +11018,11 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         .d(ring$d),
         .q(ring$q),
         .clock(ring$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$rings$ring_bit ring_bit(
+        .d(ring_bit$d),
+        .q(ring_bit$q),
+        .clock(ring_bit$clock)
     );
     incircle_core_logic$engine$insertions$commits$rings$pointer_valid pointer_valid(
         .d(pointer_valid$d),
@@ -10351,12 +11123,14 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
     // Update code
     always @(*) begin
         ring$clock = clock;
+        ring_bit$clock = clock;
         pointer_valid$clock = clock;
         pointer_is_first$clock = clock;
         pointer$clock = clock;
         array_valid$clock = clock;
         array_is_first$clock = clock;
         ring$d = ring$q;
+        ring_bit$d = ring_bit$q;
         pointer_valid$d = pointer_valid$q;
         pointer_is_first$d = pointer_is_first$q;
         pointer$d = pointer$q;
@@ -10404,15 +11178,20 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         list$place = entry_place;
         list$entry = entry;
         list$reader = ring$q[(64'h0)+:(5)];
+        list$reader_bit = ring_bit$q;
         list$read_place = pointer$q;
         list$moves = moves;
-        ring_is_through = (~pointer_valid$q) | list$is_last;
+        ring_is_through = (~pointer_valid$q) | array_is_last$q;
+        pointer_counts = pointer_valid$q & (~array_is_last$q);
         job_bits = job;
         rings$reset = reset;
         rings$enable = job_enable;
         rings$job = job_bits;
         rings$takes = moves & ring_is_through;
         oldest$bits = rings$head;
+        first_bit = 32'h1;
+        wide_owner = ((oldest$value[(64'h0)+:(5)]) & 24'hffffff);
+        oldest_bit = first_bit << wide_owner;
         shares_with_last = arrival$q[(64'h20)+:(15)] == last_entry$q[(64'h20)+:(15)];
         shares_with_first = arrival$q[(64'h20)+:(15)] == first_f$q;
         if (moves) begin
@@ -10420,14 +11199,15 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
             if (ring_is_through) begin
                 pointer_valid$d = rings$waits;
                 ring$d = oldest$value;
+                ring_bit$d = oldest_bit;
             end
             pointer$d = first_place;
-            if (pointer_valid$q) begin
+            if (pointer_counts) begin
                 pointer$d = list$after;
             end
-            array_valid$d = pointer_valid$q;
+            array_valid$d = pointer_counts;
             array_is_first$d = pointer_is_first$q;
-            array_is_last$d = list$is_last;
+            array_is_last$d = list$is_last & pointer_counts;
             output_valid$d = array_valid$q;
             output_is_first$d = array_is_first$q;
             output_is_last$d = array_is_last$q;
@@ -10686,7 +11466,7 @@ module incircle_core_logic$engine$insertions$commits$rings$last_entry(d,q,clock)
 endmodule // incircle_core_logic$engine$insertions$commits$rings$last_entry
 
 
-module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,owner,place,entry,reader,read_place,moves,after,is_last,read);
+module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,owner,place,entry,reader,reader_bit,read_place,moves,after,is_last,read);
     
     // Module arguments
     input wire  clock;
@@ -10695,6 +11475,7 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
     input wire  [5:0] place;
     input wire  [52:0] entry;
     input wire  [4:0] reader;
+    input wire  [23:0] reader_bit;
     input wire  [5:0] read_place;
     input wire  moves;
     output reg  [5:0] after;
@@ -10715,10 +11496,12 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
     wire  [52:0] written_entry$q;
     reg  written_entry$clock;
     reg  followers$clock;
-    reg  [10:0] followers$write_address;
+    reg  [4:0] followers$write_bank;
+    reg  [5:0] followers$write_address;
     reg  [6:0] followers$write_data;
     reg  followers$write_enable;
-    reg  [10:0] followers$read_address;
+    reg  [23:0] followers$read_banks;
+    reg  [5:0] followers$read_address;
     wire  [6:0] followers$read_data;
     reg  edges$clock;
     reg  [10:0] edges$write_address;
@@ -10767,9 +11550,11 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
     );
     incircle_core_logic$engine$insertions$commits$rings$list$followers followers(
         .clock(followers$clock),
+        .write_bank(followers$write_bank),
         .write_address(followers$write_address),
         .write_data(followers$write_data),
         .write_enable(followers$write_enable),
+        .read_banks(followers$read_banks),
         .read_address(followers$read_address),
         .read_data(followers$read_data)
     );
@@ -10824,7 +11609,8 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
         if (written_entry$q[(64'h2f)+:(6)] == first_place) begin
             last_bit = 32'h1;
         end
-        followers$write_address = write_at$address;
+        followers$write_bank = written_owner$q;
+        followers$write_address = written_place$q;
         followers$write_data = raised_after | last_bit;
         followers$write_enable = written$q;
         edges$write_address = write_at$address;
@@ -10832,7 +11618,8 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
         edges$write_enable = written$q;
         read_at$owner = reader;
         read_at$place = read_place;
-        followers$read_address = read_at$address;
+        followers$read_banks = reader_bit;
+        followers$read_address = read_place;
         after = followers$read_data[(32'h1)+:(6)];
         is_last = followers$read_data[32'h0];
         edges$read_address = read_at$address;
@@ -10914,26 +11701,120 @@ module incircle_core_logic$engine$insertions$commits$rings$list$edges(clock,writ
 endmodule // incircle_core_logic$engine$insertions$commits$rings$list$edges
 
 
-module incircle_core_logic$engine$insertions$commits$rings$list$followers(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$commits$rings$list$followers(clock,write_bank,write_address,write_data,write_enable,read_banks,read_address,read_data);
     
     // Module arguments
     input wire  clock;
-    input wire  [10:0] write_address;
+    input wire  [4:0] write_bank;
+    input wire  [5:0] write_address;
     input wire  [6:0] write_data;
     input wire  write_enable;
-    input wire  [10:0] read_address;
+    input wire  [23:0] read_banks;
+    input wire  [5:0] read_address;
     output reg  [6:0] read_data;
     
     // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[10:9]};
-    wire unused_read_address = &{1'b0, read_address[10:9]};
+    wire unused_read_banks = &{1'b0, read_banks[23:16]};
+    wire unused_write_address = &{1'b0, write_address[5:5]};
+    wire unused_read_address = &{1'b0, read_address[5:5]};
     wire unused_write_data = &{1'b0, write_data[6:6]};
     (* ram_style = "distributed" *)
-    reg [5:0] memory [0:511];
-    wire [5:0] word = memory[read_address[8:0]];
+    reg [5:0] memory0 [0:31];
+    wire [5:0] word0 = memory0[read_address[4:0]] & {6{read_banks[0]}};
     always @(posedge clock) begin
-        if (write_enable) memory[write_address[8:0]] <= write_data[5:0];
+        if (write_enable && write_bank == 5'd0) memory0[write_address[4:0]] <= write_data[5:0];
     end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory1 [0:31];
+    wire [5:0] word1 = memory1[read_address[4:0]] & {6{read_banks[1]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd1) memory1[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory2 [0:31];
+    wire [5:0] word2 = memory2[read_address[4:0]] & {6{read_banks[2]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd2) memory2[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory3 [0:31];
+    wire [5:0] word3 = memory3[read_address[4:0]] & {6{read_banks[3]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd3) memory3[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory4 [0:31];
+    wire [5:0] word4 = memory4[read_address[4:0]] & {6{read_banks[4]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd4) memory4[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory5 [0:31];
+    wire [5:0] word5 = memory5[read_address[4:0]] & {6{read_banks[5]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd5) memory5[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory6 [0:31];
+    wire [5:0] word6 = memory6[read_address[4:0]] & {6{read_banks[6]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd6) memory6[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory7 [0:31];
+    wire [5:0] word7 = memory7[read_address[4:0]] & {6{read_banks[7]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd7) memory7[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory8 [0:31];
+    wire [5:0] word8 = memory8[read_address[4:0]] & {6{read_banks[8]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd8) memory8[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory9 [0:31];
+    wire [5:0] word9 = memory9[read_address[4:0]] & {6{read_banks[9]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd9) memory9[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory10 [0:31];
+    wire [5:0] word10 = memory10[read_address[4:0]] & {6{read_banks[10]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd10) memory10[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory11 [0:31];
+    wire [5:0] word11 = memory11[read_address[4:0]] & {6{read_banks[11]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd11) memory11[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory12 [0:31];
+    wire [5:0] word12 = memory12[read_address[4:0]] & {6{read_banks[12]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd12) memory12[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory13 [0:31];
+    wire [5:0] word13 = memory13[read_address[4:0]] & {6{read_banks[13]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd13) memory13[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory14 [0:31];
+    wire [5:0] word14 = memory14[read_address[4:0]] & {6{read_banks[14]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd14) memory14[write_address[4:0]] <= write_data[5:0];
+    end
+    (* ram_style = "distributed" *)
+    reg [5:0] memory15 [0:31];
+    wire [5:0] word15 = memory15[read_address[4:0]] & {6{read_banks[15]}};
+    always @(posedge clock) begin
+        if (write_enable && write_bank == 5'd15) memory15[write_address[4:0]] <= write_data[5:0];
+    end
+    wire [5:0] word = word0 | word1 | word2 | word3 | word4 | word5 | word6 | word7 | word8 | word9 | word10 | word11 | word12 | word13 | word14 | word15;
     always @(*) read_data = {{1{1'b0}}, word};
 endmodule // incircle_core_logic$engine$insertions$commits$rings$list$followers
 
@@ -11240,6 +12121,25 @@ module incircle_core_logic$engine$insertions$commits$rings$ring(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$commits$rings$ring
 
 
+module incircle_core_logic$engine$insertions$commits$rings$ring_bit(d,q,clock);
+    
+    // Module arguments
+    input wire  [23:0] d;
+    output reg  [23:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 24'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$rings$ring_bit
+
+
 module incircle_core_logic$engine$insertions$commits$rings$rings(clock,reset,enable,job,takes,waits,head);
     
     // Module arguments
@@ -11485,7 +12385,7 @@ module incircle_core_logic$engine$insertions$commits$rings$rings$oldest(d,q,cloc
 endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$oldest
 
 
-module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,contexts,arrived,came,seeded,collinear,is_seeding,seeds,owner,sleeps,keeps,hands_over,asks_to_wait,waits,stops_waiting,overflows,duplicate,root_enable,root,pushes,commit_ends,commit_owner,hint,released,released_owner,solo_is_at_work,solo_ends,starts,starter,u,takes,taken_id,position_enable,position_owner,busy,waiter_valid,waiter,solo_starts,solo_owner,solo_p,takes_token,is_quiet,stuck);
+module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,contexts,arrived,came,seeded,collinear,is_seeding,seeds,owner,sleeps,keeps,hands_over,asks_to_wait,waits,stops_waiting,overflows,duplicate,root_enable,root,is_done,may_ask,commit_ends,commit_owner,hint,released,released_owner,solo_is_at_work,solo_ends,starts,starter,u,takes,taken_id,position_enable,position_owner,busy,waiter_valid,waiter,solo_starts,solo_owner,solo_p,takes_token,is_quiet,stuck);
     
     // Module arguments
     input wire  clock;
@@ -11511,7 +12411,8 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     input wire  duplicate;
     input wire  root_enable;
     input wire  [14:0] root;
-    input wire  pushes;
+    input wire  is_done;
+    input wire  may_ask;
     input wire  commit_ends;
     input wire  [4:0] commit_owner;
     input wire  [14:0] hint;
@@ -11537,6 +12438,39 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     output reg  stuck;
     
     // Stub signals
+    reg  [4:0] found_owner$d;
+    wire  [4:0] found_owner$q;
+    reg  found_owner$clock;
+    reg  found_sleeps$d;
+    wire  found_sleeps$q;
+    reg  found_sleeps$clock;
+    reg  found_keeps$d;
+    wire  found_keeps$q;
+    reg  found_keeps$clock;
+    reg  found_hands_over$d;
+    wire  found_hands_over$q;
+    reg  found_hands_over$clock;
+    reg  found_asks$d;
+    wire  found_asks$q;
+    reg  found_asks$clock;
+    reg  found_waits$d;
+    wire  found_waits$q;
+    reg  found_waits$clock;
+    reg  found_stops$d;
+    wire  found_stops$q;
+    reg  found_stops$clock;
+    reg  found_overflows$d;
+    wire  found_overflows$q;
+    reg  found_overflows$clock;
+    reg  found_duplicate$d;
+    wire  found_duplicate$q;
+    reg  found_duplicate$clock;
+    reg  found_root_enable$d;
+    wire  found_root_enable$q;
+    reg  found_root_enable$clock;
+    reg  [14:0] found_root$d;
+    wire  [14:0] found_root$q;
+    reg  found_root$clock;
     reg  flags$clock;
     reg  flags$reset;
     reg  flags$clears;
@@ -11586,6 +12520,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     reg  [4:0] start$solo_owner;
     reg  start$solo_is_at_work;
     reg  start$all_rest;
+    reg  start$is_done;
     reg  start$is_blocked;
     reg  start$root_enable;
     reg  [4:0] start$root_owner;
@@ -11623,6 +12558,61 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     wire  watchdog$stuck;
     
     // Sub module instances
+    incircle_core_logic$engine$insertions$dispatcher$found_owner found_owner(
+        .d(found_owner$d),
+        .q(found_owner$q),
+        .clock(found_owner$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$found_sleeps found_sleeps(
+        .d(found_sleeps$d),
+        .q(found_sleeps$q),
+        .clock(found_sleeps$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$found_keeps found_keeps(
+        .d(found_keeps$d),
+        .q(found_keeps$q),
+        .clock(found_keeps$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$found_hands_over found_hands_over(
+        .d(found_hands_over$d),
+        .q(found_hands_over$q),
+        .clock(found_hands_over$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$found_asks found_asks(
+        .d(found_asks$d),
+        .q(found_asks$q),
+        .clock(found_asks$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$found_waits found_waits(
+        .d(found_waits$d),
+        .q(found_waits$q),
+        .clock(found_waits$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$found_stops found_stops(
+        .d(found_stops$d),
+        .q(found_stops$q),
+        .clock(found_stops$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$found_overflows found_overflows(
+        .d(found_overflows$d),
+        .q(found_overflows$q),
+        .clock(found_overflows$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$found_duplicate found_duplicate(
+        .d(found_duplicate$d),
+        .q(found_duplicate$q),
+        .clock(found_duplicate$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$found_root_enable found_root_enable(
+        .d(found_root_enable$d),
+        .q(found_root_enable$q),
+        .clock(found_root_enable$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$found_root found_root(
+        .d(found_root$d),
+        .q(found_root$q),
+        .clock(found_root$clock)
+    );
     incircle_core_logic$engine$insertions$dispatcher$flags flags(
         .clock(flags$clock),
         .reset(flags$reset),
@@ -11675,6 +12665,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         .solo_owner(start$solo_owner),
         .solo_is_at_work(start$solo_is_at_work),
         .all_rest(start$all_rest),
+        .is_done(start$is_done),
         .is_blocked(start$is_blocked),
         .root_enable(start$root_enable),
         .root_owner(start$root_owner),
@@ -11718,10 +12709,43 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     
     // Update code
     always @(*) begin
+        found_owner$clock = clock;
+        found_sleeps$clock = clock;
+        found_keeps$clock = clock;
+        found_hands_over$clock = clock;
+        found_asks$clock = clock;
+        found_waits$clock = clock;
+        found_owner$d = found_owner$q;
+        found_sleeps$d = found_sleeps$q;
+        found_keeps$d = found_keeps$q;
+        found_hands_over$d = found_hands_over$q;
+        found_asks$d = found_asks$q;
+        found_waits$d = found_waits$q;
+        found_stops$clock = clock;
+        found_overflows$clock = clock;
+        found_duplicate$clock = clock;
+        found_root_enable$clock = clock;
+        found_root$clock = clock;
+        found_stops$d = found_stops$q;
+        found_overflows$d = found_overflows$q;
+        found_duplicate$d = found_duplicate$q;
+        found_root_enable$d = found_root_enable$q;
+        found_root$d = found_root$q;
         flags$clock = clock;
         start$clock = clock;
         progress$clock = clock;
         watchdog$clock = clock;
+        found_owner$d = owner;
+        found_sleeps$d = sleeps & (~reset);
+        found_keeps$d = keeps & (~reset);
+        found_hands_over$d = hands_over & (~reset);
+        found_asks$d = asks_to_wait & (~reset);
+        found_waits$d = waits & (~reset);
+        found_stops$d = stops_waiting & (~reset);
+        found_overflows$d = overflows & (~reset);
+        found_duplicate$d = duplicate & (~reset);
+        found_root_enable$d = root_enable;
+        found_root$d = root;
         flags$reset = reset;
         start$reset = reset;
         progress$reset = reset;
@@ -11730,14 +12754,14 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         start$clears = clears;
         progress$clears = clears;
         flags$all = all;
-        flags$owner = owner;
-        flags$sleeps = sleeps;
-        flags$keeps = keeps;
-        flags$hands_over = hands_over;
-        flags$asks_to_wait = asks_to_wait;
-        flags$waits = waits;
-        flags$stops_waiting = stops_waiting;
-        flags$overflows = overflows;
+        flags$owner = found_owner$q;
+        flags$sleeps = found_sleeps$q;
+        flags$keeps = found_keeps$q;
+        flags$hands_over = found_hands_over$q;
+        flags$asks_to_wait = found_asks$q;
+        flags$waits = found_waits$q;
+        flags$stops_waiting = found_stops$q;
+        flags$overflows = found_overflows$q;
         flags$starts = start$starts;
         flags$starter = start$owner;
         flags$released = released;
@@ -11765,10 +12789,11 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         start$solo_owner = flags$solo_owner;
         start$solo_is_at_work = solo_is_at_work;
         start$all_rest = flags$all_rest;
-        start$is_blocked = pushes;
-        start$root_enable = root_enable;
-        start$root_owner = owner;
-        start$root = root;
+        start$is_done = is_done;
+        start$is_blocked = may_ask;
+        start$root_enable = found_root_enable$q;
+        start$root_owner = found_owner$q;
+        start$root = found_root$q;
         start$hint_enable = commit_ends;
         start$hint_owner = commit_owner;
         start$hint = hint;
@@ -11785,7 +12810,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         progress$seeds = seeds;
         progress$commit_ends = commit_ends;
         progress$solo_ends = solo_ends;
-        progress$duplicate = duplicate;
+        progress$duplicate = found_duplicate$q;
         progress$collinear = collinear;
         progress$is_seeding = is_seeding;
         progress$all_rest = flags$all_rest;
@@ -11865,6 +12890,9 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
     reg  [4:0] alone$d;
     wire  [4:0] alone$q;
     reg  alone$clock;
+    reg  rests$d;
+    wire  rests$q;
+    reg  rests$clock;
     
     // Local signals
     reg  [23:0] owner_bit;
@@ -11942,6 +12970,11 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         .q(alone$q),
         .clock(alone$clock)
     );
+    incircle_core_logic$engine$insertions$dispatcher$flags$rests rests(
+        .d(rests$d),
+        .q(rests$q),
+        .clock(rests$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -11960,11 +12993,13 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         waited$clock = clock;
         wants_alone$clock = clock;
         alone$clock = clock;
+        rests$clock = clock;
         token_is_held$d = token_is_held$q;
         token_holder$d = token_holder$q;
         waited$d = waited$q;
         wants_alone$d = wants_alone$q;
         alone$d = alone$q;
+        rests$d = rests$q;
         one = 32'h1;
         none = 32'h0;
         one_wait = 32'h1;
@@ -11977,7 +13012,8 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         waiter = token_holder$q;
         solo_valid = wants_alone$q;
         solo_owner = alone$q;
-        all_rest = (sleeping$q == all) & (due$q == none);
+        all_rest = rests$q;
+        rests$d = (sleeping$q == all) & (due$q == none) & (~starts);
         wide_owner = ((owner) & 24'hffffff);
         wide_starter = ((starter) & 24'hffffff);
         wide_released = ((released_owner) & 24'hffffff);
@@ -11996,22 +13032,22 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         committed = 32'h0;
         alone_ended = 32'h0;
         if (sleeps) begin
-            falls_asleep = owner_bit;
+            falls_asleep = owner_bit & all;
         end
         if (keeps) begin
-            tries = owner_bit;
+            tries = owner_bit & all;
         end
         if (hands_over) begin
-            becomes_due = owner_bit;
+            becomes_due = owner_bit & all;
         end
         if (starts) begin
-            starting = starter_bit;
+            starting = starter_bit & all;
         end
         if (released) begin
             freed = released_bit;
         end
         if (commit_ends) begin
-            committed = commit_bit;
+            committed = commit_bit & all;
         end
         if (solo_ends) begin
             alone_ended = solo_bit;
@@ -12054,6 +13090,7 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
             had_commit$d = 32'h0;
             token_is_held$d = 1'b0;
             wants_alone$d = 1'b0;
+            rests$d = 1'b0;
         end
     end
     
@@ -12134,6 +13171,25 @@ module incircle_core_logic$engine$insertions$dispatcher$flags$had_point(d,q,cloc
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$had_point
+
+
+module incircle_core_logic$engine$insertions$dispatcher$flags$rests(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$rests
 
 
 module incircle_core_logic$engine$insertions$dispatcher$flags$sleeping(d,q,clock);
@@ -12248,6 +13304,215 @@ module incircle_core_logic$engine$insertions$dispatcher$flags$wants_alone(d,q,cl
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$wants_alone
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_asks(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_asks
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_duplicate(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_duplicate
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_hands_over(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_hands_over
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_keeps(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_keeps
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_overflows(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_overflows
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_owner(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_owner
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_root(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_root
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_root_enable(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_root_enable
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_sleeps(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_sleeps
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_stops(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_stops
+
+
+module incircle_core_logic$engine$insertions$dispatcher$found_waits(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found_waits
 
 
 module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,clears,arrived,seeds,commit_ends,solo_ends,duplicate,collinear,is_seeding,all_rest,is_quiet,finishes);
@@ -12458,7 +13723,7 @@ module incircle_core_logic$engine$insertions$dispatcher$progress$starts(d,q,cloc
 endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$starts
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears,contexts,arrived,came,seeded,asleep,keeping,busy,began,hinted,solo_valid,is_urgent,waiter,solo_owner,solo_is_at_work,all_rest,is_blocked,root_enable,root_owner,root,hint_enable,hint_owner,hint,starts,owner,u,takes,taken_id,solo_starts,solo_p,position_enable,position_owner);
+module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears,contexts,arrived,came,seeded,asleep,keeping,busy,began,hinted,solo_valid,is_urgent,waiter,solo_owner,solo_is_at_work,all_rest,is_done,is_blocked,root_enable,root_owner,root,hint_enable,hint_owner,hint,starts,owner,u,takes,taken_id,solo_starts,solo_p,position_enable,position_owner);
     
     // Module arguments
     input wire  clock;
@@ -12479,6 +13744,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     input wire  [4:0] solo_owner;
     input wire  solo_is_at_work;
     input wire  all_rest;
+    input wire  is_done;
     input wire  is_blocked;
     input wire  root_enable;
     input wire  [4:0] root_owner;
@@ -12503,18 +13769,39 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  [1:0] round$d;
     wire  [1:0] round$q;
     reg  round$clock;
+    reg  has_passed$d;
+    wire  has_passed$q;
+    reg  has_passed$clock;
+    reg  [4:0] passed$d;
+    wire  [4:0] passed$q;
+    reg  passed$clock;
+    reg  [14:0] passed_id$d;
+    wire  [14:0] passed_id$q;
+    reg  passed_id$clock;
+    reg  [14:0] passed_point$d;
+    wire  [14:0] passed_point$q;
+    reg  passed_point$clock;
     reg  [4:0] candidate$d;
     wire  [4:0] candidate$q;
     reg  candidate$clock;
     reg  [14:0] candidate_id$d;
     wire  [14:0] candidate_id$q;
     reg  candidate_id$clock;
-    reg  candidate_is_there$d;
-    wire  candidate_is_there$q;
-    reg  candidate_is_there$clock;
     reg  [14:0] candidate_point$d;
     wire  [14:0] candidate_point$q;
     reg  candidate_point$clock;
+    reg  wants_again$d;
+    wire  wants_again$q;
+    reg  wants_again$clock;
+    reg  wants_new$d;
+    wire  wants_new$q;
+    reg  wants_new$clock;
+    reg  [14:0] from$d;
+    wire  [14:0] from$q;
+    reg  from$clock;
+    reg  is_alone$d;
+    wire  is_alone$q;
+    reg  is_alone$clock;
     reg  all_work$d;
     wire  all_work$q;
     reg  all_work$clock;
@@ -12570,10 +13857,12 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  is_rested;
     reg  may_try;
     reg  may_work;
+    reg  is_there;
     reg  is_first;
-    reg  wants_again;
-    reg  wants_new;
-    reg  is_held;
+    reg  is_barred;
+    reg  wants;
+    reg  lacks_port;
+    reg  begins;
     reg  moves;
     reg  is_taken;
     reg  [4:0] after_turn;
@@ -12594,6 +13883,26 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .q(round$q),
         .clock(round$clock)
     );
+    incircle_core_logic$engine$insertions$dispatcher$start$has_passed has_passed(
+        .d(has_passed$d),
+        .q(has_passed$q),
+        .clock(has_passed$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$passed passed(
+        .d(passed$d),
+        .q(passed$q),
+        .clock(passed$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$passed_id passed_id(
+        .d(passed_id$d),
+        .q(passed_id$q),
+        .clock(passed_id$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$passed_point passed_point(
+        .d(passed_point$d),
+        .q(passed_point$q),
+        .clock(passed_point$clock)
+    );
     incircle_core_logic$engine$insertions$dispatcher$start$candidate candidate(
         .d(candidate$d),
         .q(candidate$q),
@@ -12604,15 +13913,30 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .q(candidate_id$q),
         .clock(candidate_id$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$candidate_is_there candidate_is_there(
-        .d(candidate_is_there$d),
-        .q(candidate_is_there$q),
-        .clock(candidate_is_there$clock)
-    );
     incircle_core_logic$engine$insertions$dispatcher$start$candidate_point candidate_point(
         .d(candidate_point$d),
         .q(candidate_point$q),
         .clock(candidate_point$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$wants_again wants_again(
+        .d(wants_again$d),
+        .q(wants_again$q),
+        .clock(wants_again$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$wants_new wants_new(
+        .d(wants_new$d),
+        .q(wants_new$q),
+        .clock(wants_new$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$from from(
+        .d(from$d),
+        .q(from$q),
+        .clock(from$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$is_alone is_alone(
+        .d(is_alone$d),
+        .q(is_alone$q),
+        .clock(is_alone$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$start$all_work all_work(
         .d(all_work$d),
@@ -12685,18 +14009,32 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     always @(*) begin
         turn$clock = clock;
         round$clock = clock;
+        has_passed$clock = clock;
+        passed$clock = clock;
+        passed_id$clock = clock;
+        passed_point$clock = clock;
         candidate$clock = clock;
         candidate_id$clock = clock;
-        candidate_is_there$clock = clock;
-        all_work$clock = clock;
         turn$d = turn$q;
         round$d = round$q;
+        has_passed$d = has_passed$q;
+        passed$d = passed$q;
+        passed_id$d = passed_id$q;
+        passed_point$d = passed_point$q;
         candidate$d = candidate$q;
         candidate_id$d = candidate_id$q;
-        candidate_is_there$d = candidate_is_there$q;
-        all_work$d = all_work$q;
         candidate_point$clock = clock;
+        wants_again$clock = clock;
+        wants_new$clock = clock;
+        from$clock = clock;
+        is_alone$clock = clock;
+        all_work$clock = clock;
         candidate_point$d = candidate_point$q;
+        wants_again$d = wants_again$q;
+        wants_new$d = wants_new$q;
+        from$d = from$q;
+        is_alone$d = is_alone$q;
+        all_work$d = all_work$q;
         owner1$clock = clock;
         owner2$clock = clock;
         taken1$clock = clock;
@@ -12722,36 +14060,31 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         following$planned = plans$read_data;
         following$taken = candidate_id$q;
         following$contexts = contexts;
-        index = candidate$q;
-        is_first = candidate$q == first_context;
-        is_asleep = asleep[index] & (~solo_valid);
+        index = passed$q;
+        is_barred = solo_valid | ((wants_again$q | wants_new$q) & (contexts == one_turn));
+        is_asleep = asleep[index] & (~is_barred);
         tries_again = keeping[index];
         is_rested = (~busy[index]) & (round$q == resting_round);
+        may_try = (~is_urgent) | (passed$q == waiter);
         may_work = all_work$q;
-        if (is_first) begin
+        if (passed$q == first_context) begin
             may_work = seeded | (~began[32'h0]);
         end
-        may_try = (~is_urgent) | (candidate$q == waiter);
-        wants_again = is_asleep & tries_again & is_rested & may_try;
-        wants_new = is_asleep & (~tries_again) & candidate_is_there$q & may_work;
-        is_held = is_blocked | (wants_new & came);
-        moves = ~(is_held & (wants_again | wants_new));
-        starts = (wants_again | wants_new) & (~is_held);
-        is_taken = wants_new & (~is_held);
+        is_there = has_passed$q & (passed_id$q < arrived);
+        roots$read_address = passed$q;
+        hints$read_address = passed$q;
+        wants = (wants_again$q | wants_new$q) & (~solo_valid);
+        lacks_port = wants_new$q & came;
+        moves = ~(wants & (is_done | lacks_port));
+        begins = wants & (~is_blocked) & (~lacks_port);
+        is_taken = wants_new$q & begins;
+        starts = begins;
         takes = is_taken;
         owner = candidate$q;
         taken_id = candidate_id$q;
-        roots$read_address = candidate$q;
-        hints$read_address = candidate$q;
-        u = 32'h0;
-        if (hinted[index]) begin
-            u = hints$read_data;
-        end
-        if (tries_again) begin
-            u = roots$read_data;
-        end
+        u = from$q;
         solo_p = candidate_point$q;
-        solo_starts = solo_valid & all_rest & (~solo_is_at_work) & (candidate$q == solo_owner);
+        solo_starts = solo_valid & all_rest & (~solo_is_at_work) & is_alone$q;
         points$write_address = candidate$q;
         points$write_data = candidate_id$q;
         points$write_enable = is_taken;
@@ -12764,21 +14097,39 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         hints$write_address = hint_owner;
         hints$write_data = hint;
         hints$write_enable = hint_enable;
-        taken1$d = is_taken;
-        taken2$d = taken1$q;
+        taken1$d = is_taken & (~reset);
+        taken2$d = taken1$q & (~reset);
         owner1$d = candidate$q;
         owner2$d = owner1$q;
         position_enable = taken2$q;
         position_owner = owner2$q;
+        is_first = candidate$q == first_context;
         if (is_taken & is_first & (candidate_id$q >= first_round)) begin
             all_work$d = 1'b1;
         end
         after_turn = turn$q + one_turn;
+        if (begins) begin
+            wants_again$d = 1'b0;
+            wants_new$d = 1'b0;
+        end
         if (moves) begin
-            candidate$d = turn$q;
-            candidate_point$d = points$read_data;
-            candidate_id$d = following$next_id;
-            candidate_is_there$d = following$next_id < arrived;
+            candidate$d = passed$q;
+            candidate_id$d = passed_id$q;
+            candidate_point$d = passed_point$q;
+            wants_again$d = is_asleep & tries_again & is_rested & may_try;
+            wants_new$d = is_asleep & (~tries_again) & is_there & may_work;
+            is_alone$d = passed$q == solo_owner;
+            from$d = 32'h0;
+            if (hinted[index]) begin
+                from$d = hints$read_data;
+            end
+            if (tries_again) begin
+                from$d = roots$read_data;
+            end
+            has_passed$d = 1'b1;
+            passed$d = turn$q;
+            passed_id$d = following$next_id;
+            passed_point$d = points$read_data;
             turn$d = after_turn;
             if (after_turn == contexts) begin
                 turn$d = 32'h0;
@@ -12788,13 +14139,11 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         if (reset | clears) begin
             turn$d = 32'h0;
             round$d = 32'h0;
-            candidate$d = 32'h0;
-            candidate_is_there$d = 1'b0;
+            has_passed$d = 1'b0;
+            wants_again$d = 1'b0;
+            wants_new$d = 1'b0;
+            is_alone$d = 1'b0;
             all_work$d = 1'b0;
-        end
-        if (reset) begin
-            taken1$d = 1'b0;
-            taken2$d = 1'b0;
         end
     end
     
@@ -12858,25 +14207,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start$candidate_id(d,q,c
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_id
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$candidate_is_there(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_is_there
-
-
 module incircle_core_logic$engine$insertions$dispatcher$start$candidate_point(d,q,clock);
     
     // Module arguments
@@ -12935,6 +14265,44 @@ module incircle_core_logic$engine$insertions$dispatcher$start$following(turn,has
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$following
 
 
+module incircle_core_logic$engine$insertions$dispatcher$start$from(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$from
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$has_passed(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$has_passed
+
+
 module incircle_core_logic$engine$insertions$dispatcher$start$hints(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
@@ -12956,6 +14324,25 @@ module incircle_core_logic$engine$insertions$dispatcher$start$hints(clock,write_
     end
     always @(*) read_data = word;
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$hints
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$is_alone(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$is_alone
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$owner1(d,q,clock);
@@ -12994,6 +14381,63 @@ module incircle_core_logic$engine$insertions$dispatcher$start$owner2(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$owner2
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$passed(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$passed_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_id
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$passed_point(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_point
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -13139,6 +14583,44 @@ module incircle_core_logic$engine$insertions$dispatcher$start$turn(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$turn
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$wants_again(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$wants_again
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$wants_new(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$wants_new
 
 
 module incircle_core_logic$engine$insertions$dispatcher$watchdog(clock,reset,finishes,is_quiet,patience,stuck);
@@ -13298,7 +14780,7 @@ module incircle_core_logic$engine$insertions$dispatcher$watchdog$rests(d,q,clock
 endmodule // incircle_core_logic$engine$insertions$dispatcher$watchdog$rests
 
 
-module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,records,position_owner,position,position_enable,is_issuing,done,token,turned,verdict,early_owner,early_entry,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,write,enables,vertex_id,vertex_position,vertex_enable,fetch_id,fetched,clear_id,clear_enable);
+module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,records,position_owner,position,position_enable,is_issuing,done,token,turned,verdict,early_done,early_token,early_turned,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,write,enables,vertex_id,vertex_position,vertex_enable,fetch_id,fetched,clear_id,clear_enable);
     
     // Module arguments
     input wire  clock;
@@ -13315,8 +14797,9 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
     output reg  [54:0] token;
     output reg  [97:0] turned;
     output reg  [19:0] verdict;
-    output reg  [4:0] early_owner;
-    output reg  [5:0] early_entry;
+    output reg  early_done;
+    output reg  [54:0] early_token;
+    output reg  [97:0] early_turned;
     input wire  read;
     input wire  [14:0] read_id;
     output reg  read_done;
@@ -13743,8 +15226,9 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         token_register$d = delayed_token$value;
         turned_register$d = judged$q;
         verdict_register$d = judge$verdict;
-        early_owner = delayed_token$value[(64'h0)+:(5)];
-        early_entry = delayed_token$value[(64'h13)+:(6)];
+        early_done = valid$q[32'he];
+        early_token = delayed_token$value;
+        early_turned = judged$q;
         token = token_register$q;
         turned = turned_register$q;
         verdict = verdict_register$q;
@@ -21245,7 +22729,73 @@ module incircle_core_logic$engine$pipeline$vertices$first_copy(clock,read_addres
 endmodule // incircle_core_logic$engine$pipeline$vertices$first_copy
 
 
-module incircle_core_logic$engine$pushed(d,q,clock);
+module incircle_core_logic$engine$push_port(clock,reset,asks,may_ask,follows,starts,starter,u,is_alone,solo_asks,solo,push,bundle);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  asks;
+    input wire  may_ask;
+    input wire  [92:0] follows;
+    input wire  starts;
+    input wire  [4:0] starter;
+    input wire  [14:0] u;
+    input wire  is_alone;
+    input wire  solo_asks;
+    input wire  [92:0] solo;
+    output reg  push;
+    output reg  [92:0] bundle;
+    
+    // Stub signals
+    reg  pushes$d;
+    wire  pushes$q;
+    reg  pushes$clock;
+    reg  [92:0] pushed$d;
+    wire  [92:0] pushed$q;
+    reg  pushed$clock;
+    
+    // Sub module instances
+    incircle_core_logic$engine$push_port$pushes pushes(
+        .d(pushes$d),
+        .q(pushes$q),
+        .clock(pushes$clock)
+    );
+    incircle_core_logic$engine$push_port$pushed pushed(
+        .d(pushed$d),
+        .q(pushed$q),
+        .clock(pushed$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        pushes$clock = clock;
+        pushed$clock = clock;
+        pushes$d = pushes$q;
+        pushed$d = pushed$q;
+        push = pushes$q;
+        bundle = pushed$q;
+        pushes$d = asks | starts | solo_asks;
+        pushed$d = follows;
+        if (~may_ask) begin
+            pushed$d[(64'h0)+:(1)] = 1'b0;
+            pushed$d[(64'h1)+:(1)] = 1'b0;
+            pushed$d[(64'h2)+:(5)] = starter;
+            pushed$d[(64'h7)+:(1)] = 1'b0;
+            pushed$d[(64'h8)+:(1)] = 1'b0;
+            pushed$d[(64'h2a)+:(15)] = u;
+        end
+        if (is_alone) begin
+            pushed$d = solo;
+        end
+        if (reset) begin
+            pushes$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$push_port
+
+
+module incircle_core_logic$engine$push_port$pushed(d,q,clock);
     
     // Module arguments
     input wire  [92:0] d;
@@ -21261,10 +22811,10 @@ module incircle_core_logic$engine$pushed(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pushed
+endmodule // incircle_core_logic$engine$push_port$pushed
 
 
-module incircle_core_logic$engine$pushes(d,q,clock);
+module incircle_core_logic$engine$push_port$pushes(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -21280,7 +22830,7 @@ module incircle_core_logic$engine$pushes(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pushes
+endmodule // incircle_core_logic$engine$push_port$pushes
 
 
 module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,looks,verdict,seeded,collinear,seeds,is_at_work,write);
@@ -21703,7 +23253,6 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
     reg  star$is_test;
     reg  star$is_flip;
     reg  [1:0] star$step;
-    reg  star$is_last_flip;
     reg  [14:0] star$p;
     reg  [14:0] star$records;
     reg  [14:0] star$root_id;
@@ -21713,21 +23262,34 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
     reg  [97:0] star$turned;
     reg  star$conflict;
     wire  [92:0] star$bundle;
+    wire  star$tests;
+    wire  star$flips;
     wire  star$is_round;
     wire  [109:0] star$write;
+    reg  works$d;
+    wire  works$q;
+    reg  works$clock;
+    reg  asks$d;
+    wire  asks$q;
+    reg  asks$clock;
+    reg  ended$d;
+    wire  ended$q;
+    reg  ended$clock;
+    reg  inserted$d;
+    wire  inserted$q;
+    reg  inserted$clock;
     
     // Local signals
     reg  is_locate;
     reg  is_mend;
     reg  is_fetch;
     reg  is_test;
-    reg  is_flip;
     reg  is_visiting;
     reg  is_last_step;
-    reg  is_second_mend;
     reg  is_duplicate;
     reg  rests;
     reg  inserts_now;
+    reg  ends_now;
     reg  [1:0] third_step;
     reg  [1:0] one;
     
@@ -21778,7 +23340,6 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         .is_test(star$is_test),
         .is_flip(star$is_flip),
         .step(star$step),
-        .is_last_flip(star$is_last_flip),
         .p(star$p),
         .records(star$records),
         .root_id(star$root_id),
@@ -21788,8 +23349,30 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         .turned(star$turned),
         .conflict(star$conflict),
         .bundle(star$bundle),
+        .tests(star$tests),
+        .flips(star$flips),
         .is_round(star$is_round),
         .write(star$write)
+    );
+    incircle_core_logic$engine$solo$works works(
+        .d(works$d),
+        .q(works$q),
+        .clock(works$clock)
+    );
+    incircle_core_logic$engine$solo$asks asks(
+        .d(asks$d),
+        .q(asks$q),
+        .clock(asks$clock)
+    );
+    incircle_core_logic$engine$solo$ended ended(
+        .d(ended$d),
+        .q(ended$q),
+        .clock(ended$clock)
+    );
+    incircle_core_logic$engine$solo$inserted inserted(
+        .d(inserted$d),
+        .q(inserted$q),
+        .clock(inserted$clock)
     );
     
     // Update code
@@ -21801,6 +23384,10 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         vertex$clock = clock;
         root_id$clock = clock;
         root$clock = clock;
+        works$clock = clock;
+        asks$clock = clock;
+        ended$clock = clock;
+        inserted$clock = clock;
         state$d = state$q;
         step$d = step$q;
         awaits$d = awaits$q;
@@ -21808,6 +23395,10 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         vertex$d = vertex$q;
         root_id$d = root_id$q;
         root$d = root$q;
+        works$d = works$q;
+        asks$d = asks$q;
+        ended$d = ended$q;
+        inserted$d = inserted$q;
         star$clock = clock;
         one = 32'h1;
         third_step = 32'h2;
@@ -21815,10 +23406,9 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         is_mend = state$q == SoloState$Mend;
         is_fetch = state$q == SoloState$Fetch;
         is_test = state$q == SoloState$Test;
-        is_flip = state$q == SoloState$Flip;
-        is_second_mend = step$q == one;
         is_last_step = step$q == third_step;
-        is_at_work = state$q != SoloState$Idle;
+        works$d = (state$q != SoloState$Idle) & (~reset);
+        is_at_work = works$q;
         star$reset = reset;
         star$owner = at_work_for$q;
         star$is_locate = is_locate;
@@ -21826,9 +23416,8 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         star$is_mend = is_mend;
         star$is_fetch = is_fetch;
         star$is_test = is_test;
-        star$is_flip = is_flip;
+        star$is_flip = state$q == SoloState$Flip;
         star$step = step$q;
-        star$is_last_flip = is_flip & is_last_step;
         star$p = vertex$q;
         star$records = records;
         star$root_id = root_id$q;
@@ -21840,15 +23429,19 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         bundle = star$bundle;
         write = star$write;
         is_visiting = is_locate | is_mend | is_fetch | is_test;
-        push = is_visiting & (~awaits$q);
+        asks$d = is_visiting & (~awaits$q) & (~reset);
+        push = asks$q;
         awaits$d = is_visiting & (~done);
-        tests = is_test & done;
-        flips = is_flip & is_last_step;
+        tests = star$tests;
+        flips = star$flips;
         rests = is_test & done & (~verdict[(64'h0)+:(1)]);
         inserts_now = rests & star$is_round;
-        inserts = inserts_now;
+        inserted$d = inserts_now & (~reset);
+        inserts = inserted$q;
         is_duplicate = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
-        ends = inserts_now | (is_locate & done & is_duplicate);
+        ends_now = inserts_now | (is_locate & done & is_duplicate);
+        ended$d = ends_now & (~reset);
+        ends = ended$q;
         case (state$q)
             SoloState$Idle:
                 begin
@@ -21887,7 +23480,7 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
                 begin
                     if (done) begin
                         step$d = 32'h1;
-                        if (is_second_mend) begin
+                        if (step$q == one) begin
                             state$d = SoloState$Fetch;
                         end
                     end
@@ -21932,6 +23525,25 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
 endmodule // incircle_core_logic$engine$solo
 
 
+module incircle_core_logic$engine$solo$asks(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$asks
+
+
 module incircle_core_logic$engine$solo$at_work_for(d,q,clock);
     
     // Module arguments
@@ -21968,6 +23580,44 @@ module incircle_core_logic$engine$solo$awaits(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$solo$awaits
+
+
+module incircle_core_logic$engine$solo$ended(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$ended
+
+
+module incircle_core_logic$engine$solo$inserted(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$inserted
 
 
 module incircle_core_logic$engine$solo$root(d,q,clock);
@@ -22008,7 +23658,7 @@ module incircle_core_logic$engine$solo$root_id(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$root_id
 
 
-module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split,is_mend,is_fetch,is_test,is_flip,step,is_last_flip,p,records,root_id,root,done,token,turned,conflict,bundle,is_round,write);
+module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split,is_mend,is_fetch,is_test,is_flip,step,p,records,root_id,root,done,token,turned,conflict,bundle,tests,flips,is_round,write);
     
     // Module arguments
     input wire  clock;
@@ -22021,7 +23671,6 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
     input wire  is_test;
     input wire  is_flip;
     input wire  [1:0] step;
-    input wire  is_last_flip;
     input wire  [14:0] p;
     input wire  [14:0] records;
     input wire  [14:0] root_id;
@@ -22031,10 +23680,66 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
     input wire  [97:0] turned;
     input wire  conflict;
     output reg  [92:0] bundle;
+    output reg  tests;
+    output reg  flips;
     output reg  is_round;
     output reg  [109:0] write;
     
     // Stub signals
+    reg  locates$d;
+    wire  locates$q;
+    reg  locates$clock;
+    reg  splits$d;
+    wire  splits$q;
+    reg  splits$clock;
+    reg  mends$d;
+    wire  mends$q;
+    reg  mends$clock;
+    reg  fetches$d;
+    wire  fetches$q;
+    reg  fetches$clock;
+    reg  is_testing$d;
+    wire  is_testing$q;
+    reg  is_testing$clock;
+    reg  is_flipping$d;
+    wire  is_flipping$q;
+    reg  is_flipping$clock;
+    reg  split1$d;
+    wire  split1$q;
+    reg  split1$clock;
+    reg  split2$d;
+    wire  split2$q;
+    reg  split2$clock;
+    reg  split3$d;
+    wire  split3$q;
+    reg  split3$clock;
+    reg  flip1$d;
+    wire  flip1$q;
+    reg  flip1$clock;
+    reg  flip2$d;
+    wire  flip2$q;
+    reg  flip2$clock;
+    reg  mend1$d;
+    wire  mend1$q;
+    reg  mend1$clock;
+    reg  mend2$d;
+    wire  mend2$q;
+    reg  mend2$clock;
+    reg  ends_flip$d;
+    wire  ends_flip$q;
+    reg  ends_flip$clock;
+    reg  comes$d;
+    wire  comes$q;
+    reg  comes$clock;
+    reg  [14:0] visited$d;
+    wire  [14:0] visited$q;
+    reg  visited$clock;
+    reg  [97:0] found$d;
+    wire  [97:0] found$q;
+    reg  found$clock;
+    reg  is_conflict$d;
+    wire  is_conflict$q;
+    reg  is_conflict$clock;
     reg  [14:0] id$d;
     wire  [14:0] id$q;
     reg  id$clock;
@@ -22068,6 +23773,12 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
     reg  [109:0] request$d;
     wire  [109:0] request$q;
     reg  request$clock;
+    reg  is_last$d;
+    wire  is_last$q;
+    reg  is_last$clock;
+    reg  [14:0] third$d;
+    wire  [14:0] third$q;
+    reg  third$clock;
     reg  [4:0] visit$owner;
     reg  visit$is_locate;
     reg  visit$is_mend;
@@ -22079,12 +23790,17 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
     reg  [14:0] visit$outer;
     reg  [14:0] visit$back;
     wire  [92:0] visit$bundle;
-    reg  writes$is_split;
-    reg  writes$is_mend;
+    reg  writes$split1;
+    reg  writes$split2;
+    reg  writes$split3;
+    reg  writes$flip1;
+    reg  writes$flip2;
+    reg  writes$mend1;
+    reg  writes$mend2;
     reg  writes$is_test;
-    reg  [1:0] writes$step;
     reg  [14:0] writes$p;
-    reg  [14:0] writes$records;
+    reg  [14:0] writes$second;
+    reg  [14:0] writes$third;
     reg  [14:0] writes$root_id;
     reg  [97:0] writes$root;
     reg  [14:0] writes$id;
@@ -22104,8 +23820,104 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
     reg  rests;
     reg  is_flipped;
     reg  [1:0] one;
+    reg  [1:0] first_write;
+    reg  [1:0] last_write;
+    reg  is_first;
+    reg  is_second;
+    reg  is_last_write;
+    reg  [14:0] one_more;
     
     // Sub module instances
+    incircle_core_logic$engine$solo$star$locates locates(
+        .d(locates$d),
+        .q(locates$q),
+        .clock(locates$clock)
+    );
+    incircle_core_logic$engine$solo$star$splits splits(
+        .d(splits$d),
+        .q(splits$q),
+        .clock(splits$clock)
+    );
+    incircle_core_logic$engine$solo$star$mends mends(
+        .d(mends$d),
+        .q(mends$q),
+        .clock(mends$clock)
+    );
+    incircle_core_logic$engine$solo$star$fetches fetches(
+        .d(fetches$d),
+        .q(fetches$q),
+        .clock(fetches$clock)
+    );
+    incircle_core_logic$engine$solo$star$is_testing is_testing(
+        .d(is_testing$d),
+        .q(is_testing$q),
+        .clock(is_testing$clock)
+    );
+    incircle_core_logic$engine$solo$star$is_flipping is_flipping(
+        .d(is_flipping$d),
+        .q(is_flipping$q),
+        .clock(is_flipping$clock)
+    );
+    incircle_core_logic$engine$solo$star$split1 split1(
+        .d(split1$d),
+        .q(split1$q),
+        .clock(split1$clock)
+    );
+    incircle_core_logic$engine$solo$star$split2 split2(
+        .d(split2$d),
+        .q(split2$q),
+        .clock(split2$clock)
+    );
+    incircle_core_logic$engine$solo$star$split3 split3(
+        .d(split3$d),
+        .q(split3$q),
+        .clock(split3$clock)
+    );
+    incircle_core_logic$engine$solo$star$flip1 flip1(
+        .d(flip1$d),
+        .q(flip1$q),
+        .clock(flip1$clock)
+    );
+    incircle_core_logic$engine$solo$star$flip2 flip2(
+        .d(flip2$d),
+        .q(flip2$q),
+        .clock(flip2$clock)
+    );
+    incircle_core_logic$engine$solo$star$mend1 mend1(
+        .d(mend1$d),
+        .q(mend1$q),
+        .clock(mend1$clock)
+    );
+    incircle_core_logic$engine$solo$star$mend2 mend2(
+        .d(mend2$d),
+        .q(mend2$q),
+        .clock(mend2$clock)
+    );
+    incircle_core_logic$engine$solo$star$ends_flip ends_flip(
+        .d(ends_flip$d),
+        .q(ends_flip$q),
+        .clock(ends_flip$clock)
+    );
+    incircle_core_logic$engine$solo$star$comes comes(
+        .d(comes$d),
+        .q(comes$q),
+        .clock(comes$clock)
+    );
+    incircle_core_logic$engine$solo$star$visited visited(
+        .d(visited$d),
+        .q(visited$q),
+        .clock(visited$clock)
+    );
+    incircle_core_logic$engine$solo$star$found found(
+        .d(found$d),
+        .q(found$q),
+        .clock(found$clock)
+    );
+    incircle_core_logic$engine$solo$star$is_conflict is_conflict(
+        .d(is_conflict$d),
+        .q(is_conflict$q),
+        .clock(is_conflict$clock)
+    );
     incircle_core_logic$engine$solo$star$id id(
         .d(id$d),
         .q(id$q),
@@ -22161,6 +23973,16 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
         .q(request$q),
         .clock(request$clock)
     );
+    incircle_core_logic$engine$solo$star$is_last is_last(
+        .d(is_last$d),
+        .q(is_last$q),
+        .clock(is_last$clock)
+    );
+    incircle_core_logic$engine$solo$star$third third(
+        .d(third$d),
+        .q(third$q),
+        .clock(third$clock)
+    );
     incircle_core_logic$engine$solo$star$visit visit(
         .owner(visit$owner),
         .is_locate(visit$is_locate),
@@ -22175,12 +23997,17 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
         .bundle(visit$bundle)
     );
     incircle_core_logic$engine$solo$star$writes writes(
-        .is_split(writes$is_split),
-        .is_mend(writes$is_mend),
+        .split1(writes$split1),
+        .split2(writes$split2),
+        .split3(writes$split3),
+        .flip1(writes$flip1),
+        .flip2(writes$flip2),
+        .mend1(writes$mend1),
+        .mend2(writes$mend2),
         .is_test(writes$is_test),
-        .step(writes$step),
         .p(writes$p),
-        .records(writes$records),
+        .second(writes$second),
+        .third(writes$third),
         .root_id(writes$root_id),
         .root(writes$root),
         .id(writes$id),
@@ -22217,30 +24044,103 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
         apex_after_a$clock = clock;
         apex_before_b$clock = clock;
         request$clock = clock;
+        is_last$clock = clock;
+        third$clock = clock;
         apex$d = apex$q;
         apex_after_a$d = apex_after_a$q;
         apex_before_b$d = apex_before_b$q;
         request$d = request$q;
+        is_last$d = is_last$q;
+        third$d = third$q;
+        locates$clock = clock;
+        splits$clock = clock;
+        mends$clock = clock;
+        fetches$clock = clock;
+        is_testing$clock = clock;
+        is_flipping$clock = clock;
+        ends_flip$clock = clock;
+        locates$d = locates$q;
+        splits$d = splits$q;
+        mends$d = mends$q;
+        fetches$d = fetches$q;
+        is_testing$d = is_testing$q;
+        is_flipping$d = is_flipping$q;
+        ends_flip$d = ends_flip$q;
+        split1$clock = clock;
+        split2$clock = clock;
+        split3$clock = clock;
+        flip1$clock = clock;
+        flip2$clock = clock;
+        mend1$clock = clock;
+        mend2$clock = clock;
+        split1$d = split1$q;
+        split2$d = split2$q;
+        split3$d = split3$q;
+        flip1$d = flip1$q;
+        flip2$d = flip2$q;
+        mend1$d = mend1$q;
+        mend2$d = mend2$q;
+        comes$clock = clock;
+        visited$clock = clock;
+        found$clock = clock;
+        is_conflict$clock = clock;
+        comes$d = comes$q;
+        visited$d = visited$q;
+        found$d = found$q;
+        is_conflict$d = is_conflict$q;
+        first_write = 32'h0;
         one = 32'h1;
-        is_round = b$q == root[(64'hf)+:(15)];
+        last_write = 32'h2;
+        is_last_write = step == last_write;
+        one_more = 32'h1;
+        is_last$d = b$q == root[(64'hf)+:(15)];
+        third$d = records + one_more;
+        is_round = is_last$q;
         write = request$q;
+        locates$d = is_locate & (~reset);
+        splits$d = is_split & (~reset);
+        mends$d = is_mend & (~reset);
+        fetches$d = is_fetch & (~reset);
+        is_testing$d = is_test & (~reset);
+        is_flipping$d = is_flip & (~reset);
+        is_first = step == first_write;
+        is_second = step == one;
+        split1$d = is_split & is_first;
+        split2$d = is_split & is_second;
+        split3$d = is_split & is_last_write;
+        flip1$d = is_flip & is_first;
+        flip2$d = is_flip & is_second;
+        mend1$d = is_mend & is_first;
+        mend2$d = is_mend & is_second;
+        ends_flip$d = is_flip & is_last_write & (~reset);
+        comes$d = done;
+        visited$d = token[(64'h28)+:(15)];
+        found$d = turned;
+        is_conflict$d = conflict;
+        tests = is_testing$q & comes$q;
+        flips = ends_flip$q;
         visit$owner = owner;
-        visit$is_locate = is_locate;
-        visit$is_mend = is_mend;
-        visit$is_second = step == one;
-        visit$is_fetch = is_fetch;
+        visit$is_locate = locates$q;
+        visit$is_mend = mends$q;
+        visit$is_second = mend2$q;
+        visit$is_fetch = fetches$q;
         visit$root_id = root_id;
         visit$root = root;
         visit$id = id$q;
         visit$outer = outer$q;
         visit$back = back$q;
         bundle = visit$bundle;
-        writes$is_split = is_split;
-        writes$is_mend = is_mend;
-        writes$is_test = is_test;
-        writes$step = step;
+        writes$split1 = split1$q;
+        writes$split2 = split2$q;
+        writes$split3 = split3$q;
+        writes$flip1 = flip1$q;
+        writes$flip2 = flip2$q;
+        writes$mend1 = mend1$q;
+        writes$mend2 = mend2$q;
+        writes$is_test = is_testing$q;
         writes$p = p;
-        writes$records = records;
+        writes$second = records;
+        writes$third = third$q;
         writes$root_id = root_id;
         writes$root = root;
         writes$id = id$q;
@@ -22252,32 +24152,32 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
         writes$apex = apex$q;
         writes$apex_after_a = apex_after_a$q;
         writes$apex_before_b = apex_before_b$q;
-        writes$visited = token[(64'h28)+:(15)];
-        writes$slot = turned[(64'h5a)+:(2)];
-        rests = is_test & done & (~conflict);
+        writes$visited = visited$q;
+        writes$slot = found$q[(64'h5a)+:(2)];
+        rests = is_testing$q & comes$q & (~is_conflict$q);
         is_flipped = back$q != id$q;
         request$d = writes$write;
-        request$d[(64'h0)+:(1)] = is_split | is_flip | (is_mend & done) | (rests & is_flipped);
-        if (is_mend) begin
+        request$d[(64'h0)+:(1)] = splits$q | is_flipping$q | (mends$q & comes$q) | (rests & is_flipped);
+        if (mends$q) begin
             id$d = root_id;
         end
-        if (is_fetch & done) begin
-            a$d = turned[(64'hf)+:(15)];
-            b$d = turned[(64'h1e)+:(15)];
-            outer$d = turned[(64'h2d)+:(15)];
-            after$d = turned[(64'h3c)+:(15)];
-            preceding$d = turned[(64'h4b)+:(15)];
+        if (fetches$q & comes$q) begin
+            a$d = found$q[(64'hf)+:(15)];
+            b$d = found$q[(64'h1e)+:(15)];
+            outer$d = found$q[(64'h2d)+:(15)];
+            after$d = found$q[(64'h3c)+:(15)];
+            preceding$d = found$q[(64'h4b)+:(15)];
             back$d = id$q;
         end
-        if (is_test & done) begin
-            apex$d = turned[(64'h0)+:(15)];
-            apex_after_a$d = turned[(64'h3c)+:(15)];
-            apex_before_b$d = turned[(64'h4b)+:(15)];
+        if (is_testing$q & comes$q) begin
+            apex$d = found$q[(64'h0)+:(15)];
+            apex_after_a$d = found$q[(64'h3c)+:(15)];
+            apex_before_b$d = found$q[(64'h4b)+:(15)];
         end
         if (rests) begin
             id$d = after$q;
         end
-        if (is_last_flip) begin
+        if (ends_flip$q) begin
             b$d = apex$q;
             after$d = outer$q;
             back$d = outer$q;
@@ -22424,6 +24324,120 @@ module incircle_core_logic$engine$solo$star$back(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$star$back
 
 
+module incircle_core_logic$engine$solo$star$comes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$comes
+
+
+module incircle_core_logic$engine$solo$star$ends_flip(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$ends_flip
+
+
+module incircle_core_logic$engine$solo$star$fetches(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$fetches
+
+
+module incircle_core_logic$engine$solo$star$flip1(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$flip1
+
+
+module incircle_core_logic$engine$solo$star$flip2(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$flip2
+
+
+module incircle_core_logic$engine$solo$star$found(d,q,clock);
+    
+    // Module arguments
+    input wire  [97:0] d;
+    output reg  [97:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 98'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$found
+
+
 module incircle_core_logic$engine$solo$star$id(d,q,clock);
     
     // Module arguments
@@ -22441,6 +24455,158 @@ module incircle_core_logic$engine$solo$star$id(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$solo$star$id
+
+
+module incircle_core_logic$engine$solo$star$is_conflict(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$is_conflict
+
+
+module incircle_core_logic$engine$solo$star$is_flipping(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$is_flipping
+
+
+module incircle_core_logic$engine$solo$star$is_last(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$is_last
+
+
+module incircle_core_logic$engine$solo$star$is_testing(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$is_testing
+
+
+module incircle_core_logic$engine$solo$star$locates(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$locates
+
+
+module incircle_core_logic$engine$solo$star$mend1(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$mend1
+
+
+module incircle_core_logic$engine$solo$star$mend2(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$mend2
+
+
+module incircle_core_logic$engine$solo$star$mends(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$mends
 
 
 module incircle_core_logic$engine$solo$star$outer(d,q,clock);
@@ -22500,6 +24666,101 @@ module incircle_core_logic$engine$solo$star$request(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$star$request
 
 
+module incircle_core_logic$engine$solo$star$split1(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$split1
+
+
+module incircle_core_logic$engine$solo$star$split2(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$split2
+
+
+module incircle_core_logic$engine$solo$star$split3(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$split3
+
+
+module incircle_core_logic$engine$solo$star$splits(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$splits
+
+
+module incircle_core_logic$engine$solo$star$third(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$third
+
+
 module incircle_core_logic$engine$solo$star$visit(owner,is_locate,is_mend,is_second,is_fetch,root_id,root,id,outer,back,bundle);
     
     // Module arguments
@@ -22550,15 +24811,39 @@ module incircle_core_logic$engine$solo$star$visit(owner,is_locate,is_mend,is_sec
 endmodule // incircle_core_logic$engine$solo$star$visit
 
 
-module incircle_core_logic$engine$solo$star$writes(is_split,is_mend,is_test,step,p,records,root_id,root,id,a,b,outer,after,preceding,apex,apex_after_a,apex_before_b,visited,slot,write);
+module incircle_core_logic$engine$solo$star$visited(d,q,clock);
     
     // Module arguments
-    input wire  is_split;
-    input wire  is_mend;
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$visited
+
+
+module incircle_core_logic$engine$solo$star$writes(split1,split2,split3,flip1,flip2,mend1,mend2,is_test,p,second,third,root_id,root,id,a,b,outer,after,preceding,apex,apex_after_a,apex_before_b,visited,slot,write);
+    
+    // Module arguments
+    input wire  split1;
+    input wire  split2;
+    input wire  split3;
+    input wire  flip1;
+    input wire  flip2;
+    input wire  mend1;
+    input wire  mend2;
     input wire  is_test;
-    input wire  [1:0] step;
     input wire  [14:0] p;
-    input wire  [14:0] records;
+    input wire  [14:0] second;
+    input wire  [14:0] third;
     input wire  [14:0] root_id;
     input wire  [97:0] root;
     input wire  [14:0] id;
@@ -22588,15 +24873,6 @@ module incircle_core_logic$engine$solo$star$writes(is_split,is_mend,is_test,step
     reg  [14:0] link$value;
     wire  [109:0] link$write;
     
-    // Local signals
-    reg  [14:0] second;
-    reg  [14:0] third;
-    reg  [14:0] one;
-    reg  is_step0;
-    reg  is_step1;
-    reg  [1:0] step0;
-    reg  [1:0] step1;
-    
     // Sub module instances
     incircle_core_logic$engine$solo$star$writes$record record(
         .id(record$id),
@@ -22617,13 +24893,6 @@ module incircle_core_logic$engine$solo$star$writes(is_split,is_mend,is_test,step
     
     // Update code
     always @(*) begin
-        one = 32'h1;
-        step0 = 32'h0;
-        step1 = 32'h1;
-        is_step0 = step == step0;
-        is_step1 = step == step1;
-        second = records;
-        third = records + one;
         record$id = third;
         record$v0 = p;
         record$v1 = root[(64'h0)+:(15)];
@@ -22631,7 +24900,7 @@ module incircle_core_logic$engine$solo$star$writes(is_split,is_mend,is_test,step
         record$n0 = root[(64'h4b)+:(15)];
         record$n1 = root_id;
         record$n2 = second;
-        if (is_split & is_step0) begin
+        if (split1) begin
             record$id = root_id;
             record$v1 = root[(64'hf)+:(15)];
             record$v2 = root[(64'h1e)+:(15)];
@@ -22639,7 +24908,7 @@ module incircle_core_logic$engine$solo$star$writes(is_split,is_mend,is_test,step
             record$n1 = second;
             record$n2 = third;
         end
-        if (is_split & is_step1) begin
+        if (split2) begin
             record$id = second;
             record$v1 = root[(64'h1e)+:(15)];
             record$v2 = root[(64'h0)+:(15)];
@@ -22647,7 +24916,7 @@ module incircle_core_logic$engine$solo$star$writes(is_split,is_mend,is_test,step
             record$n1 = third;
             record$n2 = root_id;
         end
-        if ((~is_split) & is_step0) begin
+        if (flip1) begin
             record$id = id;
             record$v1 = a;
             record$v2 = apex;
@@ -22655,7 +24924,7 @@ module incircle_core_logic$engine$solo$star$writes(is_split,is_mend,is_test,step
             record$n1 = outer;
             record$n2 = preceding;
         end
-        if ((~is_split) & is_step1) begin
+        if (flip2) begin
             record$id = outer;
             record$v1 = apex;
             record$v2 = b;
@@ -22671,19 +24940,18 @@ module incircle_core_logic$engine$solo$star$writes(is_split,is_mend,is_test,step
             link$slot = slot;
             link$value = id;
         end
-        if (is_mend) begin
+        if (mend1) begin
             link$id = visited;
             link$slot = slot;
             link$value = second;
-            if (is_step1) begin
-                link$value = third;
-            end
+        end
+        if (mend2) begin
+            link$id = visited;
+            link$slot = slot;
+            link$value = third;
         end
         write = link$write;
-        if (is_split) begin
-            write = record$write;
-        end
-        if ((~is_mend) & (~is_test) & (is_step0 | is_step1)) begin
+        if (split1 | split2 | split3 | flip1 | flip2) begin
             write = record$write;
         end
     end
@@ -22821,6 +25089,25 @@ module incircle_core_logic$engine$solo$vertex(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$solo$vertex
+
+
+module incircle_core_logic$engine$solo$works(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$works
 
 
 module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write,enables);

@@ -37,8 +37,8 @@ const FAULTS: [Fault; 7] = [
         name: "broken_foreign_lock",
         config: SMALL,
         pieces: &[
-            ("is_tested = is_live & (~turned[(64'h5d)+:(1)]);", "is_tested = is_live;"),
-            ("gives_up = is_live & turned[(64'h5d)+:(1)] & (~is_waiter);", "gives_up = 1'b0;"),
+            ("test_counts$d = tests & (~foreign);", "test_counts$d = tests;"),
+            ("test_is_refused$d = tests & foreign & (~is_waiter);", "test_is_refused$d = 1'b0;"),
         ],
     },
     // Locks are released when the ring is finished, before the star is written.
@@ -62,9 +62,10 @@ const FAULTS: [Fault; 7] = [
         name: "broken_root",
         config: SMALL,
         pieces: &[
-            ("opens = holds_root & is_located;", "opens = holds_root;"),
-            ("retries = holds_root & (~verdict[(64'h1)+:(1)]);", "retries = 1'b0;"),
-            ("root_duplicate = holds_root & is_corner;", "root_duplicate = 1'b0;"),
+            ("opens = root_is_held$q & is_located;", "opens = root_is_held$q;"),
+            ("(root_is_held$q & is_located)", "root_is_held$q"),
+            ("retries = root_is_held$q & (~verdict[(64'h1)+:(1)]);", "retries = 1'b0;"),
+            ("root_duplicate = root_is_held$q & is_corner;", "root_duplicate = 1'b0;"),
         ],
     },
     // A walk does not mind that a record is not written yet.

@@ -13,13 +13,13 @@ use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
     AttemptStep,
-    [attempt, is_last, edge_was_passed, f_entry, took, is_test, opens, splits, repeats, gives_up, overflows],
+    [attempt, is_last, edge_was_passed, entry_bit, took, is_test, splits, repeats, gives_up, overflows],
     [after, is_over, succeeds, finds_inner, passes_root]
 );
 named_ports!(
     AttemptStore,
-    [ring, early_owner, early_entry, owner, f_entry, opens, splits, repeats, writes, passes_root, after],
-    [attempt, is_last, is_full, edge_was_passed],
+    [ring, early_owner, early_entry, owner, f_entry, opens, is_test, splits, repeats, passes_root, after],
+    [attempt, is_last, is_full, edge_was_passed, entry_bit],
     clock
 );
 named_ports!(AttemptPoints, [takes, taker, taken_id, now, owner], [p, since], clock);
@@ -39,18 +39,17 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         let before = State::random(&mut random);
         let entries = [2, 64][random.below(2) as usize];
         let y = random.below(entries);
-        let case = random.below(7);
-        let [no_test, opens, splits, repeats, gives_up, overflows] = [0, 1, 2, 3, 4, 5].map(|code| case == code);
-        let is_test = !no_test && !opens;
+        let case = random.below(6);
+        let [no_test, splits, repeats, gives_up, overflows] = [0, 1, 2, 3, 4].map(|code| case == code);
+        let is_test = !no_test;
         let took = flip(&mut random);
         block.set("attempt", before.packed());
-        block.set("f_entry", y);
+        block.set("entry_bit", 1u64 << y);
         block.set("is_last", before.outstanding == 1);
         block.set("edge_was_passed", before.half_open >> y & 1 == 1);
         for (port, value) in [
             ("took", took),
             ("is_test", is_test),
-            ("opens", opens),
             ("splits", splits),
             ("repeats", repeats),
             ("gives_up", gives_up),
@@ -61,18 +60,14 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         let mut after = before;
         let mut finds_inner = false;
         let passes_root = splits && y == 0 && before.half_open & 3 == 1;
-        if opens {
-            after = State { outstanding: 3, count: 3, logged: 1, ..State::default() };
-        } else {
-            after.drains |= gives_up || overflows;
-            after.logged += u64::from(took);
-            after.outstanding -= 1;
-            after.outstanding += if splits { 2 } else { u64::from(repeats) };
-            if splits {
-                after.count += 1;
-                finds_inner = after.passes(y);
-                after.inners += u64::from(finds_inner);
-            }
+        after.drains |= gives_up || overflows;
+        after.logged += u64::from(took);
+        after.outstanding -= 1;
+        after.outstanding += if splits { 2 } else { u64::from(repeats) };
+        if splits {
+            after.count += 1;
+            finds_inner = after.passes(y);
+            after.inners += u64::from(finds_inner);
         }
         let is_over = is_test && after.outstanding == 0;
         block.settle();
@@ -80,8 +75,8 @@ fn attempt_step_counts_visits_entries_triangles_and_locks() {
         block.expect("succeeds", is_over && !after.drains);
         block.expect("finds_inner", finds_inner);
         block.expect("passes_root", passes_root);
-        // What is neither a test nor opens changes no state.
-        if !no_test {
+        // What is no test changes no state, or begins another.
+        if is_test {
             block.expect("after", after.packed());
         }
         inners += usize::from(finds_inner);
@@ -101,17 +96,19 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
     block.set("ring", ring);
     for _ in 0..4 * ROUNDS {
         let entries = [2, ring][random.below(2) as usize];
-        let (early_owner, early_entry) = (random.below(4), random.below(entries));
+        let (next_owner, early_entry) = (random.below(4), random.below(entries));
+        let before = states[owner as usize];
+        let opens = random.below(12) == 0 || before.is_none_or(|state| state.outstanding == 0);
+        let splits = !opens && flip(&mut random) && before.is_some_and(|state| state.count < ring);
+        let repeats = !opens && !splits && random.below(4) == 0;
+        let is_test = !opens && (splits || random.below(4) > 0);
+        // No other visit of a context that opens is out.
+        let early_owner = if opens && next_owner == owner { (owner + 1) % 4 } else { next_owner };
         for (port, value) in
             [("early_owner", early_owner), ("early_entry", early_entry), ("owner", owner), ("f_entry", f_entry)]
         {
             block.set(port, value);
         }
-        let before = states[owner as usize];
-        let opens = random.below(12) == 0 || before.is_none_or(|state| state.outstanding == 0);
-        let splits = !opens && flip(&mut random) && before.is_some_and(|state| state.count < ring);
-        let repeats = !opens && !splits && random.below(4) == 0;
-        let writes = opens || splits || random.below(4) > 0;
         let mut after = before.unwrap_or_default();
         let passes_root = splits && f_entry == 0 && after.half_open & 3 == 1;
         if opens {
@@ -128,9 +125,9 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
         block.set("after", after.packed());
         for (port, value) in [
             ("opens", opens),
+            ("is_test", is_test),
             ("splits", splits),
             ("repeats", repeats),
-            ("writes", writes),
             ("passes_root", passes_root),
         ] {
             block.set(port, value);
@@ -139,15 +136,16 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
         if let Some(state) = before {
             let flags = [state.outstanding == 1, state.count == ring, state.half_open >> f_entry & 1 == 1];
             block.expect("attempt", state.packed());
+            block.expect("entry_bit", 1u64 << f_entry);
             for ((port, flag), seen) in ["is_last", "is_full", "edge_was_passed"].into_iter().zip(flags).zip(&mut seen)
             {
                 block.expect(port, flag);
                 *seen += usize::from(flag);
             }
-            seen[3] += usize::from(writes && early_owner == owner);
+            seen[3] += usize::from(is_test && early_owner == owner);
         }
         block.edge();
-        if writes {
+        if is_test || opens {
             states[owner as usize] = Some(after);
         }
         (owner, f_entry) = (early_owner, early_entry);

@@ -7,13 +7,13 @@ mod stepper;
 
 use attempt_state::State;
 use incircle_cli::generate::SplitMix64;
-use incircle_hdl::engine::{AttemptLists, NextVisits, VisitCase};
+use incircle_hdl::engine::{AttemptLists, NextVisits, PushPort, VisitCase};
 use stepper::bundles::{commit_job, release_job, turned, Edge, Finding, LockFinding, Visit};
-use stepper::{named_ports, Stepper};
+use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
     VisitCase,
-    [done, token, turned, verdict, seeded, is_busy, is_waiter, drains, is_full],
+    [early_done, early_token, early_turned, seeded, is_busy, is_waiter, verdict, drains, is_full],
     [
         is_walk,
         is_root,
@@ -31,10 +31,20 @@ named_ports!(
         gives_up_root,
         gives_up,
         walk_duplicate,
-        root_duplicate
-    ]
+        root_duplicate,
+        is_done,
+        asks,
+        may_ask
+    ],
+    clock
 );
-named_ports!(NextVisits, [token, turned, walk_next, entry, repeats, walks_on, locates, opens, splits], [push, bundle]);
+named_ports!(NextVisits, [early_token, early_turned, walks_on, locates, walk_next, entry], [bundle], clock);
+named_ports!(
+    PushPort,
+    [reset, asks, may_ask, follows, starts, starter, u, is_alone, solo_asks, solo],
+    [push, bundle],
+    clock
+);
 named_ports!(
     AttemptLists,
     [done, token, turned, attempt, after, p, since, is_root, settles, finds_inner, succeeds, fails, stops_at_root],
@@ -165,75 +175,131 @@ impl Bits {
     }
 }
 
+/// Drives what is looked at a clock ahead.
+fn set_early(block: &mut Stepper<VisitCase>, bits: &Bits, random: &mut SplitMix64) {
+    let token = Visit { rotates: bits.rotates, locks: bits.locks, ..visit(random) };
+    let lock = LockFinding { took: flip(random), ..bits.lock };
+    block.set("early_done", bits.done);
+    block.set("early_token", token.token());
+    block.set("early_turned", turned([id(random); 3], [id(random); 3], 1, lock, [flip(random); 3]));
+    for (port, value) in [("seeded", bits.seeded), ("is_busy", bits.is_busy), ("is_waiter", bits.is_waiter)] {
+        block.set(port, value);
+    }
+}
+
+/// One clock: what was looked at in the one before, with its verdict, and the next.
+fn case_clock(block: &mut Stepper<VisitCase>, bits: &Bits, upcoming: &Bits, random: &mut SplitMix64) {
+    set_early(block, upcoming, random);
+    let finding = Finding { is_left: flip(random), is_straight: flip(random), walk_next: id(random), ..bits.finding };
+    block.set("verdict", finding.verdict());
+    block.set("drains", bits.drains);
+    block.set("is_full", bits.is_full);
+    let case = bits.case();
+    block.settle();
+    if block.clocks() > 0 {
+        block.expect("is_done", bits.done);
+        block.expect("is_walk", bits.done && !bits.rotates && !bits.locks && bits.seeded);
+        block.expect("is_root", bits.done && !bits.rotates && bits.locks);
+        block.expect("is_test", bits.done && bits.rotates);
+        block.expect("waits", case == Some("repeats") && (bits.locks || bits.rotates));
+        for port in CASES {
+            block.expect(port, case == Some(port));
+        }
+        let asks = ["repeats", "walks_on", "locates", "opens", "splits"].map(Some).contains(&case);
+        let settles = bits.rotates && !bits.lock.foreign && !bits.finding.conflict;
+        block.expect("asks", asks);
+        block.expect("may_ask", bits.done && !settles);
+    }
+    block.edge();
+}
+
 #[test]
 fn visit_case_decides_every_case_by_its_rules() {
     let mut random = SplitMix64::new(50);
     let mut block = Stepper::new("visit_case", VisitCase::default(), 1);
     let mut seen = [0; CASES.len()];
-    for number in 0..1 << 13 {
-        let bits = Bits::of(number);
-        let token = Visit { rotates: bits.rotates, locks: bits.locks, ..visit(&mut random) };
-        let lock = LockFinding { took: flip(&mut random), ..bits.lock };
-        let finding = Finding {
-            is_left: flip(&mut random),
-            is_straight: flip(&mut random),
-            walk_next: id(&mut random),
-            ..bits.finding
-        };
-        block.set("done", bits.done);
-        block.set("token", token.token());
-        block.set("turned", turned([id(&mut random); 3], [id(&mut random); 3], 1, lock, [flip(&mut random); 3]));
-        block.set("verdict", finding.verdict());
-        for (port, value) in [
-            ("seeded", bits.seeded),
-            ("is_busy", bits.is_busy),
-            ("is_waiter", bits.is_waiter),
-            ("drains", bits.drains),
-            ("is_full", bits.is_full),
-        ] {
-            block.set(port, value);
-        }
-        let case = bits.case();
-        block.settle();
-        block.expect("is_walk", bits.done && !bits.rotates && !bits.locks && bits.seeded);
-        block.expect("is_root", bits.done && !bits.rotates && bits.locks);
-        block.expect("is_test", bits.done && bits.rotates);
-        block.expect("waits", case == Some("repeats") && (bits.locks || bits.rotates));
+    let mut numbers: Vec<u64> = (0..1 << 13).collect();
+    random.shuffle(&mut numbers);
+    let mut bits = Bits::of(0);
+    case_clock(&mut block, &bits, &bits, &mut random);
+    for number in numbers {
+        let upcoming = Bits::of(number);
+        case_clock(&mut block, &bits, &upcoming, &mut random);
         for (port, seen) in CASES.into_iter().zip(&mut seen) {
-            block.expect(port, case == Some(port));
-            *seen += usize::from(case == Some(port));
+            *seen += usize::from(bits.case() == Some(port));
         }
+        bits = upcoming;
     }
     assert!(seen.iter().all(|seen| *seen > 0), "{seen:?}");
 }
 
 #[test]
-fn next_visits_asks_for_one_two_or_three() {
-    let mut random = SplitMix64::new(52);
-    let mut block = Stepper::new("next_visits", NextVisits::default(), 1);
-    for _ in 0..ROUNDS {
-        let case = random.below(6);
-        let n = [(); 3].map(|()| id(&mut random));
-        let (walk_next, y) = (id(&mut random), random.below(64));
-        let random_visit = visit(&mut random);
+fn visit_case_shows_the_wave_of_its_header() {
+    let mut random = SplitMix64::new(56);
+    let mut block = Stepper::new("visit_case", VisitCase::default(), 2);
+    let nothing = || Bits { seeded: true, ..Bits::of(0) };
+    let at = |clock: usize| match clock {
+        1 => Bits { done: true, finding: Finding { located: true, ..Finding::default() }, ..nothing() },
+        3 => Bits { done: true, locks: true, finding: Finding { located: true, ..Finding::default() }, ..nothing() },
+        5 => {
+            let lock = LockFinding { foreign: true, ..LockFinding::default() };
+            Bits { done: true, rotates: true, locks: true, lock, ..nothing() }
+        }
+        4 => Bits { locks: true, ..nothing() },
+        _ => nothing(),
+    };
+    let mut wave = Wave::default();
+    case_clock(&mut block, &nothing(), &at(0), &mut random);
+    for clock in 0..9 {
+        let (bits, upcoming) = (if clock == 0 { nothing() } else { at(clock - 1) }, at(clock));
+        case_clock(&mut block, &bits, &upcoming, &mut random);
+        let case = bits.case();
+        wave.take(&[
+            ("early_done", Cell::Bit(upcoming.done)),
+            ("early.rotates", Cell::Bit(upcoming.rotates)),
+            ("early.locks", Cell::Bit(upcoming.locks)),
+            ("early.foreign", Cell::Bit(upcoming.lock.foreign)),
+            ("located", Cell::Bit(bits.finding.located)),
+            ("is_walk", Cell::Bit(bits.done && !bits.locks)),
+            ("locates", Cell::Bit(case == Some("locates"))),
+            ("opens", Cell::Bit(case == Some("opens"))),
+            ("gives_up", Cell::Bit(case == Some("gives_up"))),
+            ("asks", Cell::Bit(matches!(case, Some("locates" | "opens")))),
+            ("may_ask", Cell::Bit(bits.done)),
+        ]);
+    }
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/visit_case.rs"));
+}
+
+/// A visit that completes, and what follows: its bundle, of as many bits as count.
+struct Follow {
+    token: Visit,
+    n: [u64; 3],
+    is_foreign: bool,
+    walks_on: bool,
+    locates: bool,
+    walk_next: u64,
+    y: u64,
+    visits: u64,
+    bundle: u128,
+}
+
+impl Follow {
+    /// Any visit of a case: it repeats, walks on, locates, opens, or splits.
+    fn random(case: u64, random: &mut SplitMix64) -> Self {
+        let n = [(); 3].map(|()| id(random));
+        let (walk_next, y) = (id(random), random.below(64));
+        let any = visit(random);
         // Walks and roots have no entry.
-        let look = Visit { owner: random_visit.owner, ..Visit::look(random_visit.u) };
+        let look = Visit { owner: any.owner, ..Visit::look(any.u) };
         let token = match case {
             1 | 2 => look,
             3 => Visit { locks: true, ..look },
-            4 => Visit { rotates: true, locks: true, ..random_visit },
-            _ => random_visit,
+            4 => Visit { rotates: true, locks: true, ..any },
+            _ => any,
         };
-        block.set("token", token.token());
-        block.set("turned", turned([id(&mut random); 3], n, 1, LockFinding::default(), [false; 3]));
-        block.set("walk_next", walk_next);
-        block.set("entry", y);
-        for (code, port) in ["repeats", "walks_on", "locates", "opens", "splits"].into_iter().enumerate() {
-            block.set(port, case == code as u64);
-        }
         let Visit { owner, u, after, .. } = token;
         let (visits, bundle) = match case {
-            0 => (1, token.bundle(1, 0, 0, 0)),
             1 => (1, Visit { owner, ..Visit::look(walk_next) }.bundle(1, 0, 0, 0)),
             2 => (1, Visit { locks: true, ..token }.bundle(1, 0, 0, 0)),
             3 => {
@@ -244,15 +310,207 @@ fn next_visits_asks_for_one_two_or_three() {
                 let first = Visit { after: y, f_entry: y, f: u, u: n[1], ..token };
                 (2, first.bundle(2, after, n[2], 0))
             }
-            _ => (0, 0),
+            _ => (1, token.bundle(1, 0, 0, 0)),
         };
-        block.settle();
-        block.expect("push", visits > 0);
-        if let Some(bits) = [0, 57, 78, 93].get(visits).filter(|bits| **bits > 0) {
-            let mask = (1 << bits) - 1;
-            block.expect_masked("bundle", mask, bundle & mask);
-        }
+        let (walks_on, locates, is_foreign) = (case == 1, case == 2, case == 0);
+        Self { token, n, is_foreign, walks_on, locates, walk_next, y, visits, bundle }
     }
+}
+
+/// One clock: what follows the visit that completes, and the one that does in the next clock.
+fn follow_clock(block: &mut Stepper<NextVisits>, follow: &Follow, upcoming: &Follow, random: &mut SplitMix64) {
+    let lock = LockFinding { foreign: upcoming.is_foreign, ..LockFinding::default() };
+    block.set("early_token", upcoming.token.token());
+    block.set("early_turned", turned([id(random); 3], upcoming.n, 1, lock, [false; 3]));
+    block.set("walks_on", follow.walks_on);
+    block.set("locates", follow.locates);
+    block.set("walk_next", follow.walk_next);
+    block.set("entry", follow.y);
+    block.settle();
+    if block.clocks() > 0 {
+        let mask = (1 << [0, 57, 78, 93][follow.visits as usize]) - 1;
+        block.expect_masked("bundle", mask, follow.bundle & mask);
+    }
+    block.edge();
+}
+
+#[test]
+fn next_visits_asks_for_one_two_or_three() {
+    let mut random = SplitMix64::new(52);
+    let mut block = Stepper::new("next_visits", NextVisits::default(), 1);
+    let mut follow = Follow::random(0, &mut random);
+    for _ in 0..ROUNDS {
+        let upcoming = Follow::random(random.below(5), &mut random);
+        follow_clock(&mut block, &follow, &upcoming, &mut random);
+        follow = upcoming;
+    }
+}
+
+#[test]
+fn next_visits_show_the_wave_of_their_header() {
+    let mut random = SplitMix64::new(57);
+    let mut block = Stepper::new("next_visits", NextVisits::default(), 2);
+    let at = |clock: usize, random: &mut SplitMix64| {
+        let case = [1, 3, 4].get(clock).copied().unwrap_or(0);
+        let mut follow = Follow::random(case, random);
+        let owner = follow.token.owner;
+        match clock {
+            0 => {
+                follow.token = Visit { owner, ..Visit::look(5) };
+                follow.walk_next = 6;
+                follow.bundle = Visit { owner, ..Visit::look(6) }.bundle(1, 0, 0, 0);
+            }
+            1 => {
+                (follow.token.u, follow.n) = (6, [0, 1, 2]);
+                let first = Visit { owner, rotates: true, locks: true, after: 1, f: 6, ..Visit::default() };
+                follow.bundle = first.bundle(3, 2, 1, 2);
+            }
+            2 => {
+                (follow.token.u, follow.token.x, follow.n[1], follow.y) = (7, 4, 8, 9);
+                let first = Visit { after: 9, f_entry: 9, f: 7, u: 8, ..follow.token };
+                follow.bundle = first.bundle(2, follow.token.after, follow.n[2], 0);
+            }
+            _ => {}
+        }
+        follow
+    };
+    let mut wave = Wave::default();
+    let mut follow = Follow::random(0, &mut random);
+    for clock in 0..5 {
+        let upcoming = at(clock, &mut random);
+        follow_clock(&mut block, &follow, &upcoming, &mut random);
+        let shown = |is_shown: bool, value: u64| if is_shown { Cell::Number(value.into()) } else { Cell::Open };
+        let first = Visit::of_bundle(follow.bundle);
+        let (is_there, is_pair) = ((1..4).contains(&clock), follow.visits > 1);
+        wave.take(&[
+            ("early.u", shown(clock < 3, upcoming.token.u)),
+            ("early.n1", shown(matches!(clock, 1 | 2), upcoming.n[1])),
+            ("walks_on", Cell::Bit(follow.walks_on)),
+            ("bundle.u", shown(is_there, first.u)),
+            ("bundle.is_pair", Cell::Bit(is_pair)),
+            ("bundle.f", shown(is_pair, first.f)),
+            ("bundle.x", shown(is_pair, first.x)),
+            ("bundle.after", shown(is_pair, first.after)),
+        ]);
+        follow = upcoming;
+    }
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/next_visits.rs"));
+}
+
+/// Who asks for visits in a clock; nobody else may.
+#[derive(Clone, Copy, Debug, Default)]
+struct Asking {
+    reset: bool,
+    may_ask: bool,
+    asks: bool,
+    starts: bool,
+    is_alone: bool,
+    solo_asks: bool,
+    follows: Visit,
+    starter: Visit,
+    solo: Visit,
+}
+
+/// One clock of the push port; what it must show in the next one.
+fn push_clock(block: &mut Stepper<PushPort>, asking: &Asking, shown: Option<Visit>) -> Option<Visit> {
+    for (port, value) in [
+        ("reset", asking.reset),
+        ("may_ask", asking.may_ask),
+        ("asks", asking.asks),
+        ("starts", asking.starts),
+        ("is_alone", asking.is_alone),
+        ("solo_asks", asking.solo_asks),
+    ] {
+        block.set(port, value);
+    }
+    block.set("follows", asking.follows.bundle(3, 1, 2, 3));
+    block.set("starter", asking.starter.owner);
+    block.set("u", asking.starter.u);
+    block.set("solo", asking.solo.bundle(1, 0, 0, 0));
+    block.settle();
+    if block.clocks() > 0 {
+        block.expect("push", shown.is_some());
+    }
+    if let Some(visit) = shown {
+        // A walk's visit has no entry.
+        let visits = if visit.locks && !visit.rotates { 3 } else { 1 };
+        let bits = if visits == 3 {
+            93
+        } else if visit.rotates {
+            57
+        } else {
+            9
+        };
+        let mask = (1 << bits) - 1;
+        block.expect_masked("bundle", mask, visit.bundle(visits, 1, 2, 3) & mask);
+        block.expect_masked("bundle", 0x7fff << 42, u128::from(visit.u) << 42);
+    }
+    block.edge();
+    match (asking.reset, asking.asks, asking.starts, asking.solo_asks) {
+        (true, ..) => None,
+        (_, true, ..) => Some(asking.follows),
+        (_, _, true, _) => Some(asking.starter),
+        (.., true) => Some(asking.solo),
+        _ => None,
+    }
+}
+
+#[test]
+fn push_port_takes_the_visits_of_whoever_asks() {
+    let mut random = SplitMix64::new(58);
+    let mut block = Stepper::new("push_port", PushPort::default(), 1);
+    let mut shown = push_clock(&mut block, &Asking { reset: true, ..Asking::default() }, None);
+    for _ in 0..ROUNDS {
+        let [is_alone, may_ask, asks, solo_asks, starts] = [(); 5].map(|()| flip(&mut random));
+        let asking = Asking {
+            reset: random.below(100) == 0,
+            may_ask: may_ask && !is_alone,
+            asks: asks && may_ask && !is_alone,
+            starts: starts && !may_ask && !is_alone,
+            is_alone,
+            solo_asks: is_alone && solo_asks,
+            // A root's three tests are told from the others by the kind of visit here.
+            follows: Visit { rotates: false, locks: true, ..visit(&mut random) },
+            starter: Visit { owner: random.below(24), ..Visit::look(id(&mut random)) },
+            solo: Visit { rotates: true, ..visit(&mut random) },
+        };
+        shown = push_clock(&mut block, &asking, shown);
+    }
+}
+
+#[test]
+fn push_port_shows_the_wave_of_its_header() {
+    let mut block = Stepper::new("push_port", PushPort::default(), 2);
+    let mut shown = push_clock(&mut block, &Asking { reset: true, ..Asking::default() }, None);
+    let mut wave = Wave::default();
+    for clock in 0..7 {
+        let asking = Asking {
+            may_ask: matches!(clock, 1 | 2),
+            asks: clock == 1,
+            starts: clock == 3,
+            is_alone: matches!(clock, 4 | 5),
+            solo_asks: clock == 5,
+            follows: Visit { locks: true, ..Visit::look(5) },
+            starter: Visit::look(6),
+            solo: Visit { rotates: true, ..Visit::look(7) },
+            ..Asking::default()
+        };
+        let number = |is_shown: bool, visit: Visit| if is_shown { Cell::Number(visit.u.into()) } else { Cell::Open };
+        wave.take(&[
+            ("asks", Cell::Bit(asking.asks)),
+            ("may_ask", Cell::Bit(asking.may_ask)),
+            ("follows.u", number(asking.asks, asking.follows)),
+            ("starts", Cell::Bit(asking.starts)),
+            ("u", number(asking.starts, asking.starter)),
+            ("is_alone", Cell::Bit(asking.is_alone)),
+            ("solo_asks", Cell::Bit(asking.solo_asks)),
+            ("solo.u", number(asking.solo_asks, asking.solo)),
+            ("push", Cell::Bit(shown.is_some())),
+            ("bundle.u", number(shown.is_some(), shown.unwrap_or_default())),
+        ]);
+        shown = push_clock(&mut block, &asking, shown);
+    }
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/push_port.rs"));
 }
 
 #[test]

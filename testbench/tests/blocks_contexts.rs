@@ -91,12 +91,14 @@ struct FlagsReference {
     /// Foreign locks that the waiting context has met.
     met: u64,
     alone: Option<u64>,
+    /// Everybody rested a clock ago, and nobody has started since.
+    rested: bool,
 }
 
 impl FlagsReference {
     fn new(contexts: u64) -> Self {
         let rests = Flags { asleep: true, keeping: false, busy: false, began: false, hinted: false };
-        Self { contexts: vec![rests; contexts as usize], waiter: None, met: 0, alone: None }
+        Self { contexts: vec![rests; contexts as usize], waiter: None, met: 0, alone: None, rested: false }
     }
 
     fn set(&self, flag: impl Fn(&Flags) -> bool) -> u64 {
@@ -112,6 +114,7 @@ impl FlagsReference {
     }
 
     fn edge(&mut self, events: &Events) {
+        self.rested = self.rests() && events.starter.is_none();
         if events.reset || events.clears {
             *self = Self::new(self.contexts.len() as u64);
             return;
@@ -184,7 +187,7 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
         block.expect("waiter_valid", reference.waiter.is_some());
         block.expect("is_urgent", reference.waiter.is_some() && reference.met >= 8);
         block.expect("solo_valid", reference.alone.is_some());
-        block.expect("all_rest", reference.rests());
+        block.expect("all_rest", reference.rested);
         block.expect("takes_token", events.asks_to_wait && reference.waiter.is_none());
         reference.waiter.into_iter().for_each(|waiter| block.expect("waiter", waiter));
         reference.alone.into_iter().for_each(|alone| block.expect("solo_owner", alone));
@@ -297,7 +300,7 @@ fn context_flags_show_the_wave_of_their_header() {
             ("began", set(|flags| flags.began)),
             ("hinted", set(|flags| flags.hinted)),
             ("waiter_valid", Cell::Bit(reference.waiter.is_some())),
-            ("all_rest", Cell::Bit(reference.rests())),
+            ("all_rest", Cell::Bit(reference.rested)),
         ]);
         reference.edge(&events);
     }

@@ -49,7 +49,9 @@ impl ReaderReference {
     fn edge(&mut self, takes: bool, finished: Option<&Ring>) {
         if self.head().is_none() || takes {
             self.stages.rotate_right(1);
-            self.stages[0] = self.coming.pop_front();
+            // Behind a ring one place stays empty.
+            let is_past_a_ring = self.stages[1].is_some_and(|item| item.is_last);
+            self.stages[0] = if is_past_a_ring { None } else { self.coming.pop_front() };
         }
         if let Some(ring) = finished {
             let (order, job, owner) = (ring.in_order(), ring.job(), ring.owner);

@@ -20,12 +20,17 @@ named_ports!(
 named_ports!(
     SoloWrites,
     [
-        is_split,
-        is_mend,
+        split1,
+        split2,
+        split3,
+        flip1,
+        flip2,
+        mend1,
+        mend2,
         is_test,
-        step,
         p,
-        records,
+        second,
+        third,
         root_id,
         root,
         id,
@@ -85,6 +90,8 @@ struct Seen {
     /// Those that have completed.
     completed: usize,
     clocks: usize,
+    /// It was told to start a clock ago.
+    has_started: bool,
     is_at_work: bool,
     has_ended: bool,
 }
@@ -174,7 +181,8 @@ impl Rig {
         seen.flips += usize::from(self.block.is("flips"));
         seen.has_ended = self.block.is("ends");
         self.block.expect("inserts", seen.has_ended && !job.is_duplicate);
-        seen.is_at_work = (seen.is_at_work || starts) && !seen.has_ended;
+        seen.is_at_work = (seen.is_at_work || seen.has_started) && !seen.has_ended;
+        seen.has_started = starts;
         seen.clocks += 1;
         if let Some((_, clocks)) = &mut self.visit {
             *clocks -= 1;
@@ -333,8 +341,8 @@ fn solo_takes_the_clocks_its_header_names() {
     let mut rig = Rig::new((delay, 0));
     let sums = grow(&mut rig, &points(&mut random, 64, 12), false);
     let visits = sums.walked + 8 * sums.insertions + 3 * sums.flips;
-    let own = 4 * sums.insertions + 3 * sums.flips + sums.duplicates;
-    assert_eq!(sums.clocks, visits * (delay + 1) + own, "{sums:?}");
+    let own = 5 * sums.insertions + 3 * sums.flips + 2 * sums.duplicates;
+    assert_eq!(sums.clocks, visits * (delay + 2) + own, "{sums:?}");
 }
 
 /// Visits of two clocks: a walk of two triangles, the split, and the first mend.
@@ -375,8 +383,21 @@ fn solo_shows_the_wave_of_its_header() {
 const LOCKED: LockFinding = LockFinding { took: true, foreign: true, again: true };
 
 /// Inputs of `SoloWrites` that are ids.
-const IDS: [&str; 12] =
-    ["p", "records", "root_id", "id", "a", "b", "outer", "after", "preceding", "apex", "apex_after_a", "apex_before_b"];
+const IDS: [&str; 13] = [
+    "p",
+    "second",
+    "third",
+    "root_id",
+    "id",
+    "a",
+    "b",
+    "outer",
+    "after",
+    "preceding",
+    "apex",
+    "apex_after_a",
+    "apex_before_b",
+];
 
 #[test]
 fn solo_writes_what_each_state_asks_for() {
@@ -384,7 +405,7 @@ fn solo_writes_what_each_state_asks_for() {
     let mut block = Stepper::new("solo_writes", SoloWrites::default(), 1);
     for _ in 0..4000 {
         let ids = IDS.map(|_| random.below((1 << 15) - 1));
-        let [p, records, root_id, id, a, b, outer, after, preceding, apex, apex_after_a, apex_before_b] = ids;
+        let [p, second, third, root_id, id, a, b, outer, after, preceding, apex, apex_after_a, apex_before_b] = ids;
         for (port, value) in IDS.into_iter().zip(ids) {
             block.set(port, value);
         }
@@ -395,11 +416,18 @@ fn solo_writes_what_each_state_asks_for() {
         block.set("slot", slot);
         let act = random.below(4);
         let step = random.below([3, 2, 3, 3][act as usize]);
-        block.set("step", step);
-        for (port, code) in [("is_split", 0), ("is_mend", 1), ("is_test", 2)] {
-            block.set(port, act == code);
+        for (port, doing) in [
+            ("split1", (0, 0)),
+            ("split2", (0, 1)),
+            ("split3", (0, 2)),
+            ("mend1", (1, 0)),
+            ("mend2", (1, 1)),
+            ("flip1", (3, 0)),
+            ("flip2", (3, 1)),
+        ] {
+            block.set(port, (act, step) == doing);
         }
-        let (second, third) = (records, records + 1);
+        block.set("is_test", act == 2);
         block.settle();
         block.expect(
             "write",
@@ -407,7 +435,7 @@ fn solo_writes_what_each_state_asks_for() {
                 (0, 0) => record_write(root_id, [p, v1, v2], [n0, second, third]),
                 (0, 1) => record_write(second, [p, v2, v0], [n1, third, root_id]),
                 (0, _) => record_write(third, [p, v0, v1], [n2, root_id, second]),
-                (1, _) => link_write(visited, slot, records + step),
+                (1, _) => link_write(visited, slot, if step == 0 { second } else { third }),
                 (2, _) => link_write(visited, slot, id),
                 (_, 0) => record_write(id, [p, a, apex], [apex_after_a, outer, preceding]),
                 (_, 1) => record_write(outer, [p, apex, b], [apex_before_b, after, id]),

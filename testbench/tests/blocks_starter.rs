@@ -31,6 +31,7 @@ named_ports!(
         all_rest,
         is_urgent,
         waiter,
+        is_done,
         is_blocked,
         root_enable,
         root_owner,
@@ -95,14 +96,25 @@ struct Life {
     last: Option<u64>,
 }
 
-/// What the pointer has seen of the context it stood at in the clock before.
+/// What the pointer has seen of the context it stood at.
 #[derive(Clone, Copy, Debug)]
 struct Sight {
     context: u64,
     /// The vertex that it has taken last.
     last: Option<u64>,
     vertex: u64,
-    is_there: bool,
+}
+
+/// A context that the pointer stood at two steps ago, and what has been decided about it.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    sight: Sight,
+    is_due: bool,
+    /// It tries its point again.
+    keeps: bool,
+    /// Where it would start.
+    u: u64,
+    is_alone: bool,
 }
 
 /// What comes out in a clock.
@@ -127,6 +139,8 @@ struct Inputs {
     solo_is_at_work: bool,
     all_rest: bool,
     is_urgent: bool,
+    /// A visit completes, and it may ask for others.
+    is_done: bool,
     is_blocked: bool,
     deed: Option<(u64, Deed)>,
 }
@@ -138,7 +152,8 @@ struct Rig {
     lives: Vec<Life>,
     /// Steps of the pointer since the last reset.
     steps: u64,
-    sight: Option<Sight>,
+    passed: Option<Sight>,
+    candidate: Option<Candidate>,
     all_work: bool,
     /// Who has taken a point in this clock and the two before.
     positions: VecDeque<Option<u64>>,
@@ -154,7 +169,8 @@ impl Rig {
             arrived: 0,
             lives: Vec::new(),
             steps: 0,
-            sight: None,
+            passed: None,
+            candidate: None,
             all_work: false,
             positions: [None; 2].into(),
         };
@@ -168,29 +184,42 @@ impl Rig {
         self.contexts = contexts;
         self.arrived = 0;
         self.lives = vec![Life::default(); contexts as usize];
-        (self.steps, self.sight, self.all_work) = (0, None, false);
+        (self.steps, self.all_work) = (0, false);
+        (self.passed, self.candidate) = (None, None);
     }
 
     fn set(&self, flag: impl Fn(&Life) -> bool) -> u64 {
         (0..).zip(&self.lives).fold(0, |set, (place, life)| set | u64::from(flag(life)) << place)
     }
 
-    /// What must come out: whether the context that the pointer has seen starts, and where.
-    fn wants(&self, inputs: &Inputs) -> Option<(Option<u64>, u64)> {
-        let sight = self.sight?;
+    /// Whether a context that the pointer has seen is due, and where it would start.
+    fn decide(&self, inputs: &Inputs, sight: Sight) -> Option<Candidate> {
         let life = self.lives.get(sight.context as usize)?;
-        if life.awake || inputs.solo {
-            return None;
-        }
-        if life.keeps {
-            // Rounds of the pointer in which nobody tries again: three of four.
-            let has_rested = (self.steps / self.contexts).is_multiple_of(4);
-            let may_try = !inputs.is_urgent || inputs.special == sight.context;
-            return (has_rested && may_try && !life.busy).then_some((None, life.root));
-        }
         let works = if sight.context == 0 { inputs.seeded || !life.began } else { self.all_work };
-        let may = sight.is_there && works;
-        may.then_some((Some(sight.vertex), life.hint.unwrap_or(0)))
+        let is_due = match life.keeps {
+            // Rounds of the pointer in which nobody tries again: three of four.
+            true => {
+                let has_rested = (self.steps / self.contexts).is_multiple_of(4);
+                let may_try = !inputs.is_urgent || inputs.special == sight.context;
+                has_rested && may_try && !life.busy
+            }
+            false => sight.vertex < self.arrived && works,
+        };
+        // One that works alone may start just now.
+        let starts_now = self.contexts == 1 && self.candidate.is_some_and(|candidate| candidate.is_due);
+        Some(Candidate {
+            sight,
+            is_due: is_due && !life.awake && !starts_now && !inputs.solo,
+            keeps: life.keeps,
+            u: if life.keeps { life.root } else { life.hint.unwrap_or(0) },
+            is_alone: inputs.special == sight.context,
+        })
+    }
+
+    /// What must come out: the vertex that the candidate takes, if it takes a new one, and where it starts.
+    fn wants(&self, inputs: &Inputs) -> Option<(Option<u64>, u64)> {
+        let candidate = self.candidate.filter(|candidate| candidate.is_due && !inputs.solo)?;
+        Some(((!candidate.keeps).then_some(candidate.sight.vertex), candidate.u))
     }
 
     fn drive(&mut self, inputs: &Inputs) {
@@ -208,6 +237,7 @@ impl Rig {
             ("solo_is_at_work", inputs.solo_is_at_work),
             ("all_rest", inputs.all_rest),
             ("is_urgent", inputs.is_urgent),
+            ("is_done", inputs.is_done),
             ("is_blocked", inputs.is_blocked),
             ("root_enable", root.is_some()),
             ("hint_enable", hint.is_some()),
@@ -239,9 +269,9 @@ impl Rig {
         self.drive(inputs);
         let wanted = self.wants(inputs);
         // A point that is stored takes the port that a new point needs.
-        let is_held = |start: &(Option<u64>, u64)| inputs.is_blocked || start.0.is_some() && inputs.came;
-        let start = wanted.filter(|start| !is_held(start));
-        let mut seen = Seen { waits: wanted.is_some() && start.is_none(), ..Seen::default() };
+        let lacks_port = wanted.is_some_and(|start| start.0.is_some() && inputs.came);
+        let start = wanted.filter(|_| !inputs.is_blocked && !lacks_port);
+        let mut seen = Seen { waits: wanted.is_some() && (inputs.is_done || lacks_port), ..Seen::default() };
         self.block.settle();
         if self.block.clocks() > 0 {
             self.block.expect("starts", start.is_some());
@@ -250,9 +280,9 @@ impl Rig {
             if let Some(owner) = self.positions[0] {
                 self.block.expect("position_owner", owner);
             }
-            if let Some(sight) = self.sight {
-                self.block.expect("owner", sight.context);
-                self.expect_alone(inputs, sight);
+            if let Some(candidate) = self.candidate {
+                self.block.expect("owner", candidate.sight.context);
+                self.expect_alone(inputs, candidate);
             }
             if let Some((vertex, u)) = start {
                 self.block.expect("u", u);
@@ -260,7 +290,7 @@ impl Rig {
             }
             seen.starts = start.is_some();
             seen.takes = start.and_then(|(vertex, _)| vertex);
-            seen.owner = self.sight.map_or(0, |sight| sight.context);
+            seen.owner = self.candidate.map_or(0, |candidate| candidate.sight.context);
         }
         self.block.edge();
         self.advance(inputs, seen);
@@ -268,20 +298,23 @@ impl Rig {
     }
 
     /// Who wants to be alone starts when the pointer has seen it, with the point that it has, where its attempt was.
-    fn expect_alone(&self, inputs: &Inputs, sight: Sight) {
+    fn expect_alone(&self, inputs: &Inputs, candidate: Candidate) {
         let may_start = inputs.solo && inputs.all_rest && !inputs.solo_is_at_work;
-        let starts = may_start && sight.context == inputs.special;
+        let starts = may_start && candidate.is_alone;
         self.block.expect("solo_starts", starts);
-        let life = self.lives.get(sight.context as usize).filter(|life| starts && life.keeps);
-        if let (Some(life), Some(last)) = (life, sight.last) {
+        if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.keeps) {
             self.block.expect("solo_p", last);
-            self.block.expect("u", life.root);
+            self.block.expect("u", candidate.u);
         }
     }
 
     fn advance(&mut self, inputs: &Inputs, seen: Seen) {
         self.positions.pop_front();
         self.positions.push_back(seen.takes.map(|_| seen.owner));
+        let decided = self.passed.and_then(|sight| self.decide(inputs, sight));
+        if let Some(candidate) = self.candidate.as_mut().filter(|_| seen.starts) {
+            candidate.is_due = false;
+        }
         if !seen.waits {
             let context = self.steps % self.contexts;
             let last = self.lives[context as usize].last.filter(|_| self.lives[context as usize].began);
@@ -290,7 +323,8 @@ impl Rig {
                 Some(last) => vertices.find(|vertex| *vertex > last),
                 None => vertices.next(),
             };
-            self.sight = vertex.map(|vertex| Sight { context, last, vertex, is_there: vertex < self.arrived });
+            self.candidate = decided;
+            self.passed = vertex.map(|vertex| Sight { context, last, vertex });
             self.steps += 1;
         }
         if seen.starts {
@@ -340,7 +374,7 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
         solo = if solo { !one_in(20) } else { one_in(400) };
         let seeded = rig.lives[0].began && !rig.lives[0].awake || rig.arrived > 3;
         is_urgent = if is_urgent { !one_in(30) } else { one_in(100) };
-        let (is_blocked, all_rest, solo_is_at_work) = (one_in(3), one_in(2), one_in(2));
+        let (is_done, may_ask, all_rest, solo_is_at_work) = (one_in(2), !one_in(3), one_in(2), one_in(2));
         special = if solo || is_urgent { special } else { random.below(rig.contexts) };
         let deed = deed(rig, random);
         let seen = rig.clock(&Inputs {
@@ -351,7 +385,8 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
             solo_is_at_work,
             all_rest,
             is_urgent,
-            is_blocked,
+            is_done,
+            is_blocked: is_done && may_ask,
             deed,
             ..Inputs::default()
         });
@@ -410,8 +445,8 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)]) {
         assert!(tally.taken[..first].iter().all(|(owner, _)| *owner == 0));
         vertices.sort_unstable();
         assert!(vertices.into_iter().eq(2..points));
-        // The pointer leaves nobody out.
-        let stops: Vec<u64> = tally.stops.into_iter().skip(1).collect();
+        // The pointer leaves nobody out; it is two contexts ahead.
+        let stops: Vec<u64> = tally.stops.into_iter().skip(2).collect();
         assert!(stops.windows(2).all(|two| two[1] == (two[0] + 1) % contexts));
         (again, waits) = (again + tally.again, waits + tally.waits);
     }
@@ -434,7 +469,7 @@ fn starter_forgets_what_it_was_at_when_it_is_reset() {
             let came = rig.arrived < 100 && random.below(2) == 0;
             let is_blocked = random.below(4) == 0;
             let (seeded, deed) = (rig.arrived > 3, deed(&rig, &mut random));
-            rig.clock(&Inputs { came, seeded, is_blocked, deed, ..Inputs::default() });
+            rig.clock(&Inputs { came, seeded, is_done: is_blocked, is_blocked, deed, ..Inputs::default() });
             rig.arrived += u64::from(came);
         }
         rig.clock(&Inputs { reset: true, ..Inputs::default() });
@@ -449,7 +484,8 @@ fn starter_shows_the_wave_of_its_header() {
     for clock in 0..16 {
         let inputs = Inputs {
             came: clock == 1,
-            is_blocked: clock == 3,
+            is_done: matches!(clock, 2 | 3),
+            is_blocked: clock == 2,
             deed: (clock == 7).then_some((0, Deed::Sleeps { root: 9, keeps: true, busy: false })),
             ..Inputs::default()
         };
@@ -460,17 +496,18 @@ fn starter_shows_the_wave_of_its_header() {
         let keeping = rig.set(|life| life.keeps);
         let position = rig.positions[0];
         let arrived = rig.arrived;
-        let sight = rig.sight;
+        let candidate = rig.candidate;
         let wanted = rig.wants(&inputs);
         let seen = rig.clock(&inputs);
         let number = |number: Option<u64>| number.map_or(Cell::Open, |number| Cell::Number(number.into()));
         wave.take(&[
             ("arrived", number(Some(arrived))),
             ("came", Cell::Bit(inputs.came)),
+            ("is_done", Cell::Bit(inputs.is_done)),
             ("is_blocked", Cell::Bit(inputs.is_blocked)),
             ("asleep", number(Some(asleep))),
             ("keeping", number(Some(keeping))),
-            ("owner", number(sight.map(|sight| sight.context))),
+            ("owner", number(candidate.map(|candidate| candidate.sight.context))),
             ("starts", Cell::Bit(seen.starts)),
             ("takes", Cell::Bit(seen.takes.is_some())),
             ("taken_id", number(seen.takes)),

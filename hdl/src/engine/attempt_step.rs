@@ -1,21 +1,20 @@
-//! The state of an attempt after one of its visits.
+//! The state of an attempt after one of its tests.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `attempt` | in | Attempt | the state before |
 //! | `is_last`, `edge_was_passed` | in | 1 | of that state: one visit is out; `half_open` at `f_entry` |
-//! | `f_entry` | in | 6 | the entry that names the cavity triangle the test came from |
+//! | `entry_bit` | in | 64 | the entry that names the cavity triangle the test came from, a bit each |
 //! | `took` | in | 1 | the visit took a lock |
-//! | `is_test`, `opens`, `splits`, `repeats`, `gives_up`, `overflows` | in | 1 | from `VisitCase` |
+//! | `is_test`, `splits`, `repeats`, `gives_up`, `overflows` | in | 1 | from `VisitCase` |
 //! | `after` | out | Attempt | the state afterwards |
 //! | `is_over` | out | 1 | no visit of the attempt is out any more |
 //! | `succeeds` | out | 1 | and it has not failed: the ring is finished |
 //! | `finds_inner` | out | 1 | the cavity triangle behind the edge has no boundary edge left |
 //! | `passes_root` | out | 1 | the second edge of the root is passed |
 //!
-//! 1. An attempt begins with the three tests of the root's neighbours and its one lock.
-//! 2. A test is one visit less; if it passes through its edge, two more and one more entry.
-//! 3. A cavity triangle brings two open edges, the root three; when the last is passed it is an inner one.
+//! 1. A test is one visit less; if it passes through its edge, two more and one more entry.
+//! 2. A cavity triangle brings two open edges, the root three; when the last is passed it is an inner one.
 //!
 //! Latency: none (combinational).
 
@@ -32,13 +31,11 @@ pub struct AttemptStep {
     /// One edge of the cavity triangle has been passed.
     pub edge_was_passed: Signal<In, Bit>,
     /// Entry of the cavity triangle.
-    pub f_entry: Signal<In, Bits<6>>,
+    pub entry_bit: Signal<In, Bits<64>>,
     /// A lock was taken.
     pub took: Signal<In, Bit>,
     /// A test completes.
     pub is_test: Signal<In, Bit>,
-    /// An attempt begins.
-    pub opens: Signal<In, Bit>,
     /// The test passes.
     pub splits: Signal<In, Bit>,
     /// It is made again.
@@ -63,8 +60,7 @@ pub struct AttemptStep {
     root_keeps_an_edge: Signal<Local, Bit>,
     passes_last_edge: Signal<Local, Bit>,
     half_open: Signal<Local, Bits<64>>,
-    entry: Signal<Local, Bits<6>>,
-    root_entry: Signal<Local, Bits<6>>,
+    second_bit: Signal<Local, Bits<64>>,
     outstanding: Signal<Local, Bits<7>>,
     count: Signal<Local, Bits<7>>,
     inners: Signal<Local, Bits<7>>,
@@ -76,13 +72,12 @@ impl Logic for AttemptStep {
     #[hdl_gen]
     fn update(&mut self) {
         self.one.next = 1.into();
-        self.root_entry.next = 0.into();
+        self.second_bit.next = 2.into();
         self.outstanding.next = self.attempt.val().outstanding;
         self.count.next = self.attempt.val().count;
         self.inners.next = self.attempt.val().inners;
         self.logged.next = self.attempt.val().logged;
         self.half_open.next = self.attempt.val().half_open;
-        self.entry.next = self.f_entry.val();
 
         self.fails.next = self.attempt.val().drains | self.gives_up.val() | self.overflows.val();
         self.ends_here.next = self.is_test.val() & self.is_last.val() & (!self.splits.val()) & (!self.repeats.val());
@@ -90,7 +85,7 @@ impl Logic for AttemptStep {
         self.succeeds.next = self.ends_here.val() & (!self.fails.val());
 
         // Does the cavity triangle behind the edge keep another one?
-        self.root_keeps_an_edge.next = (self.entry.val() == self.root_entry.val()) & (!self.half_open.val().get_bit(1));
+        self.root_keeps_an_edge.next = self.entry_bit.val().get_bit(0) & (!self.half_open.val().get_bit(1));
         self.passes_last_edge.next = self.splits.val() & self.edge_was_passed.val() & (!self.root_keeps_an_edge.val());
         self.finds_inner.next = self.passes_last_edge.val();
         self.passes_second.next = self.splits.val() & self.edge_was_passed.val() & self.root_keeps_an_edge.val();
@@ -108,21 +103,13 @@ impl Logic for AttemptStep {
         if self.splits.val() {
             self.after.next.outstanding = self.outstanding.val() + self.one.val();
             self.after.next.count = self.count.val() + self.one.val();
-            self.after.next.half_open = self.half_open.val().replace_bit(self.entry.val().index(), true);
+            self.after.next.half_open = self.half_open.val() | self.entry_bit.val();
             if self.passes_second.val() {
-                self.after.next.half_open = self.half_open.val().replace_bit(1, true);
+                self.after.next.half_open = self.half_open.val() | self.second_bit.val();
             }
         }
         if self.passes_last_edge.val() {
             self.after.next.inners = self.inners.val() + self.one.val();
-        }
-        if self.opens.val() {
-            self.after.next.drains = false;
-            self.after.next.outstanding = 3.into();
-            self.after.next.count = 3.into();
-            self.after.next.inners = 0.into();
-            self.after.next.logged = 1.into();
-            self.after.next.half_open = 0.into();
         }
     }
 }

@@ -4,13 +4,13 @@
 //! |---|---|---|---|
 //! | `clock` | in | 1 | everything happens at its rising edge |
 //! | `ring` | in | 7 | entries a boundary list holds, a constant |
-//! | `done`, `token`, `turned`, `verdict` | in | | a visit completes that is no insertion alone's |
-//! | `early_owner`, `early_entry` | in | 5, 6 | the visit that completes in the next clock: its context, and the entry that names its `f` |
+//! | `early_done`, `early_token`, `early_turned` | in | | a visit completes in the next clock that is no insertion alone's |
+//! | `token`, `turned`, `verdict` | in | | the visit that completes, one clock after it stood there |
 //! | `seeded` | in | 1 | the first triangle stands |
 //! | `busy`, `waiter_valid`, `waiter` | in | 24, 1, 5 | contexts with a commit or release due; who holds the waiting token |
 //! | `takes`, `taker`, `taken_id`, `now` | in | 1, 5, 15, 22 | a context takes a point at this edge; the time |
-//! | `push`, `bundle` | out | 1, Bundle | visits to make |
-//! | `owner` | out | 5 | the context of all outputs below |
+//! | `asks`, `may_ask`, `bundle` | out | 1, 1, Bundle | there are visits to make; there may be, see `VisitCase`; they |
+//! | `is_done`, `owner` | out | 1, 5 | a visit completes; the context of all outputs below |
 //! | `sleeps`, `keeps` | out | 1 | none of its visits is out any more; it will try its point again |
 //! | `root_enable`, `root` | out | 1, 15 | a root's visit says where a walk for the same point would start next |
 //! | `entry_enable`, `entry_place`, `entry` | out | 1, 6, Entry | a final edge of the boundary |
@@ -26,25 +26,26 @@
 //! 1. A visit changes the state of its own context only, which is read a clock ahead, and changed and written back in one clock; so
 //!    visits of all contexts complete in any order, one a clock.
 //! 2. A failed attempt drains: its visits run out, locks that they take are logged, and then all its locks are released.
-//! 3. All outputs belong to the visit of this clock.
+//! 3. All outputs belong to the visit of this clock. `seeded`, `busy` and the waiting token are looked at a clock ahead.
 //!
-//! Latency: none from `done` to the outputs; the state is there for the visit of the next clock.
+//! Latency: 1 clock from the early inputs to the outputs; the state is there for the visit of the next clock.
 //!
 //! A walk finds its triangle, the root is locked, and its three neighbours are tested; the second one joins the cavity, and the visits
-//! that this asks for find its two edges final. Visits take one clock here; the locks of the root and of its neighbours are places 0 to 3:
+//! that this asks for find its two edges final. Visits take two clocks here; the locks of the root and of its neighbours are places 0
+//! to 3:
 //! ```text
-//! done            ___/^^\__/^^\__/^^^^^^^^^^^^^^\_____
+//! early_done      /^^\__/^^\__/^^^^^^^^\__/^^^^^\_____
 //! walk_visit      ___/^^\_____________________________
 //! root_visit      _________/^^\_______________________
-//! test            _______________/^^^^^^^^^^^^^^\_____
-//! push            ___/^^\__/^^\_____/^^\______________
-//! visits            .  1  .  3  .  .  2  .  .  .  .  .
-//! lock_enable     _________/^^\__/^^^^^^^^^^^^^^\_____
-//! lock_place        .  .  .  0  .  1  2  3  4  5  .  .
-//! entry_enable    _______________/^^\__/^^^^^^^^\_____
-//! entry_place       .  .  .  .  .  0  .  2  1  3  .  .
-//! sleeps          ___________________________/^^\_____
-//! commit_enable   ___________________________/^^\_____
+//! test            _______________/^^^^^^^^\__/^^^^^\__
+//! asks            ___/^^\__/^^\________/^^\___________
+//! visits            .  1  .  3  .  .  .  2  .  .  .  .
+//! lock_enable     _________/^^\__/^^^^^^^^\__/^^^^^\__
+//! lock_place        .  .  .  0  .  1  2  3  .  4  5  .
+//! entry_enable    _______________/^^^^^\_____/^^^^^\__
+//! entry_place       .  .  .  .  .  0  2  .  .  1  3  .
+//! sleeps          ______________________________/^^\__
+//! commit_enable   ______________________________/^^\__
 //! ```
 //!
 //! Source: Bowyer and Watson's cavity; the ring that is split in place is ours.
@@ -63,18 +64,18 @@ pub struct Attempts {
     pub clock: Signal<In, Clock>,
     /// Entries a list holds.
     pub ring: Signal<In, Bits<7>>,
-    /// A visit completes.
-    pub done: Signal<In, Bit>,
+    /// A visit completes in the next clock.
+    pub early_done: Signal<In, Bit>,
     /// The visit.
+    pub early_token: Signal<In, Token>,
+    /// Its record.
+    pub early_turned: Signal<In, Turned>,
+    /// The visit that completes.
     pub token: Signal<In, Token>,
     /// Its record.
     pub turned: Signal<In, Turned>,
     /// What it found out.
     pub verdict: Signal<In, Verdict>,
-    /// The context whose visit completes in the next clock.
-    pub early_owner: Signal<In, Bits<5>>,
-    /// The entry that names the visit's `f`.
-    pub early_entry: Signal<In, Bits<6>>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
     /// Contexts with a commit or release due.
@@ -91,10 +92,14 @@ pub struct Attempts {
     pub taken_id: Signal<In, Bits<15>>,
     /// The time.
     pub now: Signal<In, Bits<22>>,
-    /// Visits to make.
-    pub push: Signal<Out, Bit>,
+    /// There are visits to make.
+    pub asks: Signal<Out, Bit>,
+    /// There may be.
+    pub may_ask: Signal<Out, Bit>,
     /// The visits.
     pub bundle: Signal<Out, Bundle>,
+    /// A visit completes.
+    pub is_done: Signal<Out, Bit>,
     /// The context at work.
     pub owner: Signal<Out, Bits<5>>,
     /// No visit of it is out.
@@ -180,15 +185,16 @@ impl Attempts {
 impl Logic for Attempts {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, store, points);
+        clock!(self, clock, store, points, meaning, visits);
         self.two.next = 2.into();
-        self.context_index.next = self.token.val().owner;
+        self.context_index.next = self.early_token.val().owner;
         self.owner.next = self.token.val().owner;
+        self.is_done.next = self.meaning.is_done.val();
 
         // The context's state.
         self.store.ring.next = self.ring.val();
-        self.store.early_owner.next = self.early_owner.val();
-        self.store.early_entry.next = self.early_entry.val();
+        self.store.early_owner.next = self.early_token.val().owner;
+        self.store.early_entry.next = self.early_token.val().f_entry;
         self.store.owner.next = self.token.val().owner;
         self.store.f_entry.next = self.token.val().f_entry;
         self.count.next = self.store.attempt.val().count;
@@ -199,13 +205,13 @@ impl Logic for Attempts {
         self.points.now.next = self.now.val();
 
         // What the visit means.
-        self.meaning.done.next = self.done.val();
-        self.meaning.token.next = self.token.val();
-        self.meaning.turned.next = self.turned.val();
+        self.meaning.early_done.next = self.early_done.val();
+        self.meaning.early_token.next = self.early_token.val();
+        self.meaning.early_turned.next = self.early_turned.val();
         self.meaning.verdict.next = self.verdict.val();
         self.meaning.seeded.next = self.seeded.val();
         self.meaning.is_busy.next = self.busy.val().get_bit(self.context_index.val().index());
-        self.meaning.is_waiter.next = self.waiter_valid.val() & (self.waiter.val() == self.token.val().owner);
+        self.meaning.is_waiter.next = self.waiter_valid.val() & (self.waiter.val() == self.early_token.val().owner);
         self.meaning.drains.next = self.store.attempt.val().drains;
         self.meaning.is_full.next = self.store.is_full.val();
 
@@ -213,10 +219,9 @@ impl Logic for Attempts {
         self.step.attempt.next = self.store.attempt.val();
         self.step.is_last.next = self.store.is_last.val();
         self.step.edge_was_passed.next = self.store.edge_was_passed.val();
-        self.step.f_entry.next = self.token.val().f_entry;
+        self.step.entry_bit.next = self.store.entry_bit.val();
         self.step.took.next = self.turned.val().took;
         self.step.is_test.next = self.meaning.is_test.val();
-        self.step.opens.next = self.meaning.opens.val();
         self.step.splits.next = self.meaning.splits.val();
         self.step.repeats.next = self.meaning.repeats.val();
         self.step.gives_up.next = self.meaning.gives_up.val();
@@ -224,21 +229,19 @@ impl Logic for Attempts {
         self.store.opens.next = self.meaning.opens.val();
         self.store.splits.next = self.meaning.splits.val();
         self.store.repeats.next = self.meaning.repeats.val();
-        self.store.writes.next = self.meaning.opens.val() | self.meaning.is_test.val();
+        self.store.is_test.next = self.meaning.is_test.val();
         self.store.passes_root.next = self.step.passes_root.val();
         self.store.after.next = self.step.after.val();
 
         // The visits that follow.
-        self.visits.token.next = self.token.val();
-        self.visits.turned.next = self.turned.val();
-        self.visits.walk_next.next = self.verdict.val().walk_next;
-        self.visits.entry.next = self.count.val().get_bits::<6>(0);
-        self.visits.repeats.next = self.meaning.repeats.val();
+        self.visits.early_token.next = self.early_token.val();
+        self.visits.early_turned.next = self.early_turned.val();
         self.visits.walks_on.next = self.meaning.walks_on.val();
         self.visits.locates.next = self.meaning.locates.val();
-        self.visits.opens.next = self.meaning.opens.val();
-        self.visits.splits.next = self.meaning.splits.val();
-        self.push.next = self.visits.push.val();
+        self.visits.walk_next.next = self.verdict.val().walk_next;
+        self.visits.entry.next = self.count.val().get_bits::<6>(0);
+        self.asks.next = self.meaning.asks.val();
+        self.may_ask.next = self.meaning.may_ask.val();
         self.bundle.next = self.visits.bundle.val();
 
         // What becomes of the context.
@@ -264,7 +267,7 @@ impl Logic for Attempts {
         self.looks.next = self.meaning.looks.val();
 
         // What the lists take.
-        self.lists.done.next = self.done.val();
+        self.lists.done.next = self.meaning.is_done.val();
         self.lists.token.next = self.token.val();
         self.lists.turned.next = self.turned.val();
         self.lists.attempt.next = self.store.attempt.val();

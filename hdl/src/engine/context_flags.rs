@@ -17,7 +17,7 @@
 //! | `waiter_valid`, `waiter` | out | 1, 5 | who waits at foreign locks instead of giving up |
 //! | `is_urgent` | out | 1 | it has waited for long: nobody else may try again |
 //! | `solo_valid`, `solo_owner` | out | 1, 5 | who wants to be alone: nobody starts |
-//! | `all_rest` | out | 1 | no visit is out and no lock held |
+//! | `all_rest` | out | 1 | no visit is out and no lock held; said a clock after it has come true |
 //! | `takes_token` | out | 1 | event: the waiting token is taken |
 //!
 //! 1. One waiting token: whoever gives up while it is free takes it, and keeps it until its point is in. Nobody else ever waits while
@@ -26,7 +26,7 @@
 //!    something is always finished in the end.
 //! 2. The first to overflow is alone first; another that overflows meanwhile tries again later.
 //! 3. `sleeps` to `overflows` are of one visit: who asks for the token neither waits nor gives it back. None of them comes with `solo_ends`,
-//!    because then all visits are the insertion alone's. All other events may come together.
+//!    because then all visits are the insertion alone's. All other events may come together. Who hands over falls asleep with it.
 //!
 //! Latency: 1 clock.
 //!
@@ -46,7 +46,7 @@
 //! began             0  0  2  2  2  2  2  2  2  2  2  2  2  2
 //! hinted            0  0  0  0  0  0  0  0  0  0  2  2  2  2
 //! waiter_valid    ____________/^^^^^^^^^^^\_________________
-//! all_rest        /^^^^^\_____/^^^^^\_________________/^^^^^
+//! all_rest        ___/^^\________/^^\____________________/^^
 //! ```
 
 use rust_hdl_core::prelude::*;
@@ -127,6 +127,7 @@ pub struct ContextFlags {
     waited: DFF<Bits<4>>,
     wants_alone: DFF<Bit>,
     alone: DFF<Bits<5>>,
+    rests: DFF<Bit>,
     owner_bit: Signal<Local, Bits<24>>,
     starter_bit: Signal<Local, Bits<24>>,
     released_bit: Signal<Local, Bits<24>>,
@@ -156,7 +157,7 @@ impl Logic for ContextFlags {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, sleeping, trying, due, had_point, had_commit);
-        dff_setup!(self, clock, token_is_held, token_holder, waited, wants_alone, alone);
+        dff_setup!(self, clock, token_is_held, token_holder, waited, wants_alone, alone, rests);
         self.one.next = 1.into();
         self.none.next = 0.into();
         self.one_wait.next = 1.into();
@@ -169,9 +170,11 @@ impl Logic for ContextFlags {
         self.waiter.next = self.token_holder.q.val();
         self.solo_valid.next = self.wants_alone.q.val();
         self.solo_owner.next = self.alone.q.val();
-        self.all_rest.next = (self.sleeping.q.val() == self.all.val()) & (self.due.q.val() == self.none.val());
+        self.all_rest.next = self.rests.q.val();
+        self.rests.d.next =
+            (self.sleeping.q.val() == self.all.val()) & (self.due.q.val() == self.none.val()) & (!self.starts.val());
 
-        // Each context as a bit.
+        // Each context as a bit. Those that are not built never show, or their flags would be built.
         self.wide_owner.next = bit_cast::<24, 5>(self.owner.val());
         self.wide_starter.next = bit_cast::<24, 5>(self.starter.val());
         self.wide_released.next = bit_cast::<24, 5>(self.released_owner.val());
@@ -190,22 +193,22 @@ impl Logic for ContextFlags {
         self.committed.next = 0.into();
         self.alone_ended.next = 0.into();
         if self.sleeps.val() {
-            self.falls_asleep.next = self.owner_bit.val();
+            self.falls_asleep.next = self.owner_bit.val() & self.all.val();
         }
         if self.keeps.val() {
-            self.tries.next = self.owner_bit.val();
+            self.tries.next = self.owner_bit.val() & self.all.val();
         }
         if self.hands_over.val() {
-            self.becomes_due.next = self.owner_bit.val();
+            self.becomes_due.next = self.owner_bit.val() & self.all.val();
         }
         if self.starts.val() {
-            self.starting.next = self.starter_bit.val();
+            self.starting.next = self.starter_bit.val() & self.all.val();
         }
         if self.released.val() {
             self.freed.next = self.released_bit.val();
         }
         if self.commit_ends.val() {
-            self.committed.next = self.commit_bit.val();
+            self.committed.next = self.commit_bit.val() & self.all.val();
         }
         if self.solo_ends.val() {
             self.alone_ended.next = self.solo_bit.val();
@@ -253,6 +256,7 @@ impl Logic for ContextFlags {
             self.had_commit.d.next = 0.into();
             self.token_is_held.d.next = false;
             self.wants_alone.d.next = false;
+            self.rests.d.next = false;
         }
     }
 }

@@ -7,7 +7,7 @@
 //! | `contexts`, `arrived`, `came` | in | 5, 15, 1 | contexts that work; points that have come; one is being stored |
 //! | `seeded`, `collinear`, `is_seeding`, `seeds` | in | 1 | the first triangle |
 //! | `owner`, `sleeps` ... `overflows`, `root_enable`, `root` | in | | what became of the context whose visit completes |
-//! | `pushes` | in | 1 | it wants visits: the queue is taken |
+//! | `is_done`, `may_ask` | in | 1 | a visit completes; it may ask for others: the queue is not free for a start |
 //! | `commit_ends`, `commit_owner`, `hint` | in | 1, 5, 15 | a commit is finished |
 //! | `released`, `released_owner` | in | 1, 5 | the last lock of a context is released |
 //! | `solo_is_at_work`, `solo_ends` | in | 1 | the insertion alone |
@@ -19,11 +19,14 @@
 //! | `takes_token` | out | 1 | event: the waiting token is taken |
 //! | `is_quiet`, `stuck` | out | 1 | every point is finished; nothing is finished any more |
 //!
+//! 1. What becomes of a context is noted a clock after its visit completes: from then on it may start, and is asked whether it waits.
+//!
 //! Latency: see the blocks.
 
 use super::{ContextFlags, Progress, Starter, Watchdog};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// Contexts at work; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -74,8 +77,10 @@ pub struct Dispatcher {
     pub root_enable: Signal<In, Bit>,
     /// The goal.
     pub root: Signal<In, Bits<15>>,
-    /// It wants visits.
-    pub pushes: Signal<In, Bit>,
+    /// A visit completes.
+    pub is_done: Signal<In, Bit>,
+    /// It may ask for others.
+    pub may_ask: Signal<In, Bit>,
     /// A commit is finished.
     pub commit_ends: Signal<In, Bit>,
     /// Whose.
@@ -122,6 +127,17 @@ pub struct Dispatcher {
     pub is_quiet: Signal<Out, Bit>,
     /// Nothing is finished any more.
     pub stuck: Signal<Out, Bit>,
+    found_owner: DFF<Bits<5>>,
+    found_sleeps: DFF<Bit>,
+    found_keeps: DFF<Bit>,
+    found_hands_over: DFF<Bit>,
+    found_asks: DFF<Bit>,
+    found_waits: DFF<Bit>,
+    found_stops: DFF<Bit>,
+    found_overflows: DFF<Bit>,
+    found_duplicate: DFF<Bit>,
+    found_root_enable: DFF<Bit>,
+    found_root: DFF<Bits<15>>,
     flags: ContextFlags,
     start: Starter,
     progress: Progress,
@@ -138,7 +154,22 @@ impl Dispatcher {
 impl Logic for Dispatcher {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, found_owner, found_sleeps, found_keeps, found_hands_over, found_asks, found_waits);
+        dff_setup!(self, clock, found_stops, found_overflows, found_duplicate, found_root_enable, found_root);
         clock!(self, clock, flags, start, progress, watchdog);
+
+        // What a visit leads to is known late: it is noted in the next clock.
+        self.found_owner.d.next = self.owner.val();
+        self.found_sleeps.d.next = self.sleeps.val() & (!self.reset.val());
+        self.found_keeps.d.next = self.keeps.val() & (!self.reset.val());
+        self.found_hands_over.d.next = self.hands_over.val() & (!self.reset.val());
+        self.found_asks.d.next = self.asks_to_wait.val() & (!self.reset.val());
+        self.found_waits.d.next = self.waits.val() & (!self.reset.val());
+        self.found_stops.d.next = self.stops_waiting.val() & (!self.reset.val());
+        self.found_overflows.d.next = self.overflows.val() & (!self.reset.val());
+        self.found_duplicate.d.next = self.duplicate.val() & (!self.reset.val());
+        self.found_root_enable.d.next = self.root_enable.val();
+        self.found_root.d.next = self.root.val();
         self.flags.reset.next = self.reset.val();
         self.start.reset.next = self.reset.val();
         self.progress.reset.next = self.reset.val();
@@ -149,14 +180,14 @@ impl Logic for Dispatcher {
 
         // What each context is at.
         self.flags.all.next = self.all.val();
-        self.flags.owner.next = self.owner.val();
-        self.flags.sleeps.next = self.sleeps.val();
-        self.flags.keeps.next = self.keeps.val();
-        self.flags.hands_over.next = self.hands_over.val();
-        self.flags.asks_to_wait.next = self.asks_to_wait.val();
-        self.flags.waits.next = self.waits.val();
-        self.flags.stops_waiting.next = self.stops_waiting.val();
-        self.flags.overflows.next = self.overflows.val();
+        self.flags.owner.next = self.found_owner.q.val();
+        self.flags.sleeps.next = self.found_sleeps.q.val();
+        self.flags.keeps.next = self.found_keeps.q.val();
+        self.flags.hands_over.next = self.found_hands_over.q.val();
+        self.flags.asks_to_wait.next = self.found_asks.q.val();
+        self.flags.waits.next = self.found_waits.q.val();
+        self.flags.stops_waiting.next = self.found_stops.q.val();
+        self.flags.overflows.next = self.found_overflows.q.val();
         self.flags.starts.next = self.start.starts.val();
         self.flags.starter.next = self.start.owner.val();
         self.flags.released.next = self.released.val();
@@ -186,10 +217,11 @@ impl Logic for Dispatcher {
         self.start.solo_owner.next = self.flags.solo_owner.val();
         self.start.solo_is_at_work.next = self.solo_is_at_work.val();
         self.start.all_rest.next = self.flags.all_rest.val();
-        self.start.is_blocked.next = self.pushes.val();
-        self.start.root_enable.next = self.root_enable.val();
-        self.start.root_owner.next = self.owner.val();
-        self.start.root.next = self.root.val();
+        self.start.is_done.next = self.is_done.val();
+        self.start.is_blocked.next = self.may_ask.val();
+        self.start.root_enable.next = self.found_root_enable.q.val();
+        self.start.root_owner.next = self.found_owner.q.val();
+        self.start.root.next = self.found_root.q.val();
         self.start.hint_enable.next = self.commit_ends.val();
         self.start.hint_owner.next = self.commit_owner.val();
         self.start.hint.next = self.hint.val();
@@ -208,7 +240,7 @@ impl Logic for Dispatcher {
         self.progress.seeds.next = self.seeds.val();
         self.progress.commit_ends.next = self.commit_ends.val();
         self.progress.solo_ends.next = self.solo_ends.val();
-        self.progress.duplicate.next = self.duplicate.val();
+        self.progress.duplicate.next = self.found_duplicate.q.val();
         self.progress.collinear.next = self.collinear.val();
         self.progress.is_seeding.next = self.is_seeding.val();
         self.progress.all_rest.next = self.flags.all_rest.val();

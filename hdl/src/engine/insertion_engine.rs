@@ -23,10 +23,9 @@
 //! ```
 //! Latency: see the blocks.
 
-use super::{Bundle, Events, Insertions, Seeder, Solo, VisitPipeline, Write, WritePort};
+use super::{Events, Insertions, PushPort, Seeder, Solo, VisitPipeline, Write, WritePort};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 /// The engine; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -99,9 +98,8 @@ pub struct InsertionEngine {
     pipeline: VisitPipeline,
     solo: Solo,
     seeder: Seeder,
+    push_port: PushPort,
     write_port: WritePort,
-    pushes: DFF<Bit>,
-    pushed: DFF<Bundle>,
     first_vertex: Signal<Local, Bits<15>>,
 }
 
@@ -115,13 +113,13 @@ impl InsertionEngine {
 impl Logic for InsertionEngine {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, pushes, pushed);
-        clock!(self, clock, insertions, pipeline, solo, seeder, write_port);
+        clock!(self, clock, insertions, pipeline, solo, seeder, push_port, write_port);
         self.first_vertex.next = 0.into();
         self.insertions.reset.next = self.reset.val();
         self.pipeline.reset.next = self.reset.val();
         self.solo.reset.next = self.reset.val();
         self.seeder.reset.next = self.reset.val();
+        self.push_port.reset.next = self.reset.val();
         self.write_port.reset.next = self.reset.val();
         self.insertions.clears.next = self.clears.val();
         self.seeder.clears.next = self.clears.val();
@@ -146,8 +144,8 @@ impl Logic for InsertionEngine {
         // The visits.
         self.pipeline.infinite.next = self.infinite.val();
         self.pipeline.records.next = self.insertions.records.val();
-        self.pipeline.push.next = self.pushes.q.val();
-        self.pipeline.bundle.next = self.pushed.q.val();
+        self.pipeline.push.next = self.push_port.push.val();
+        self.pipeline.bundle.next = self.push_port.bundle.val();
         self.pipeline.position_enable.next = self.insertions.position_enable.val();
         self.pipeline.position_owner.next = self.insertions.position_owner.val();
         self.pipeline.position.next = self.pipeline.fetched.val();
@@ -162,7 +160,7 @@ impl Logic for InsertionEngine {
         self.pipeline.clear_id.next = self.insertions.clear_id.val();
         self.pipeline.clear_enable.next = self.insertions.clear_enable.val();
 
-        // The insertions in flight.
+        // The insertions in flight. No visit is out when an insertion alone starts or ends, so a clock earlier makes no difference.
         self.insertions.ring.next = self.ring.val();
         self.insertions.last_id.next = self.last_id.val();
         self.insertions.all.next = self.all.val();
@@ -171,12 +169,13 @@ impl Logic for InsertionEngine {
         self.insertions.arrived.next = self.arrived.val();
         self.insertions.came.next = self.came.val();
         self.insertions.now.next = self.now.val();
-        self.insertions.done.next = self.pipeline.done.val() & (!self.solo.is_at_work.val());
+        self.insertions.early_done.next =
+            self.pipeline.early_done.val() & (!self.solo.is_at_work.val()) & (!self.reset.val());
+        self.insertions.early_token.next = self.pipeline.early_token.val();
+        self.insertions.early_turned.next = self.pipeline.early_turned.val();
         self.insertions.token.next = self.pipeline.token.val();
         self.insertions.turned.next = self.pipeline.turned.val();
         self.insertions.verdict.next = self.pipeline.verdict.val();
-        self.insertions.early_owner.next = self.pipeline.early_owner.val();
-        self.insertions.early_entry.next = self.pipeline.early_entry.val();
         self.insertions.seeded.next = self.seeder.seeded.val();
         self.insertions.collinear.next = self.seeder.collinear.val();
         self.insertions.seeds.next = self.seeder.seeds.val();
@@ -193,19 +192,23 @@ impl Logic for InsertionEngine {
         self.solo.starts.next = self.insertions.solo_starts.val();
         self.solo.owner.next = self.insertions.solo_owner.val();
         self.solo.p.next = self.insertions.solo_p.val();
-        self.solo.start.next = self.insertions.solo_u.val();
+        self.solo.start.next = self.insertions.u.val();
         self.solo.records.next = self.insertions.fresh.val();
         self.solo.done.next = self.pipeline.done.val();
         self.solo.token.next = self.pipeline.token.val();
         self.solo.turned.next = self.pipeline.turned.val();
         self.solo.verdict.next = self.pipeline.verdict.val();
 
-        // The push register; an insertion alone asks only while nobody else does.
-        self.pushes.d.next = self.insertions.push.val() | self.solo.push.val();
-        self.pushed.d.next = self.insertions.bundle.val();
-        if self.solo.push.val() {
-            self.pushed.d.next = self.solo.bundle.val();
-        }
+        // Who pushes visits, and who writes.
+        self.push_port.asks.next = self.insertions.asks.val();
+        self.push_port.may_ask.next = self.insertions.may_ask.val();
+        self.push_port.follows.next = self.insertions.follows.val();
+        self.push_port.starts.next = self.insertions.starts.val();
+        self.push_port.starter.next = self.insertions.starter.val();
+        self.push_port.u.next = self.insertions.u.val();
+        self.push_port.is_alone.next = self.solo.is_at_work.val();
+        self.push_port.solo_asks.next = self.solo.push.val();
+        self.push_port.solo.next = self.solo.bundle.val();
         self.write_port.commit.next = self.insertions.write.val();
         self.write_port.solo.next = self.solo.write.val();
         self.write_port.seed.next = self.seeder.write.val();
@@ -214,8 +217,5 @@ impl Logic for InsertionEngine {
         self.events.next.flip = self.solo.flips.val();
         self.events.next.is_issuing = self.pipeline.is_issuing.val();
         self.events.next.is_writing = self.write_port.write.val().valid;
-        if self.reset.val() {
-            self.pushes.d.next = false;
-        }
     }
 }

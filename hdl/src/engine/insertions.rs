@@ -5,14 +5,15 @@
 //! | `clock`, `reset`, `clears` | in | 1 | reset drops everything at work; clear forgets the mesh |
 //! | `ring`, `last_id`, `all`, `patience` | in | 7, 15, 24, 22 | parameters, constants |
 //! | `contexts`, `arrived`, `came`, `now` | in | 5, 15, 1, 22 | contexts that work; points that have come; one is being stored; the time |
-//! | `done`, `token`, `turned`, `verdict` | in | | the visit that completes; none while an insertion alone is at work |
-//! | `early_owner`, `early_entry` | in | 5, 6 | the visit that completes in the next clock, whosever it is: its context, the entry that names its `f` |
+//! | `early_done`, `early_token`, `early_turned` | in | | the visit that completes in the next clock; none while an insertion alone is at work |
+//! | `token`, `turned`, `verdict` | in | | the visit that completes |
 //! | `seeded`, `collinear`, `is_seeding`, `seeds` | in | 1 | the first triangle |
 //! | `solo_is_at_work`, `solo_ends`, `solo_inserts` | in | 1 | the insertion alone |
-//! | `push`, `bundle` | out | 1, Bundle | visits to make: those of the visit that completes, else of a context that starts |
+//! | `asks`, `may_ask`, `follows` | out | 1, 1, Bundle | the visit that completes asks for others; it may; they |
+//! | `starts`, `starter`, `u` | out | 1, 5, 15 | a context starts to walk at this record, while nobody may ask |
 //! | `looks` | out | 1 | the visit that completes is the look at the first three points |
 //! | `fetch_id`, `position_enable`, `position_owner` | out | 15, 1, 5 | a point to fetch; its context, when it has come |
-//! | `solo_starts`, `solo_owner`, `solo_p`, `solo_u` | out | 1, 5, 15, 15 | an insertion alone starts |
+//! | `solo_starts`, `solo_owner`, `solo_p` | out | 1, 5, 15 | an insertion alone starts, from `u` on |
 //! | `write`, `records`, `fresh` | out | Write, 15, 15 | a record or a link; records from this id on are not written yet; the next new id |
 //! | `clear_enable`, `clear_id`, `sweeps` | out | 1, 15, 1 | a lock to clear; the lock memory is being cleared after reset |
 //! | `is_quiet`, `stuck` | out | 1 | every point is finished; nothing is finished any more |
@@ -49,18 +50,18 @@ pub struct Insertions {
     pub came: Signal<In, Bit>,
     /// The time.
     pub now: Signal<In, Bits<22>>,
-    /// A visit completes.
-    pub done: Signal<In, Bit>,
+    /// A visit completes in the next clock.
+    pub early_done: Signal<In, Bit>,
     /// The visit.
+    pub early_token: Signal<In, Token>,
+    /// Its record.
+    pub early_turned: Signal<In, Turned>,
+    /// The visit that completes.
     pub token: Signal<In, Token>,
     /// Its record.
     pub turned: Signal<In, Turned>,
     /// What it found out.
     pub verdict: Signal<In, Verdict>,
-    /// The context whose visit completes in the next clock.
-    pub early_owner: Signal<In, Bits<5>>,
-    /// The entry that names the visit's `f`.
-    pub early_entry: Signal<In, Bits<6>>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
     /// It never will.
@@ -75,10 +76,18 @@ pub struct Insertions {
     pub solo_ends: Signal<In, Bit>,
     /// It has inserted its point.
     pub solo_inserts: Signal<In, Bit>,
-    /// Visits to make.
-    pub push: Signal<Out, Bit>,
-    /// The visits.
-    pub bundle: Signal<Out, Bundle>,
+    /// The visit that completes asks for others.
+    pub asks: Signal<Out, Bit>,
+    /// It may.
+    pub may_ask: Signal<Out, Bit>,
+    /// The visits that follow.
+    pub follows: Signal<Out, Bundle>,
+    /// A context starts to walk.
+    pub starts: Signal<Out, Bit>,
+    /// Which.
+    pub starter: Signal<Out, Bits<5>>,
+    /// Where.
+    pub u: Signal<Out, Bits<15>>,
     /// The look at the first three points.
     pub looks: Signal<Out, Bit>,
     /// A point to fetch.
@@ -93,8 +102,6 @@ pub struct Insertions {
     pub solo_owner: Signal<Out, Bits<5>>,
     /// Its point.
     pub solo_p: Signal<Out, Bits<15>>,
-    /// Where it starts to walk.
-    pub solo_u: Signal<Out, Bits<15>>,
     /// A record or a link.
     pub write: Signal<Out, Write>,
     /// Records that are written.
@@ -141,12 +148,12 @@ impl Logic for Insertions {
 
         // A visit completes.
         self.attempts.ring.next = self.ring.val();
-        self.attempts.done.next = self.done.val();
+        self.attempts.early_done.next = self.early_done.val();
+        self.attempts.early_token.next = self.early_token.val();
+        self.attempts.early_turned.next = self.early_turned.val();
         self.attempts.token.next = self.token.val();
         self.attempts.turned.next = self.turned.val();
         self.attempts.verdict.next = self.verdict.val();
-        self.attempts.early_owner.next = self.early_owner.val();
-        self.attempts.early_entry.next = self.early_entry.val();
         self.attempts.seeded.next = self.seeded.val();
         self.attempts.now.next = self.now.val();
         self.attempts.busy.next = self.dispatcher.busy.val();
@@ -156,6 +163,9 @@ impl Logic for Insertions {
         self.attempts.taken_id.next = self.dispatcher.taken_id.val();
         self.attempts.taker.next = self.dispatcher.starter.val();
         self.looks.next = self.attempts.looks.val();
+        self.asks.next = self.attempts.asks.val();
+        self.may_ask.next = self.attempts.may_ask.val();
+        self.follows.next = self.attempts.bundle.val();
 
         // Who starts, and what is finished.
         self.dispatcher.all.next = self.all.val();
@@ -180,12 +190,16 @@ impl Logic for Insertions {
         self.dispatcher.root_enable.next = self.attempts.root_enable.val();
         self.dispatcher.root.next = self.attempts.root.val();
         self.dispatcher.hands_over.next = self.attempts.commit_enable.val() | self.attempts.release_enable.val();
-        self.dispatcher.pushes.next = self.attempts.push.val();
+        self.dispatcher.is_done.next = self.attempts.is_done.val();
+        self.dispatcher.may_ask.next = self.attempts.may_ask.val();
         self.dispatcher.commit_ends.next = self.commits.ends.val();
         self.dispatcher.commit_owner.next = self.commits.job.val().owner;
         self.dispatcher.hint.next = self.commits.hint.val();
         self.dispatcher.released.next = self.commits.released.val();
         self.dispatcher.released_owner.next = self.commits.released_owner.val();
+        self.starts.next = self.dispatcher.starts.val();
+        self.starter.next = self.dispatcher.starter.val();
+        self.u.next = self.dispatcher.u.val();
         self.fetch_id.next = self.dispatcher.taken_id.val();
         self.position_enable.next = self.dispatcher.position_enable.val();
         self.position_owner.next = self.dispatcher.position_owner.val();
@@ -194,7 +208,6 @@ impl Logic for Insertions {
         self.solo_p.next = self.dispatcher.solo_p.val();
         self.is_quiet.next = self.dispatcher.is_quiet.val();
         self.stuck.next = self.dispatcher.stuck.val();
-        self.solo_u.next = self.dispatcher.u.val();
 
         // The star and the locks.
         self.commits.last_id.next = self.last_id.val();
@@ -220,18 +233,6 @@ impl Logic for Insertions {
         self.clear_enable.next = self.commits.clear_enable.val();
         self.clear_id.next = self.commits.clear_id.val();
         self.sweeps.next = self.commits.sweeps.val();
-
-        // The visits that follow, else those of a context that starts.
-        self.push.next = self.attempts.push.val() | self.dispatcher.starts.val();
-        self.bundle.next = self.attempts.bundle.val();
-        if !self.attempts.push.val() {
-            self.bundle.next.is_pair = false;
-            self.bundle.next.is_triple = false;
-            self.bundle.next.owner = self.dispatcher.starter.val();
-            self.bundle.next.rotates = false;
-            self.bundle.next.locks = false;
-            self.bundle.next.u = self.dispatcher.u.val();
-        }
 
         // For the counters; the rest is filled in where it is known.
         self.events.next.seeds = self.seeds.val();

@@ -87,6 +87,10 @@ pub struct Release {
     works: DFF<Bit>,
     at_work: DFF<ReleaseJob>,
     place: DFF<Bits<7>>,
+    /// Its next lock is the last one, or the one before that.
+    one_is_left: DFF<Bit>,
+    two_are_left: DFF<Bit>,
+    left: DFF<Bits<7>>,
     /// A lock in the log's array, and in its output register.
     array_valid: DFF<Bit>,
     array_is_last: DFF<Bit>,
@@ -106,6 +110,8 @@ pub struct Release {
     after_cleared: Signal<Local, Bits<15>>,
     first_place: Signal<Local, Bits<7>>,
     one_place: Signal<Local, Bits<7>>,
+    two_places: Signal<Local, Bits<7>>,
+    three_places: Signal<Local, Bits<7>>,
     one: Signal<Local, Bits<15>>,
     before_first: Signal<Local, Bits<15>>,
 }
@@ -128,6 +134,7 @@ impl Release {
 impl Logic for Release {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, one_is_left, two_are_left, left);
         dff_setup!(self, clock, works, at_work, place, array_valid, array_is_last, array_owner);
         dff_setup!(self, clock, output_valid, output_is_last, output_owner, clears, cleared, is_last, owner, sweeping);
         clock!(self, clock, commits, failures, log);
@@ -153,7 +160,7 @@ impl Logic for Release {
 
         // The job at work, and the next one with its last lock.
         self.after_place.next = self.place.q.val() + self.one_place.val();
-        self.fetches_last.next = self.works.q.val() & (self.after_place.val() == self.at_work.q.val().locks);
+        self.fetches_last.next = self.works.q.val() & self.one_is_left.q.val();
         self.takes.next = (!self.works.q.val()) | self.fetches_last.val();
         self.commit_bits.next = self.commit_job.val().into();
         self.commits.reset.next = self.reset.val();
@@ -169,11 +176,20 @@ impl Logic for Release {
         if self.commits.waits.val() {
             self.upcoming.bits.next = self.commits.head.val();
         }
+        // How many are left is counted down, so that the last one is known ahead.
+        self.three_places.next = 3.into();
+        self.two_places.next = 2.into();
         self.place.d.next = self.after_place.val();
+        self.left.d.next = self.left.q.val() - self.one_place.val();
+        self.one_is_left.d.next = self.two_are_left.q.val();
+        self.two_are_left.d.next = self.left.q.val() == self.three_places.val();
         if self.takes.val() {
             self.works.d.next = self.commits.waits.val() | self.failures.waits.val();
             self.at_work.d.next = self.upcoming.value.val();
             self.place.d.next = self.first_place.val();
+            self.left.d.next = self.upcoming.value.val().locks;
+            self.one_is_left.d.next = self.upcoming.value.val().locks == self.one_place.val();
+            self.two_are_left.d.next = self.upcoming.value.val().locks == self.two_places.val();
         }
 
         // A lock on its way through the log's memory.

@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | `clock` | in | 1 | everything happens at its rising edge |
 //! | `enable`, `owner`, `place`, `entry` | in | 1, 5, 6, Entry | an entry of a context becomes final |
-//! | `reader`, `read_place` | in | 5, 6 | the entry to read |
+//! | `reader`, `reader_bit`, `read_place` | in | 5, 24, 6 | the entry to read; its context as a bit, too |
 //! | `moves` | in | 1 | it is read at this edge, and the one before it comes on the output |
 //! | `after`, `is_last` | out | 6, 1 | the entry after it, at once; there is none |
 //! | `read` | out | Entry | the entry that was read two moves ago; its `after` is 0 |
@@ -19,7 +19,7 @@
 //! entry is the last: those who read have no time for that.
 
 use super::{context_bits, ring_bits, ContextAddress, Entry, ENTRY_BITS, ENTRY_WORD_BITS, RING_ADDRESS_BITS};
-use crate::leaf::{LutMemory, PacedMemory, Unpack};
+use crate::leaf::{BankedMemory, PacedMemory, Unpack};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -42,6 +42,8 @@ pub struct RingList {
     pub entry: Signal<In, Entry>,
     /// Context of the entry to read.
     pub reader: Signal<In, Bits<5>>,
+    /// The same, a bit each.
+    pub reader_bit: Signal<In, Bits<24>>,
     /// Its place.
     pub read_place: Signal<In, Bits<6>>,
     /// It is read at this edge.
@@ -57,7 +59,7 @@ pub struct RingList {
     written_place: DFF<Bits<6>>,
     written_entry: DFF<Entry>,
     /// Of each entry, lowest bit first: whether it is the last one, and the entry after it.
-    followers: LutMemory<RING_ADDRESS_BITS, FOLLOWER_BITS>,
+    followers: BankedMemory<24, 5, ENTRY_BITS, FOLLOWER_BITS>,
     /// All of an entry but `after`, which is its last field.
     edges: PacedMemory<RING_ADDRESS_BITS, ENTRY_WORD_BITS>,
     write_at: ContextAddress<ENTRY_BITS, RING_ADDRESS_BITS>,
@@ -77,7 +79,7 @@ impl RingList {
         let bits = ring_bits(config);
         let address_bits = context_bits(config) + bits;
         Self {
-            followers: LutMemory::new(address_bits, bits + 1),
+            followers: BankedMemory::new(config.contexts as usize, bits, bits + 1),
             edges: PacedMemory::new(address_bits, ENTRY_WORD_BITS - ENTRY_BITS),
             write_at: ContextAddress::new(bits),
             read_at: ContextAddress::new(bits),
@@ -106,7 +108,8 @@ impl Logic for RingList {
         if self.written_entry.q.val().after == self.first_place.val() {
             self.last_bit.next = 1.into();
         }
-        self.followers.write_address.next = self.write_at.address.val();
+        self.followers.write_bank.next = self.written_owner.q.val();
+        self.followers.write_address.next = self.written_place.q.val();
         self.followers.write_data.next = self.raised_after.val() | self.last_bit.val();
         self.followers.write_enable.next = self.written.q.val();
         self.edges.write_address.next = self.write_at.address.val();
@@ -115,7 +118,8 @@ impl Logic for RingList {
 
         self.read_at.owner.next = self.reader.val();
         self.read_at.place.next = self.read_place.val();
-        self.followers.read_address.next = self.read_at.address.val();
+        self.followers.read_banks.next = self.reader_bit.val();
+        self.followers.read_address.next = self.read_place.val();
         self.after.next = self.followers.read_data.val().get_bits::<ENTRY_BITS>(1);
         self.is_last.next = self.followers.read_data.val().get_bit(0);
         self.edges.read_address.next = self.read_at.address.val();

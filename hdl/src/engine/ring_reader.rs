@@ -1,4 +1,4 @@
-//! Reads finished boundary rings in their order, an entry a clock, one ring after the other without a pause.
+//! Reads finished boundary rings in their order, an entry a clock, one ring after the other.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
@@ -18,6 +18,8 @@
 //! 4. Five stages move together, when the head is free or taken: the pointer, the array of the list memory, its output register,
 //!    a register away from it, and the head. So the entries of a ring follow each other without a gap.
 //! 5. What is decided about an entry is decided on its way to the head; the head is a function of registers.
+//!    Whether an entry is the last one is known when it is in the array: the pointer runs one place too far, and between two rings one
+//!    place on the way is empty. Who takes the head has the end of a ring to see to in that clock.
 //! 6. A context has one ring here at a time.
 //!
 //! Latency: 6 clocks from `job_enable` to `head_valid` if no ring is before it.
@@ -28,12 +30,12 @@
 //! entry_enable    ___/^^^^^^^^^^^^^^^^^\_____________________________
 //! entry_place       .  0  1  2  0  1  2  .  .  .  .  .  .  .  .  .  .
 //! job_enable      _________/^^\_____/^^\_____________________________
-//! head_valid      ___________________________/^^^^^^^^^^^^^^^^^^^^\__
-//! head.a            .  .  .  .  .  .  .  .  . 10 12 12 11 20 22 21  .
-//! head_is_last    ____________________________________/^^\_____/^^\__
-//! head_shares     ______________________________/^^^^^\_____/^^\_____
-//! head_job.owner    .  .  .  .  .  .  .  .  .  1  .  .  .  0  .  .  .
-//! takes           ___________________________/^^\__/^^^^^^^^^^^^^^\__
+//! head_valid      ___________________________/^^^^^^^^^^^\__/^^^^^^^^
+//! head.a            .  .  .  .  .  .  .  .  . 10 12 12 11  . 20 22 21
+//! head_is_last    ____________________________________/^^\________/^^
+//! head_shares     ______________________________/^^^^^\________/^^\__
+//! head_job.owner    .  .  .  .  .  .  .  .  .  1  .  .  .  .  0  .  .
+//! takes           ___________________________/^^\__/^^^^^\__/^^^^^^^^
 //! ```
 
 use super::{CommitJob, Entry, JobQueue, RingList, COMMIT_JOB_BITS};
@@ -79,6 +81,8 @@ pub struct RingReader {
     list: RingList,
     /// The ring that the pointer is in.
     ring: DFF<CommitJob>,
+    /// Its context, a bit each.
+    ring_bit: DFF<Bits<24>>,
     pointer_valid: DFF<Bit>,
     pointer_is_first: DFF<Bit>,
     pointer: DFF<Bits<6>>,
@@ -104,9 +108,14 @@ pub struct RingReader {
     first_f: DFF<Bits<15>>,
     moves: Signal<Local, Bit>,
     ring_is_through: Signal<Local, Bit>,
+    /// The pointer is at an entry, not past the last one.
+    pointer_counts: Signal<Local, Bit>,
     shares_with_last: Signal<Local, Bit>,
     shares_with_first: Signal<Local, Bit>,
     first_place: Signal<Local, Bits<6>>,
+    first_bit: Signal<Local, Bits<24>>,
+    wide_owner: Signal<Local, Bits<24>>,
+    oldest_bit: Signal<Local, Bits<24>>,
 }
 
 impl RingReader {
@@ -119,7 +128,7 @@ impl RingReader {
 impl Logic for RingReader {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, ring, pointer_valid, pointer_is_first, pointer, array_valid, array_is_first);
+        dff_setup!(self, clock, ring, ring_bit, pointer_valid, pointer_is_first, pointer, array_valid, array_is_first);
         dff_setup!(self, clock, array_is_last, output_valid, output_is_first, output_is_last, output_ring);
         dff_setup!(self, clock, arrival_valid, arrival_is_first, arrival_is_last, arrival);
         dff_setup!(self, clock, entry_valid, entry_is_last, entry_shares, last_entry, first_f);
@@ -138,17 +147,22 @@ impl Logic for RingReader {
         self.list.place.next = self.entry_place.val();
         self.list.entry.next = self.entry.val();
         self.list.reader.next = self.ring.q.val().owner;
+        self.list.reader_bit.next = self.ring_bit.q.val();
         self.list.read_place.next = self.pointer.q.val();
         self.list.moves.next = self.moves.val();
 
-        // The pointer follows its ring, whose last entry leads to place 0 again, then the next ring.
-        self.ring_is_through.next = (!self.pointer_valid.q.val()) | self.list.is_last.val();
+        // The pointer follows its ring, whose last entry leads to place 0 again, and there begins the next ring.
+        self.ring_is_through.next = (!self.pointer_valid.q.val()) | self.array_is_last.q.val();
+        self.pointer_counts.next = self.pointer_valid.q.val() & (!self.array_is_last.q.val());
         self.job_bits.next = self.job.val().into();
         self.rings.reset.next = self.reset.val();
         self.rings.enable.next = self.job_enable.val();
         self.rings.job.next = self.job_bits.val();
         self.rings.takes.next = self.moves.val() & self.ring_is_through.val();
         self.oldest.bits.next = self.rings.head.val();
+        self.first_bit.next = 1.into();
+        self.wide_owner.next = bit_cast::<24, 5>(self.oldest.value.val().owner);
+        self.oldest_bit.next = self.first_bit.val() << self.wide_owner.val();
         self.shares_with_last.next = self.arrival.q.val().f == self.last_entry.q.val().f;
         self.shares_with_first.next = self.arrival.q.val().f == self.first_f.q.val();
         if self.moves.val() {
@@ -156,14 +170,15 @@ impl Logic for RingReader {
             if self.ring_is_through.val() {
                 self.pointer_valid.d.next = self.rings.waits.val();
                 self.ring.d.next = self.oldest.value.val();
+                self.ring_bit.d.next = self.oldest_bit.val();
             }
             self.pointer.d.next = self.first_place.val();
-            if self.pointer_valid.q.val() {
+            if self.pointer_counts.val() {
                 self.pointer.d.next = self.list.after.val();
             }
-            self.array_valid.d.next = self.pointer_valid.q.val();
+            self.array_valid.d.next = self.pointer_counts.val();
             self.array_is_first.d.next = self.pointer_is_first.q.val();
-            self.array_is_last.d.next = self.list.is_last.val();
+            self.array_is_last.d.next = self.list.is_last.val() & self.pointer_counts.val();
             self.output_valid.d.next = self.array_valid.q.val();
             self.output_is_first.d.next = self.array_is_first.q.val();
             self.output_is_last.d.next = self.array_is_last.q.val();

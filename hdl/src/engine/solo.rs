@@ -9,14 +9,15 @@
 //! | `done`, `token`, `turned`, `verdict` | in | | the visit that completes |
 //! | `push`, `bundle` | out | 1, Bundle | a visit to make; it bears the owner |
 //! | `write` | out | Write | a record or a link, registered |
-//! | `tests`, `flips` | out | 1 | a test or a flip is finished at this edge |
-//! | `ends`, `inserts` | out | 1 | the insertion is over at this edge; it has inserted its point, which is no duplicate |
-//! | `is_at_work` | out | 1 | every visit that completes is its own |
+//! | `tests`, `flips` | out | 1 | a test or a flip was finished at the last edge |
+//! | `ends`, `inserts` | out | 1 | the insertion was over at the last edge; it has inserted its point, which is no duplicate |
+//! | `is_at_work` | out | 1 | every visit that completes is its own, from the clock after `starts` has been taken to `ends` |
 //!
 //! 1. The mesh has changed since the attempt that overflowed, so the point is located again, from the triangle that held it then.
 //! 2. Its visits set no locks, and at most one is out.
 //! 3. While the triangle outside the star triangle at work is in conflict, the edge is flipped and the same position is tested again;
 //!    otherwise the link that leads back is mended and the next star triangle is taken. It ends where the round began.
+//! 4. All outputs come a clock later than they could: other blocks have their clock for themselves, and speed is no matter here.
 //!
 //! ```text
 //!        apex                  apex
@@ -26,18 +27,19 @@
 //!         p                     p
 //! ```
 //! Latency, with `w` triangles walked through and `f` flips: `w + 3 f + 8` visits one after the other (2 mends, `f + 3` fetches,
-//! `2 f + 3` tests), each a clock more than the visit latency, and `3 f + 4` clocks. A duplicate takes `w` visits and a clock.
+//! `2 f + 3` tests), each two clocks more than the visit latency, and `3 f + 5` clocks. A duplicate takes `w` visits and
+//! two clocks.
 //!
 //! A walk of two triangles, the split, and the first mend, with visits of two clocks:
 //! ```text
 //! starts          ___/^^\_________________________________________
-//! is_at_work      ______/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
-//! push            ______/^^\_____/^^\______________/^^\_____/^^\__
-//! bundle.u          .  .  2  .  .  0  .  .  .  .  .  2  .  .  3  .
-//! done            ____________/^^\_____/^^\______________/^^\_____
-//! located           .  .  .  .___  .  ./^^  .  .  .  .  .  .  .  .
-//! write.valid     ___________________________/^^^^^^^^\_____/^^\__
-//! write.id          .  .  .  .  .  .  .  .  .  0  4  5  .  .  2  .
+//! is_at_work      _________/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+//! push            _________/^^\________/^^\_________________/^^\__
+//! bundle.u          .  .  .  2  .  .  .  0  .  .  .  .  .  .  2  .
+//! done            _______________/^^\________/^^\_________________
+//! located           .  .  .  .  .___  .  .  ./^^  .  .  .  .  .  .
+//! write.valid     ____________________________________/^^^^^^^^\__
+//! write.id          .  .  .  .  .  .  .  .  .  .  .  .  0  4  5  .
 //! ```
 //!
 //! Source: Lawson's flips, in the order of the star.
@@ -114,17 +116,20 @@ pub struct Solo {
     root_id: DFF<Bits<15>>,
     root: DFF<Turned>,
     star: SoloStar,
+    works: DFF<Bit>,
+    asks: DFF<Bit>,
+    ended: DFF<Bit>,
+    inserted: DFF<Bit>,
     is_locate: Signal<Local, Bit>,
     is_mend: Signal<Local, Bit>,
     is_fetch: Signal<Local, Bit>,
     is_test: Signal<Local, Bit>,
-    is_flip: Signal<Local, Bit>,
     is_visiting: Signal<Local, Bit>,
     is_last_step: Signal<Local, Bit>,
-    is_second_mend: Signal<Local, Bit>,
     is_duplicate: Signal<Local, Bit>,
     rests: Signal<Local, Bit>,
     inserts_now: Signal<Local, Bit>,
+    ends_now: Signal<Local, Bit>,
     third_step: Signal<Local, Bits<2>>,
     one: Signal<Local, Bits<2>>,
 }
@@ -132,7 +137,7 @@ pub struct Solo {
 impl Logic for Solo {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, step, awaits, at_work_for, vertex, root_id, root);
+        dff_setup!(self, clock, state, step, awaits, at_work_for, vertex, root_id, root, works, asks, ended, inserted);
         clock!(self, clock, star);
         self.one.next = 1.into();
         self.third_step.next = 2.into();
@@ -140,10 +145,9 @@ impl Logic for Solo {
         self.is_mend.next = self.state.q.val() == SoloState::Mend;
         self.is_fetch.next = self.state.q.val() == SoloState::Fetch;
         self.is_test.next = self.state.q.val() == SoloState::Test;
-        self.is_flip.next = self.state.q.val() == SoloState::Flip;
-        self.is_second_mend.next = self.step.q.val() == self.one.val();
         self.is_last_step.next = self.step.q.val() == self.third_step.val();
-        self.is_at_work.next = self.state.q.val() != SoloState::Idle;
+        self.works.d.next = (self.state.q.val() != SoloState::Idle) & (!self.reset.val());
+        self.is_at_work.next = self.works.q.val();
 
         self.star.reset.next = self.reset.val();
         self.star.owner.next = self.at_work_for.q.val();
@@ -152,9 +156,8 @@ impl Logic for Solo {
         self.star.is_mend.next = self.is_mend.val();
         self.star.is_fetch.next = self.is_fetch.val();
         self.star.is_test.next = self.is_test.val();
-        self.star.is_flip.next = self.is_flip.val();
+        self.star.is_flip.next = self.state.q.val() == SoloState::Flip;
         self.star.step.next = self.step.q.val();
-        self.star.is_last_flip.next = self.is_flip.val() & self.is_last_step.val();
         self.star.p.next = self.vertex.q.val();
         self.star.records.next = self.records.val();
         self.star.root_id.next = self.root_id.q.val();
@@ -167,16 +170,21 @@ impl Logic for Solo {
         self.write.next = self.star.write.val();
 
         self.is_visiting.next = self.is_locate.val() | self.is_mend.val() | self.is_fetch.val() | self.is_test.val();
-        self.push.next = self.is_visiting.val() & (!self.awaits.q.val());
+        self.asks.d.next = self.is_visiting.val() & (!self.awaits.q.val()) & (!self.reset.val());
+        self.push.next = self.asks.q.val();
         self.awaits.d.next = self.is_visiting.val() & (!self.done.val());
 
-        self.tests.next = self.is_test.val() & self.done.val();
-        self.flips.next = self.is_flip.val() & self.is_last_step.val();
+        self.tests.next = self.star.tests.val();
+        self.flips.next = self.star.flips.val();
         self.rests.next = self.is_test.val() & self.done.val() & (!self.verdict.val().conflict);
         self.inserts_now.next = self.rests.val() & self.star.is_round.val();
-        self.inserts.next = self.inserts_now.val();
+        self.inserted.d.next = self.inserts_now.val() & (!self.reset.val());
+        self.inserts.next = self.inserted.q.val();
         self.is_duplicate.next = self.verdict.val().located & self.verdict.val().falls_onto_corner;
-        self.ends.next = self.inserts_now.val() | (self.is_locate.val() & self.done.val() & self.is_duplicate.val());
+        self.ends_now.next =
+            self.inserts_now.val() | (self.is_locate.val() & self.done.val() & self.is_duplicate.val());
+        self.ended.d.next = self.ends_now.val() & (!self.reset.val());
+        self.ends.next = self.ended.q.val();
 
         match self.state.q.val() {
             SoloState::Idle => {
@@ -211,7 +219,7 @@ impl Logic for Solo {
             SoloState::Mend => {
                 if self.done.val() {
                     self.step.d.next = 1.into();
-                    if self.is_second_mend.val() {
+                    if self.step.q.val() == self.one.val() {
                         self.state.d.next = SoloState::Fetch;
                     }
                 }

@@ -2,9 +2,10 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
-//! | `is_split`, `is_mend`, `is_test` | in | 1 | what it does; a flip if none of them |
-//! | `step` | in | 2 | which record of the split, link of the mend, write of the flip |
-//! | `p`, `records`, `root_id`, `root` | in | | the new vertex, the next new id, the located triangle |
+//! | `split1`, `split2`, `split3` | in | 1 | the split writes its first, second, third record |
+//! | `flip1`, `flip2` | in | 1 | the flip writes its first, second record |
+//! | `mend1`, `mend2`, `is_test` | in | 1 | a link is mended: the first or second after the split, or one after a test |
+//! | `p`, `second`, `third`, `root_id`, `root` | in | | the new vertex, the next two new ids, the located triangle |
 //! | `id`, `a`, `b`, `outer`, `after`, `preceding` | in | 15 | the star triangle at work |
 //! | `apex`, `apex_after_a`, `apex_before_b` | in | 15 | the triangle outside it, and its links beyond `a` and `b` |
 //! | `visited`, `slot` | in | 15, 2 | the record visited and its slot that leads back |
@@ -18,18 +19,28 @@ use rust_hdl_core::prelude::*;
 /// Writes of an insertion alone; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloWrites {
-    /// The root is split.
-    pub is_split: Signal<In, Bit>,
-    /// A link is mended after the split.
-    pub is_mend: Signal<In, Bit>,
-    /// A link is mended after a test.
+    /// The first record of the split.
+    pub split1: Signal<In, Bit>,
+    /// The second record of the split.
+    pub split2: Signal<In, Bit>,
+    /// The third record of the split.
+    pub split3: Signal<In, Bit>,
+    /// The first record of the flip.
+    pub flip1: Signal<In, Bit>,
+    /// The second record of the flip.
+    pub flip2: Signal<In, Bit>,
+    /// The first link after the split.
+    pub mend1: Signal<In, Bit>,
+    /// The second link after the split.
+    pub mend2: Signal<In, Bit>,
+    /// A link after a test.
     pub is_test: Signal<In, Bit>,
-    /// Which of the writes.
-    pub step: Signal<In, Bits<2>>,
     /// The new vertex.
     pub p: Signal<In, Bits<15>>,
-    /// The next new id.
-    pub records: Signal<In, Bits<15>>,
+    /// The next new id: the second record of the split.
+    pub second: Signal<In, Bits<15>>,
+    /// The one after it: the third.
+    pub third: Signal<In, Bits<15>>,
     /// The located triangle.
     pub root_id: Signal<In, Bits<15>>,
     /// Its record.
@@ -60,26 +71,11 @@ pub struct SoloWrites {
     pub write: Signal<Out, Write>,
     record: RecordWrite,
     link: LinkWrite,
-    second: Signal<Local, Bits<15>>,
-    third: Signal<Local, Bits<15>>,
-    one: Signal<Local, Bits<15>>,
-    is_step0: Signal<Local, Bit>,
-    is_step1: Signal<Local, Bit>,
-    step0: Signal<Local, Bits<2>>,
-    step1: Signal<Local, Bits<2>>,
 }
 
 impl Logic for SoloWrites {
     #[hdl_gen]
     fn update(&mut self) {
-        self.one.next = 1.into();
-        self.step0.next = 0.into();
-        self.step1.next = 1.into();
-        self.is_step0.next = self.step.val() == self.step0.val();
-        self.is_step1.next = self.step.val() == self.step1.val();
-        self.second.next = self.records.val();
-        self.third.next = self.records.val() + self.one.val();
-
         // Records: the last of the split, unless something else is asked for.
         self.record.id.next = self.third.val();
         self.record.v0.next = self.p.val();
@@ -88,7 +84,7 @@ impl Logic for SoloWrites {
         self.record.n0.next = self.root.val().n2;
         self.record.n1.next = self.root_id.val();
         self.record.n2.next = self.second.val();
-        if self.is_split.val() & self.is_step0.val() {
+        if self.split1.val() {
             self.record.id.next = self.root_id.val();
             self.record.v1.next = self.root.val().v1;
             self.record.v2.next = self.root.val().v2;
@@ -96,7 +92,7 @@ impl Logic for SoloWrites {
             self.record.n1.next = self.second.val();
             self.record.n2.next = self.third.val();
         }
-        if self.is_split.val() & self.is_step1.val() {
+        if self.split2.val() {
             self.record.id.next = self.second.val();
             self.record.v1.next = self.root.val().v2;
             self.record.v2.next = self.root.val().v0;
@@ -104,7 +100,7 @@ impl Logic for SoloWrites {
             self.record.n1.next = self.third.val();
             self.record.n2.next = self.root_id.val();
         }
-        if (!self.is_split.val()) & self.is_step0.val() {
+        if self.flip1.val() {
             self.record.id.next = self.id.val();
             self.record.v1.next = self.a.val();
             self.record.v2.next = self.apex.val();
@@ -112,7 +108,7 @@ impl Logic for SoloWrites {
             self.record.n1.next = self.outer.val();
             self.record.n2.next = self.preceding.val();
         }
-        if (!self.is_split.val()) & self.is_step1.val() {
+        if self.flip2.val() {
             self.record.id.next = self.outer.val();
             self.record.v1.next = self.apex.val();
             self.record.v2.next = self.b.val();
@@ -130,20 +126,19 @@ impl Logic for SoloWrites {
             self.link.slot.next = self.slot.val();
             self.link.value.next = self.id.val();
         }
-        if self.is_mend.val() {
+        if self.mend1.val() {
             self.link.id.next = self.visited.val();
             self.link.slot.next = self.slot.val();
             self.link.value.next = self.second.val();
-            if self.is_step1.val() {
-                self.link.value.next = self.third.val();
-            }
+        }
+        if self.mend2.val() {
+            self.link.id.next = self.visited.val();
+            self.link.slot.next = self.slot.val();
+            self.link.value.next = self.third.val();
         }
 
         self.write.next = self.link.write.val();
-        if self.is_split.val() {
-            self.write.next = self.record.write.val();
-        }
-        if (!self.is_mend.val()) & (!self.is_test.val()) & (self.is_step0.val() | self.is_step1.val()) {
+        if self.split1.val() | self.split2.val() | self.split3.val() | self.flip1.val() | self.flip2.val() {
             self.write.next = self.record.write.val();
         }
     }

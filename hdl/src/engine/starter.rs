@@ -10,7 +10,7 @@
 //! | `asleep`, `keeping`, `busy`, `began`, `hinted` | in | 24 | see `ContextFlags` |
 //! | `solo_valid` | in | 1 | somebody wants to be alone: nobody starts |
 //! | `is_urgent`, `waiter` | in | 1, 5 | nobody but this context may try again |
-//! | `is_blocked` | in | 1 | the queue takes another bundle at this edge |
+//! | `is_done`, `is_blocked` | in | 1 | a visit completes; the queue may take the visits that follow it at this edge |
 //! | `root_enable`, `root_owner`, `root` | in | 1, 5, 15 | where a context goes on when it tries again |
 //! | `hint_enable`, `hint_owner`, `hint` | in | 1, 5, 15 | where its next walk starts |
 //! | `starts`, `owner`, `u` | out | 1, 5, 15 | this context starts to walk at this record |
@@ -22,9 +22,12 @@
 //! 1. A context starts if it sleeps and has a point to try again, no commit or release is due, and it has rested: contexts that try again
 //!    start in every fourth round of the pointer only, which spreads them.
 //! 2. Or if it sleeps and its next point has come. Until context 0 has taken vertex 16, no other context works.
-//!    A start that finds the queue or the vertex memory's port taken is made in the next clock; the pointer waits.
+//!    A start that may find the queue taken, or the vertex memory's port, is made in the next clock. The pointer waits, and does so
+//!    whenever a visit completes: what that asks for is known late.
 //! 3. The walk of a new point starts at the star of the context's last commit, record 0 if there is none.
-//! 4. Who wants to be alone starts when everybody rests and the pointer passes it.
+//! 4. Who wants to be alone starts when everybody rests and the pointer has passed it.
+//! 5. The pointer is two contexts ahead. In the clock after it has stood at a context, that one's next vertex is there, and it is
+//!    decided whether it is due and where it would start; in the clock after that it starts, unless somebody else has the queue.
 //!
 //! Latency: 2 clocks from the pointer to `starts`; `position_enable` comes 2 clocks after `takes`.
 //!
@@ -33,15 +36,16 @@
 //! ```text
 //! arrived           2  3  3  3  3  3  3  3  3  3  3  3  3  3  3  3
 //! came            ___/^^\_________________________________________
-//! is_blocked      _________/^^\___________________________________
-//! asleep            3  3  3  3  3  2  2  2  3  3  3  2  2  2  2  2
-//! keeping           0  0  0  0  0  0  0  0  1  1  1  0  0  0  0  0
-//! owner             .  0  1  0  0  1  0  1  0  1  0  1  0  1  0  1
-//! starts          ____________/^^\______________/^^\______________
-//! takes           ____________/^^\________________________________
-//! taken_id          .  .  .  .  2  .  .  .  .  .  .  .  .  .  .  .
-//! u                 .  .  .  .  0  .  .  .  .  .  9  .  .  .  .  .
-//! position_enable __________________/^^\__________________________
+//! is_done         ______/^^^^^\___________________________________
+//! is_blocked      ______/^^\______________________________________
+//! asleep            3  3  3  3  2  2  2  2  3  3  3  3  3  2  2  2
+//! keeping           0  0  0  0  0  0  0  0  1  1  1  1  1  0  0  0
+//! owner             .  .  0  0  0  1  0  1  0  1  0  1  0  1  0  1
+//! starts          _________/^^\_______________________/^^\________
+//! takes           _________/^^\___________________________________
+//! taken_id          .  .  .  2  .  .  .  .  .  .  .  .  .  .  .  .
+//! u                 .  .  .  0  .  .  .  .  .  .  .  .  9  .  .  .
+//! position_enable _______________/^^\_____________________________
 //! ```
 //!
 //! Source: points dealt to contexts lie in the vertex memory, which is their queue.
@@ -91,7 +95,9 @@ pub struct Starter {
     pub solo_is_at_work: Signal<In, Bit>,
     /// No visit is out, no lock held.
     pub all_rest: Signal<In, Bit>,
-    /// The queue takes another bundle.
+    /// A visit completes.
+    pub is_done: Signal<In, Bit>,
+    /// The queue may take the visits that follow it.
     pub is_blocked: Signal<In, Bit>,
     /// A root to go on from.
     pub root_enable: Signal<In, Bit>,
@@ -125,10 +131,19 @@ pub struct Starter {
     pub position_owner: Signal<Out, Bits<5>>,
     turn: DFF<Bits<5>>,
     round: DFF<Bits<2>>,
+    /// The context that the pointer has left last, the vertex that it would take, and the one it has.
+    has_passed: DFF<Bit>,
+    passed: DFF<Bits<5>>,
+    passed_id: DFF<Bits<15>>,
+    passed_point: DFF<Bits<15>>,
+    /// The one before: whether it is due, with its point or a new one, where it would start, and whether it wants to be alone.
     candidate: DFF<Bits<5>>,
     candidate_id: DFF<Bits<15>>,
-    candidate_is_there: DFF<Bit>,
     candidate_point: DFF<Bits<15>>,
+    wants_again: DFF<Bit>,
+    wants_new: DFF<Bit>,
+    from: DFF<Bits<15>>,
+    is_alone: DFF<Bit>,
     all_work: DFF<Bit>,
     owner1: DFF<Bits<5>>,
     owner2: DFF<Bits<5>>,
@@ -146,10 +161,12 @@ pub struct Starter {
     is_rested: Signal<Local, Bit>,
     may_try: Signal<Local, Bit>,
     may_work: Signal<Local, Bit>,
+    is_there: Signal<Local, Bit>,
     is_first: Signal<Local, Bit>,
-    wants_again: Signal<Local, Bit>,
-    wants_new: Signal<Local, Bit>,
-    is_held: Signal<Local, Bit>,
+    is_barred: Signal<Local, Bit>,
+    wants: Signal<Local, Bit>,
+    lacks_port: Signal<Local, Bit>,
+    begins: Signal<Local, Bit>,
     moves: Signal<Local, Bit>,
     is_taken: Signal<Local, Bit>,
     after_turn: Signal<Local, Bits<5>>,
@@ -172,8 +189,8 @@ impl Starter {
 impl Logic for Starter {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, turn, round, candidate, candidate_id, candidate_is_there, all_work);
-        dff_setup!(self, clock, candidate_point);
+        dff_setup!(self, clock, turn, round, has_passed, passed, passed_id, passed_point, candidate, candidate_id);
+        dff_setup!(self, clock, candidate_point, wants_again, wants_new, from, is_alone, all_work);
         dff_setup!(self, clock, owner1, owner2, taken1, taken2);
         clock!(self, clock, points, plans, roots, hints);
         self.one_turn.next = 1.into();
@@ -182,7 +199,7 @@ impl Logic for Starter {
         self.first_context.next = 0.into();
         self.first_round.next = 16.into();
 
-        // The context under the pointer: which vertex it would take, and whether that has come.
+        // The context under the pointer: which vertex it would take.
         self.turn_index.next = self.turn.q.val();
         self.points.read_address.next = self.turn.q.val();
         self.following.turn.next = self.turn.q.val();
@@ -192,43 +209,38 @@ impl Logic for Starter {
         self.following.taken.next = self.candidate_id.q.val();
         self.following.contexts.next = self.contexts.val();
 
-        // The one before: does it start?
-        self.index.next = self.candidate.q.val();
-        self.is_first.next = self.candidate.q.val() == self.first_context.val();
-        self.is_asleep.next = self.asleep.val().get_bit(self.index.val().index()) & (!self.solo_valid.val());
+        // The one before: is it due? If only one context works, it may be the one that starts at this edge; and a point that is inserted
+        // alone is not to be tried again.
+        self.index.next = self.passed.q.val();
+        self.is_barred.next = self.solo_valid.val()
+            | ((self.wants_again.q.val() | self.wants_new.q.val()) & (self.contexts.val() == self.one_turn.val()));
+        self.is_asleep.next = self.asleep.val().get_bit(self.index.val().index()) & (!self.is_barred.val());
         self.tries_again.next = self.keeping.val().get_bit(self.index.val().index());
         self.is_rested.next =
             (!self.busy.val().get_bit(self.index.val().index())) & (self.round.q.val() == self.resting_round.val());
+        self.may_try.next = (!self.is_urgent.val()) | (self.passed.q.val() == self.waiter.val());
         self.may_work.next = self.all_work.q.val();
-        if self.is_first.val() {
+        if self.passed.q.val() == self.first_context.val() {
             self.may_work.next = self.seeded.val() | (!self.began.val().get_bit(0));
         }
-        self.may_try.next = (!self.is_urgent.val()) | (self.candidate.q.val() == self.waiter.val());
-        self.wants_again.next =
-            self.is_asleep.val() & self.tries_again.val() & self.is_rested.val() & self.may_try.val();
-        self.wants_new.next =
-            self.is_asleep.val() & (!self.tries_again.val()) & self.candidate_is_there.q.val() & self.may_work.val();
-        self.is_held.next = self.is_blocked.val() | (self.wants_new.val() & self.came.val());
-        self.moves.next = !(self.is_held.val() & (self.wants_again.val() | self.wants_new.val()));
-        self.starts.next = (self.wants_again.val() | self.wants_new.val()) & (!self.is_held.val());
-        self.is_taken.next = self.wants_new.val() & (!self.is_held.val());
+        self.is_there.next = self.has_passed.q.val() & (self.passed_id.q.val() < self.arrived.val());
+        self.roots.read_address.next = self.passed.q.val();
+        self.hints.read_address.next = self.passed.q.val();
+
+        // The one before that: does it start?
+        self.wants.next = (self.wants_again.q.val() | self.wants_new.q.val()) & (!self.solo_valid.val());
+        self.lacks_port.next = self.wants_new.q.val() & self.came.val();
+        self.moves.next = !(self.wants.val() & (self.is_done.val() | self.lacks_port.val()));
+        self.begins.next = self.wants.val() & (!self.is_blocked.val()) & (!self.lacks_port.val());
+        self.is_taken.next = self.wants_new.q.val() & self.begins.val();
+        self.starts.next = self.begins.val();
         self.takes.next = self.is_taken.val();
         self.owner.next = self.candidate.q.val();
         self.taken_id.next = self.candidate_id.q.val();
-        self.roots.read_address.next = self.candidate.q.val();
-        self.hints.read_address.next = self.candidate.q.val();
-        self.u.next = 0.into();
-        if self.hinted.val().get_bit(self.index.val().index()) {
-            self.u.next = self.hints.read_data.val();
-        }
-        if self.tries_again.val() {
-            self.u.next = self.roots.read_data.val();
-        }
+        self.u.next = self.from.q.val();
         self.solo_p.next = self.candidate_point.q.val();
-        self.solo_starts.next = self.solo_valid.val()
-            & self.all_rest.val()
-            & (!self.solo_is_at_work.val())
-            & (self.candidate.q.val() == self.solo_owner.val());
+        self.solo_starts.next =
+            self.solo_valid.val() & self.all_rest.val() & (!self.solo_is_at_work.val()) & self.is_alone.q.val();
 
         // The tables.
         self.points.write_address.next = self.candidate.q.val();
@@ -245,22 +257,42 @@ impl Logic for Starter {
         self.hints.write_enable.next = self.hint_enable.val();
 
         // The coordinates of a point that is taken come 2 clocks later.
-        self.taken1.d.next = self.is_taken.val();
-        self.taken2.d.next = self.taken1.q.val();
+        self.taken1.d.next = self.is_taken.val() & (!self.reset.val());
+        self.taken2.d.next = self.taken1.q.val() & (!self.reset.val());
         self.owner1.d.next = self.candidate.q.val();
         self.owner2.d.next = self.owner1.q.val();
         self.position_enable.next = self.taken2.q.val();
         self.position_owner.next = self.owner2.q.val();
 
+        self.is_first.next = self.candidate.q.val() == self.first_context.val();
         if self.is_taken.val() & self.is_first.val() & (self.candidate_id.q.val() >= self.first_round.val()) {
             self.all_work.d.next = true;
         }
         self.after_turn.next = self.turn.q.val() + self.one_turn.val();
+        if self.begins.val() {
+            self.wants_again.d.next = false;
+            self.wants_new.d.next = false;
+        }
         if self.moves.val() {
-            self.candidate.d.next = self.turn.q.val();
-            self.candidate_point.d.next = self.points.read_data.val();
-            self.candidate_id.d.next = self.following.next_id.val();
-            self.candidate_is_there.d.next = self.following.next_id.val() < self.arrived.val();
+            self.candidate.d.next = self.passed.q.val();
+            self.candidate_id.d.next = self.passed_id.q.val();
+            self.candidate_point.d.next = self.passed_point.q.val();
+            self.wants_again.d.next =
+                self.is_asleep.val() & self.tries_again.val() & self.is_rested.val() & self.may_try.val();
+            self.wants_new.d.next =
+                self.is_asleep.val() & (!self.tries_again.val()) & self.is_there.val() & self.may_work.val();
+            self.is_alone.d.next = self.passed.q.val() == self.solo_owner.val();
+            self.from.d.next = 0.into();
+            if self.hinted.val().get_bit(self.index.val().index()) {
+                self.from.d.next = self.hints.read_data.val();
+            }
+            if self.tries_again.val() {
+                self.from.d.next = self.roots.read_data.val();
+            }
+            self.has_passed.d.next = true;
+            self.passed.d.next = self.turn.q.val();
+            self.passed_id.d.next = self.following.next_id.val();
+            self.passed_point.d.next = self.points.read_data.val();
             self.turn.d.next = self.after_turn.val();
             if self.after_turn.val() == self.contexts.val() {
                 self.turn.d.next = 0.into();
@@ -270,13 +302,11 @@ impl Logic for Starter {
         if self.reset.val() | self.clears.val() {
             self.turn.d.next = 0.into();
             self.round.d.next = 0.into();
-            self.candidate.d.next = 0.into();
-            self.candidate_is_there.d.next = false;
+            self.has_passed.d.next = false;
+            self.wants_again.d.next = false;
+            self.wants_new.d.next = false;
+            self.is_alone.d.next = false;
             self.all_work.d.next = false;
-        }
-        if self.reset.val() {
-            self.taken1.d.next = false;
-            self.taken2.d.next = false;
         }
     }
 }

@@ -10,7 +10,7 @@
 //! | `is_issuing` | out | 1 | a visit reads its record in this clock |
 //! | `done` | out | 1 | a visit completes in this clock |
 //! | `token`, `turned`, `verdict` | out | | the visit, its record and what it found out |
-//! | `early_owner`, `early_entry` | out | 5, 6 | the visit that completes in the next clock, if one does: its context, the entry that names `f` |
+//! | `early_done`, `early_token`, `early_turned` | out | | a visit completes in the next clock; the visit and its record |
 //! | `read`, `read_id` | in | 1, 15 | a read-out wants a record; only while no visit is out |
 //! | `read_done` | out | 1 | the record stands on `v0..n2` and `was_set` |
 //! | `write`, `enables` | in | Write, WriteEnables | a write into the triangle memory, and the columns that it writes |
@@ -82,10 +82,12 @@ pub struct VisitPipeline {
     pub turned: Signal<Out, Turned>,
     /// What it found out.
     pub verdict: Signal<Out, Verdict>,
-    /// The context of the visit that completes in the next clock.
-    pub early_owner: Signal<Out, Bits<5>>,
-    /// The entry that names that visit's `f`.
-    pub early_entry: Signal<Out, Bits<6>>,
+    /// A visit completes in the next clock, unless reset.
+    pub early_done: Signal<Out, Bit>,
+    /// The visit that completes in the next clock.
+    pub early_token: Signal<Out, Token>,
+    /// Its record.
+    pub early_turned: Signal<Out, Turned>,
     /// A read-out wants a record.
     pub read: Signal<In, Bit>,
     /// The record.
@@ -289,8 +291,9 @@ impl Logic for VisitPipeline {
         self.token_register.d.next = self.delayed_token.value.val();
         self.turned_register.d.next = self.judged.q.val();
         self.verdict_register.d.next = self.judge.verdict.val();
-        self.early_owner.next = self.delayed_token.value.val().owner;
-        self.early_entry.next = self.delayed_token.value.val().f_entry;
+        self.early_done.next = self.valid.q.val().get_bit(14);
+        self.early_token.next = self.delayed_token.value.val();
+        self.early_turned.next = self.judged.q.val();
         self.token.next = self.token_register.q.val();
         self.turned.next = self.turned_register.q.val();
         self.verdict.next = self.verdict_register.q.val();

@@ -5,8 +5,8 @@ use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 use super::block;
 use crate::engine::{
     AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FreshIds,
-    InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, Progress, Release, RingReader,
-    Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
+    InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, Progress, PushPort, Release,
+    RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
 use crate::link::{
     AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordBuffer, RecordWords, Responder,
@@ -32,6 +32,7 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
         block(NextPoint::default(), "next_point"),
         block(NextVisits::default(), "next_visits"),
         block(Progress::default(), "progress"),
+        block(PushPort::default(), "push_port"),
         block(Release::new(TINY), "release_6"),
         block(Release::new(longest_list), "release_64"),
         block(RingReader::new(TINY), "ring_reader_6"),

@@ -11,7 +11,8 @@ use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
 use crate::leaf::{
-    BlockMemory, DeepFifo, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier, PacedMemory, SharedMemory,
+    BankedMemory, BlockMemory, DeepFifo, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier, PacedMemory,
+    SharedMemory,
 };
 use crate::predicate::{
     CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
@@ -171,6 +172,8 @@ pub fn blocks() -> Vec<(String, String)> {
         block(PacedMemory::<10, 36>::new(6, 33), "paced_memory_6x33"),
         block(LutMemory::<4, 8>::new(4, 8), "lut_memory_4x8"),
         block(LutMemory::<6, 40>::new(5, 37), "lut_memory_5x37"),
+        block(BankedMemory::<6, 3, 4, 8>::new(6, 4, 8), "banked_memory_6x4x8"),
+        block(BankedMemory::<24, 5, 6, 7>::new(3, 2, 5), "banked_memory_3x2x5"),
         block(LockMemory::<14>::new(14), "lock_memory_14"),
         block(LockMemory::<8>::new(4), "lock_memory_4"),
         block(SharedMemory::<8, 12>::new(8, 12), "shared_memory_8x12"),

@@ -3,6 +3,7 @@
 //! A leaf states its behaviour twice: `update()` for simulation in Rust, `hdl()` for synthesis and Verilator.
 //! `testbench/tests/blocks_leaf.rs` runs both against a third statement of the same.
 
+mod banked_memory;
 mod block_memory;
 mod deep_fifo;
 mod delay_line;
@@ -16,6 +17,7 @@ mod paced_memory;
 mod shared_memory;
 mod unpack;
 
+pub use banked_memory::BankedMemory;
 pub use block_memory::BlockMemory;
 pub use deep_fifo::DeepFifo;
 pub use delay_line::DelayLine;

@@ -24,7 +24,7 @@ mod starter;
 mod watchdog;
 mod wires;
 
-use attempts::Tables;
+use attempts::{Outcome, Tables};
 use command_port::CommandPort;
 use commit::Commit;
 use contexts::Contexts;
@@ -75,6 +75,8 @@ struct Registers {
     command: CommandPort,
     responder: Responder,
     contexts: Contexts,
+    /// The contexts as they were a clock ago: part of what a visit means is decided ahead.
+    noted: Contexts,
     starter: Starter,
     seeder: Seeder,
     commit: Commit,
@@ -84,6 +86,8 @@ struct Registers {
     counters: Counters,
     /// The counters as they were a clock ago: the hardware counts an event a clock after it.
     counted: Counters,
+    /// What the visit that completed in the clock before leads to: contexts take note of it in this clock.
+    outcome: Option<Outcome>,
     /// The bundle that enters the queue in this clock.
     push: Option<Bundle>,
     write: Write,
@@ -205,11 +209,13 @@ impl ClockModel {
         now.watchdog.clock(&was, &wires, self.config);
         now.counters.clock(&was, &wires, &self.pipeline);
         now.counted = was.counters;
+        now.outcome = wires.outcome;
+        now.noted = was.contexts;
         now.push =
             wires.outcome.and_then(|outcome| outcome.push).or(wires.solo_push).or(wires.start.map(|start| start.push));
         self.latencies.clock(&was, &wires);
         self.pipeline.clock(&was, &wires, &mut self.memory, self.defect);
-        now.starter.clock(&was, &wires, &mut self.memory);
+        now.starter.clock(&was, &wires, &self.tables, &mut self.memory, self.defect);
         self.ring.clock(wires.head_is_taken, wires.outcome.as_ref(), &self.memory);
         now.commit.clock(&was, wires.head, &mut self.memory, wires.solo_inserts, wires.seeds);
         self.tables.clock(&wires, &mut self.memory);

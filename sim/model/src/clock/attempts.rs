@@ -78,11 +78,11 @@ pub(super) struct Around<'a> {
 
 impl Around<'_> {
     fn is_busy(&self, context: usize) -> bool {
-        self.was.contexts.busy & 1 << context != 0 && self.defect != Some(Defect::OpensWhileBusy)
+        self.was.noted.busy & 1 << context != 0 && self.defect != Some(Defect::OpensWhileBusy)
     }
 
     fn waits(&self, context: usize) -> bool {
-        self.was.contexts.waiter == Some(context)
+        self.was.noted.waiter == Some(context)
     }
 }
 

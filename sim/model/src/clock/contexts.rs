@@ -27,6 +27,8 @@ pub(super) struct Contexts {
     pub solo: Option<usize>,
     /// Points that are in the mesh or known to be duplicates.
     pub finished: u32,
+    /// Nothing is in flight and no lock is held, as it was known a clock ago, and nobody has started since.
+    pub rest: bool,
 }
 
 /// Foreign locks that the waiting context meets until the others stop to try again.
@@ -47,12 +49,12 @@ impl Contexts {
     }
 
     /// Nothing is in flight and no lock is held.
-    pub(super) fn all_rest(&self, contexts: u32) -> bool {
+    fn all_rest(&self, contexts: u32) -> bool {
         self.asleep == Set::MAX >> (Self::BITS - contexts) && self.busy == 0
     }
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, built: u32, defect: Option<Defect>) {
-        if let Some(outcome) = &wires.outcome {
+        if let Some(outcome) = &was.outcome {
             self.take_outcome(was, outcome, defect);
         }
         if let Some(context) = wires.start.map(|start| start.context) {
@@ -79,6 +81,7 @@ impl Contexts {
         if wires.seeds {
             self.finished = 3;
         }
+        self.rest = was.contexts.all_rest(built) && wires.start.is_none();
         if was.command.clears {
             self.reset(built);
         }

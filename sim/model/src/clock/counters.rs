@@ -47,7 +47,7 @@ impl Counters {
         self.write_cycles += u32::from(was.write.valid);
         self.commit_cycles += u32::from(was.commit.state != CommitState::Idle);
         self.release_cycles += u32::from(wires.clear.is_some() && was.command.inserting);
-        self.tests += u32::from(was.solo.tests(wires.done));
+        self.tests += u32::from(was.solo.tests());
         self.duplicates += u32::from(wires.solo_ends && !wires.solo_inserts);
         self.count_outcome(was, wires);
         if let Some(job) = wires.committed {
@@ -62,6 +62,8 @@ impl Counters {
     }
 
     fn count_outcome(&mut self, was: &Registers, wires: &Wires) {
+        let asks = was.outcome.is_some_and(|outcome| outcome.asks_to_wait);
+        self.waits += u32::from(asks && was.contexts.waiter.is_none());
         let (Some(done), Some(outcome)) = (&wires.done, &wires.outcome) else {
             return;
         };
@@ -74,7 +76,6 @@ impl Counters {
         self.overflows += u32::from(outcome.overflows);
         self.aborts += u32::from(outcome.aborts);
         self.root_retries += u32::from(outcome.retries_root);
-        self.waits += u32::from(outcome.asks_to_wait && was.contexts.waiter.is_none());
         self.cavity_triangles += outcome.commit.map_or(0, |_| outcome.attempt.map_or(0, |attempt| attempt.count - 2));
     }
 

@@ -115,6 +115,13 @@ pub(super) struct Completion {
     pub turn: i32,
 }
 
+impl Completion {
+    /// It may ask for other visits: all do but tests that find their edge final.
+    pub(super) fn may_ask(&self) -> bool {
+        !self.token.rotates || self.conflict || self.foreign
+    }
+}
+
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pipeline {
     queue: VecDeque<Bundle>,

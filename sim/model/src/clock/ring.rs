@@ -59,9 +59,11 @@ impl RingReader {
             self.arrival = self.output;
             self.output = self.array;
             self.array = self.pointer.map(|link| Link { is_last: entry_of(&link, memory).next == 0, ..link });
+            // That an entry is the last one is found out when the pointer has left it: one place stays empty.
             self.pointer = match self.array {
-                Some(link) if !link.is_last => Some(Link { pointer: entry_of(&link, memory).next, ..link }),
-                _ => self.queue.pop_front().map(|job| Link { job, pointer: 0, is_last: false }),
+                Some(link) if link.is_last => None,
+                Some(link) => Some(Link { pointer: entry_of(&link, memory).next, ..link }),
+                None => self.queue.pop_front().map(|job| Link { job, pointer: 0, is_last: false }),
             };
         }
         self.queue.extend(outcome.and_then(|outcome| outcome.commit));

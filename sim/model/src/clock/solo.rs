@@ -32,6 +32,10 @@ pub(super) struct Solo {
     step: u32,
     /// A visit is out.
     awaits: bool,
+    /// The context that was to start at the last edge, and the visit that completed in the clock before: all that comes in is looked at
+    /// a clock later.
+    started: Option<usize>,
+    done: Option<Completion>,
     context: usize,
     p: u32,
     /// The located triangle.
@@ -71,14 +75,14 @@ impl Solo {
     }
 
     /// A test finds no conflict at the last edge of the star.
-    pub(super) fn ends(&self, done: Option<Completion>) -> bool {
-        let rests = done.is_some_and(|done| !done.conflict);
+    pub(super) fn inserts(&self) -> bool {
+        let rests = self.done.is_some_and(|done| !done.conflict);
         self.state == State::Test && rests && self.b == self.root.v[1]
     }
 
     /// The point turns out to be a duplicate.
-    pub(super) fn finds_duplicate(&self, done: Option<Completion>) -> bool {
-        self.state == State::Locate && done.is_some_and(|done| done.located && done.falls_onto_corner)
+    pub(super) fn finds_duplicate(&self) -> bool {
+        self.state == State::Locate && self.done.is_some_and(|done| done.located && done.falls_onto_corner)
     }
 
     /// The visits that complete are its own.
@@ -92,16 +96,18 @@ impl Solo {
     }
 
     /// A conflict test completes at this edge.
-    pub(super) fn tests(&self, done: Option<Completion>) -> bool {
-        self.state == State::Test && done.is_some()
+    pub(super) fn tests(&self) -> bool {
+        self.state == State::Test && self.done.is_some()
     }
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, tables: &Tables, memory: &Memory) {
         self.write.valid = false;
+        self.started = wires.solo_starts;
+        self.done = wires.done;
         self.awaits |= wires.solo_push.is_some();
-        match (was.solo.state, wires.done) {
+        match (was.solo.state, was.solo.done) {
             (State::Idle, _) => {
-                if let Some(context) = wires.solo_starts {
+                if let Some(context) = was.solo.started {
                     self.context = context;
                     self.p = memory.point_id[context];
                     self.root_id = tables.root[context];

@@ -10,14 +10,27 @@ use incircle_protocol::FIRST_ROUND;
 /// Rounds of the pointer per round in which contexts that backed off may try again.
 const BACK_OFF_ROUNDS: u32 = 4;
 
-/// The context under the pointer and the point it would take.
+/// The context that the pointer has left last, and the vertex it would take.
+#[derive(Clone, Copy, Debug)]
+struct Passed {
+    context: usize,
+    id: u32,
+}
+
+impl Default for Passed {
+    /// At first there is no such vertex.
+    fn default() -> Self {
+        Self { context: 0, id: u32::MAX }
+    }
+}
+
+/// The context before that one, and what has been decided about it.
 #[derive(Clone, Copy, Debug, Default)]
 struct Candidate {
-    context: usize,
-    /// The vertex it would take.
-    id: u32,
-    /// That has arrived.
-    is_there: bool,
+    /// It is due, if nothing stands in its way.
+    due: Option<Start>,
+    /// It wants to be alone.
+    is_alone: bool,
 }
 
 /// A walk that starts.
@@ -33,29 +46,30 @@ pub(super) struct Start {
 pub(super) struct Starter {
     turn: usize,
     round: u32,
+    passed: Passed,
     candidate: Candidate,
     /// The first round is over: all contexts work.
     pub all_work: bool,
 }
 
 impl Starter {
-    /// The pointer has just passed this context: its root and its point are at hand.
-    pub(super) fn is_at(&self, context: usize) -> bool {
-        self.candidate.context == context
+    /// The context that wants to be alone is the candidate.
+    pub(super) fn is_at_alone(&self) -> bool {
+        self.candidate.is_alone
     }
 
-    /// The walk that starts at this edge, if nothing stands in its way.
-    pub(super) fn wants(
-        &self,
-        was: &Registers,
-        tables: &Tables,
-        memory: &Memory,
-        defect: Option<Defect>,
-    ) -> Option<Start> {
-        let Candidate { context, id, is_there } = self.candidate;
+    /// The walk that starts at this edge, if the queue and the vertex memory are free.
+    pub(super) fn wants(&self, was: &Registers) -> Option<Start> {
+        self.candidate.due.filter(|_| was.contexts.solo.is_none())
+    }
+
+    /// Whether the context that the pointer has left last is due. A context that works alone may start at this very edge.
+    fn due(&self, was: &Registers, tables: &Tables, memory: &Memory, defect: Option<Defect>) -> Option<Start> {
+        let Passed { context, id } = self.passed;
         let bit = 1 << context;
         let flags = &was.contexts;
-        if flags.asleep & bit == 0 || flags.solo.is_some() {
+        if flags.solo.is_some() || flags.asleep & bit == 0 || was.command.contexts == 1 && self.candidate.due.is_some()
+        {
             return None;
         }
         if flags.keeps & bit != 0 {
@@ -68,27 +82,39 @@ impl Starter {
             0 => was.seeder.seeded || flags.began & 1 == 0,
             _ => self.all_work || (defect == Some(Defect::AllFromTheStart) && was.seeder.seeded),
         };
-        let ready = is_there && works;
+        let ready = id < was.command.arrived && works;
         let start = if flags.hinted & bit != 0 { memory.hint[context] } else { 0 };
         ready.then(|| Start { context, id: Some(id), push: Bundle::look(context, start) })
     }
 
-    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory) {
-        if let Some(Start { context, id: Some(id), .. }) = wires.start {
-            memory.point_id[context] = id;
-            memory.position[context] = memory.vertex(id);
-            memory.since[context] = was.counters.now;
-            self.all_work |= context == 0 && id >= FIRST_ROUND;
+    pub(super) fn clock(
+        &mut self,
+        was: &Registers,
+        wires: &Wires,
+        tables: &Tables,
+        memory: &mut Memory,
+        defect: Option<Defect>,
+    ) {
+        if wires.start.is_some() {
+            self.candidate.due = None;
         }
-        if !wires.start_is_blocked {
+        if !wires.start_is_held {
             let context = was.starter.turn;
-            let id = next_id(was, context, memory);
-            self.candidate = Candidate { context, id, is_there: id < was.command.arrived };
+            let is_alone = was.contexts.solo == Some(self.passed.context);
+            let due = was.starter.due(was, tables, memory, defect);
+            self.candidate = Candidate { due, is_alone };
+            self.passed = Passed { context, id: next_id(was, context, memory) };
             self.turn += 1;
             if self.turn as u32 == was.command.contexts {
                 self.turn = 0;
                 self.round = (self.round + 1) % BACK_OFF_ROUNDS;
             }
+        }
+        if let Some(Start { context, id: Some(id), .. }) = wires.start {
+            memory.point_id[context] = id;
+            memory.position[context] = memory.vertex(id);
+            memory.since[context] = was.counters.now;
+            self.all_work |= context == 0 && id >= FIRST_ROUND;
         }
         if was.command.clears {
             *self = Self::default();

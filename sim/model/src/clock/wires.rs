@@ -32,8 +32,8 @@ pub(super) struct Wires {
     pub new_vertex: Option<(u32, Point)>,
     /// A context starts to walk.
     pub start: Option<Start>,
-    /// A context would, but the queue takes another bundle, or the vertex memory a point: it comes first in the next clock.
-    pub start_is_blocked: bool,
+    /// A context would, but a visit completes, or the vertex memory takes a point: the pointer waits.
+    pub start_is_held: bool,
     /// The last record of the first triangle is written.
     pub seeds: bool,
     /// The entry at the head of the ring reader, and whether the commit takes it.
@@ -73,14 +73,16 @@ impl ClockModel {
             Outcome::of(&done, &around)
         });
         let solo_push = was.solo.push_request(was);
-        let wanted = was.starter.wants(was, &self.tables, &self.memory, self.defect);
-        // The queue takes one bundle, and the vertex memory has one port for points that arrive and points that are taken.
-        let start_is_blocked = wanted.is_some_and(|start| start.id.is_some() && was.command.came)
-            || wanted.is_some() && outcome.is_some_and(|outcome| outcome.push.is_some());
+        let wanted = was.starter.wants(was);
+        // The queue takes one bundle, and the vertex memory has one port for points that arrive and points that are taken. Whether a
+        // visit that completes asks for others is known too late: all count but those that find their edge final.
+        // The pointer does not know even that much.
+        let lacks_port = wanted.is_some_and(|start| start.id.is_some() && was.command.came);
+        let lacks_queue = outcome.is_some() && done.is_some_and(|done| done.may_ask());
         let stored = was.command.state == CommandState::Points && was.command.stores_points(was, config);
         let head = self.ring.head;
-        let rests = was.contexts.all_rest(config.contexts);
-        let solo_inserts = was.solo.ends(done);
+        let rests = was.contexts.rest;
+        let solo_inserts = was.solo.inserts();
         Wires {
             word,
             response_ready: inputs.response_ready,
@@ -92,8 +94,8 @@ impl ClockModel {
             answer_ends: was.responder.ends(inputs.response_ready),
             is_quiet: was.progress.is_done(was) && rests,
             new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
-            start: wanted.filter(|_| !start_is_blocked),
-            start_is_blocked,
+            start: wanted.filter(|_| !lacks_port && !lacks_queue),
+            start_is_held: wanted.is_some() && (lacks_port || outcome.is_some()),
             seeds: was.seeder.seeds(),
             head,
             head_is_taken: was.commit.takes(head, &self.memory),
@@ -101,11 +103,8 @@ impl ClockModel {
             clear: self.release.clear(),
             released: self.release.released(),
             solo_push,
-            solo_starts: was
-                .contexts
-                .solo
-                .filter(|&context| rests && !was.solo.is_at_work() && was.starter.is_at(context)),
-            solo_ends: solo_inserts || was.solo.finds_duplicate(done),
+            solo_starts: was.contexts.solo.filter(|_| rests && !was.solo.is_at_work() && was.starter.is_at_alone()),
+            solo_ends: solo_inserts || was.solo.finds_duplicate(),
             solo_inserts,
         }
     }
