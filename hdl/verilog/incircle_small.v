@@ -84,6 +84,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  [6:0] answer_words$index;
     reg  [31:0] answer_words$counter;
     reg  [31:0] answer_words$latency;
+    reg  answer_words$chooses;
     wire  [31:0] answer_words$word;
     reg  responder$clock;
     reg  responder$reset;
@@ -96,6 +97,8 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  [31:0] responder$word;
     reg  responder$is_read;
     wire  [6:0] responder$index;
+    wire  [6:0] responder$index_ahead;
+    wire  responder$chooses;
     wire  responder$read;
     wire  [14:0] responder$read_id;
     reg  responder$read_done;
@@ -255,6 +258,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .index(answer_words$index),
         .counter(answer_words$counter),
         .latency(answer_words$latency),
+        .chooses(answer_words$chooses),
         .word(answer_words$word)
     );
     incircle_core_logic$responder responder(
@@ -269,6 +273,8 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .word(responder$word),
         .is_read(responder$is_read),
         .index(responder$index),
+        .index_ahead(responder$index_ahead),
+        .chooses(responder$chooses),
         .read(responder$read),
         .read_id(responder$read_id),
         .read_done(responder$read_done),
@@ -415,6 +421,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         answer_words$insertions = counters$insertions;
         answer_words$duplicates = counters$duplicates;
         answer_words$index = responder$index;
+        answer_words$chooses = responder$chooses;
         answer_words$counter = counters$value;
         answer_words$latency = latencies$value;
         responder$answers = command_port$answers;
@@ -476,9 +483,9 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         counters$is_issuing = engine$events[(64'h2d)+:(1)];
         counters$is_writing = engine$events[(64'h2e)+:(1)];
         counters$is_committing = engine$events[(64'h2f)+:(1)];
-        counters$is_releasing = engine$events[(64'h30)+:(1)] & command_port$inserting;
+        counters$is_releasing = engine$events[(64'h30)+:(1)];
         counters$refused = command_port$refused;
-        counters$select = responder$index[(32'h0)+:(5)];
+        counters$select = responder$index_ahead[(32'h0)+:(5)];
         latencies$clears = command_port$clears;
         latencies$comes = counters$latency_comes;
         latencies$latency = counters$latency;
@@ -958,7 +965,7 @@ module incircle_core_logic$answer_head$triple(d,q,clock);
 endmodule // incircle_core_logic$answer_head$triple
 
 
-module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arrived,refused,insertions,duplicates,records,index,counter,latency,word);
+module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arrived,refused,insertions,duplicates,records,index,counter,latency,chooses,word);
     
     // Module arguments
     input wire  clock;
@@ -974,6 +981,7 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arri
     input wire  [6:0] index;
     input wire  [31:0] counter;
     input wire  [31:0] latency;
+    input wire  chooses;
     output reg  [31:0] word;
     
     // Stub signals
@@ -986,6 +994,9 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arri
     reg  [31:0] chosen$d;
     wire  [31:0] chosen$q;
     reg  chosen$clock;
+    
+    // Local signals
+    reg  [2:0] place;
     
     // Sub module instances
     incircle_core_logic$answer_words$identity identity(
@@ -1013,7 +1024,8 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arri
         report$d = report$q;
         chosen$d = chosen$q;
         word = chosen$q;
-        case (index)
+        place = index[(32'h0)+:(3)];
+        case (place)
             0:
                 begin
                     identity$d = 32'h696e4369;
@@ -1050,24 +1062,26 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arri
                     report$d = 32'h0;
                 end
         endcase
-        case (opcode)
-            1:
-                begin
-                    chosen$d = identity$q;
-                end
-            3:
-                begin
-                    chosen$d = report$q;
-                end
-            6:
-                begin
-                    chosen$d = latency;
-                end
-            default:
-                begin
-                    chosen$d = counter;
-                end
-        endcase
+        if (chooses) begin
+            case (opcode)
+                1:
+                    begin
+                        chosen$d = identity$q;
+                    end
+                3:
+                    begin
+                        chosen$d = report$q;
+                    end
+                6:
+                    begin
+                        chosen$d = latency;
+                    end
+                default:
+                    begin
+                        chosen$d = counter;
+                    end
+            endcase
+        end
     end
     
 endmodule // incircle_core_logic$answer_words
@@ -1221,6 +1235,8 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     reg  gate$collinear;
     reg  gate$stuck;
     wire  gate$ready;
+    wire  gate$takes_command;
+    wire  gate$takes_point;
     wire  gate$awaits_point;
     reg  clear$clock;
     reg  clear$reset;
@@ -1232,7 +1248,8 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     wire  clear$is_refused;
     
     // Local signals
-    reg  accepts;
+    reg  accepts_command;
+    reg  accepts_point;
     reg  [7:0] code;
     reg  is_insert;
     reg  [7:0] read_code;
@@ -1305,6 +1322,8 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .collinear(gate$collinear),
         .stuck(gate$stuck),
         .ready(gate$ready),
+        .takes_command(gate$takes_command),
+        .takes_point(gate$takes_point),
         .awaits_point(gate$awaits_point)
     );
     incircle_core_logic$command_port$clear clear(
@@ -1367,17 +1386,18 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         gate$stuck = stuck;
         awaits_point = gate$awaits_point;
         command_ready = gate$ready;
-        accepts = command_valid & gate$ready;
+        accepts_command = command_valid & gate$takes_command;
+        accepts_point = command_valid & gate$takes_point;
         clear$reset = reset;
         clear$built = built;
-        clear$accepts = accepts & (state$q == CommandState$Command);
+        clear$accepts = accepts_command;
         clear$word = command_data;
         slot$reset = reset;
         slot$clears = clear$clears;
         slot$capacity = capacity;
         slot$collinear = collinear;
         slot$stuck = stuck;
-        slot$accepts = accepts & (state$q == CommandState$Points);
+        slot$accepts = accepts_point;
         slot$word = command_data;
         code = command_data[(32'h18)+:(8)];
         is_insert = command$q == insert_code;
@@ -1387,7 +1407,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         case (state$q)
             CommandState$Command:
                 begin
-                    if (accepts) begin
+                    if (accepts_command) begin
                         command$d = code;
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
@@ -1400,14 +1420,14 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
                 end
             CommandState$First:
                 begin
-                    if (accepts) begin
+                    if (command_valid) begin
                         first_word$d = command_data;
                         state$d = CommandState$Count;
                     end
                 end
             CommandState$Count:
                 begin
-                    if (accepts) begin
+                    if (command_valid) begin
                         left$d = command_data;
                         none_is_left$d = command_data == none;
                         if (is_insert) begin
@@ -1424,7 +1444,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
                     if (none_is_left$q) begin
                         state$d = CommandState$Settle;
                     end
-                    if (accepts) begin
+                    if (accepts_point) begin
                         left$d = left$q - one;
                         none_is_left$d = left$q == one;
                         is_inserting$d = 1'b1;
@@ -1641,7 +1661,7 @@ module incircle_core_logic$command_port$first_word(d,q,clock);
 endmodule // incircle_core_logic$command_port$first_word
 
 
-module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,came,has_three,seeded,collinear,stuck,ready,awaits_point);
+module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,came,has_three,seeded,collinear,stuck,ready,takes_command,takes_point,awaits_point);
     
     // Module arguments
     input wire  is_command;
@@ -1655,6 +1675,8 @@ module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sw
     input wire  collinear;
     input wire  stuck;
     output reg  ready;
+    output reg  takes_command;
+    output reg  takes_point;
     output reg  awaits_point;
     
     // Local signals
@@ -1664,13 +1686,9 @@ module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sw
     always @(*) begin
         start_is_open = has_three & (~seeded) & (~collinear) & (~stuck);
         awaits_point = is_points & (~none_is_left);
-        ready = is_argument;
-        if (is_command) begin
-            ready = ~sweeps;
-        end
-        if (is_points) begin
-            ready = (~none_is_left) & (~came) & (~start_is_open);
-        end
+        takes_command = is_command & (~sweeps);
+        takes_point = awaits_point & (~came) & (~start_is_open);
+        ready = is_argument | takes_command | takes_point;
     end
     
 endmodule // incircle_core_logic$command_port$gate
@@ -1890,9 +1908,9 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
         stores = accepts & has_room;
         is_surplus$d = accepts & (~has_room);
         is_new$d = stores;
+        last_id$d = arrivals$q;
+        last_point$d = word;
         if (stores) begin
-            last_id$d = arrivals$q;
-            last_point$d = word;
             arrivals$d = arrivals$q + one_arrival;
         end
         if (is_surplus$q) begin
@@ -2160,6 +2178,12 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
     reg  zeroes$d;
     wire  zeroes$q;
     reg  zeroes$clock;
+    reg  [1:0] group$d;
+    wire  [1:0] group$q;
+    reg  group$clock;
+    reg  [31:0] other$d;
+    wire  [31:0] other$q;
+    reg  other$clock;
     reg  [31:0] chosen$d;
     wire  [31:0] chosen$q;
     reg  chosen$clock;
@@ -2211,6 +2235,8 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
     
     // Local signals
     reg  [21:0] one_tick;
+    reg  [4:0] last_other;
+    reg  [4:0] first_cycles;
     reg  [31:0] more;
     
     // Sub module instances
@@ -2223,6 +2249,16 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
         .d(zeroes$d),
         .q(zeroes$q),
         .clock(zeroes$clock)
+    );
+    incircle_core_logic$counters$group group(
+        .d(group$d),
+        .q(group$q),
+        .clock(group$clock)
+    );
+    incircle_core_logic$counters$other other(
+        .d(other$d),
+        .q(other$q),
+        .clock(other$clock)
     );
     incircle_core_logic$counters$chosen chosen(
         .d(chosen$d),
@@ -2291,11 +2327,15 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
     always @(*) begin
         ticks$clock = clock;
         zeroes$clock = clock;
+        group$clock = clock;
+        other$clock = clock;
         chosen$clock = clock;
         inserts$clock = clock;
         inserted$clock = clock;
         ticks$d = ticks$q;
         zeroes$d = zeroes$q;
+        group$d = group$q;
+        other$d = other$q;
         chosen$d = chosen$q;
         inserts$d = inserts$q;
         inserted$d = inserted$q;
@@ -2304,6 +2344,8 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
         visits$clock = clock;
         range$clock = clock;
         one_tick = 32'h1;
+        last_other = 32'h8;
+        first_cycles = 32'h13;
         zeroes$d = reset | clears;
         duplicated$zero = zeroes$q;
         cycles$zero = zeroes$q;
@@ -2349,70 +2391,49 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
         insertions = inserted$q;
         duplicates = duplicated$value;
         value = chosen$q;
+        group$d = 32'h2;
+        other$d = inserted$q;
         case (select)
             6:
                 begin
-                    chosen$d = inserted$q;
+                    other$d = inserted$q;
                 end
             7:
                 begin
-                    chosen$d = duplicated$value;
+                    other$d = duplicated$value;
                 end
             8:
                 begin
-                    chosen$d = refused;
-                end
-            9:
-                begin
-                    chosen$d = visits$value;
-                end
-            10:
-                begin
-                    chosen$d = visits$value;
-                end
-            11:
-                begin
-                    chosen$d = visits$value;
-                end
-            12:
-                begin
-                    chosen$d = visits$value;
-                end
-            13:
-                begin
-                    chosen$d = visits$value;
-                end
-            14:
-                begin
-                    chosen$d = visits$value;
-                end
-            15:
-                begin
-                    chosen$d = visits$value;
-                end
-            16:
-                begin
-                    chosen$d = visits$value;
-                end
-            17:
-                begin
-                    chosen$d = visits$value;
-                end
-            18:
-                begin
-                    chosen$d = visits$value;
+                    other$d = refused;
                 end
             23:
                 begin
-                    chosen$d = ((range$least) & 32'hffffffff);
+                    other$d = ((range$least) & 32'hffffffff);
                 end
             24:
                 begin
-                    chosen$d = ((range$most) & 32'hffffffff);
+                    other$d = ((range$most) & 32'hffffffff);
                 end
             default:
                 begin
+                    group$d = 32'h0;
+                    if ((select > last_other) & (select < first_cycles)) begin
+                        group$d = 32'h1;
+                    end
+                end
+        endcase
+        case (group$q)
+            0:
+                begin
                     chosen$d = cycles$value;
+                end
+            1:
+                begin
+                    chosen$d = visits$value;
+                end
+            default:
+                begin
+                    chosen$d = other$q;
                 end
         endcase
         if (zeroes$q) begin
@@ -2461,6 +2482,9 @@ module incircle_core_logic$counters$cycles(clock,zero,inserting,waiting,reading,
     output reg  [31:0] value;
     
     // Stub signals
+    reg  [31:0] chosen$d;
+    wire  [31:0] chosen$q;
+    reg  chosen$clock;
     reg  insert_cycles$clock;
     reg  insert_cycles$zero;
     reg  insert_cycles$count;
@@ -2494,6 +2518,11 @@ module incircle_core_logic$counters$cycles(clock,zero,inserting,waiting,reading,
     wire  [31:0] release_cycles$value;
     
     // Sub module instances
+    incircle_core_logic$counters$cycles$chosen chosen(
+        .d(chosen$d),
+        .q(chosen$q),
+        .clock(chosen$clock)
+    );
     incircle_core_logic$counters$cycles$insert_cycles insert_cycles(
         .clock(insert_cycles$clock),
         .zero(insert_cycles$zero),
@@ -2542,6 +2571,8 @@ module incircle_core_logic$counters$cycles(clock,zero,inserting,waiting,reading,
     
     // Update code
     always @(*) begin
+        chosen$clock = clock;
+        chosen$d = chosen$q;
         insert_cycles$clock = clock;
         wait_cycles$clock = clock;
         read_cycles$clock = clock;
@@ -2563,51 +2594,71 @@ module incircle_core_logic$counters$cycles(clock,zero,inserting,waiting,reading,
         write_cycles$count = is_writing;
         commit_cycles$count = is_committing;
         release_cycles$count = is_releasing & inserting;
+        value = chosen$q;
         case (select)
             0:
                 begin
-                    value = insert_cycles$low;
+                    chosen$d = insert_cycles$low;
                 end
             1:
                 begin
-                    value = insert_cycles$high;
+                    chosen$d = insert_cycles$high;
                 end
             2:
                 begin
-                    value = wait_cycles$low;
+                    chosen$d = wait_cycles$low;
                 end
             3:
                 begin
-                    value = wait_cycles$high;
+                    chosen$d = wait_cycles$high;
                 end
             4:
                 begin
-                    value = read_cycles$low;
+                    chosen$d = read_cycles$low;
                 end
             5:
                 begin
-                    value = read_cycles$high;
+                    chosen$d = read_cycles$high;
                 end
             19:
                 begin
-                    value = issue_cycles$value;
+                    chosen$d = issue_cycles$value;
                 end
             20:
                 begin
-                    value = write_cycles$value;
+                    chosen$d = write_cycles$value;
                 end
             21:
                 begin
-                    value = commit_cycles$value;
+                    chosen$d = commit_cycles$value;
                 end
             default:
                 begin
-                    value = release_cycles$value;
+                    chosen$d = release_cycles$value;
                 end
         endcase
     end
     
 endmodule // incircle_core_logic$counters$cycles
+
+
+module incircle_core_logic$counters$cycles$chosen(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$cycles$chosen
 
 
 module incircle_core_logic$counters$cycles$commit_cycles(clock,zero,count,value);
@@ -3529,6 +3580,25 @@ module incircle_core_logic$counters$duplicated$word(d,q,clock);
 endmodule // incircle_core_logic$counters$duplicated$word
 
 
+module incircle_core_logic$counters$group(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$group
+
+
 module incircle_core_logic$counters$inserted(d,q,clock);
     
     // Module arguments
@@ -3565,6 +3635,25 @@ module incircle_core_logic$counters$inserts(d,q,clock);
     end
           
 endmodule // incircle_core_logic$counters$inserts
+
+
+module incircle_core_logic$counters$other(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$other
 
 
 module incircle_core_logic$counters$range(clock,zero,commit_ends,now,since,latency_comes,latency,least,most);
@@ -3831,6 +3920,9 @@ module incircle_core_logic$counters$visits(clock,zero,walk_visit,test,overflows,
     output reg  [31:0] value;
     
     // Stub signals
+    reg  [31:0] chosen$d;
+    wire  [31:0] chosen$q;
+    reg  chosen$clock;
     reg  [6:0] last_triangles$d;
     wire  [6:0] last_triangles$q;
     reg  last_triangles$clock;
@@ -3878,6 +3970,11 @@ module incircle_core_logic$counters$visits(clock,zero,walk_visit,test,overflows,
     reg  [31:0] wide_triangles;
     
     // Sub module instances
+    incircle_core_logic$counters$visits$chosen chosen(
+        .d(chosen$d),
+        .q(chosen$q),
+        .clock(chosen$clock)
+    );
     incircle_core_logic$counters$visits$last_triangles last_triangles(
         .d(last_triangles$d),
         .q(last_triangles$q),
@@ -3945,8 +4042,10 @@ module incircle_core_logic$counters$visits(clock,zero,walk_visit,test,overflows,
     
     // Update code
     always @(*) begin
+        chosen$clock = clock;
         last_triangles$clock = clock;
         triangles$clock = clock;
+        chosen$d = chosen$q;
         last_triangles$d = last_triangles$q;
         triangles$d = triangles$q;
         walk_visits$clock = clock;
@@ -3985,46 +4084,47 @@ module incircle_core_logic$counters$visits(clock,zero,walk_visit,test,overflows,
         if (zero) begin
             triangles$d = 32'h0;
         end
+        value = chosen$q;
         case (select)
             9:
                 begin
-                    value = walk_visits$value;
+                    chosen$d = walk_visits$value;
                 end
             10:
                 begin
-                    value = tests$value;
+                    chosen$d = tests$value;
                 end
             11:
                 begin
-                    value = triangles$q;
+                    chosen$d = triangles$q;
                 end
             12:
                 begin
-                    value = overflowed$value;
+                    chosen$d = overflowed$value;
                 end
             13:
                 begin
-                    value = flips$value;
+                    chosen$d = flips$value;
                 end
             14:
                 begin
-                    value = root_visits$value;
+                    chosen$d = root_visits$value;
                 end
             15:
                 begin
-                    value = revisits$value;
+                    chosen$d = revisits$value;
                 end
             16:
                 begin
-                    value = aborts$value;
+                    chosen$d = aborts$value;
                 end
             17:
                 begin
-                    value = root_retries$value;
+                    chosen$d = root_retries$value;
                 end
             default:
                 begin
-                    value = waiting_tokens$value;
+                    chosen$d = waiting_tokens$value;
                 end
         endcase
     end
@@ -4119,6 +4219,25 @@ module incircle_core_logic$counters$visits$aborts$word(d,q,clock);
     end
           
 endmodule // incircle_core_logic$counters$visits$aborts$word
+
+
+module incircle_core_logic$counters$visits$chosen(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$counters$visits$chosen
 
 
 module incircle_core_logic$counters$visits$flips(clock,zero,count,value);
@@ -15546,9 +15665,18 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     reg  was_fetched$write_enable;
     reg  [3:0] was_fetched$read_address;
     wire  was_fetched$read_data;
-    reg  holds_entries$d;
-    wire  holds_entries$q;
-    reg  holds_entries$clock;
+    reg  holds_first$d;
+    wire  holds_first$q;
+    reg  holds_first$clock;
+    reg  passes$d;
+    wire  passes$q;
+    reg  passes$clock;
+    reg  [92:0] first$d;
+    wire  [92:0] first$q;
+    reg  first$clock;
+    reg  holds_more$d;
+    wire  holds_more$q;
+    reg  holds_more$clock;
     reg  window_is_full$d;
     wire  window_is_full$q;
     reg  window_is_full$clock;
@@ -15561,9 +15689,9 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     reg  [10:0] fetched$d;
     wire  [10:0] fetched$q;
     reg  fetched$clock;
-    reg  [3:0] oldest$d;
-    wire  [3:0] oldest$q;
-    reg  oldest$clock;
+    reg  [3:0] after_first$d;
+    wire  [3:0] after_first$q;
+    reg  after_first$clock;
     reg  fetch_in_array$d;
     wire  fetch_in_array$q;
     reg  fetch_in_array$clock;
@@ -15578,13 +15706,16 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     reg  place_in_output$clock;
     
     // Local signals
+    reg  [92:0] kept_data;
+    reg  joins;
+    reg  moves_up;
     reg  spills;
     reg  enters;
     reg  fetches;
     reg  advances;
     reg  [10:0] after_newest;
     reg  [10:0] after_fetched;
-    reg  [3:0] after_oldest;
+    reg  [3:0] after_moved;
     reg  [3:0] place;
     reg  [3:0] after_place;
     
@@ -15621,10 +15752,25 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         .read_address(was_fetched$read_address),
         .read_data(was_fetched$read_data)
     );
-    incircle_core_logic$engine$pipeline$issue$queue$holds_entries holds_entries(
-        .d(holds_entries$d),
-        .q(holds_entries$q),
-        .clock(holds_entries$clock)
+    incircle_core_logic$engine$pipeline$issue$queue$holds_first holds_first(
+        .d(holds_first$d),
+        .q(holds_first$q),
+        .clock(holds_first$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$passes passes(
+        .d(passes$d),
+        .q(passes$q),
+        .clock(passes$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$first first(
+        .d(first$d),
+        .q(first$q),
+        .clock(first$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$holds_more holds_more(
+        .d(holds_more$d),
+        .q(holds_more$q),
+        .clock(holds_more$clock)
     );
     incircle_core_logic$engine$pipeline$issue$queue$window_is_full window_is_full(
         .d(window_is_full$d),
@@ -15646,10 +15792,10 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         .q(fetched$q),
         .clock(fetched$clock)
     );
-    incircle_core_logic$engine$pipeline$issue$queue$oldest oldest(
-        .d(oldest$d),
-        .q(oldest$q),
-        .clock(oldest$clock)
+    incircle_core_logic$engine$pipeline$issue$queue$after_first after_first(
+        .d(after_first$d),
+        .q(after_first$q),
+        .clock(after_first$clock)
     );
     incircle_core_logic$engine$pipeline$issue$queue$fetch_in_array fetch_in_array(
         .d(fetch_in_array$d),
@@ -15674,18 +15820,24 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     
     // Update code
     always @(*) begin
-        holds_entries$clock = clock;
+        holds_first$clock = clock;
+        passes$clock = clock;
+        first$clock = clock;
+        holds_more$clock = clock;
         window_is_full$clock = clock;
         holds_spilled$clock = clock;
-        newest$clock = clock;
-        fetched$clock = clock;
-        oldest$clock = clock;
-        holds_entries$d = holds_entries$q;
+        holds_first$d = holds_first$q;
+        passes$d = passes$q;
+        first$d = first$q;
+        holds_more$d = holds_more$q;
         window_is_full$d = window_is_full$q;
         holds_spilled$d = holds_spilled$q;
+        newest$clock = clock;
+        fetched$clock = clock;
+        after_first$clock = clock;
         newest$d = newest$q;
         fetched$d = fetched$q;
-        oldest$d = oldest$q;
+        after_first$d = after_first$q;
         fetch_in_array$clock = clock;
         fetch_in_output$clock = clock;
         place_in_array$clock = clock;
@@ -15700,24 +15852,37 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         was_fetched$clock = clock;
         after_newest = newest$q + one;
         after_fetched = fetched$q + one;
-        after_oldest = oldest$q + one_place;
+        after_moved = after_first$q + one_place;
         place = fetched$q[(32'h0)+:(4)];
         after_place = place + one_place;
-        new_bank$read_address = oldest$q;
-        fetched_bank$read_address = oldest$q;
-        was_fetched$read_address = oldest$q;
-        valid = holds_entries$q | push;
-        data = push_data & kept_bits;
-        if (holds_entries$q) begin
-            data = new_bank$read_data;
-            if (was_fetched$read_data == from_ring) begin
-                data = fetched_bank$read_data;
+        kept_data = push_data & kept_bits;
+        valid = holds_first$q | push;
+        data = first$q;
+        if (passes$q) begin
+            data = kept_data;
+        end
+        new_bank$read_address = after_first$q;
+        fetched_bank$read_address = after_first$q;
+        was_fetched$read_address = after_first$q;
+        if (pop | (~holds_first$q)) begin
+            first$d = kept_data;
+            if (holds_more$q) begin
+                first$d = new_bank$read_data;
+                if (was_fetched$read_data == from_ring) begin
+                    first$d = fetched_bank$read_data;
+                end
             end
         end
-        spills = push & (holds_spilled$q | window_is_full$q);
-        enters = push & (~spills);
+        holds_first$d = valid;
+        if (pop) begin
+            holds_first$d = holds_first$q & (holds_more$q | push);
+        end
+        joins = push & holds_first$q;
+        spills = joins & (holds_spilled$q | window_is_full$q);
+        enters = joins & (~spills);
         fetches = holds_spilled$q & (~window_is_full$q);
-        advances = enters | fetches;
+        advances = (~window_is_full$q) & (holds_spilled$q | joins);
+        moves_up = pop & holds_first$q & (holds_more$q | push);
         ring$write_address = newest$q;
         ring$write_data = push_data;
         ring$write_enable = spills;
@@ -15738,14 +15903,14 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
             was_fetched$write_data = from_ring;
         end
         was_fetched$write_enable = advances;
-        if (push) begin
+        if (joins) begin
             newest$d = after_newest;
         end
         if (advances) begin
             fetched$d = after_fetched;
         end
-        if (pop) begin
-            oldest$d = after_oldest;
+        if (moves_up) begin
+            after_first$d = after_moved;
         end
         if (fetches) begin
             holds_spilled$d = after_fetched != newest$q;
@@ -15753,27 +15918,48 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         if (spills) begin
             holds_spilled$d = 1'b1;
         end
-        if (advances & (~pop)) begin
-            holds_entries$d = 1'b1;
-            window_is_full$d = after_place == oldest$q;
+        if (advances & (~moves_up)) begin
+            holds_more$d = 1'b1;
+            window_is_full$d = after_place == after_first$q;
         end
-        if (pop & (~advances)) begin
-            holds_entries$d = after_oldest != place;
+        if (moves_up & (~advances)) begin
+            holds_more$d = after_moved != place;
             window_is_full$d = 1'b0;
         end
         if (reset) begin
-            holds_entries$d = 1'b0;
+            holds_first$d = 1'b0;
+            holds_more$d = 1'b0;
             window_is_full$d = 1'b0;
             holds_spilled$d = 1'b0;
             newest$d = nothing;
             fetched$d = nothing;
-            oldest$d = first_place;
+            after_first$d = first_place;
             fetch_in_array$d = 1'b0;
             fetch_in_output$d = 1'b0;
         end
+        passes$d = ~holds_first$d;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$issue$queue
+
+
+module incircle_core_logic$engine$pipeline$issue$queue$after_first(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$after_first
 
 
 module incircle_core_logic$engine$pipeline$issue$queue$fetch_in_array(d,q,clock);
@@ -15854,7 +16040,26 @@ module incircle_core_logic$engine$pipeline$issue$queue$fetched_bank(clock,write_
 endmodule // incircle_core_logic$engine$pipeline$issue$queue$fetched_bank
 
 
-module incircle_core_logic$engine$pipeline$issue$queue$holds_entries(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$queue$first(d,q,clock);
+    
+    // Module arguments
+    input wire  [92:0] d;
+    output reg  [92:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 93'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$first
+
+
+module incircle_core_logic$engine$pipeline$issue$queue$holds_first(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -15870,7 +16075,26 @@ module incircle_core_logic$engine$pipeline$issue$queue$holds_entries(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$holds_entries
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$holds_first
+
+
+module incircle_core_logic$engine$pipeline$issue$queue$holds_more(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$holds_more
 
 
 module incircle_core_logic$engine$pipeline$issue$queue$holds_spilled(d,q,clock);
@@ -15932,23 +16156,23 @@ module incircle_core_logic$engine$pipeline$issue$queue$newest(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$issue$queue$newest
 
 
-module incircle_core_logic$engine$pipeline$issue$queue$oldest(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$queue$passes(d,q,clock);
     
     // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
+    input wire  d;
+    output reg  q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 4'h0;
+       q = 1'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$oldest
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$passes
 
 
 module incircle_core_logic$engine$pipeline$issue$queue$place_in_array(d,q,clock);
@@ -25183,6 +25407,9 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
     reg  [6:0] sweep_bucket$d;
     wire  [6:0] sweep_bucket$q;
     reg  sweep_bucket$clock;
+    reg  shifts$d;
+    wire  shifts$q;
+    reg  shifts$clock;
     reg  seeks$d;
     wire  seeks$q;
     reg  seeks$clock;
@@ -25223,6 +25450,11 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
         .d(sweep_bucket$d),
         .q(sweep_bucket$q),
         .clock(sweep_bucket$clock)
+    );
+    incircle_core_logic$latencies$shifts shifts(
+        .d(shifts$d),
+        .q(shifts$q),
+        .clock(shifts$clock)
     );
     incircle_core_logic$latencies$seeks seeks(
         .d(seeks$d),
@@ -25267,6 +25499,7 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
     always @(*) begin
         is_sweeping$clock = clock;
         sweep_bucket$clock = clock;
+        shifts$clock = clock;
         seeks$clock = clock;
         finds$clock = clock;
         counts$clock = clock;
@@ -25274,6 +25507,7 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
         found$clock = clock;
         is_sweeping$d = is_sweeping$q;
         sweep_bucket$d = sweep_bucket$q;
+        shifts$d = shifts$q;
         seeks$d = seeks$q;
         finds$d = finds$q;
         counts$d = counts$q;
@@ -25286,7 +25520,8 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
         one = 32'h1;
         sweeps = is_sweeping$q;
         bucket$latency = latency;
-        seeks$d = comes;
+        shifts$d = comes;
+        seeks$d = shifts$q;
         finds$d = seeks$q;
         if (seeks$q) begin
             counted_bucket$d = bucket$bucket;
@@ -25313,6 +25548,7 @@ module incircle_core_logic$latencies(clock,reset,clears,comes,latency,sweeps,sel
         if (reset | clears) begin
             is_sweeping$d = 1'b1;
             sweep_bucket$d = 32'h0;
+            shifts$d = 1'b0;
             seeks$d = 1'b0;
             finds$d = 1'b0;
             counts$d = 1'b0;
@@ -25330,22 +25566,29 @@ module incircle_core_logic$latencies$bucket(clock,latency,bucket);
     output reg  [6:0] bucket;
     
     // Stub signals
+    reg  [18:0] from4$d;
+    wire  [18:0] from4$q;
+    reg  from4$clock;
     reg  [18:0] from2$d;
     wire  [18:0] from2$q;
     reg  from2$clock;
+    reg  [6:0] octave8$d;
+    wire  [6:0] octave8$q;
+    reg  octave8$clock;
     reg  [6:0] high_octave$d;
     wire  [6:0] high_octave$q;
     reg  high_octave$clock;
+    reg  was_far$d;
+    wire  was_far$q;
+    reg  was_far$clock;
     reg  is_far$d;
     wire  is_far$q;
     reg  is_far$clock;
     
     // Local signals
     reg  [18:0] from8;
-    reg  [18:0] from4;
     reg  [18:0] from1;
     reg  [18:0] top;
-    reg  [6:0] octave8;
     reg  [6:0] octave4;
     reg  [6:0] octave2;
     reg  [6:0] octave1;
@@ -25356,15 +25599,30 @@ module incircle_core_logic$latencies$bucket(clock,latency,bucket);
     reg  [18:0] one;
     
     // Sub module instances
+    incircle_core_logic$latencies$bucket$from4 from4(
+        .d(from4$d),
+        .q(from4$q),
+        .clock(from4$clock)
+    );
     incircle_core_logic$latencies$bucket$from2 from2(
         .d(from2$d),
         .q(from2$q),
         .clock(from2$clock)
     );
+    incircle_core_logic$latencies$bucket$octave8 octave8(
+        .d(octave8$d),
+        .q(octave8$q),
+        .clock(octave8$clock)
+    );
     incircle_core_logic$latencies$bucket$high_octave high_octave(
         .d(high_octave$d),
         .q(high_octave$q),
         .clock(high_octave$clock)
+    );
+    incircle_core_logic$latencies$bucket$was_far was_far(
+        .d(was_far$d),
+        .q(was_far$q),
+        .clock(was_far$clock)
     );
     incircle_core_logic$latencies$bucket$is_far is_far(
         .d(is_far$d),
@@ -25374,9 +25632,15 @@ module incircle_core_logic$latencies$bucket(clock,latency,bucket);
     
     // Update code
     always @(*) begin
+        from4$clock = clock;
+        octave8$clock = clock;
+        was_far$clock = clock;
         from2$clock = clock;
         high_octave$clock = clock;
         is_far$clock = clock;
+        from4$d = from4$q;
+        octave8$d = octave8$q;
+        was_far$d = was_far$q;
         from2$d = from2$q;
         high_octave$d = high_octave$q;
         is_far$d = is_far$q;
@@ -25384,21 +25648,22 @@ module incircle_core_logic$latencies$bucket(clock,latency,bucket);
         four = 32'h4;
         two = 32'h2;
         one = 32'h1;
-        is_far$d = latency[32'h14] | latency[32'h15];
+        was_far$d = latency[32'h14] | latency[32'h15];
+        is_far$d = was_far$q;
         from8 = latency[(32'h1)+:(19)];
-        octave8 = 32'h0;
-        from4 = from8 << eight;
+        octave8$d = 32'h0;
+        from4$d = from8 << eight;
         if (|from8[(32'hb)+:(8)]) begin
-            octave8 = 32'h40;
-            from4 = from8;
+            octave8$d = 32'h40;
+            from4$d = from8;
         end
         octave4 = 32'h0;
-        from2$d = from4 << four;
-        if (|from4[(32'hf)+:(4)]) begin
+        from2$d = from4$q << four;
+        if (|from4$q[(32'hf)+:(4)]) begin
             octave4 = 32'h20;
-            from2$d = from4;
+            from2$d = from4$q;
         end
-        high_octave$d = octave8 | octave4;
+        high_octave$d = octave8$q | octave4;
         octave2 = 32'h0;
         from1 = from2$q << two;
         if (|from2$q[(32'h11)+:(2)]) begin
@@ -25443,6 +25708,25 @@ module incircle_core_logic$latencies$bucket$from2(d,q,clock);
 endmodule // incircle_core_logic$latencies$bucket$from2
 
 
+module incircle_core_logic$latencies$bucket$from4(d,q,clock);
+    
+    // Module arguments
+    input wire  [18:0] d;
+    output reg  [18:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 19'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$latencies$bucket$from4
+
+
 module incircle_core_logic$latencies$bucket$high_octave(d,q,clock);
     
     // Module arguments
@@ -25479,6 +25763,44 @@ module incircle_core_logic$latencies$bucket$is_far(d,q,clock);
     end
           
 endmodule // incircle_core_logic$latencies$bucket$is_far
+
+
+module incircle_core_logic$latencies$bucket$octave8(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$latencies$bucket$octave8
+
+
+module incircle_core_logic$latencies$bucket$was_far(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$latencies$bucket$was_far
 
 
 module incircle_core_logic$latencies$counted_bucket(d,q,clock);
@@ -25616,6 +25938,25 @@ module incircle_core_logic$latencies$seeks(d,q,clock);
 endmodule // incircle_core_logic$latencies$seeks
 
 
+module incircle_core_logic$latencies$shifts(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$latencies$shifts
+
+
 module incircle_core_logic$latencies$sweep_bucket(d,q,clock);
     
     // Module arguments
@@ -25635,7 +25976,7 @@ module incircle_core_logic$latencies$sweep_bucket(d,q,clock);
 endmodule // incircle_core_logic$latencies$sweep_bucket
 
 
-module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,length,is_empty,word,is_read,index,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,response_valid,response_ready,response_data,is_idle,ends,is_taken);
+module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,length,is_empty,word,is_read,index,index_ahead,chooses,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,response_valid,response_ready,response_data,is_idle,ends,is_taken);
     
     // Module arguments
     input wire  clock;
@@ -25649,6 +25990,8 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     input wire  [31:0] word;
     input wire  is_read;
     output reg  [6:0] index;
+    output reg  [6:0] index_ahead;
+    output reg  chooses;
     output reg  read;
     output reg  [14:0] read_id;
     input wire  read_done;
@@ -25679,6 +26022,9 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
+    reg  [6:0] following$d;
+    wire  [6:0] following$q;
+    reg  following$clock;
     reg  waited$d;
     wire  waited$q;
     reg  waited$clock;
@@ -25731,6 +26077,11 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         .d(state$d),
         .q(state$q),
         .clock(state$clock)
+    );
+    incircle_core_logic$responder$following following(
+        .d(following$d),
+        .q(following$q),
+        .clock(following$clock)
     );
     incircle_core_logic$responder$waited waited(
         .d(waited$d),
@@ -25797,6 +26148,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         left$clock = clock;
         is_last$clock = clock;
         loaded$clock = clock;
+        following$clock = clock;
         record_id$clock = clock;
         fetching$clock = clock;
         state$d = state$q;
@@ -25806,6 +26158,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         left$d = left$q;
         is_last$d = is_last$q;
         loaded$d = loaded$q;
+        following$d = following$q;
         record_id$d = record_id$q;
         fetching$d = fetching$q;
         record$clock = clock;
@@ -25816,6 +26169,8 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         response_valid = valid$q;
         response_data = data$q;
         index = loaded$q;
+        index_ahead = following$q;
+        chooses = (state$q == AnswerState$Choose) & waited$q;
         loads = (~valid$q) | response_ready;
         is_taken = loads;
         is_idle = state$q == AnswerState$Idle;
@@ -25840,9 +26195,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         end
         record$takes = 1'b0;
         ends_now = 1'b0;
-        if (loads) begin
-            valid$d = 1'b0;
-        end
+        valid$d = valid$q & (~loads);
         case (state$q)
             AnswerState$Idle:
                 begin
@@ -25859,6 +26212,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                 end
             AnswerState$Header:
                 begin
+                    following$d = 32'h0;
                     if (loads) begin
                         valid$d = 1'b1;
                         data$d = header;
@@ -25883,6 +26237,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                 end
             AnswerState$Choose:
                 begin
+                    following$d = loaded$q + one_word;
                     waited$d = ~waited$q;
                     if (waited$q) begin
                         state$d = AnswerState$Payload;
@@ -25968,6 +26323,25 @@ module incircle_core_logic$responder$fetching(d,q,clock);
     end
           
 endmodule // incircle_core_logic$responder$fetching
+
+
+module incircle_core_logic$responder$following(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$following
 
 
 module incircle_core_logic$responder$is_last(d,q,clock);

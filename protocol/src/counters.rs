@@ -62,7 +62,7 @@ pub const LATENCY_BITS: u32 = 22;
 /// Buckets of the histogram of latencies.
 pub const LATENCY_BUCKETS: usize = 128;
 
-/// The bucket of a latency in clocks: eight to an octave from 16 clocks on, one of all below, one of all from 2^20 - 2^17 on.
+/// The bucket of a latency in clocks: eight to an octave from 16 clocks on; the first takes all below 18, the last all from 2^20 - 2^16 on.
 pub const fn latency_bucket(clocks: u32) -> usize {
     if clocks < 16 {
         return 0;

@@ -20,7 +20,10 @@ named_ports!(
 );
 named_ports!(
     AnswerWords,
-    [opcode, capacity, contexts, ring, arrived, refused, insertions, duplicates, records, index, counter, latency],
+    [
+        opcode, capacity, contexts, ring, arrived, refused, insertions, duplicates, records, index, counter, latency,
+        chooses
+    ],
     [word],
     clock
 );
@@ -195,6 +198,7 @@ fn answer_words_follow_the_protocol() {
     for (opcode, _, clocks) in commands(&mut random) {
         // Counters and buckets come from outside a clock after their index.
         let mut asked_before: Vec<(Asked, usize)> = vec![];
+        let mut chosen = None;
         for clock in 0..clocks {
             let asked = Asked { opcode, ..Asked::random(&mut random) };
             let words = [8, LATENCY_BUCKETS as u64][random.below(2) as usize];
@@ -216,15 +220,17 @@ fn answer_words_follow_the_protocol() {
             ] {
                 block.set(port, value);
             }
+            let chooses = percent(&mut random, 70);
+            block.set("chooses", chooses);
             block.settle();
-            if clock >= 2 {
-                let (chosen, index) = &asked_before[clock - 2];
-                let (last, _) = &asked_before[clock - 1];
-                let payload = Asked { counter: last.counter, latency: last.latency, ..*chosen }.answer().payload;
-                if let Some(word) = payload.as_ref().and_then(|words| words.get(*index)) {
-                    block.expect("word", *word);
-                    compared[usize::from(opcode == 3) + 2 * usize::from(opcode == 1)] += 1;
-                }
+            if let Some(word) = chosen {
+                block.expect("word", word);
+                compared[usize::from(opcode == 3) + 2 * usize::from(opcode == 1)] += 1;
+            }
+            if chooses && clock >= 1 {
+                let (before, index) = &asked_before[clock - 1];
+                let payload = Asked { counter: asked.counter, latency: asked.latency, ..*before }.answer().payload;
+                chosen = payload.and_then(|words| words.get(*index).copied());
             }
             block.edge();
             asked_before.push((asked, index));

@@ -14,7 +14,7 @@ named_ports!(SoloVisit, [owner, is_locate, is_mend, is_second, is_fetch, root_id
 named_ports!(
     CommandGate,
     [is_command, is_argument, is_points, sweeps, none_is_left, came, has_three, seeded, collinear, stuck],
-    [ready, awaits_point]
+    [ready, takes_command, takes_point, awaits_point]
 );
 named_ports!(RecordWords, [v0, v1, v2, n0, n1, n2, was_set], [word0, word1, word2]);
 
@@ -88,6 +88,8 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
         };
         block.settle();
         block.expect("ready", ready);
+        block.expect("takes_command", ready && meaning == 0);
+        block.expect("takes_point", ready && meaning == 2);
         block.expect("awaits_point", meaning == 2 && !none_is_left);
     }
 }

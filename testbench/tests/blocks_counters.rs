@@ -105,8 +105,8 @@ struct Rig {
     sums: [u64; COUNTER_WORDS],
     /// The sums of a clock ago: what is counted.
     counted: [u64; COUNTER_WORDS],
-    /// The word that was selected in the last clock.
-    chosen: u64,
+    /// The words that were selected in the last clock and in the one before.
+    chosen: [u64; 2],
     latencies: LatencyReference,
     commit_ends: bool,
     /// Clocks until the next commit may end.
@@ -174,10 +174,10 @@ impl Rig {
             self.block.expect("duplicates", self.counted[Counter::Duplicates as usize]);
             self.block.expect("latency_comes", self.latencies.came.is_some());
         }
-        if self.block.clocks() > 2 {
-            self.block.expect("value", self.chosen);
+        if self.block.clocks() > 3 {
+            self.block.expect("value", self.chosen[1]);
         }
-        self.chosen = self.counted[select as usize];
+        self.chosen = [self.counted[select as usize], self.chosen[0]];
         if let Some(latency) = self.latencies.came {
             self.block.expect("latency", latency);
         }
@@ -190,7 +190,7 @@ fn counters_count_their_events() {
     let latencies = LatencyReference::default();
     let sums = [0; COUNTER_WORDS];
     let random = SplitMix64::new(3);
-    let mut rig = Rig { block, random, sums, counted: sums, chosen: 0, latencies, commit_ends: false, pause: 0 };
+    let mut rig = Rig { block, random, sums, counted: sums, chosen: [0; 2], latencies, commit_ends: false, pause: 0 };
     let (mut highest, mut commits, mut forgets) = (0, 0, false);
     for clock in 0..10_000 {
         // Long enough between zeros that every counter leaves its lowest byte.

@@ -31,6 +31,8 @@ fn latency_bucket_is_that_of_the_protocol() {
         block.settle();
         block.edge();
         block.settle();
+        block.edge();
+        block.settle();
         block.expect("bucket", latency_bucket(latency) as u32);
     }
 }
@@ -38,22 +40,22 @@ fn latency_bucket_is_that_of_the_protocol() {
 /// The histogram as a list of what has been counted, and of what is still to be.
 struct Reference {
     counts: Vec<u32>,
-    /// The bucket that is sought, that is read, and that is counted at the next edge.
-    due: [Option<usize>; 3],
+    /// The bucket that is sought, for two clocks, that is read, and that is counted at the next edge.
+    due: [Option<usize>; 4],
     /// Clocks of the sweep that are left.
     sweep: usize,
 }
 
 impl Reference {
     fn new() -> Self {
-        Self { counts: vec![0; LATENCY_BUCKETS], due: [None; 3], sweep: LATENCY_BUCKETS }
+        Self { counts: vec![0; LATENCY_BUCKETS], due: [None; 4], sweep: LATENCY_BUCKETS }
     }
 
     fn edge(&mut self, latency: Option<u32>, starts_sweep: bool) {
-        if let Some(bucket) = self.due[2] {
+        if let Some(bucket) = self.due[3] {
             self.counts[bucket] += 1;
         }
-        self.due = [latency.map(latency_bucket), self.due[0], self.due[1]];
+        self.due = [latency.map(latency_bucket), self.due[0], self.due[1], self.due[2]];
         self.sweep = self.sweep.saturating_sub(1);
         if starts_sweep {
             *self = Self::new();
@@ -88,7 +90,7 @@ fn latencies_are_counted_by_bucket() {
             block.expect("value", count);
             highest = highest.max(count);
         }
-        let is_read = clock > 0 && reference.sweep == 0 && reference.due[1].is_none();
+        let is_read = clock > 0 && reference.sweep == 0 && reference.due[2].is_none();
         chosen = is_read.then(|| reference.counts[select as usize]);
         block.edge();
         sweeps += usize::from(reset || clears);
@@ -135,7 +137,7 @@ fn latencies_show_the_wave_of_their_header() {
         if clock >= first {
             let sweeps = block.is("sweeps");
             // The memory was swept or read for a count in the clock before.
-            let is_open = clock <= first + 3 || [first + 7, first + 10].contains(&clock);
+            let is_open = clock <= first + 3 || [first + 8, first + 11].contains(&clock);
             let value = if is_open { Cell::Open } else { Cell::Number(block.get("value")) };
             wave.take(&[
                 ("sweeps", Cell::Bit(sweeps)),

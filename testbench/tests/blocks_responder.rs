@@ -33,7 +33,7 @@ named_ports!(
         was_set,
         response_ready
     ],
-    [index, read, read_id, response_valid, response_data, is_idle, ends, is_taken],
+    [index, index_ahead, chooses, read, read_id, response_valid, response_data, is_idle, ends, is_taken],
     clock
 );
 
@@ -94,9 +94,12 @@ struct ResponderRig {
     /// Reads under way: clocks to go, id.
     reads: VecDeque<(usize, u64)>,
     read_clocks: usize,
-    /// Clocks that an answer has been due, and what `index` was one and two clocks ago.
+    /// Clocks that an answer has been due, what `index` was a clock ago, and `index_ahead` one and two clocks ago.
     due: usize,
-    indices: [usize; 2],
+    index: usize,
+    aheads: [usize; 2],
+    /// The word that was chosen last.
+    chosen: u32,
     /// Clocks of a sweep that are left.
     sweeping: u64,
     offered: Option<u128>,
@@ -122,7 +125,9 @@ impl ResponderRig {
             reads: VecDeque::new(),
             read_clocks,
             due: 0,
-            indices: [0; 2],
+            index: 0,
+            aheads: [0; 2],
+            chosen: 0,
             sweeping: 0,
             offered: None,
             taken: vec![],
@@ -140,7 +145,7 @@ impl ResponderRig {
         self.block.edge();
         self.block.set("reset", false);
         self.reads.clear();
-        (self.due, self.indices) = (0, [0; 2]);
+        (self.due, self.index, self.aheads) = (0, 0, [0; 2]);
         self.sweeping = 0;
         self.offered = None;
         self.taken.clear();
@@ -164,11 +169,15 @@ impl ResponderRig {
         // Bits above an id do not count.
         block.set("first", sent.first.unwrap_or(0) | 0xabcd_0000);
         block.settle();
-        let index = block.get_masked("index", if is_under_way { 127 } else { 0 }) as usize;
-        // A word is chosen in two clocks.
-        let [last, before] = self.indices;
-        block.set("word", sent.payload.get(before).filter(|_| last == before).copied().unwrap_or(0xbad));
-        self.indices = [index, last];
+        let mask = if is_under_way { 127 } else { 0 };
+        let [index, ahead] = ["index", "index_ahead"].map(|port| block.get_masked(port, mask) as usize);
+        block.set("word", self.chosen);
+        // A word is chosen in two clocks, or in three from where it is announced.
+        if block.is("chooses") {
+            let is_announced = self.aheads[1] == self.index;
+            self.chosen = sent.payload.get(self.index).filter(|_| is_announced).copied().unwrap_or(0xbad);
+        }
+        (self.index, self.aheads) = (index, [ahead, self.aheads[0]]);
         let due = self.reads.front().is_some_and(|(clocks, _)| *clocks == 0);
         let id = if due { self.reads.pop_front().map_or(0, |(_, id)| id) } else { self.random.below(1 << 15) };
         let (v, n, lock) = columns(id);

@@ -17,7 +17,7 @@
 //! | `duplicate`, `solo_duplicate` | in | 1 | a point is found to be a duplicate |
 //! | `refused` | in | 32 | points refused, counted where they are refused |
 //! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
-//! | `value` | out | 32 | that word, a clock later |
+//! | `value` | out | 32 | that word, 2 clocks later |
 //! | `insertions`, `duplicates` | out | 32 | two of them |
 //! | `now` | out | 22 | clocks since reset, modulo 2^22; clear does not stop it |
 //! | `latency_comes`, `latency` | out | 1, 22 | the latency of the commit that ended with the last edge |
@@ -26,7 +26,7 @@
 //!
 //! 2. Every event, and `clears`, goes into a register first. A count that is read while events come is that of the clock before.
 //!
-//! Latency: an event is counted at the second edge, the range of latencies at the third; `value` follows `select` by 1 clock.
+//! Latency: an event is counted at the second edge, the range of latencies at the third; `value` follows `select` by 2 clocks.
 
 use super::{CycleCounters, EventCounter, LatencyRange, VisitCounters};
 use incircle_protocol::Counter;
@@ -110,6 +110,9 @@ pub struct Counters {
     pub latency: Signal<Out, Bits<22>>,
     ticks: DFF<Bits<22>>,
     zeroes: DFF<Bit>,
+    /// The group of the word, one of the third group, and the word.
+    group: DFF<Bits<2>>,
+    other: DFF<Bits<32>>,
     chosen: DFF<Bits<32>>,
     inserts: DFF<Bits<2>>,
     inserted: DFF<Bits<32>>,
@@ -118,6 +121,8 @@ pub struct Counters {
     visits: VisitCounters,
     range: LatencyRange,
     one_tick: Signal<Local, Bits<22>>,
+    last_other: Signal<Local, Bits<5>>,
+    first_cycles: Signal<Local, Bits<5>>,
     more: Signal<Local, Bits<32>>,
 }
 
@@ -136,9 +141,11 @@ const _: () = assert!(
 impl Logic for Counters {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, ticks, zeroes, chosen, inserts, inserted);
+        dff_setup!(self, clock, ticks, zeroes, group, other, chosen, inserts, inserted);
         clock!(self, clock, duplicated, cycles, visits, range);
         self.one_tick.next = 1.into();
+        self.last_other.next = 8.into();
+        self.first_cycles.next = 19.into();
         self.zeroes.d.next = self.reset.val() | self.clears.val();
         self.duplicated.zero.next = self.zeroes.q.val();
         self.cycles.zero.next = self.zeroes.q.val();
@@ -187,55 +194,42 @@ impl Logic for Counters {
         self.insertions.next = self.inserted.q.val();
         self.duplicates.next = self.duplicated.value.val();
 
+        // A word is chosen within its group first: clocks, visits, others.
         self.value.next = self.chosen.q.val();
+        self.group.d.next = 2.into();
+        self.other.d.next = self.inserted.q.val();
         match self.select.val().index() {
             6 => {
-                self.chosen.d.next = self.inserted.q.val();
+                self.other.d.next = self.inserted.q.val();
             }
             7 => {
-                self.chosen.d.next = self.duplicated.value.val();
+                self.other.d.next = self.duplicated.value.val();
             }
             8 => {
-                self.chosen.d.next = self.refused.val();
-            }
-            9 => {
-                self.chosen.d.next = self.visits.value.val();
-            }
-            10 => {
-                self.chosen.d.next = self.visits.value.val();
-            }
-            11 => {
-                self.chosen.d.next = self.visits.value.val();
-            }
-            12 => {
-                self.chosen.d.next = self.visits.value.val();
-            }
-            13 => {
-                self.chosen.d.next = self.visits.value.val();
-            }
-            14 => {
-                self.chosen.d.next = self.visits.value.val();
-            }
-            15 => {
-                self.chosen.d.next = self.visits.value.val();
-            }
-            16 => {
-                self.chosen.d.next = self.visits.value.val();
-            }
-            17 => {
-                self.chosen.d.next = self.visits.value.val();
-            }
-            18 => {
-                self.chosen.d.next = self.visits.value.val();
+                self.other.d.next = self.refused.val();
             }
             23 => {
-                self.chosen.d.next = bit_cast::<32, 22>(self.range.least.val());
+                self.other.d.next = bit_cast::<32, 22>(self.range.least.val());
             }
             24 => {
-                self.chosen.d.next = bit_cast::<32, 22>(self.range.most.val());
+                self.other.d.next = bit_cast::<32, 22>(self.range.most.val());
             }
             _ => {
+                self.group.d.next = 0.into();
+                if (self.select.val() > self.last_other.val()) & (self.select.val() < self.first_cycles.val()) {
+                    self.group.d.next = 1.into();
+                }
+            }
+        }
+        match self.group.q.val().index() {
+            0 => {
                 self.chosen.d.next = self.cycles.value.val();
+            }
+            1 => {
+                self.chosen.d.next = self.visits.value.val();
+            }
+            _ => {
+                self.chosen.d.next = self.other.q.val();
             }
         }
         if self.zeroes.q.val() {

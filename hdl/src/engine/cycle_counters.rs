@@ -7,16 +7,17 @@
 //! | `is_issuing`, `is_writing` | in | 1 | a visit is issued; a record or a link is written |
 //! | `is_committing`, `is_releasing` | in | 1 | a commit is at work; a lock is cleared |
 //! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
-//! | `value` | out | 32 | that word, if it is one of these |
+//! | `value` | out | 32 | that word, if it is one of these, a clock later |
 //!
 //! 1. The first three are two words each; the high one follows a clock after the low one has wrapped.
 //! 2. A lock that is cleared counts while a job is under way, not in the sweep after reset.
 //!
-//! Latency: 2 clocks; `value` follows `select` at once.
+//! Latency: 2 clocks; `value` follows `select` by 1.
 
 use super::{EventCounter, WideCounter};
 use incircle_protocol::Counter;
 use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// Counts of clocks; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -43,6 +44,7 @@ pub struct CycleCounters {
     pub select: Signal<In, Bits<5>>,
     /// It.
     pub value: Signal<Out, Bits<32>>,
+    chosen: DFF<Bits<32>>,
     insert_cycles: WideCounter<32>,
     wait_cycles: WideCounter<32>,
     read_cycles: WideCounter<32>,
@@ -67,6 +69,7 @@ const _: () = assert!(
 impl Logic for CycleCounters {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, chosen);
         clock!(self, clock, insert_cycles, wait_cycles, read_cycles);
         clock!(self, clock, issue_cycles, write_cycles, commit_cycles, release_cycles);
         self.insert_cycles.zero.next = self.zero.val();
@@ -83,36 +86,37 @@ impl Logic for CycleCounters {
         self.write_cycles.count.next = self.is_writing.val();
         self.commit_cycles.count.next = self.is_committing.val();
         self.release_cycles.count.next = self.is_releasing.val() & self.inserting.val();
+        self.value.next = self.chosen.q.val();
         match self.select.val().index() {
             0 => {
-                self.value.next = self.insert_cycles.low.val();
+                self.chosen.d.next = self.insert_cycles.low.val();
             }
             1 => {
-                self.value.next = self.insert_cycles.high.val();
+                self.chosen.d.next = self.insert_cycles.high.val();
             }
             2 => {
-                self.value.next = self.wait_cycles.low.val();
+                self.chosen.d.next = self.wait_cycles.low.val();
             }
             3 => {
-                self.value.next = self.wait_cycles.high.val();
+                self.chosen.d.next = self.wait_cycles.high.val();
             }
             4 => {
-                self.value.next = self.read_cycles.low.val();
+                self.chosen.d.next = self.read_cycles.low.val();
             }
             5 => {
-                self.value.next = self.read_cycles.high.val();
+                self.chosen.d.next = self.read_cycles.high.val();
             }
             19 => {
-                self.value.next = self.issue_cycles.value.val();
+                self.chosen.d.next = self.issue_cycles.value.val();
             }
             20 => {
-                self.value.next = self.write_cycles.value.val();
+                self.chosen.d.next = self.write_cycles.value.val();
             }
             21 => {
-                self.value.next = self.commit_cycles.value.val();
+                self.chosen.d.next = self.commit_cycles.value.val();
             }
             _ => {
-                self.value.next = self.release_cycles.value.val();
+                self.chosen.d.next = self.release_cycles.value.val();
             }
         }
     }

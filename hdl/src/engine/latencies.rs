@@ -11,14 +11,14 @@
 //! 1. The memory has one read port: it serves what comes first, then `select`. Nobody reads while points are inserted.
 //! 2. Latencies come at least three clocks apart.
 //!
-//! Latency: a latency is counted at the fourth edge: its bucket is found in two clocks, read, and written; a sweep takes 128 clocks.
+//! Latency: a latency is counted at the fifth edge: its bucket is found in three clocks, read, and written; a sweep takes 128 clocks.
 //!
 //! The end of a sweep, and two insertions of 22 clocks:
 //! ```text
 //! sweeps          /^^^^^^^^\______________________________________
 //! comes           ____________/^^\_____/^^\_______________________
 //! latency           .  .  .  . 22  .  . 22  .  .  .  .  .  .  .  .
-//! value             .  .  .  .  0  0  0  .  0  1  .  1  2  2  2  2
+//! value             .  .  .  .  0  0  0  0  .  0  1  .  1  2  2  2
 //! ```
 
 use super::LatencyBucket;
@@ -53,6 +53,7 @@ pub struct Latencies {
     pub value: Signal<Out, Bits<32>>,
     is_sweeping: DFF<Bit>,
     sweep_bucket: DFF<Bits<7>>,
+    shifts: DFF<Bit>,
     seeks: DFF<Bit>,
     finds: DFF<Bit>,
     counts: DFF<Bit>,
@@ -78,6 +79,7 @@ impl Default for Latencies {
             value: Signal::default(),
             is_sweeping: DFF::default(),
             sweep_bucket: DFF::default(),
+            shifts: DFF::default(),
             seeks: DFF::default(),
             finds: DFF::default(),
             counts: DFF::default(),
@@ -95,16 +97,17 @@ impl Default for Latencies {
 impl Logic for Latencies {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, is_sweeping, sweep_bucket, seeks, finds, counts, counted_bucket, found);
+        dff_setup!(self, clock, is_sweeping, sweep_bucket, shifts, seeks, finds, counts, counted_bucket, found);
         clock!(self, clock, bucket, memory);
         self.last_bucket.next = 127.into();
         self.one_bucket.next = 1.into();
         self.one.next = 1.into();
         self.sweeps.next = self.is_sweeping.q.val();
 
-        // A latency finds its bucket in two clocks, reads its count in the next, and writes it in the fourth.
+        // A latency finds its bucket in three clocks, reads its count in the next, and writes it in the fifth.
         self.bucket.latency.next = self.latency.val();
-        self.seeks.d.next = self.comes.val();
+        self.shifts.d.next = self.comes.val();
+        self.seeks.d.next = self.shifts.q.val();
         self.finds.d.next = self.seeks.q.val();
         if self.seeks.q.val() {
             self.counted_bucket.d.next = self.bucket.bucket.val();
@@ -132,6 +135,7 @@ impl Logic for Latencies {
         if self.reset.val() | self.clears.val() {
             self.is_sweeping.d.next = true;
             self.sweep_bucket.d.next = 0.into();
+            self.shifts.d.next = false;
             self.seeks.d.next = false;
             self.finds.d.next = false;
             self.counts.d.next = false;

@@ -10,9 +10,9 @@
 //! | `overflows`, `flip` | in | 1 | a boundary list has overflowed; a flip of an insertion alone is finished |
 //! | `cavity_ends`, `cavity_triangles` | in | 1, 7 | a cavity is complete, and consists of so many triangles |
 //! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
-//! | `value` | out | 32 | that word, if it is one of these |
+//! | `value` | out | 32 | that word, if it is one of these, a clock later |
 //!
-//! Latency: 2 clocks; `value` follows `select` at once.
+//! Latency: 2 clocks; `value` follows `select` by 1.
 
 use super::EventCounter;
 use incircle_protocol::Counter;
@@ -52,6 +52,7 @@ pub struct VisitCounters {
     pub select: Signal<In, Bits<5>>,
     /// It.
     pub value: Signal<Out, Bits<32>>,
+    chosen: DFF<Bits<32>>,
     last_triangles: DFF<Bits<7>>,
     triangles: DFF<Bits<32>>,
     walk_visits: EventCounter,
@@ -84,7 +85,7 @@ const _: () = assert!(
 impl Logic for VisitCounters {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, last_triangles, triangles);
+        dff_setup!(self, clock, chosen, last_triangles, triangles);
         clock!(self, clock, walk_visits, tests, overflowed, flips, root_visits);
         clock!(self, clock, revisits, aborts, root_retries, waiting_tokens);
         self.walk_visits.zero.next = self.zero.val();
@@ -114,36 +115,37 @@ impl Logic for VisitCounters {
         if self.zero.val() {
             self.triangles.d.next = 0.into();
         }
+        self.value.next = self.chosen.q.val();
         match self.select.val().index() {
             9 => {
-                self.value.next = self.walk_visits.value.val();
+                self.chosen.d.next = self.walk_visits.value.val();
             }
             10 => {
-                self.value.next = self.tests.value.val();
+                self.chosen.d.next = self.tests.value.val();
             }
             11 => {
-                self.value.next = self.triangles.q.val();
+                self.chosen.d.next = self.triangles.q.val();
             }
             12 => {
-                self.value.next = self.overflowed.value.val();
+                self.chosen.d.next = self.overflowed.value.val();
             }
             13 => {
-                self.value.next = self.flips.value.val();
+                self.chosen.d.next = self.flips.value.val();
             }
             14 => {
-                self.value.next = self.root_visits.value.val();
+                self.chosen.d.next = self.root_visits.value.val();
             }
             15 => {
-                self.value.next = self.revisits.value.val();
+                self.chosen.d.next = self.revisits.value.val();
             }
             16 => {
-                self.value.next = self.aborts.value.val();
+                self.chosen.d.next = self.aborts.value.val();
             }
             17 => {
-                self.value.next = self.root_retries.value.val();
+                self.chosen.d.next = self.root_retries.value.val();
             }
             _ => {
-                self.value.next = self.waiting_tokens.value.val();
+                self.chosen.d.next = self.waiting_tokens.value.val();
             }
         }
     }

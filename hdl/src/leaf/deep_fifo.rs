@@ -17,20 +17,20 @@
 //!
 //! Latency: none from push to output when empty.
 //!
-//! Every stored entry has a place in a ring in block RAM. A window of the 16 oldest entries stands in LUTs as well, where it can be seen
-//! without a clock. A new entry goes straight into the window if it falls into it; otherwise it is spilled, and fetched as soon as the
-//! window has moved on:
+//! The oldest entry stands in a register, so that little is computed between it and what the user makes of it. Every other one has a
+//! place in a ring in block RAM. A window of the 16 oldest of these stands in LUTs as well, where it can be seen without a clock. A
+//! new entry goes straight into the window if it falls into it; otherwise it is spilled, and fetched as soon as the window has moved on:
 //! ```text
-//!         oldest             fetched             newest
-//!            v                  v                   v
-//!     -------[ window, up to 16 |      spilled      )-------
+//!           after_first           fetched             newest
+//!                v                   v                   v
+//!      first     [ window, up to 16  |      spilled      )-------
 //! ```
 //! A fetch takes three clocks. It begins only with 15 entries in the window before it, and the window never holds fewer while anything
 //! is spilled, since a clock that takes one away fetches another; so an entry is there long before it is the oldest. A fetched and a new
 //! entry may enter the window at one edge, hence two banks of it, and a bit per place that tells which bank counts.
 //!
-//! An entry that passes is stored, too, and its place is given up at once: `pop` often follows from the entry itself, so it comes late and
-//! moves nothing but the end of the oldest entry.
+//! An entry that is pushed behind the first and takes its place at the same edge is stored, too, and its place is given up at once: `pop`
+//! often follows from the entry itself, so it comes late and moves nothing but the register and the end of the window.
 //!
 //! Source: [`Fifo`](super::Fifo) around a [`BlockMemory`].
 
@@ -60,23 +60,30 @@ pub struct DeepFifo<const A: usize, const D: usize> {
     new_bank: LutMemory<4, D>,
     fetched_bank: LutMemory<4, D>,
     was_fetched: LutMemory<4, 1>,
-    holds_entries: DFF<Bit>,
+    holds_first: DFF<Bit>,
+    /// It does not: the same once more, for the data.
+    passes: DFF<Bit>,
+    first: DFF<Bits<D>>,
+    holds_more: DFF<Bit>,
     window_is_full: DFF<Bit>,
     holds_spilled: DFF<Bit>,
     newest: DFF<Bits<A>>,
     fetched: DFF<Bits<A>>,
-    oldest: DFF<Bits<4>>,
+    after_first: DFF<Bits<4>>,
     fetch_in_array: DFF<Bit>,
     fetch_in_output: DFF<Bit>,
     place_in_array: DFF<Bits<4>>,
     place_in_output: DFF<Bits<4>>,
+    kept_data: Signal<Local, Bits<D>>,
+    joins: Signal<Local, Bit>,
+    moves_up: Signal<Local, Bit>,
     spills: Signal<Local, Bit>,
     enters: Signal<Local, Bit>,
     fetches: Signal<Local, Bit>,
     advances: Signal<Local, Bit>,
     after_newest: Signal<Local, Bits<A>>,
     after_fetched: Signal<Local, Bits<A>>,
-    after_oldest: Signal<Local, Bits<4>>,
+    after_moved: Signal<Local, Bits<4>>,
     place: Signal<Local, Bits<4>>,
     after_place: Signal<Local, Bits<4>>,
     one: Constant<Bits<A>>,
@@ -111,23 +118,29 @@ impl<const A: usize, const D: usize> DeepFifo<A, D> {
             new_bank: LutMemory::new(window, stored_bits),
             fetched_bank: LutMemory::new(window, stored_bits),
             was_fetched: LutMemory::new(window, 1),
-            holds_entries: DFF::default(),
+            holds_first: DFF::default(),
+            passes: DFF::default(),
+            first: DFF::default(),
+            holds_more: DFF::default(),
             window_is_full: DFF::default(),
             holds_spilled: DFF::default(),
             newest: DFF::default(),
             fetched: DFF::default(),
-            oldest: DFF::default(),
+            after_first: DFF::default(),
             fetch_in_array: DFF::default(),
             fetch_in_output: DFF::default(),
             place_in_array: DFF::default(),
             place_in_output: DFF::default(),
+            kept_data: Signal::default(),
+            joins: Signal::default(),
+            moves_up: Signal::default(),
             spills: Signal::default(),
             enters: Signal::default(),
             fetches: Signal::default(),
             advances: Signal::default(),
             after_newest: Signal::default(),
             after_fetched: Signal::default(),
-            after_oldest: Signal::default(),
+            after_moved: Signal::default(),
             place: Signal::default(),
             after_place: Signal::default(),
             one: Constant::new(Bits::from(1)),
@@ -150,33 +163,49 @@ impl<const A: usize, const D: usize> Default for DeepFifo<A, D> {
 impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, holds_entries, window_is_full, holds_spilled, newest, fetched, oldest);
+        dff_setup!(self, clock, holds_first, passes, first, holds_more, window_is_full, holds_spilled);
+        dff_setup!(self, clock, newest, fetched, after_first);
         dff_setup!(self, clock, fetch_in_array, fetch_in_output, place_in_array, place_in_output);
         clock!(self, clock, ring, new_bank, fetched_bank, was_fetched);
         self.after_newest.next = self.newest.q.val() + self.one.val();
         self.after_fetched.next = self.fetched.q.val() + self.one.val();
-        self.after_oldest.next = self.oldest.q.val() + self.one_place.val();
+        self.after_moved.next = self.after_first.q.val() + self.one_place.val();
         self.place.next = self.fetched.q.val().get_bits::<4>(0);
         self.after_place.next = self.place.val() + self.one_place.val();
 
         // What the user sees.
-        self.new_bank.read_address.next = self.oldest.q.val();
-        self.fetched_bank.read_address.next = self.oldest.q.val();
-        self.was_fetched.read_address.next = self.oldest.q.val();
-        self.valid.next = self.holds_entries.q.val() | self.push.val();
-        self.data.next = self.push_data.val() & self.kept_bits.val();
-        if self.holds_entries.q.val() {
-            self.data.next = self.new_bank.read_data.val();
-            if self.was_fetched.read_data.val() == self.from_ring.val() {
-                self.data.next = self.fetched_bank.read_data.val();
-            }
+        self.kept_data.next = self.push_data.val() & self.kept_bits.val();
+        self.valid.next = self.holds_first.q.val() | self.push.val();
+        self.data.next = self.first.q.val();
+        if self.passes.q.val() {
+            self.data.next = self.kept_data.val();
         }
 
-        // What happens at this edge, whatever is popped.
-        self.spills.next = self.push.val() & (self.holds_spilled.q.val() | self.window_is_full.q.val());
-        self.enters.next = self.push.val() & (!self.spills.val());
+        // The first entry: what follows it takes its place.
+        self.new_bank.read_address.next = self.after_first.q.val();
+        self.fetched_bank.read_address.next = self.after_first.q.val();
+        self.was_fetched.read_address.next = self.after_first.q.val();
+        if self.pop.val() | (!self.holds_first.q.val()) {
+            self.first.d.next = self.kept_data.val();
+            if self.holds_more.q.val() {
+                self.first.d.next = self.new_bank.read_data.val();
+                if self.was_fetched.read_data.val() == self.from_ring.val() {
+                    self.first.d.next = self.fetched_bank.read_data.val();
+                }
+            }
+        }
+        self.holds_first.d.next = self.valid.val();
+        if self.pop.val() {
+            self.holds_first.d.next = self.holds_first.q.val() & (self.holds_more.q.val() | self.push.val());
+        }
+
+        // What happens behind it at this edge, whatever is popped.
+        self.joins.next = self.push.val() & self.holds_first.q.val();
+        self.spills.next = self.joins.val() & (self.holds_spilled.q.val() | self.window_is_full.q.val());
+        self.enters.next = self.joins.val() & (!self.spills.val());
         self.fetches.next = self.holds_spilled.q.val() & (!self.window_is_full.q.val());
-        self.advances.next = self.enters.val() | self.fetches.val();
+        self.advances.next = (!self.window_is_full.q.val()) & (self.holds_spilled.q.val() | self.joins.val());
+        self.moves_up.next = self.pop.val() & self.holds_first.q.val() & (self.holds_more.q.val() | self.push.val());
 
         // The ring, and the way from it into the window.
         self.ring.write_address.next = self.newest.q.val();
@@ -203,14 +232,14 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         self.was_fetched.write_enable.next = self.advances.val();
 
         // Pointers, and the three flags that follow from them.
-        if self.push.val() {
+        if self.joins.val() {
             self.newest.d.next = self.after_newest.val();
         }
         if self.advances.val() {
             self.fetched.d.next = self.after_fetched.val();
         }
-        if self.pop.val() {
-            self.oldest.d.next = self.after_oldest.val();
+        if self.moves_up.val() {
+            self.after_first.d.next = self.after_moved.val();
         }
         if self.fetches.val() {
             self.holds_spilled.d.next = self.after_fetched.val() != self.newest.q.val();
@@ -218,24 +247,26 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         if self.spills.val() {
             self.holds_spilled.d.next = true;
         }
-        if self.advances.val() & (!self.pop.val()) {
-            self.holds_entries.d.next = true;
-            self.window_is_full.d.next = self.after_place.val() == self.oldest.q.val();
+        if self.advances.val() & (!self.moves_up.val()) {
+            self.holds_more.d.next = true;
+            self.window_is_full.d.next = self.after_place.val() == self.after_first.q.val();
         }
-        if self.pop.val() & (!self.advances.val()) {
-            self.holds_entries.d.next = self.after_oldest.val() != self.place.val();
+        if self.moves_up.val() & (!self.advances.val()) {
+            self.holds_more.d.next = self.after_moved.val() != self.place.val();
             self.window_is_full.d.next = false;
         }
 
         if self.reset.val() {
-            self.holds_entries.d.next = false;
+            self.holds_first.d.next = false;
+            self.holds_more.d.next = false;
             self.window_is_full.d.next = false;
             self.holds_spilled.d.next = false;
             self.newest.d.next = self.nothing.val();
             self.fetched.d.next = self.nothing.val();
-            self.oldest.d.next = self.first_place.val();
+            self.after_first.d.next = self.first_place.val();
             self.fetch_in_array.d.next = false;
             self.fetch_in_output.d.next = false;
         }
+        self.passes.d.next = !self.holds_first.d.val();
     }
 }

@@ -8,13 +8,14 @@
 //! | `arrived`, `refused`, `insertions`, `duplicates`, `records` | in | | counts of the mesh |
 //! | `index` | in | 7 | word of the payload |
 //! | `counter`, `latency` | in | 32 | the counter, and the bucket of the histogram, of the number that `index` was a clock ago |
-//! | `word` | out | 32 | word `index` of the payload |
+//! | `chooses` | in | 1 | take the word that `index` was a clock ago |
+//! | `word` | out | 32 | that word, until the next one is taken |
 //!
 //! 1. Each kind of payload chooses its word in the first rank, the counters and the histogram in blocks of their own; the second
 //!    chooses the kind.
 //! 2. `opcode` stands still from the command to the end of its answer.
 //!
-//! Latency: 2 clocks, and 1 from `counter` and `latency`.
+//! Latency: 2 clocks from `index`, and 1 from `counter` and `latency`, at an edge with `chooses`.
 
 use incircle_protocol::{Opcode, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
 use rust_hdl_core::prelude::*;
@@ -49,11 +50,15 @@ pub struct AnswerWords {
     pub counter: Signal<In, Bits<32>>,
     /// Bucket of that number.
     pub latency: Signal<In, Bits<32>>,
+    /// Take the word.
+    pub chooses: Signal<In, Bit>,
     /// Word of the payload.
     pub word: Signal<Out, Bits<32>>,
     identity: DFF<Bits<32>>,
     report: DFF<Bits<32>>,
     chosen: DFF<Bits<32>>,
+    /// The two payloads chosen here are shorter than 8 words.
+    place: Signal<Local, Bits<3>>,
 }
 
 // The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
@@ -73,7 +78,8 @@ impl Logic for AnswerWords {
     fn update(&mut self) {
         dff_setup!(self, clock, identity, report, chosen);
         self.word.next = self.chosen.q.val();
-        match self.index.val().index() {
+        self.place.next = self.index.val().get_bits::<3>(0);
+        match self.place.val().index() {
             0 => {
                 self.identity.d.next = 0x696e_4369.into();
                 self.report.d.next = bit_cast::<32, 15>(self.arrived.val());
@@ -103,18 +109,20 @@ impl Logic for AnswerWords {
                 self.report.d.next = 0.into();
             }
         }
-        match self.opcode.val().index() {
-            1 => {
-                self.chosen.d.next = self.identity.q.val();
-            }
-            3 => {
-                self.chosen.d.next = self.report.q.val();
-            }
-            6 => {
-                self.chosen.d.next = self.latency.val();
-            }
-            _ => {
-                self.chosen.d.next = self.counter.val();
+        if self.chooses.val() {
+            match self.opcode.val().index() {
+                1 => {
+                    self.chosen.d.next = self.identity.q.val();
+                }
+                3 => {
+                    self.chosen.d.next = self.report.q.val();
+                }
+                6 => {
+                    self.chosen.d.next = self.latency.val();
+                }
+                _ => {
+                    self.chosen.d.next = self.counter.val();
+                }
             }
         }
     }

@@ -9,6 +9,7 @@
 //! | `has_three`, `seeded`, `collinear` | in | 1 | three points have come so far, and what became of them |
 //! | `stuck` | in | 1 | the core is stuck: nothing is waited for |
 //! | `ready` | out | 1 | a word is taken |
+//! | `takes_command`, `takes_point` | out | 1 | it is a command; it is a point |
 //! | `awaits_point` | out | 1 | a point may come |
 //!
 //! 1. The fourth point waits until the first three are known to span a triangle.
@@ -42,6 +43,10 @@ pub struct CommandGate {
     pub stuck: Signal<In, Bit>,
     /// A word is taken.
     pub ready: Signal<Out, Bit>,
+    /// A command is taken.
+    pub takes_command: Signal<Out, Bit>,
+    /// A point is taken.
+    pub takes_point: Signal<Out, Bit>,
     /// A point may come.
     pub awaits_point: Signal<Out, Bit>,
     start_is_open: Signal<Local, Bit>,
@@ -53,12 +58,8 @@ impl Logic for CommandGate {
         self.start_is_open.next =
             self.has_three.val() & (!self.seeded.val()) & (!self.collinear.val()) & (!self.stuck.val());
         self.awaits_point.next = self.is_points.val() & (!self.none_is_left.val());
-        self.ready.next = self.is_argument.val();
-        if self.is_command.val() {
-            self.ready.next = !self.sweeps.val();
-        }
-        if self.is_points.val() {
-            self.ready.next = (!self.none_is_left.val()) & (!self.came.val()) & (!self.start_is_open.val());
-        }
+        self.takes_command.next = self.is_command.val() & (!self.sweeps.val());
+        self.takes_point.next = self.awaits_point.val() & (!self.came.val()) & (!self.start_is_open.val());
+        self.ready.next = self.is_argument.val() | self.takes_command.val() | self.takes_point.val();
     }
 }

@@ -138,7 +138,8 @@ pub struct CommandPort {
     slot: PointSlot,
     gate: CommandGate,
     clear: ClearCommand,
-    accepts: Signal<Local, Bit>,
+    accepts_command: Signal<Local, Bit>,
+    accepts_point: Signal<Local, Bit>,
     code: Signal<Local, Bits<8>>,
     is_insert: Signal<Local, Bit>,
     read_code: Signal<Local, Bits<8>>,
@@ -191,17 +192,18 @@ impl Logic for CommandPort {
         self.gate.stuck.next = self.stuck.val();
         self.awaits_point.next = self.gate.awaits_point.val();
         self.command_ready.next = self.gate.ready.val();
-        self.accepts.next = self.command_valid.val() & self.gate.ready.val();
+        self.accepts_command.next = self.command_valid.val() & self.gate.takes_command.val();
+        self.accepts_point.next = self.command_valid.val() & self.gate.takes_point.val();
         self.clear.reset.next = self.reset.val();
         self.clear.built.next = self.built.val();
-        self.clear.accepts.next = self.accepts.val() & (self.state.q.val() == CommandState::Command);
+        self.clear.accepts.next = self.accepts_command.val();
         self.clear.word.next = self.command_data.val();
         self.slot.reset.next = self.reset.val();
         self.slot.clears.next = self.clear.clears.val();
         self.slot.capacity.next = self.capacity.val();
         self.slot.collinear.next = self.collinear.val();
         self.slot.stuck.next = self.stuck.val();
-        self.slot.accepts.next = self.accepts.val() & (self.state.q.val() == CommandState::Points);
+        self.slot.accepts.next = self.accepts_point.val();
         self.slot.word.next = self.command_data.val();
         self.code.next = self.command_data.val().get_bits::<8>(24);
         self.is_insert.next = self.command.q.val() == self.insert_code.val();
@@ -211,7 +213,7 @@ impl Logic for CommandPort {
         }
         match self.state.q.val() {
             CommandState::Command => {
-                if self.accepts.val() {
+                if self.accepts_command.val() {
                     self.command.d.next = self.code.val();
                     self.state.d.next = CommandState::Answer;
                     if self.code.val() == self.insert_code.val() {
@@ -223,13 +225,13 @@ impl Logic for CommandPort {
                 }
             }
             CommandState::First => {
-                if self.accepts.val() {
+                if self.command_valid.val() {
                     self.first_word.d.next = self.command_data.val();
                     self.state.d.next = CommandState::Count;
                 }
             }
             CommandState::Count => {
-                if self.accepts.val() {
+                if self.command_valid.val() {
                     self.left.d.next = self.command_data.val();
                     self.none_is_left.d.next = self.command_data.val() == self.none.val();
                     if self.is_insert.val() {
@@ -244,7 +246,7 @@ impl Logic for CommandPort {
                 if self.none_is_left.q.val() {
                     self.state.d.next = CommandState::Settle;
                 }
-                if self.accepts.val() {
+                if self.accepts_point.val() {
                     self.left.d.next = self.left.q.val() - self.one.val();
                     self.none_is_left.d.next = self.left.q.val() == self.one.val();
                     self.is_inserting.d.next = true;

@@ -10,7 +10,7 @@
 //! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
 //! | `has_three`, `some_refused` | out | 1 | there are exactly three of those; there is one of these |
 //!
-//! 1. `came_id` and `point` are held until the next point comes.
+//! 1. `came_id` and `point` are good only with `came`: their registers take in whatever comes, so that nothing has to reach all of them.
 //! 2. No point comes in the clock of `came`: the counts are compared in it.
 //!
 //! Latency: 1 clock; 2 to `has_three`, `refused` and `some_refused`.
@@ -91,9 +91,9 @@ impl Logic for PointSlot {
         self.stores.next = self.accepts.val() & self.has_room.val();
         self.is_surplus.d.next = self.accepts.val() & (!self.has_room.val());
         self.is_new.d.next = self.stores.val();
+        self.last_id.d.next = self.arrivals.q.val();
+        self.last_point.d.next = self.word.val();
         if self.stores.val() {
-            self.last_id.d.next = self.arrivals.q.val();
-            self.last_point.d.next = self.word.val();
             self.arrivals.d.next = self.arrivals.q.val() + self.one_arrival.val();
         }
         if self.is_surplus.q.val() {

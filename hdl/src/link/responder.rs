@@ -7,8 +7,10 @@
 //! | `sweeps` | in | 1 | counts are being cleared: no answer begins |
 //! | `first` | in | 32 | first record of a read |
 //! | `header`, `length`, `is_empty`, `is_read` | in | | the answer, from `AnswerHead`, good 3 clocks after `answers` comes |
-//! | `word` | in | 32 | a word of the payload, from `AnswerWords`, good 2 clocks after `index` |
+//! | `word` | in | 32 | a word of the payload, from `AnswerWords`, good from `chooses` to the next one |
 //! | `index` | out | 7 | word of the payload that is wanted |
+//! | `index_ahead` | out | 7 | what `index` becomes at this edge, if it changes |
+//! | `chooses` | out | 1 | the word that `index` was a clock ago is taken into a register at this edge, and is then `word` |
 //! | `read`, `read_id` | out | 1, 15 | a record is wanted |
 //! | `read_done`, `v0..n2`, `was_set` | in | | it has come |
 //! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 32 | the answer stream |
@@ -78,6 +80,10 @@ pub struct Responder {
     pub is_read: Signal<In, Bit>,
     /// Word of the payload that is wanted.
     pub index: Signal<Out, Bits<7>>,
+    /// The one after it, in time for what takes a clock longer to choose.
+    pub index_ahead: Signal<Out, Bits<7>>,
+    /// The word is taken into a register.
+    pub chooses: Signal<Out, Bit>,
     /// A record is wanted.
     pub read: Signal<Out, Bit>,
     /// Its id.
@@ -111,6 +117,7 @@ pub struct Responder {
     /// No word waits, or it is taken.
     pub is_taken: Signal<Out, Bit>,
     state: DFF<AnswerState>,
+    following: DFF<Bits<7>>,
     /// The first of the two clocks of `Prepare` or `Choose` is over.
     waited: DFF<Bit>,
     valid: DFF<Bit>,
@@ -134,7 +141,7 @@ pub struct Responder {
 impl Logic for Responder {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, waited, valid, data, left, is_last, loaded, record_id, fetching);
+        dff_setup!(self, clock, state, waited, valid, data, left, is_last, loaded, following, record_id, fetching);
         clock!(self, clock, record);
         self.one.next = 1.into();
         self.two.next = 2.into();
@@ -144,6 +151,8 @@ impl Logic for Responder {
         self.response_valid.next = self.valid.q.val();
         self.response_data.next = self.data.q.val();
         self.index.next = self.loaded.q.val();
+        self.index_ahead.next = self.following.q.val();
+        self.chooses.next = (self.state.q.val() == AnswerState::Choose) & self.waited.q.val();
         self.loads.next = (!self.valid.q.val()) | self.response_ready.val();
         self.is_taken.next = self.loads.val();
         self.is_idle.next = self.state.q.val() == AnswerState::Idle;
@@ -172,9 +181,7 @@ impl Logic for Responder {
 
         self.record.takes.next = false;
         self.ends_now.next = false;
-        if self.loads.val() {
-            self.valid.d.next = false;
-        }
+        self.valid.d.next = self.valid.q.val() & (!self.loads.val());
         match self.state.q.val() {
             AnswerState::Idle => {
                 if self.answers.val() & (!self.sweeps.val()) {
@@ -188,6 +195,7 @@ impl Logic for Responder {
                 }
             }
             AnswerState::Header => {
+                self.following.d.next = 0.into();
                 if self.loads.val() {
                     self.valid.d.next = true;
                     self.data.d.next = self.header.val();
@@ -210,6 +218,7 @@ impl Logic for Responder {
                 }
             }
             AnswerState::Choose => {
+                self.following.d.next = self.loaded.q.val() + self.one_word.val();
                 self.waited.d.next = !self.waited.q.val();
                 if self.waited.q.val() {
                     self.state.d.next = AnswerState::Payload;

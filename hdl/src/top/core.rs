@@ -142,6 +142,7 @@ impl Logic for Core {
         self.answer_words.insertions.next = self.counters.insertions.val();
         self.answer_words.duplicates.next = self.counters.duplicates.val();
         self.answer_words.index.next = self.responder.index.val();
+        self.answer_words.chooses.next = self.responder.chooses.val();
         self.answer_words.counter.next = self.counters.value.val();
         self.answer_words.latency.next = self.latencies.value.val();
         self.responder.answers.next = self.command_port.answers.val();
@@ -208,9 +209,9 @@ impl Logic for Core {
         self.counters.is_issuing.next = self.engine.events.val().is_issuing;
         self.counters.is_writing.next = self.engine.events.val().is_writing;
         self.counters.is_committing.next = self.engine.events.val().is_committing;
-        self.counters.is_releasing.next = self.engine.events.val().is_releasing & self.command_port.inserting.val();
+        self.counters.is_releasing.next = self.engine.events.val().is_releasing;
         self.counters.refused.next = self.command_port.refused.val();
-        self.counters.select.next = self.responder.index.val().get_bits::<5>(0);
+        self.counters.select.next = self.responder.index_ahead.val().get_bits::<5>(0);
         self.latencies.clears.next = self.command_port.clears.val();
         self.latencies.comes.next = self.counters.latency_comes.val();
         self.latencies.latency.next = self.counters.latency.val();

@@ -1,5 +1,5 @@
 //! What answers say: status, length, and the words of a payload that is no record. The hardware takes three clocks to the status, and
-//! two to a word.
+//! two to a word, or three to a counter.
 
 use super::counters::Latencies;
 use super::Registers;
@@ -10,7 +10,9 @@ use protocol::{answer_header, Config, Identity, InsertReport, Opcode, Status};
 pub(super) struct Answer {
     /// Header and payload length as they would have been one, two and three clocks ago.
     heads: [(u32, u32); 3],
-    /// The word of the payload as it stood one and two clocks ago.
+    /// The counter that is wanted next, as it stood a clock ago.
+    counter: u32,
+    /// The word of the payload in its two ranks of registers.
     words: [u32; 2],
 }
 
@@ -27,12 +29,14 @@ impl Answer {
         self.words[1]
     }
 
-    pub(super) fn clock(&mut self, was: &Registers) {
+    /// A clock, with the index of the word of the payload that is wanted from the next clock on.
+    pub(super) fn clock(&mut self, was: &Registers, index_ahead: usize) {
         let (status, length) = head(was);
         self.heads = [(answer_header(was.command.opcode, status), length), self.heads[0], self.heads[1]];
+        self.counter = was.counted.words(was.command.refused).get(index_ahead).copied().unwrap_or(0);
     }
 
-    /// A clock in which that word of the payload is wanted.
+    /// A clock in which that word of the payload is chosen.
     pub(super) fn choose(&mut self, was: &Registers, latencies: &Latencies, config: Config, index: usize) {
         self.words = [payload(was, latencies, config, index), self.words[0]];
     }
@@ -90,6 +94,6 @@ fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize)
         }
         .to_words()[index],
         Some(Opcode::Latencies) => latencies.buckets[index],
-        _ => was.counted.words(was.command.refused)[index],
+        _ => was.responder.answer.counter,
     }
 }

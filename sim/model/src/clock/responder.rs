@@ -52,6 +52,15 @@ impl Responder {
         asks.then_some(self.record_id)
     }
 
+    /// The word of the payload that is wanted from the next clock on.
+    fn index_ahead(&self) -> usize {
+        match self.state {
+            State::Length => 0,
+            State::Payload => self.index + 1,
+            _ => self.index,
+        }
+    }
+
     fn loads(&self, response_ready: bool) -> bool {
         !self.valid || response_ready
     }
@@ -77,8 +86,8 @@ impl Responder {
             self.buffer_valid = true;
             self.record_id += 1;
         }
-        self.answer.clock(was);
-        if matches!(was.responder.state, State::Choose | State::Payload) {
+        self.answer.clock(was, was.responder.index_ahead());
+        if was.responder.state == State::Choose {
             self.answer.choose(was, latencies, config, was.responder.index);
         }
         self.wait(was, latencies);
