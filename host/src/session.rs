@@ -58,7 +58,7 @@ impl<'d> Session<'d> {
     ///
     /// Duplicates collapse onto their lowest index and are listed. Fewer than three distinct points, or points on one
     /// line, are answered by the host alone. O(n log n) on the device in the mean, O(n) on the host. At a million points
-    /// of 16 bits the peak is 120 bytes per point, the software model and the mesh included, the caller's points not.
+    /// of 16 bits the peak is below 200 bytes per point, the engine or the software model and the mesh included, the caller's points not.
     ///
     /// # Errors
     /// A coordinate beyond the device's bits, more contexts than it has, more distinct points than it holds, a failing link, an answer that no

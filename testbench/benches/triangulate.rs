@@ -1,8 +1,7 @@
 //! The whole job beside two well-known libraries: uniform points of 16 bits, one thread, fresh points each time. 16,384 of them, and as
 //! many as in the one paper on an FPGA before: `testbench/cycles.md` has the core's cycles for the same counts.
 //!
-//! `incircle/model` is the one-call door: duplicates, order, the software model behind its word stream, every answer
-//! checked, canonical triangles. `spade/bulk` builds its half-edge structure, `delaunator` its three arrays; both take
+//! `incircle/cpu` is the one-call door: duplicates, order, the engine on the processor, canonical triangles. `spade/bulk` builds its half-edge structure, `delaunator` its three arrays; both take
 //! doubles and decide ties their own way. Criterion counts points, so `1e9 / thrpt` is nanoseconds per point.
 //!
 //! ```text
@@ -40,7 +39,7 @@ fn triangulate(criterion: &mut Criterion) {
 fn beside_the_others(criterion: &mut Criterion, count: usize) {
     let mut group = criterion.benchmark_group(format!("uniform-{count}"));
     group.throughput(Throughput::Elements(count as u64));
-    group.bench_function("incircle/model", |bencher| {
+    group.bench_function("incircle/cpu", |bencher| {
         let mut source = Uniform(1);
         bencher.iter_batched(
             || source.points(count, |[x, y]| incircle::Point::new(x.into(), y.into())),
