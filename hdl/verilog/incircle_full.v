@@ -5120,7 +5120,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     wire  [14:0] pipeline$n2;
     wire  pipeline$was_set;
     reg  [109:0] pipeline$write;
-    reg  [3:0] pipeline$enables;
+    reg  [33:0] pipeline$enables;
     reg  [14:0] pipeline$vertex_id;
     reg  [31:0] pipeline$vertex_position;
     reg  pipeline$vertex_enable;
@@ -5178,7 +5178,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  [109:0] write_port$solo;
     reg  [109:0] write_port$seed;
     wire  [109:0] write_port$write;
-    wire  [3:0] write_port$enables;
+    wire  [33:0] write_port$enables;
     
     // Local signals
     reg  [14:0] first_vertex;
@@ -9801,6 +9801,7 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
     reg  [6:0] three_places;
     reg  [14:0] one;
     reg  [14:0] before_first;
+    reg  [14:0] before_last;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$commits$lock_release$commits commits(
@@ -10027,9 +10028,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
         is_last$d = output_is_last$q;
         owner$d = output_owner$q;
         after_cleared = cleared$q + one;
+        before_last = last_id - one;
         if (sweeping$q) begin
             cleared$d = after_cleared;
-            sweeping$d = after_cleared != last_id;
+            sweeping$d = cleared$q != before_last;
         end
         if (reset) begin
             works$d = 1'b0;
@@ -12590,6 +12592,18 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     reg  [14:0] found_root$d;
     wire  [14:0] found_root$q;
     reg  found_root$clock;
+    reg  taken1$d;
+    wire  taken1$q;
+    reg  taken1$clock;
+    reg  taken2$d;
+    wire  taken2$q;
+    reg  taken2$clock;
+    reg  [4:0] taker1$d;
+    wire  [4:0] taker1$q;
+    reg  taker1$clock;
+    reg  [4:0] taker2$d;
+    wire  [4:0] taker2$q;
+    reg  taker2$clock;
     reg  flags$clock;
     reg  flags$reset;
     reg  flags$clears;
@@ -12654,8 +12668,6 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     wire  [14:0] start$taken_id;
     wire  start$solo_starts;
     wire  [14:0] start$solo_p;
-    wire  start$position_enable;
-    wire  [4:0] start$position_owner;
     reg  progress$clock;
     reg  progress$reset;
     reg  progress$clears;
@@ -12732,6 +12744,26 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         .q(found_root$q),
         .clock(found_root$clock)
     );
+    incircle_core_logic$engine$insertions$dispatcher$taken1 taken1(
+        .d(taken1$d),
+        .q(taken1$q),
+        .clock(taken1$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$taken2 taken2(
+        .d(taken2$d),
+        .q(taken2$q),
+        .clock(taken2$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$taker1 taker1(
+        .d(taker1$d),
+        .q(taker1$q),
+        .clock(taker1$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$taker2 taker2(
+        .d(taker2$d),
+        .q(taker2$q),
+        .clock(taker2$clock)
+    );
     incircle_core_logic$engine$insertions$dispatcher$flags flags(
         .clock(flags$clock),
         .reset(flags$reset),
@@ -12798,9 +12830,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         .takes(start$takes),
         .taken_id(start$taken_id),
         .solo_starts(start$solo_starts),
-        .solo_p(start$solo_p),
-        .position_enable(start$position_enable),
-        .position_owner(start$position_owner)
+        .solo_p(start$solo_p)
     );
     incircle_core_logic$engine$insertions$dispatcher$progress progress(
         .clock(progress$clock),
@@ -12850,6 +12880,14 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         found_duplicate$d = found_duplicate$q;
         found_root_enable$d = found_root_enable$q;
         found_root$d = found_root$q;
+        taken1$clock = clock;
+        taken2$clock = clock;
+        taker1$clock = clock;
+        taker2$clock = clock;
+        taken1$d = taken1$q;
+        taken2$d = taken2$q;
+        taker1$d = taker1$q;
+        taker2$d = taker2$q;
         flags$clock = clock;
         start$clock = clock;
         progress$clock = clock;
@@ -12921,8 +12959,12 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         u = start$u;
         takes = start$takes;
         taken_id = start$taken_id;
-        position_enable = start$position_enable;
-        position_owner = start$position_owner;
+        taken1$d = start$takes & (~reset);
+        taken2$d = taken1$q & (~reset);
+        taker1$d = start$owner;
+        taker2$d = taker1$q;
+        position_enable = taken2$q;
+        position_owner = taker2$q;
         solo_starts = start$solo_starts;
         solo_p = start$solo_p;
         progress$arrived = arrived;
@@ -13842,7 +13884,7 @@ module incircle_core_logic$engine$insertions$dispatcher$progress$starts(d,q,cloc
 endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$starts
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears,contexts,arrived,came,seeded,asleep,keeping,busy,began,hinted,solo_valid,is_urgent,waiter,solo_owner,solo_is_at_work,all_rest,is_done,is_blocked,root_enable,root_owner,root,hint_enable,hint_owner,hint,starts,owner,u,takes,taken_id,solo_starts,solo_p,position_enable,position_owner);
+module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears,contexts,arrived,came,seeded,asleep,keeping,busy,began,hinted,solo_valid,is_urgent,waiter,solo_owner,solo_is_at_work,all_rest,is_done,is_blocked,root_enable,root_owner,root,hint_enable,hint_owner,hint,starts,owner,u,takes,taken_id,solo_starts,solo_p);
     
     // Module arguments
     input wire  clock;
@@ -13878,8 +13920,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     output reg  [14:0] taken_id;
     output reg  solo_starts;
     output reg  [14:0] solo_p;
-    output reg  position_enable;
-    output reg  [4:0] position_owner;
     
     // Stub signals
     reg  [4:0] turn$d;
@@ -13906,6 +13946,9 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  [14:0] candidate_id$d;
     wire  [14:0] candidate_id$q;
     reg  candidate_id$clock;
+    reg  [14:0] candidate_plan$d;
+    wire  [14:0] candidate_plan$q;
+    reg  candidate_plan$clock;
     reg  [14:0] candidate_point$d;
     wire  [14:0] candidate_point$q;
     reg  candidate_point$clock;
@@ -13924,18 +13967,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  all_work$d;
     wire  all_work$q;
     reg  all_work$clock;
-    reg  [4:0] owner1$d;
-    wire  [4:0] owner1$q;
-    reg  owner1$clock;
-    reg  [4:0] owner2$d;
-    wire  [4:0] owner2$q;
-    reg  owner2$clock;
-    reg  taken1$d;
-    wire  taken1$q;
-    reg  taken1$clock;
-    reg  taken2$d;
-    wire  taken2$q;
-    reg  taken2$clock;
     reg  points$clock;
     reg  [4:0] points$write_address;
     reg  [14:0] points$write_data;
@@ -14032,6 +14063,11 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .q(candidate_id$q),
         .clock(candidate_id$clock)
     );
+    incircle_core_logic$engine$insertions$dispatcher$start$candidate_plan candidate_plan(
+        .d(candidate_plan$d),
+        .q(candidate_plan$q),
+        .clock(candidate_plan$clock)
+    );
     incircle_core_logic$engine$insertions$dispatcher$start$candidate_point candidate_point(
         .d(candidate_point$d),
         .q(candidate_point$q),
@@ -14061,26 +14097,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .d(all_work$d),
         .q(all_work$q),
         .clock(all_work$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$owner1 owner1(
-        .d(owner1$d),
-        .q(owner1$q),
-        .clock(owner1$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$owner2 owner2(
-        .d(owner2$d),
-        .q(owner2$q),
-        .clock(owner2$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$taken1 taken1(
-        .d(taken1$d),
-        .q(taken1$q),
-        .clock(taken1$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$taken2 taken2(
-        .d(taken2$d),
-        .q(taken2$q),
-        .clock(taken2$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$start$points points(
         .clock(points$clock),
@@ -14142,26 +14158,20 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         passed_point$d = passed_point$q;
         candidate$d = candidate$q;
         candidate_id$d = candidate_id$q;
+        candidate_plan$clock = clock;
         candidate_point$clock = clock;
         wants_again$clock = clock;
         wants_new$clock = clock;
         from$clock = clock;
         is_alone$clock = clock;
         all_work$clock = clock;
+        candidate_plan$d = candidate_plan$q;
         candidate_point$d = candidate_point$q;
         wants_again$d = wants_again$q;
         wants_new$d = wants_new$q;
         from$d = from$q;
         is_alone$d = is_alone$q;
         all_work$d = all_work$q;
-        owner1$clock = clock;
-        owner2$clock = clock;
-        taken1$clock = clock;
-        taken2$clock = clock;
-        owner1$d = owner1$q;
-        owner2$d = owner2$q;
-        taken1$d = taken1$q;
-        taken2$d = taken2$q;
         points$clock = clock;
         plans$clock = clock;
         roots$clock = clock;
@@ -14177,7 +14187,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         following$has_begun = began[turn_index];
         plans$read_address = turn$q;
         following$planned = plans$read_data;
-        following$taken = candidate_id$q;
+        following$taken = passed_id$q;
         following$contexts = contexts;
         index = passed$q;
         is_barred = solo_valid | ((wants_again$q | wants_new$q) & (contexts == one_turn));
@@ -14208,7 +14218,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         points$write_data = candidate_id$q;
         points$write_enable = is_taken;
         plans$write_address = candidate$q;
-        plans$write_data = following$after_taken;
+        plans$write_data = candidate_plan$q;
         plans$write_enable = is_taken;
         roots$write_address = root_owner;
         roots$write_data = root;
@@ -14216,12 +14226,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         hints$write_address = hint_owner;
         hints$write_data = hint;
         hints$write_enable = hint_enable;
-        taken1$d = is_taken & (~reset);
-        taken2$d = taken1$q & (~reset);
-        owner1$d = candidate$q;
-        owner2$d = owner1$q;
-        position_enable = taken2$q;
-        position_owner = owner2$q;
         is_first = candidate$q == first_context;
         if (is_taken & is_first & (candidate_id$q >= first_round)) begin
             all_work$d = 1'b1;
@@ -14234,6 +14238,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         if (moves) begin
             candidate$d = passed$q;
             candidate_id$d = passed_id$q;
+            candidate_plan$d = following$after_taken;
             candidate_point$d = passed_point$q;
             wants_again$d = is_asleep & tries_again & is_rested & may_try;
             wants_new$d = is_asleep & (~tries_again) & is_there & may_work;
@@ -14324,6 +14329,25 @@ module incircle_core_logic$engine$insertions$dispatcher$start$candidate_id(d,q,c
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_id
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$candidate_plan(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_plan
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$candidate_point(d,q,clock);
@@ -14462,44 +14486,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start$is_alone(d,q,clock
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$is_alone
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$owner1(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$owner1
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$owner2(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$owner2
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$passed(d,q,clock);
@@ -14647,44 +14633,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start$round(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$round
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$taken1(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$taken1
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$taken2(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$taken2
-
-
 module incircle_core_logic$engine$insertions$dispatcher$start$turn(d,q,clock);
     
     // Module arguments
@@ -14740,6 +14688,82 @@ module incircle_core_logic$engine$insertions$dispatcher$start$wants_new(d,q,cloc
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$wants_new
+
+
+module incircle_core_logic$engine$insertions$dispatcher$taken1(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$taken1
+
+
+module incircle_core_logic$engine$insertions$dispatcher$taken2(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$taken2
+
+
+module incircle_core_logic$engine$insertions$dispatcher$taker1(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$taker1
+
+
+module incircle_core_logic$engine$insertions$dispatcher$taker2(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$taker2
 
 
 module incircle_core_logic$engine$insertions$dispatcher$watchdog(clock,reset,finishes,is_quiet,patience,stuck);
@@ -14930,7 +14954,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
     output reg  [14:0] n2;
     output reg  was_set;
     input wire  [109:0] write;
-    input wire  [3:0] enables;
+    input wire  [33:0] enables;
     input wire  [14:0] vertex_id;
     input wire  [31:0] vertex_position;
     input wire  vertex_enable;
@@ -14953,7 +14977,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
     wire  issue$read_valid;
     reg  triangles$clock;
     reg  [109:0] triangles$write;
-    reg  [3:0] triangles$enables;
+    reg  [33:0] triangles$enables;
     reg  [14:0] triangles$read_id;
     reg  [14:0] triangles$vertices_id;
     reg  [14:0] triangles$links_id;
@@ -20848,7 +20872,7 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id
     // Module arguments
     input wire  clock;
     input wire  [109:0] write;
-    input wire  [3:0] enables;
+    input wire  [33:0] enables;
     input wire  [14:0] read_id;
     input wire  [14:0] vertices_id;
     input wire  [14:0] links_id;
@@ -20978,25 +21002,25 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id
     always @(*) begin
         vertices$0$clock = clock;
         vertices$0$read_address = vertices_id;
-        vertices$0$write_address = write[(64'h1)+:(15)];
+        vertices$0$write_address = enables[(64'h4)+:(15)];
         vertices$0$write_enable = enables[(64'h0)+:(1)];
         links$0$clock = clock;
         links$0$read_address = links_id;
-        links$0$write_address = write[(64'h1)+:(15)];
+        links$0$write_address = enables[(64'h13)+:(15)];
         vertices$1$clock = clock;
         vertices$1$read_address = vertices_id;
-        vertices$1$write_address = write[(64'h1)+:(15)];
+        vertices$1$write_address = enables[(64'h4)+:(15)];
         vertices$1$write_enable = enables[(64'h0)+:(1)];
         links$1$clock = clock;
         links$1$read_address = links_id;
-        links$1$write_address = write[(64'h1)+:(15)];
+        links$1$write_address = enables[(64'h13)+:(15)];
         vertices$2$clock = clock;
         vertices$2$read_address = vertices_id;
-        vertices$2$write_address = write[(64'h1)+:(15)];
+        vertices$2$write_address = enables[(64'h4)+:(15)];
         vertices$2$write_enable = enables[(64'h0)+:(1)];
         links$2$clock = clock;
         links$2$read_address = links_id;
-        links$2$write_address = write[(64'h1)+:(15)];
+        links$2$write_address = enables[(64'h13)+:(15)];
         vertices$0$write_data = write[(64'h14)+:(15)];
         vertices$1$write_data = write[(64'h23)+:(15)];
         vertices$2$write_data = write[(64'h32)+:(15)];
@@ -25343,14 +25367,14 @@ module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write,
     input wire  [109:0] solo;
     input wire  [109:0] seed;
     output reg  [109:0] write;
-    output reg  [3:0] enables;
+    output reg  [33:0] enables;
     
     // Stub signals
     reg  [109:0] port$d;
     wire  [109:0] port$q;
     reg  port$clock;
-    reg  [3:0] enabled$d;
-    wire  [3:0] enabled$q;
+    reg  [33:0] enabled$d;
+    wire  [33:0] enabled$q;
     reg  enabled$clock;
     
     // Sub module instances
@@ -25384,6 +25408,8 @@ module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write,
             enabled$d[(64'h1)+:(1)] = seed[(64'h11)+:(1)];
             enabled$d[(64'h2)+:(1)] = seed[(64'h12)+:(1)];
             enabled$d[(64'h3)+:(1)] = seed[(64'h13)+:(1)];
+            enabled$d[(64'h4)+:(15)] = seed[(64'h1)+:(15)];
+            enabled$d[(64'h13)+:(15)] = seed[(64'h1)+:(15)];
         end
         if (solo[(64'h0)+:(1)]) begin
             port$d = solo;
@@ -25391,6 +25417,8 @@ module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write,
             enabled$d[(64'h1)+:(1)] = solo[(64'h11)+:(1)];
             enabled$d[(64'h2)+:(1)] = solo[(64'h12)+:(1)];
             enabled$d[(64'h3)+:(1)] = solo[(64'h13)+:(1)];
+            enabled$d[(64'h4)+:(15)] = solo[(64'h1)+:(15)];
+            enabled$d[(64'h13)+:(15)] = solo[(64'h1)+:(15)];
         end
         if (commit[(64'h0)+:(1)]) begin
             port$d = commit;
@@ -25398,12 +25426,16 @@ module incircle_core_logic$engine$write_port(clock,reset,commit,solo,seed,write,
             enabled$d[(64'h1)+:(1)] = commit[(64'h11)+:(1)];
             enabled$d[(64'h2)+:(1)] = commit[(64'h12)+:(1)];
             enabled$d[(64'h3)+:(1)] = commit[(64'h13)+:(1)];
+            enabled$d[(64'h4)+:(15)] = commit[(64'h1)+:(15)];
+            enabled$d[(64'h13)+:(15)] = commit[(64'h1)+:(15)];
         end
         if (reset) begin
             enabled$d[(64'h0)+:(1)] = 1'b0;
             enabled$d[(64'h1)+:(1)] = 1'b0;
             enabled$d[(64'h2)+:(1)] = 1'b0;
             enabled$d[(64'h3)+:(1)] = 1'b0;
+            enabled$d[(64'h4)+:(15)] = 32'h7fff;
+            enabled$d[(64'h13)+:(15)] = 32'h5555;
             port$d[(64'h0)+:(1)] = 1'b0;
             port$d[(64'h1)+:(15)] = 32'h0;
             port$d[(64'h10)+:(1)] = 1'b0;
@@ -25425,13 +25457,13 @@ endmodule // incircle_core_logic$engine$write_port
 module incircle_core_logic$engine$write_port$enabled(d,q,clock);
     
     // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
+    input wire  [33:0] d;
+    output reg  [33:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 4'h0;
+       q = 34'h0;
     end
     
     always @(posedge clock) begin

@@ -243,7 +243,7 @@ fn triangle_stimuli(stored_bits: u32) -> Vec<Vec<u128>> {
             write[1] = id(&mut numbers, stored_bits);
             let (read, clear) = (id(&mut numbers, stored_bits), id(&mut numbers, stored_bits));
             // Only the enables say what is written.
-            let enables = numbers.bits(1) * numbers.bits(4);
+            let enables = (numbers.bits(1) * numbers.bits(4)) | (write[1] << 4) | (write[1] << 19);
             let numbers =
                 [enables, read, read, read, numbers.bits(1), numbers.bits(5), clear, numbers.bits(1)].map(u128::from);
             [&[pack(WRITE, write)], &numbers[..]].concat()
@@ -404,7 +404,7 @@ fn write_port_takes_the_request_there_is() {
             [&[u128::from(reset)], &requests[..]].concat()
         })
         .collect();
-    let mut port: Expected = None;
+    let (mut port, mut copies): (Expected, Expected) = (None, None);
     Cosimulation {
         name: "write_port",
         rust: WritePort::default(),
@@ -412,17 +412,19 @@ fn write_port_takes_the_request_there_is() {
         outputs: &["write", "enables"],
     }
     .run(stimuli, |values| {
-        let seen = port;
+        let (seen, seen_copies) = (port, copies);
         let request = values[1..].iter().find(|request| **request & 1 == 1);
         port = if values[0] == 1 {
+            copies = Some(0x7fff << 4 | 0x5555 << 19);
             Some(0)
         } else {
+            copies = request.map(|write| (write >> 1 & 0x7fff) << 4 | (write >> 1 & 0x7fff) << 19).or(copies);
             // Without a request the data stay and the write is over.
             request.copied().or(port.map(|write| write & !1))
         };
         // What is written of the write there is.
         let enables = seen.map(|write| if write & 1 == 1 { write >> 16 & 0b1111 } else { 0 });
-        vec![seen, enables]
+        vec![seen, enables.zip(seen_copies).map(|(enables, copies)| enables | copies)]
     });
 }
 

@@ -247,6 +247,7 @@ impl Visits {
     fn stimulus(&mut self, cycle: usize) -> Vec<u128> {
         let (round, clock) = (cycle / ROUND, cycle % ROUND);
         let Writes { write, vertex, position, clear } = self.writes(round, clock);
+        let id = write >> 1 & 0x7fff;
         let rate = [1, 2, 8][round % 3];
         let visits = (20..60).contains(&clock);
         let push = visits && self.waiting.len() < 7 && self.numbers.once_in(rate);
@@ -273,7 +274,7 @@ impl Visits {
             self.vertex_id(fetch).into(),
             clear.0.into(),
             clear.1.into(),
-            if write & 1 == 1 { write >> 16 & 0b1111 } else { 0 },
+            if write & 1 == 1 { write >> 16 & 0b1111 } else { 0 } | id << 4 | id << 19,
         ]
     }
 

@@ -40,7 +40,7 @@ named_ports!(
         hint_owner,
         hint
     ],
-    [starts, owner, u, takes, taken_id, position_enable, position_owner, solo_starts, solo_p],
+    [starts, owner, u, takes, taken_id, solo_starts, solo_p],
     clock
 );
 
@@ -155,8 +155,6 @@ struct Rig {
     passed: Option<Sight>,
     candidate: Option<Candidate>,
     all_work: bool,
-    /// Who has taken a point in this clock and the two before.
-    positions: VecDeque<Option<u64>>,
 }
 
 impl Rig {
@@ -172,7 +170,6 @@ impl Rig {
             passed: None,
             candidate: None,
             all_work: false,
-            positions: [None; 2].into(),
         };
         rig.forget(contexts);
         rig.clock(&Inputs { reset: true, ..Inputs::default() });
@@ -276,10 +273,6 @@ impl Rig {
         if self.block.clocks() > 0 {
             self.block.expect("starts", start.is_some());
             self.block.expect("takes", start.is_some_and(|(vertex, _)| vertex.is_some()));
-            self.block.expect("position_enable", self.positions[0].is_some());
-            if let Some(owner) = self.positions[0] {
-                self.block.expect("position_owner", owner);
-            }
             if let Some(candidate) = self.candidate {
                 self.block.expect("owner", candidate.sight.context);
                 self.expect_alone(inputs, candidate);
@@ -309,8 +302,6 @@ impl Rig {
     }
 
     fn advance(&mut self, inputs: &Inputs, seen: Seen) {
-        self.positions.pop_front();
-        self.positions.push_back(seen.takes.map(|_| seen.owner));
         let decided = self.passed.and_then(|sight| self.decide(inputs, sight));
         if let Some(candidate) = self.candidate.as_mut().filter(|_| seen.starts) {
             candidate.is_due = false;
@@ -345,9 +336,6 @@ impl Rig {
         }
         if inputs.reset || inputs.clears {
             self.forget(self.contexts);
-        }
-        if inputs.reset {
-            self.positions = [None; 2].into();
         }
     }
 }
@@ -494,7 +482,6 @@ fn starter_shows_the_wave_of_its_header() {
         }
         let asleep = rig.set(|life| !life.awake);
         let keeping = rig.set(|life| life.keeps);
-        let position = rig.positions[0];
         let arrived = rig.arrived;
         let candidate = rig.candidate;
         let wanted = rig.wants(&inputs);
@@ -512,7 +499,6 @@ fn starter_shows_the_wave_of_its_header() {
             ("takes", Cell::Bit(seen.takes.is_some())),
             ("taken_id", number(seen.takes)),
             ("u", number(wanted.filter(|_| seen.starts).map(|(_, u)| u))),
-            ("position_enable", Cell::Bit(position.is_some())),
         ]);
     }
     wave.assert_drawn_in(include_str!("../../hdl/src/engine/starter.rs"));

@@ -210,9 +210,9 @@ fn triangle_store_shows_the_wave_of_its_header() {
     const KNOWN: [usize; 7] = [1, 2, 3, 4, 5, 6, 7];
     let stimuli = [
         (0, "write", write(5, 15, 7, 8)),
-        (0, "enables", 15),
+        (0, "enables", 15 | 5 << 4 | 5 << 19),
         (1, "write", write(5, 4, 0, 9)),
-        (1, "enables", 4),
+        (1, "enables", 4 | 5 << 4 | 5 << 19),
         (3, "read_locks", 1),
     ];
     let ids = ["read_id", "vertices_id", "links_id"];

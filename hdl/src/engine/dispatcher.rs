@@ -13,7 +13,7 @@
 //! | `solo_is_at_work`, `solo_ends` | in | 1 | the insertion alone |
 //! | `starts`, `starter`, `u` | out | 1, 5, 15 | a context starts to walk at a record |
 //! | `takes`, `taken_id` | out | 1, 15 | with this new point |
-//! | `position_enable`, `position_owner` | out | 1, 5 | the point's coordinates stand on the vertex memory's port |
+//! | `position_enable`, `position_owner` | out | 1, 5 | the point's coordinates stand on the vertex memory's port, 2 clocks later |
 //! | `busy`, `waiter_valid`, `waiter` | out | 24, 1, 5 | see `ContextFlags` |
 //! | `solo_starts`, `solo_owner`, `solo_p` | out | 1, 5, 15 | a context inserts its point alone, from `u` on |
 //! | `takes_token` | out | 1 | event: the waiting token is taken |
@@ -138,6 +138,10 @@ pub struct Dispatcher {
     found_duplicate: DFF<Bit>,
     found_root_enable: DFF<Bit>,
     found_root: DFF<Bits<15>>,
+    taken1: DFF<Bit>,
+    taken2: DFF<Bit>,
+    taker1: DFF<Bits<5>>,
+    taker2: DFF<Bits<5>>,
     flags: ContextFlags,
     start: Starter,
     progress: Progress,
@@ -156,6 +160,7 @@ impl Logic for Dispatcher {
     fn update(&mut self) {
         dff_setup!(self, clock, found_owner, found_sleeps, found_keeps, found_hands_over, found_asks, found_waits);
         dff_setup!(self, clock, found_stops, found_overflows, found_duplicate, found_root_enable, found_root);
+        dff_setup!(self, clock, taken1, taken2, taker1, taker2);
         clock!(self, clock, flags, start, progress, watchdog);
 
         // What a visit leads to is known late: it is noted in the next clock.
@@ -230,8 +235,14 @@ impl Logic for Dispatcher {
         self.u.next = self.start.u.val();
         self.takes.next = self.start.takes.val();
         self.taken_id.next = self.start.taken_id.val();
-        self.position_enable.next = self.start.position_enable.val();
-        self.position_owner.next = self.start.position_owner.val();
+
+        // The coordinates of a point that is taken come 2 clocks later.
+        self.taken1.d.next = self.start.takes.val() & (!self.reset.val());
+        self.taken2.d.next = self.taken1.q.val() & (!self.reset.val());
+        self.taker1.d.next = self.start.owner.val();
+        self.taker2.d.next = self.taker1.q.val();
+        self.position_enable.next = self.taken2.q.val();
+        self.position_owner.next = self.taker2.q.val();
         self.solo_starts.next = self.start.solo_starts.val();
         self.solo_p.next = self.start.solo_p.val();
 

@@ -114,6 +114,7 @@ pub struct Release {
     three_places: Signal<Local, Bits<7>>,
     one: Signal<Local, Bits<15>>,
     before_first: Signal<Local, Bits<15>>,
+    before_last: Signal<Local, Bits<15>>,
 }
 
 impl Release {
@@ -205,9 +206,10 @@ impl Logic for Release {
         self.owner.d.next = self.output_owner.q.val();
 
         self.after_cleared.next = self.cleared.q.val() + self.one.val();
+        self.before_last.next = self.last_id.val() - self.one.val();
         if self.sweeping.q.val() {
             self.cleared.d.next = self.after_cleared.val();
-            self.sweeping.d.next = self.after_cleared.val() != self.last_id.val();
+            self.sweeping.d.next = self.cleared.q.val() != self.before_last.val();
         }
         if self.reset.val() {
             self.works.d.next = false;

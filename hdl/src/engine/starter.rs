@@ -17,7 +17,6 @@
 //! | `takes`, `taken_id` | out | 1, 15 | with this new point |
 //! | `all_rest`, `solo_owner`, `solo_is_at_work` | in | 1, 5, 1 | no visit is out and no lock held; who wants to be alone, and is |
 //! | `solo_starts`, `solo_p` | out | 1, 15 | it inserts its point alone, from `u` on |
-//! | `position_enable`, `position_owner` | out | 1, 5 | the point's coordinates stand on the vertex memory's port |
 //!
 //! 1. A context starts if it sleeps and has a point to try again, no commit or release is due, and it has rested: contexts that try again
 //!    start in every fourth round of the pointer only, which spreads them.
@@ -29,7 +28,7 @@
 //! 5. The pointer is two contexts ahead. In the clock after it has stood at a context, that one's next vertex is there, and it is
 //!    decided whether it is due and where it would start; in the clock after that it starts, unless somebody else has the queue.
 //!
-//! Latency: 2 clocks from the pointer to `starts`; `position_enable` comes 2 clocks after `takes`.
+//! Latency: 2 clocks from the pointer to `starts`.
 //!
 //! Of two contexts, 0 takes vertex 2 when that has come and the queue is free. It falls asleep, keeps its point, and tries it again from
 //! record 9 in the next round that is a fourth one:
@@ -45,7 +44,6 @@
 //! takes           _________/^^\___________________________________
 //! taken_id          .  .  .  2  .  .  .  .  .  .  .  .  .  .  .  .
 //! u                 .  .  .  0  .  .  .  .  .  .  .  .  9  .  .  .
-//! position_enable _______________/^^\_____________________________
 //! ```
 //!
 //! Source: points dealt to contexts lie in the vertex memory, which is their queue.
@@ -125,10 +123,6 @@ pub struct Starter {
     pub solo_starts: Signal<Out, Bit>,
     /// The point.
     pub solo_p: Signal<Out, Bits<15>>,
-    /// The point's coordinates have come.
-    pub position_enable: Signal<Out, Bit>,
-    /// Whose.
-    pub position_owner: Signal<Out, Bits<5>>,
     turn: DFF<Bits<5>>,
     round: DFF<Bits<2>>,
     /// The context that the pointer has left last, the vertex that it would take, and the one it has.
@@ -136,19 +130,16 @@ pub struct Starter {
     passed: DFF<Bits<5>>,
     passed_id: DFF<Bits<15>>,
     passed_point: DFF<Bits<15>>,
-    /// The one before: whether it is due, with its point or a new one, where it would start, and whether it wants to be alone.
+    /// The one before: the vertex that it would take and the one after that; whether it is due, with its point or a new one, where it would start, and whether it wants to be alone.
     candidate: DFF<Bits<5>>,
     candidate_id: DFF<Bits<15>>,
+    candidate_plan: DFF<Bits<15>>,
     candidate_point: DFF<Bits<15>>,
     wants_again: DFF<Bit>,
     wants_new: DFF<Bit>,
     from: DFF<Bits<15>>,
     is_alone: DFF<Bit>,
     all_work: DFF<Bit>,
-    owner1: DFF<Bits<5>>,
-    owner2: DFF<Bits<5>>,
-    taken1: DFF<Bit>,
-    taken2: DFF<Bit>,
     points: LutMemory<5, 15>,
     plans: LutMemory<5, 15>,
     roots: LutMemory<5, 15>,
@@ -190,8 +181,7 @@ impl Logic for Starter {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, turn, round, has_passed, passed, passed_id, passed_point, candidate, candidate_id);
-        dff_setup!(self, clock, candidate_point, wants_again, wants_new, from, is_alone, all_work);
-        dff_setup!(self, clock, owner1, owner2, taken1, taken2);
+        dff_setup!(self, clock, candidate_plan, candidate_point, wants_again, wants_new, from, is_alone, all_work);
         clock!(self, clock, points, plans, roots, hints);
         self.one_turn.next = 1.into();
         self.one_round.next = 1.into();
@@ -206,7 +196,7 @@ impl Logic for Starter {
         self.following.has_begun.next = self.began.val().get_bit(self.turn_index.val().index());
         self.plans.read_address.next = self.turn.q.val();
         self.following.planned.next = self.plans.read_data.val();
-        self.following.taken.next = self.candidate_id.q.val();
+        self.following.taken.next = self.passed_id.q.val();
         self.following.contexts.next = self.contexts.val();
 
         // The one before: is it due? If only one context works, it may be the one that starts at this edge; and a point that is inserted
@@ -247,7 +237,7 @@ impl Logic for Starter {
         self.points.write_data.next = self.candidate_id.q.val();
         self.points.write_enable.next = self.is_taken.val();
         self.plans.write_address.next = self.candidate.q.val();
-        self.plans.write_data.next = self.following.after_taken.val();
+        self.plans.write_data.next = self.candidate_plan.q.val();
         self.plans.write_enable.next = self.is_taken.val();
         self.roots.write_address.next = self.root_owner.val();
         self.roots.write_data.next = self.root.val();
@@ -255,14 +245,6 @@ impl Logic for Starter {
         self.hints.write_address.next = self.hint_owner.val();
         self.hints.write_data.next = self.hint.val();
         self.hints.write_enable.next = self.hint_enable.val();
-
-        // The coordinates of a point that is taken come 2 clocks later.
-        self.taken1.d.next = self.is_taken.val() & (!self.reset.val());
-        self.taken2.d.next = self.taken1.q.val() & (!self.reset.val());
-        self.owner1.d.next = self.candidate.q.val();
-        self.owner2.d.next = self.owner1.q.val();
-        self.position_enable.next = self.taken2.q.val();
-        self.position_owner.next = self.owner2.q.val();
 
         self.is_first.next = self.candidate.q.val() == self.first_context.val();
         if self.is_taken.val() & self.is_first.val() & (self.candidate_id.q.val() >= self.first_round.val()) {
@@ -276,6 +258,7 @@ impl Logic for Starter {
         if self.moves.val() {
             self.candidate.d.next = self.passed.q.val();
             self.candidate_id.d.next = self.passed_id.q.val();
+            self.candidate_plan.d.next = self.following.after_taken.val();
             self.candidate_point.d.next = self.passed_point.q.val();
             self.wants_again.d.next =
                 self.is_asleep.val() & self.tries_again.val() & self.is_rested.val() & self.may_try.val();

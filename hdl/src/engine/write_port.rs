@@ -5,10 +5,12 @@
 //! | `clock`, `reset` | in | 1 | reset drops a write |
 //! | `commit`, `solo`, `seed` | in | Write | requests; at most one is valid: the last two come only while nothing else is at work |
 //! | `write` | out | Write | the write made at the next edge |
-//! | `enables` | out | WriteEnables | the columns that it writes, none without a write |
+//! | `enables` | out | WriteEnables | the columns that it writes, none without a write; its record twice more |
 //!
 //! 1. Without a request the data are held, and `write.valid` and all `enables` are low.
-//! 2. The enables are registers of their own, so that no logic stands between this port and the many block RAMs that it drives.
+//! 2. The enables are registers of their own, so that no logic stands between this port and the many block RAMs that it drives, and so are
+//!    two copies of the record's id, so that each may stand near the RAMs that it drives. Reset gives each another value, or synthesis
+//!    would make one register of them.
 //!
 //! Latency: 1 clock; the memory shows the write from the clock after.
 //! ```text
@@ -26,7 +28,7 @@ use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 crate::packed! {
-    /// What of a [`Write`] is written into the memories.
+    /// What of a [`Write`] is written into the memories, and where.
     pub struct WriteEnables {
         /// The vertex columns.
         pub vertices: bool,
@@ -36,6 +38,10 @@ crate::packed! {
         pub link1: bool,
         /// Link column 2.
         pub link2: bool,
+        /// The record, for the vertex columns.
+        pub vertices_id: Bits<15>,
+        /// The record, for the link columns.
+        pub links_id: Bits<15>,
     }
 }
 
@@ -77,6 +83,8 @@ impl Logic for WritePort {
             self.enabled.d.next.link0 = self.seed.val().link0;
             self.enabled.d.next.link1 = self.seed.val().link1;
             self.enabled.d.next.link2 = self.seed.val().link2;
+            self.enabled.d.next.vertices_id = self.seed.val().id;
+            self.enabled.d.next.links_id = self.seed.val().id;
         }
         if self.solo.val().valid {
             self.port.d.next = self.solo.val();
@@ -84,6 +92,8 @@ impl Logic for WritePort {
             self.enabled.d.next.link0 = self.solo.val().link0;
             self.enabled.d.next.link1 = self.solo.val().link1;
             self.enabled.d.next.link2 = self.solo.val().link2;
+            self.enabled.d.next.vertices_id = self.solo.val().id;
+            self.enabled.d.next.links_id = self.solo.val().id;
         }
         if self.commit.val().valid {
             self.port.d.next = self.commit.val();
@@ -91,12 +101,16 @@ impl Logic for WritePort {
             self.enabled.d.next.link0 = self.commit.val().link0;
             self.enabled.d.next.link1 = self.commit.val().link1;
             self.enabled.d.next.link2 = self.commit.val().link2;
+            self.enabled.d.next.vertices_id = self.commit.val().id;
+            self.enabled.d.next.links_id = self.commit.val().id;
         }
         if self.reset.val() {
             self.enabled.d.next.vertices = false;
             self.enabled.d.next.link0 = false;
             self.enabled.d.next.link1 = false;
             self.enabled.d.next.link2 = false;
+            self.enabled.d.next.vertices_id = 0x7fff.into();
+            self.enabled.d.next.links_id = 0x5555.into();
             self.port.d.next.valid = false;
             self.port.d.next.id = 0.into();
             self.port.d.next.vertices = false;

@@ -3,7 +3,7 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `write`, `enables` | in | Write, WriteEnables | a record or one link, written at this edge; only `enables` says what of it |
+//! | `write`, `enables` | in | Write, WriteEnables | a record or one link, written at this edge; only `enables` says what of it and where |
 //! | `read_id`, `vertices_id`, `links_id` | in | 15 | record to read: its lock, its vertex and its link columns |
 //! | `read_locks`, `owner` | in | 1, 5 | take its lock at this edge, for this context |
 //! | `v0..v2`, `n0..n2` | out | 15 | its columns |
@@ -104,11 +104,11 @@ impl Logic for TriangleStore {
         for i in 0..3 {
             self.vertices[i].clock.next = self.clock.val();
             self.vertices[i].read_address.next = self.vertices_id.val();
-            self.vertices[i].write_address.next = self.write.val().id;
+            self.vertices[i].write_address.next = self.enables.val().vertices_id;
             self.vertices[i].write_enable.next = self.enables.val().vertices;
             self.links[i].clock.next = self.clock.val();
             self.links[i].read_address.next = self.links_id.val();
-            self.links[i].write_address.next = self.write.val().id;
+            self.links[i].write_address.next = self.enables.val().links_id;
         }
         self.vertices[0].write_data.next = self.write.val().v0;
         self.vertices[1].write_data.next = self.write.val().v1;
