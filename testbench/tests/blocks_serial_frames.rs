@@ -399,7 +399,7 @@ impl Case {
             1 | 4 | 6 => self.length == 0,
             2 => self.length == 0 && self.session != 0,
             3 => self.length == 4,
-            5 => self.length != 0 && self.length % 4 == 0,
+            5 => self.length != 0 && self.length.is_multiple_of(4),
             _ => false,
         }
     }

@@ -211,7 +211,7 @@ impl<P: Pins> Rig<P> {
             let is_end = frame.kind == DeviceFrame::AnswerEnd as u8;
             assert!(is_end || frame.kind == DeviceFrame::Answer as u8, "{frame:x?}");
             assert_eq!((frame.session, frame.answers, frame.body[0]), (SESSION, number, number));
-            assert_eq!(usize::from(frame.body[1]) | usize::from(frame.body[2]) << 8, bytes.len() / 4 & 0xffff);
+            assert_eq!(usize::from(frame.body[1]) | usize::from(frame.body[2]) << 8, (bytes.len() / 4) & 0xffff);
             assert!(frame.status & STATUS_BUSY != 0);
             if is_end {
                 let (words, digest) = frame.body[3..].split_last_chunk::<4>().expect("a digest");

@@ -55,8 +55,11 @@ pub(super) trait Contestant {
     fn run(&mut self, points: &[Point]) -> Result<Run, PeerError>;
 }
 
+/// Who runs, and who is missing.
+pub(super) type Field = (Vec<Box<dyn Contestant>>, Vec<Missing>);
+
 /// Those that are there, ours with one thread first, and those that are not.
-pub(super) fn all(bits: u32) -> Result<(Vec<Box<dyn Contestant>>, Vec<Missing>), PeerError> {
+pub(super) fn all(bits: u32) -> Result<Field, PeerError> {
     let mut present: Vec<Box<dyn Contestant>> = vec![
         Box::new(Ours { name: "cpu", device: Device::open("cpu?threads=1")? }),
         Box::new(Ours { name: "cpu, all threads", device: Device::open("cpu")? }),
