@@ -150,10 +150,10 @@ fn receiver_outvotes_a_spike_in_every_bit() {
         let mut talker = Talker::new(nominal);
         talker.say(&said);
         // One clock of each bit is wrong; that of a start bit does not move its beginning.
-        let mut place = 0;
+        let mut place = 0u64;
         let mut spike = 0;
         while !talker.is_silent() {
-            if place % nominal as u64 == 0 {
+            if place.is_multiple_of(nominal as u64) {
                 spike = 2 + random.below(nominal as u64 / 2 - 1);
             }
             let level = talker.clock() ^ (place % nominal as u64 == spike);

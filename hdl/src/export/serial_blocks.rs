@@ -5,8 +5,8 @@ use incircle_protocol::{LinkConfig, SMALL};
 use super::{block, serial_link};
 use crate::serial::{
     AnswerPacker, BitClock, CobsDecoder, CobsEncoder, CommandProgress, CommandWords, Crc32, FrameBytes, FrameChoice,
-    FrameHeader, FrameJudge, FrameReader, FrameSender, Greeting, LineTimers, PayloadDigest, RateControl, ReceiveFifo,
-    Replies, SessionState, UartReceiver, UartTransmitter,
+    FrameHeader, FrameJudge, FramePart, FrameReader, FrameSender, Greeting, LineTimers, PayloadDigest, RateControl,
+    ReceiveFifo, Replies, SessionState, UartReceiver, UartTransmitter,
 };
 
 /// A link that is quick to simulate: under nine clocks a bit at the first rate, short silence, and the smallest FIFO.
@@ -39,6 +39,7 @@ pub(super) fn serial_blocks() -> Vec<(String, String)> {
         block(CommandProgress::default(), "serial_command_progress"),
         block(AnswerPacker::default(), "serial_answer_packer"),
         block(FrameChoice::default(), "serial_frame_choice"),
+        block(FramePart::default(), "serial_frame_part"),
         block(FrameSender::default(), "serial_frame_sender"),
         block(FrameHeader::default(), "serial_frame_header"),
         block(FrameBytes::default(), "serial_frame_bytes"),

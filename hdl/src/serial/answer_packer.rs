@@ -13,7 +13,7 @@
 //! | `awaits` | out | 1 | no word of an answer has come |
 //! | `is_ending` | out | 1 | the last word of an answer is offered by the core or taken, and its frame is not over |
 //!
-//! 1. All parts but the last have 256 words. The length of an answer is its second word, below 2^17 - 1.
+//! 1. All parts but the last have 256 words. The length of an answer is its second word, below 2^17.
 //! 2. `response_ready`, `is_due` and `byte_valid` depend on registers only.
 //! 3. A part begins when its first word is there; of the first part the second, too, which is not taken then.
 //!
@@ -79,7 +79,9 @@ pub struct AnswerPacker {
     word: DFF<Bits<32>>,
     is_held: DFF<Bit>,
     place: DFF<Bits<2>>,
-    /// Words of the answer behind the one that is held.
+    /// The first word of an answer is held.
+    is_head: DFF<Bit>,
+    /// Words of the answer behind the one that is held, without the second word.
     after: DFF<Bits<17>>,
     /// The word that is held in its part.
     position: DFF<Bits<8>>,
@@ -91,8 +93,10 @@ pub struct AnswerPacker {
     ending: DFF<Bit>,
     is_taking: Signal<Local, Bit>,
     loads: Signal<Local, Bit>,
-    length: Signal<Local, Bits<17>>,
-    older_words: Signal<Local, Bits<9>>,
+    many: Signal<Local, Bits<9>>,
+    few: Signal<Local, Bits<8>>,
+    is_end: Signal<Local, Bit>,
+    is_before_end: Signal<Local, Bit>,
     one: Signal<Local, Bits<17>>,
     one_byte: Signal<Local, Bits<8>>,
     one_place: Signal<Local, Bits<2>>,
@@ -107,7 +111,7 @@ impl Logic for AnswerPacker {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, state, word, is_held, place, after, position, part_number, answers);
-        dff_setup!(self, clock, is_settled, is_short, part_ends, ending);
+        dff_setup!(self, clock, is_settled, is_short, part_ends, ending, is_head);
         self.one.next = 1.into();
         self.one_byte.next = 1.into();
         self.one_place.next = 1.into();
@@ -125,22 +129,31 @@ impl Logic for AnswerPacker {
         self.is_ending.next = self.ending.q.val();
 
         // What follows from the words that are left, a clock later.
-        self.older_words.next = self.after.q.val().get_bits::<9>(8);
-        self.is_short.d.next = !self.older_words.val().any();
-        self.part_ends.d.next = (!self.after.q.val().any()) | (self.position.q.val() == self.last_position.val());
+        self.many.next = self.after.q.val().get_bits::<9>(8);
+        self.few.next = self.after.q.val().get_bits::<8>(0);
+        self.is_short.d.next =
+            (!self.many.val().any()) & ((!self.is_head.q.val()) | (self.few.val() != self.last_position.val()));
+        self.is_end.next = (!self.after.q.val().any()) & (!self.is_head.q.val());
+        self.part_ends.d.next = self.is_end.val() | (self.position.q.val() == self.last_position.val());
         self.is_settled.d.next = self.is_held.q.val() & (self.state.q.val() == PackState::Start);
-        self.ending.d.next = (!self.after.q.val().any())
-            | ((self.after.q.val() == self.one.val()) & self.response_valid.val() & self.is_held.q.val());
+        self.is_before_end.next = (self.after.q.val() == self.one.val()) & (!self.is_head.q.val());
+        if self.is_head.q.val() {
+            self.is_before_end.next = !self.after.q.val().any();
+        }
+        self.ending.d.next =
+            self.is_end.val() | (self.is_before_end.val() & self.response_valid.val() & self.is_held.q.val());
 
         self.is_taking.next = (!self.is_held.q.val())
             & ((self.state.q.val() == PackState::Start) | (self.state.q.val() == PackState::Words));
         self.response_ready.next = self.is_taking.val() | (self.state.q.val() == PackState::Head);
         self.loads.next = self.is_taking.val() & self.response_valid.val();
-        self.length.next = self.response_data.val().get_bits::<17>(0);
         if self.loads.val() {
             self.word.d.next = self.response_data.val();
             self.is_held.d.next = true;
-            self.after.d.next = self.after.q.val() - self.one.val();
+            self.is_head.d.next = false;
+            if !self.is_head.q.val() {
+                self.after.d.next = self.after.q.val() - self.one.val();
+            }
             self.position.d.next = self.position.q.val() + self.one_byte.val();
             if self.position.q.val() == self.last_position.val() {
                 self.part_number.d.next = self.part_number.q.val() + self.one_byte.val();
@@ -159,7 +172,8 @@ impl Logic for AnswerPacker {
                 }
             }
             PackState::Length => {
-                self.after.d.next = self.length.val() + self.one.val();
+                self.after.d.next = self.response_data.val().get_bits::<17>(0);
+                self.is_head.d.next = true;
                 self.ending.d.next = false;
                 if self.response_valid.val() {
                     self.state.d.next = PackState::Start;
@@ -178,7 +192,7 @@ impl Logic for AnswerPacker {
                         self.is_held.d.next = false;
                         if self.part_ends.q.val() {
                             self.state.d.next = PackState::Start;
-                            if !self.after.q.val().any() {
+                            if self.is_end.val() {
                                 self.state.d.next = PackState::Rest;
                             }
                         }

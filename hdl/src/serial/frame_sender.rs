@@ -20,28 +20,18 @@
 //!
 //! Latency: 4 clocks from `starts` to the first byte; 4 from a byte taken to the next, and not before the check sum has taken it.
 
-use incircle_protocol::{ANSWER_HEADER_BYTES, CRC_BYTES, DEVICE_HEADER_BYTES, GREETING_WORDS};
+use super::FramePart;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// Which byte comes next.
+/// What is at work.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum SendState {
-    /// None: a frame is awaited.
+    /// Nothing: a frame is awaited.
     Idle,
-    /// One of the header.
-    Header,
-    /// One of the greeting.
-    Greeting,
-    /// One of the digest.
-    Digest,
-    /// One of the three before the words of an answer.
-    AnswerHead,
-    /// One of the words of an answer.
-    Words,
-    /// One of the check sum.
-    Sum,
-    /// None: the end of the frame is awaited.
+    /// The parts of a frame.
+    Parts,
+    /// The end of the frame is awaited.
     End,
 }
 
@@ -97,6 +87,7 @@ pub struct FrameSender {
     /// No frame is under way.
     pub is_idle: Signal<Out, Bit>,
     state: DFF<SendState>,
+    part_number: DFF<Bits<3>>,
     place: DFF<Bits<6>>,
     /// Clocks for which the byte has been asked for, up to 2.
     asked_once: DFF<Bit>,
@@ -104,25 +95,26 @@ pub struct FrameSender {
     is_loaded: DFF<Bit>,
     loaded: DFF<Bits<8>>,
     was_cut: DFF<Bit>,
+    part_end: FramePart,
+    is_words: Signal<Local, Bit>,
+    is_sum: Signal<Local, Bit>,
     has_byte: Signal<Local, Bit>,
     takes: Signal<Local, Bit>,
-    last_place: Signal<Local, Bits<6>>,
-    is_last: Signal<Local, Bit>,
     finishes: Signal<Local, Bit>,
     one: Signal<Local, Bits<6>>,
+    words_part: Signal<Local, Bits<3>>,
+    sum_part: Signal<Local, Bits<3>>,
 }
-
-// The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
-const _: () = assert!(
-    DEVICE_HEADER_BYTES == 7 && GREETING_WORDS == 13 && ANSWER_HEADER_BYTES == 3 && CRC_BYTES == 4,
-    "the frames of this block follow the protocol"
-);
 
 impl Logic for FrameSender {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, place, asked_once, asked_twice, is_loaded, loaded, was_cut);
+        dff_setup!(self, clock, state, part_number, place, asked_once, asked_twice, is_loaded, loaded, was_cut);
+        clock!(self, clock, part_end);
         self.one.next = 1.into();
+        self.words_part.next = 4.into();
+        self.sum_part.next = 5.into();
+        self.part.next = self.part_number.q.val();
         self.index.next = self.place.q.val();
         self.data_valid.next = self.is_loaded.q.val();
         self.data.next = self.loaded.q.val();
@@ -132,46 +124,20 @@ impl Logic for FrameSender {
         self.answer_ended.next =
             self.ended.val() & self.ends_answer.val() & (!self.was_cut.q.val()) & (!self.cuts.val());
 
-        // The part, and its last byte.
-        self.part.next = 0.into();
-        self.last_place.next = 3.into();
-        self.has_byte.next = true;
-        match self.state.q.val() {
-            SendState::Header => {
-                self.last_place.next = 6.into();
-            }
-            SendState::Greeting => {
-                self.part.next = 1.into();
-                self.last_place.next = 51.into();
-            }
-            SendState::Digest => {
-                self.part.next = 2.into();
-            }
-            SendState::AnswerHead => {
-                self.part.next = 3.into();
-                self.last_place.next = 2.into();
-            }
-            SendState::Words => {
-                self.part.next = 4.into();
-                self.has_byte.next = self.word_byte_valid.val();
-            }
-            SendState::Sum => {
-                self.part.next = 5.into();
-            }
-            _ => {
-                self.has_byte.next = false;
-            }
-        }
-        self.is_last.next = self.place.q.val() == self.last_place.val();
-        if self.state.q.val() == SendState::Words {
-            self.is_last.next = self.word_byte_is_last.val();
-        }
         // A byte is asked for through two ranks of registers, while none is loaded and the check sum rests.
+        self.part_end.part.next = self.part_number.q.val();
+        self.part_end.index.next = self.place.q.val();
+        self.part_end.word_byte_is_last.next = self.word_byte_is_last.val();
+        self.is_words.next = self.part_number.q.val() == self.words_part.val();
+        self.is_sum.next = self.part_number.q.val() == self.sum_part.val();
+        self.has_byte.next =
+            (self.state.q.val() == SendState::Parts) & ((!self.is_words.val()) | self.word_byte_valid.val());
         self.asked_once.d.next = self.has_byte.val() & (!self.is_loaded.q.val()) & (!self.sum_is_busy.val());
         self.asked_twice.d.next = self.asked_once.q.val();
         self.takes.next = self.asked_twice.q.val() & self.has_byte.val();
-        self.loads.next = self.takes.val() & (self.state.q.val() != SendState::Sum);
-        self.loads_word.next = self.takes.val() & (self.state.q.val() == SendState::Words);
+        self.finishes.next = self.takes.val() & self.part_end.is_last.val();
+        self.loads.next = self.takes.val() & (!self.is_sum.val());
+        self.loads_word.next = self.takes.val() & self.is_words.val();
         if self.data_ready.val() {
             self.is_loaded.d.next = false;
         }
@@ -181,67 +147,52 @@ impl Logic for FrameSender {
             self.is_loaded.d.next = true;
             self.loaded.d.next = self.byte_data.val();
             self.place.d.next = self.place.q.val() + self.one.val();
-            if self.is_last.val() {
-                self.place.d.next = 0.into();
-            }
         }
-        self.finishes.next = self.takes.val() & self.is_last.val();
-        match self.state.q.val() {
-            SendState::Idle => {
-                self.place.d.next = 0.into();
-                self.was_cut.d.next = false;
-                if self.starts.val() {
-                    self.state.d.next = SendState::Header;
-                }
-            }
-            SendState::Header => {
-                if self.finishes.val() {
-                    self.state.d.next = SendState::Sum;
+        if self.finishes.val() {
+            // The check sum follows whatever has nothing else behind it.
+            self.place.d.next = 0.into();
+            self.part_number.d.next = 5.into();
+            match self.part_number.q.val().index() {
+                0 => {
                     if self.has_greeting.val() {
-                        self.state.d.next = SendState::Greeting;
+                        self.part_number.d.next = 1.into();
                     }
                     if self.has_digest.val() {
-                        self.state.d.next = SendState::Digest;
+                        self.part_number.d.next = 2.into();
                     }
                     if self.has_answer.val() {
-                        self.state.d.next = SendState::AnswerHead;
+                        self.part_number.d.next = 3.into();
                     }
                 }
-            }
-            SendState::AnswerHead => {
-                if self.finishes.val() {
-                    self.state.d.next = SendState::Words;
+                3 => {
+                    self.part_number.d.next = 4.into();
                 }
-            }
-            SendState::Words => {
-                if self.finishes.val() {
-                    self.state.d.next = SendState::Sum;
+                4 => {
                     if self.ends_answer.val() {
-                        self.state.d.next = SendState::Digest;
+                        self.part_number.d.next = 2.into();
                     }
                 }
-            }
-            SendState::Sum => {
-                if self.finishes.val() {
+                5 => {
                     self.state.d.next = SendState::End;
                 }
-            }
-            SendState::End => {
-                if self.ended.val() {
-                    self.state.d.next = SendState::Idle;
+                _ => {
+                    self.part_number.d.next = 5.into();
                 }
             }
-            _ => {
-                // The greeting and the digest.
-                if self.finishes.val() {
-                    self.state.d.next = SendState::Sum;
-                }
-            }
+        }
+        if (self.state.q.val() == SendState::Idle) & self.starts.val() {
+            self.part_number.d.next = 0.into();
+            self.place.d.next = 0.into();
+            self.was_cut.d.next = false;
+            self.state.d.next = SendState::Parts;
+        }
+        if (self.state.q.val() == SendState::End) & self.ended.val() {
+            self.state.d.next = SendState::Idle;
         }
         if self.cuts.val() & self.has_answer.val() & (self.state.q.val() != SendState::Idle) {
             self.was_cut.d.next = true;
             self.is_loaded.d.next = false;
-            if self.state.q.val() != SendState::End {
+            if self.state.q.val() == SendState::Parts {
                 self.state.d.next = SendState::End;
             }
         }

@@ -13,10 +13,11 @@
 //! 2. The user pushes no more bytes than `free` says before the first of them: there is no check.
 //! 3. `commits` comes 3 clocks or more after the last `push`.
 //!
-//! Latency: 3 clocks from `commits` to `free`, and 2 to `byte_valid` if the FIFO was empty; 4 clocks from a byte taken to the next.
+//! Latency: 2 clocks from `commits` to `free`, and 3 to `byte_valid` if the FIFO was empty; 4 clocks from a byte taken to the next.
 //!
-//! Source: three pointers into a block RAM: where the next byte goes, where those that count end, and the oldest. They have 16 bits, of
-//! which the memory uses as many as it has: the difference of two is the number of bytes between them.
+//! Source: three pointers into a block RAM: where the next byte goes, where those that count end, and the end of what is free, which lies
+//! a whole memory behind the oldest byte and so is its address too. They have 16 bits, of which the memory uses as many as it has: the
+//! difference of two is the number of bytes between them.
 
 use crate::leaf::BlockMemory;
 use incircle_protocol::LinkConfig;
@@ -52,8 +53,7 @@ pub struct ReceiveFifo {
     memory: BlockMemory<ADDRESS_BITS, 8>,
     provisional: DFF<Bits<16>>,
     committed: DFF<Bits<16>>,
-    oldest: DFF<Bits<16>>,
-    used: DFF<Bits<16>>,
+    free_end: DFF<Bits<16>>,
     unused: DFF<Bits<16>>,
     holds: DFF<Bit>,
     /// Clocks for which the oldest byte has been read, up to 3.
@@ -81,8 +81,7 @@ impl ReceiveFifo {
             memory: BlockMemory::new(link.fifo_bytes.trailing_zeros() as usize, 8),
             provisional: DFF::default(),
             committed: DFF::default(),
-            oldest: DFF::default(),
-            used: DFF::default(),
+            free_end: DFF::default(),
             unused: DFF::default(),
             holds: DFF::default(),
             read_for: DFF::default(),
@@ -97,7 +96,7 @@ impl ReceiveFifo {
 impl Logic for ReceiveFifo {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, provisional, committed, oldest, used, unused, holds, read_for);
+        dff_setup!(self, clock, provisional, committed, free_end, unused, holds, read_for);
         clock!(self, clock, memory);
         self.one.next = 1.into();
         self.one_clock.next = 1.into();
@@ -105,14 +104,13 @@ impl Logic for ReceiveFifo {
         self.memory.write_address.next = self.provisional.q.val().get_bits::<15>(0);
         self.memory.write_data.next = self.push_data.val();
         self.memory.write_enable.next = self.push.val();
-        self.memory.read_address.next = self.oldest.q.val().get_bits::<15>(0);
+        self.memory.read_address.next = self.free_end.q.val().get_bits::<15>(0);
         self.byte_data.next = self.memory.read_data.val();
         self.byte_valid.next = self.holds.q.val() & (self.read_for.q.val() == self.longest.val());
         self.free.next = self.unused.q.val();
 
-        self.used.d.next = self.committed.q.val() - self.oldest.q.val();
-        self.unused.d.next = self.size.val() - self.used.q.val();
-        self.holds.d.next = self.committed.q.val() != self.oldest.q.val();
+        self.unused.d.next = self.free_end.q.val() - self.committed.q.val();
+        self.holds.d.next = self.unused.q.val() != self.size.val();
         if self.read_for.q.val() != self.longest.val() {
             self.read_for.d.next = self.read_for.q.val() + self.one_clock.val();
         }
@@ -126,13 +124,14 @@ impl Logic for ReceiveFifo {
             self.provisional.d.next = self.committed.q.val();
         }
         if self.takes.val() {
-            self.oldest.d.next = self.oldest.q.val() + self.one.val();
+            self.free_end.d.next = self.free_end.q.val() + self.one.val();
             self.read_for.d.next = 0.into();
         }
         if self.reset.val() {
             self.provisional.d.next = 0.into();
             self.committed.d.next = 0.into();
-            self.oldest.d.next = 0.into();
+            self.free_end.d.next = self.size.val();
+            self.unused.d.next = self.size.val();
             self.holds.d.next = false;
             self.read_for.d.next = 0.into();
         }
