@@ -138,13 +138,18 @@ pub(super) fn peano_way(cells: Cells, frame: Frame) -> Way {
 
 /// The values that split points into so many parts of about as many each, by one coordinate in a frame and then the other: the first of
 /// each part but the first.
+///
+/// None is the least value of all, unless there is no other: of points that differ some always come before it, so that taking pieces
+/// apart comes to an end, however many of them are equal.
 pub(super) fn quantiles(seen: impl Iterator<Item = [i64; 2]>, parts: usize) -> Vec<[i64; 2]> {
     let mut values: Vec<[i64; 2]> = seen.collect();
     let mut firsts = Vec::with_capacity(parts);
     for part in 1..parts {
         let place = part * values.len() / parts;
-        let (_, &mut value, _) = values.select_nth_unstable(place);
-        firsts.push(value);
+        let (before, &mut value, behind) = values.select_nth_unstable(place);
+        let is_least = before.iter().all(|&other| other == value);
+        let next = behind.iter().copied().filter(|&other| other > value).min();
+        firsts.push(if is_least { next.unwrap_or(value) } else { value });
     }
     firsts
 }
