@@ -59,7 +59,7 @@ mod tests {
         assert_eq!(settings(25, 125).as_deref(), Some("BOARD_PLL=1,25,5"));
         assert_eq!(settings(25, 95).as_deref(), Some("BOARD_PLL=1,19,5"));
         assert_eq!(settings(100, 150).as_deref(), Some("BOARD_PLL=1,6,4"));
-        assert_eq!(settings(100, 155).as_deref(), Some("BOARD_PLL=5,31,4"));
+        assert_eq!(settings(100, 155).as_deref(), Some("BOARD_PLL=4,31,5"));
         assert_eq!(settings(25, 149), None);
         assert_eq!(Pll::new(5 * MHZ, 125 * MHZ), None);
     }

@@ -194,7 +194,7 @@ fn wrong_use_ends_with_two() {
         "triangulate p.csv -o m.ele --coord-bits 32",
         "triangulate p.csv -o m.ele --quantize never",
         "triangulate p.csv -o m.ele --timeout 0",
-        "triangulate p.csv -o m.ele --order random",
+        "triangulate p.csv -o m.ele --order alphabetic",
         "triangulate p.csv -o m.ele --contexts 0",
         "triangulate p.csv -o m.ele --contexts many",
         "bench everything",
