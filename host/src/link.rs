@@ -189,6 +189,7 @@ const fn opcode_name(opcode: Opcode) -> &'static str {
         Opcode::Read => "the read-out",
         Opcode::Counters => "the reading of counters",
         Opcode::Latencies => "the reading of latencies",
+        Opcode::Triangles => "the read-out of triangles",
     }
 }
 

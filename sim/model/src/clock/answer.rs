@@ -68,7 +68,7 @@ fn head(was: &Registers) -> (Status, u32) {
                 (Status::BadRange, 0)
             }
         }
-        None => (Status::UnknownOpcode, 0),
+        Some(Opcode::Triangles) | None => (Status::UnknownOpcode, 0),
     }
 }
 
