@@ -100,7 +100,7 @@ fn answer_of(core: &mut ClockModel, sent: &[u32]) -> Vec<u32> {
             silent = 0;
         }
         if outputs.response_valid {
-            said.push(outputs.response_data);
+            said.extend(outputs.answer_words());
             silent = 0;
         }
         core.clock(inputs);
