@@ -34,7 +34,7 @@ pub(super) struct Progress {
     finished: u32,
     /// Some point is not finished.
     is_behind: bool,
-    /// Three points have come.
+    /// The three points have come that make the first triangle, in a batch that of the job whose turn it is.
     has_triple: bool,
 }
 
@@ -48,6 +48,6 @@ impl Progress {
     pub(super) fn clock(&mut self, was: &Registers) {
         self.finished = if was.command.clears { 0 } else { was.contexts.finished };
         self.is_behind = was.progress.finished != was.command.arrived;
-        self.has_triple = was.command.arrived >= 3;
+        self.has_triple = was.command.arrived >= was.seeder.triple();
     }
 }
