@@ -4,7 +4,7 @@
 #![allow(dead_code)] // Every test that includes this uses a part of it.
 
 use incircle_hdl::engine::{
-    Attempt, Bundle, CommitJob, Entry, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
+    Attempt, Bundle, CommitJob, Deal, Entry, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::serial::Asked;
@@ -57,7 +57,7 @@ macro_rules! packed_values {
         }
     )*};
 }
-packed_values!(Token, Bundle, Turned, Attempt, CommitJob, ReleaseJob, Verdict, Entry, Write, WriteEnables, Asked);
+packed_values!(Token, Bundle, Turned, Attempt, CommitJob, ReleaseJob, Verdict, Entry, Write, WriteEnables, Asked, Deal);
 
 /// A block whose ports are reached by name.
 pub trait NamedPorts: Block {

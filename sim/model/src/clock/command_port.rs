@@ -29,8 +29,6 @@ pub(super) struct CommandPort {
     /// A point has come at the edge before, and is being stored.
     pub came: bool,
     pub came_id: u32,
-    /// As many points have come as make the first triangle that is made next, as it was known a clock ago.
-    has_triple: bool,
     /// Contexts that work.
     pub contexts: u32,
     /// Each of them has a mesh of its own.
@@ -47,8 +45,8 @@ pub(super) struct CommandPort {
 
 impl CommandPort {
     pub(super) fn is_ready(&self, was: &Registers, sweeps: bool) -> bool {
-        // The fourth point waits until the first three are known to span a triangle, and so does that behind three for the next job.
-        let start_is_open = self.has_triple && !was.seeder.seeded && !was.seeder.collinear;
+        // The fourth point waits until the first three are known to span a triangle, in a batch that behind the three of each job.
+        let start_is_open = was.seeder.has_triple && !was.seeder.seeded && !was.seeder.collinear;
         match self.state {
             State::Command => !sweeps,
             State::First | State::Count => true,
@@ -72,7 +70,6 @@ impl CommandPort {
     }
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, config: Config) {
-        self.has_triple = was.command.arrived == was.seeder.triple();
         self.clears = false;
         self.came = false;
         let answer_taken = !was.responder.valid || wires.response_ready;
@@ -103,7 +100,6 @@ impl CommandPort {
         if was.command.clears {
             self.arrived = 0;
             self.refused = 0;
-            self.has_triple = false;
         }
     }
 

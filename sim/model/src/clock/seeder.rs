@@ -11,6 +11,8 @@ pub(super) struct Seeder {
     /// The job whose first triangle is made next, or was made last.
     job: u32,
     pub collinear: bool,
+    /// The points of that job's first triangle have come, as it was known a clock ago.
+    pub has_triple: bool,
     /// 0: the look at the triple; 1 to 4: the records.
     pub step: u32,
     turns_left: bool,
@@ -18,9 +20,9 @@ pub(super) struct Seeder {
 }
 
 impl Seeder {
-    /// Points that have come when its three have.
-    pub(super) fn triple(&self) -> u32 {
-        3 * self.job + 3
+    /// No first triangle is being made, and none can be from the points that have come.
+    pub(super) fn has_no_start(&self) -> bool {
+        (!self.has_triple || self.collinear) && self.step == 0
     }
 
     /// The last ghost is written at this edge.
@@ -30,6 +32,7 @@ impl Seeder {
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires) {
         let inf = wires.infinite;
+        self.has_triple = was.command.arrived >= 3 * was.seeder.job + 3;
         let (a, first) = (3 * was.seeder.job, 4 * was.seeder.job);
         let (b, c) = if was.seeder.turns_left { (a + 1, a + 2) } else { (a + 2, a + 1) };
         let record = |k: u32, v, n: [u32; 3]| Write::record(first + k, v, n.map(|k| first + k));
@@ -53,6 +56,7 @@ impl Seeder {
         if was.command.clears {
             self.seeded = false;
             self.job = 0;
+            self.has_triple = false;
             self.collinear = false;
         }
     }
