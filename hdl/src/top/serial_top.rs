@@ -74,6 +74,8 @@ impl Logic for SerialTop {
         self.link.command_ready.next = self.core.command_ready.val();
         self.link.response_valid.next = self.core.response_valid.val();
         self.link.response_data.next = self.core.response_data.val();
+        self.link.response_both.next = self.core.response_both.val();
+        self.link.response_last.next = self.core.response_last.val();
         self.core.response_ready.next = self.link.response_ready.val();
         self.write.next = self.core.write.val();
 

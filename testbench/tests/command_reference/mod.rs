@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::stepper::bundles::Deal;
-use incircle_protocol::{command_starts_batch, Opcode, FIRST_ROUND};
+use incircle_protocol::{command_starts_batch, Opcode, FIRST_ROUND, PADDING};
 
 /// Points that the core holds, and contexts that it has.
 #[derive(Clone, Copy, Debug)]
@@ -97,6 +97,7 @@ impl Reference {
 
     fn take(&mut self, word: u32, around: &Surroundings, shape: Shape) {
         match self.wants.pop_front().expect("a word that is wanted") {
+            Meaning::Command if word == PADDING => self.wants.push_back(Meaning::Command),
             Meaning::Command => {
                 let opcode = (word >> 24) as u8;
                 self.opcode = Some(opcode);
@@ -110,7 +111,7 @@ impl Reference {
                 }
                 match Opcode::from_u8(opcode) {
                     Some(Opcode::Insert) => self.wants.push_back(Meaning::Count),
-                    Some(Opcode::Read) => self.wants.extend([Meaning::First, Meaning::Count]),
+                    Some(Opcode::Read | Opcode::Triangles) => self.wants.extend([Meaning::First, Meaning::Count]),
                     _ => self.answers = true,
                 }
             }
