@@ -15,8 +15,8 @@ mod layout;
 mod status;
 
 pub use command::{
-    answer_header, answer_opcode, answer_status, clear_word, command_contexts, command_opcode, command_word, Opcode,
-    PADDING,
+    answer_header, answer_opcode, answer_status, batch_word, clear_word, command_contexts, command_opcode,
+    command_starts_batch, command_word, Opcode, CLEAR_BATCH, PADDING,
 };
 pub use config::{
     patience, Config, ConfigError, FIRST_ROUND, FULL, LARGE, MAX_CONTEXTS, MAX_MODEL_POINTS, MAX_POINTS, MAX_RING,

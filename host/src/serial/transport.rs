@@ -192,6 +192,10 @@ impl Transport for SerialTransport {
         Ok(())
     }
 
+    fn takes_ahead(&self) -> bool {
+        false
+    }
+
     fn name(&self) -> String {
         self.name.clone()
     }

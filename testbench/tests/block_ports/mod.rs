@@ -4,7 +4,7 @@
 #![allow(dead_code)] // Every test that includes this uses a part of it.
 
 use incircle_hdl::engine::{
-    Attempt, Bundle, CommitJob, Entry, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
+    Attempt, Bundle, CommitJob, Deal, Entry, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::link::AnswerBeat;
@@ -70,7 +70,8 @@ packed_values!(
     Write,
     WriteEnables,
     Asked,
-    AnswerBeat
+    AnswerBeat,
+    Deal
 );
 
 /// A block whose ports are reached by name.

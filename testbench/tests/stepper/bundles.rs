@@ -190,3 +190,27 @@ impl Edge {
         pack(&[(self.a, ID_BITS), (self.u, ID_BITS), (self.slot, 2), (self.f, ID_BITS), (self.after, 6)])
     }
 }
+
+/// How points are dealt to contexts.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Deal {
+    pub contexts: u64,
+    pub is_batch: bool,
+    pub dealt_from: u64,
+}
+
+impl Deal {
+    /// So many contexts that work on one mesh.
+    pub fn one_mesh(contexts: u64) -> Self {
+        Self { contexts, is_batch: false, dealt_from: incircle_protocol::FIRST_ROUND.into() }
+    }
+
+    /// So many jobs side by side.
+    pub fn batch(contexts: u64) -> Self {
+        Self { contexts, is_batch: true, dealt_from: 3 * contexts }
+    }
+
+    pub fn bits(self) -> u128 {
+        u128::from(self.contexts | u64::from(self.is_batch) << 5 | self.dealt_from << 6)
+    }
+}

@@ -124,8 +124,8 @@ impl Commit {
             self.fresh += 2;
         }
         if seeds {
-            self.records = 4;
-            self.fresh = 4;
+            self.records += 4;
+            self.fresh += 4;
         }
         if was.command.clears {
             self.records = 0;
