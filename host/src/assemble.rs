@@ -1,7 +1,7 @@
 //! From a device's records to the canonical mesh. Nothing a record says is used before it is checked.
 //!
 //! What is checked costs O(n): ids in range, locks and unused bits clear, triangles counter-clockwise and none twice, ghosts
-//! that close one hull, areas that sum to the hull's. Links are only checked to be in range, and not used. Not checked
+//! that close one hull, areas that sum to the hull's. Links, where they are read, are only checked to be in range, and not used. Not checked
 //! here: the Delaunay property and the tie rule, which [`Mesh::verify`](crate::Mesh::verify) proves.
 
 use incircle_protocol::{infinite_vertex, Layout, NARROW_ID_BITS};
@@ -63,6 +63,21 @@ impl<'a> Assembly<'a> {
             self.take_vertices(record, a, b, c)?;
         }
         Ok(())
+    }
+
+    /// Takes the words of a `Triangles` answer: the vertices of `count` records, the first of which has the number `first`.
+    pub(crate) fn take_packed(&mut self, first: usize, count: usize, words: &[u32]) -> Result<(), DeviceFault> {
+        for place in 0..count {
+            let [a, b, c] = self.layout.vertices_from_words(words, place);
+            self.take_vertices(first + place, a, b, c)?;
+        }
+        let ends_in_half = self.layout.record_words == 3 && count % 2 == 1;
+        match words.last() {
+            Some(&word) if ends_in_half && word >> 16 != 0 => {
+                Err(DeviceFault::SpareHalf { record: first + count - 1, word })
+            }
+            _ => Ok(()),
+        }
     }
 
     fn take_vertices(&mut self, record: usize, a: u32, b: u32, c: u32) -> Result<(), DeviceFault> {
@@ -218,6 +233,18 @@ mod tests {
         for turn in [[1, 5, 3], [5, 3, 1], [3, 1, 5]] {
             assert_eq!(smallest_first(turn[0], turn[1], turn[2]), [1, 5, 3]);
         }
+    }
+
+    #[test]
+    fn packed_triangles_end_with_an_empty_half() {
+        let points = [(0, 0), (4, 0), (0, 4)].map(Point::from);
+        let assembly = || Assembly::new(&[0, 1, 2], &points, Layout::of(16, 8), 8);
+        assert_eq!(assembly().take_packed(0, 1, &[0x0001_0000, 2]), Ok(()));
+        let word = 0x0007_0002;
+        let found = assembly().take_packed(0, 1, &[0x0001_0000, word]);
+        assert_eq!(found, Err(DeviceFault::SpareHalf { record: 0, word }));
+        let outside = assembly().take_packed(0, 2, &[0x0001_0000, word, 3]);
+        assert_eq!(outside, Err(DeviceFault::VertexOutOfRange { record: 1, vertex: 7, points: 3 }));
     }
 
     #[test]

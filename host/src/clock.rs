@@ -39,9 +39,7 @@ impl ClockTransport {
     /// One clock in which the core is offered this word, or none. True if it takes the word.
     fn clock(&mut self, command: Option<u32>) -> bool {
         let outputs = self.model.outputs();
-        if outputs.response_valid {
-            self.answers.push_back(outputs.response_data);
-        }
+        self.answers.extend(outputs.answer_words());
         self.model.clock(Inputs {
             reset: false,
             command_valid: command.is_some(),

@@ -106,6 +106,14 @@ pub enum DeviceFault {
         /// The word received.
         word: u32,
     },
+    /// The half of a word behind the last packed vertex is set.
+    #[error("the last word of the triangles up to record {record} is {word:#010x}, but its high half must be 0")]
+    SpareHalf {
+        /// Number of the last record.
+        record: usize,
+        /// The word received.
+        word: u32,
+    },
     /// A record has one vertex twice.
     #[error("record {record} has a vertex twice")]
     RepeatedVertex {

@@ -57,6 +57,10 @@ impl Link {
         self.transport.pace()
     }
 
+    pub(crate) fn packs_records(&self) -> bool {
+        self.transport.packs_records()
+    }
+
     /// Asks who the device is, and believes only what a sound device can be.
     pub(crate) fn hello(&mut self, limit: Limit) -> Result<Identity, Error> {
         let mut words = [0; IDENTITY_WORDS];
@@ -78,10 +82,15 @@ impl Link {
         Ok(InsertReport::from_words(report))
     }
 
-    /// Reads `count` records from number `first` on into `words`, which is as long as they are.
-    pub(crate) fn read(&mut self, first: u32, count: u32, words: &mut [u32], limit: Limit) -> Result<(), Error> {
-        let command = [command_word(Opcode::Read), first, count];
-        self.ask(Opcode::Read, &command, words, limit)
+    /// Reads `count` records from number `first` on, or their vertices, into `words`, which is as long as they are.
+    pub(crate) fn read(
+        &mut self,
+        opcode: Opcode,
+        [first, count]: [u32; 2],
+        words: &mut [u32],
+        limit: Limit,
+    ) -> Result<(), Error> {
+        self.ask(opcode, &[command_word(opcode), first, count], words, limit)
     }
 
     /// Reads the counters.
@@ -186,7 +195,7 @@ const fn opcode_name(opcode: Opcode) -> &'static str {
         Opcode::Hello => "the greeting",
         Opcode::Clear => "the clearing",
         Opcode::Insert => "the insertion",
-        Opcode::Read => "the read-out",
+        Opcode::Read | Opcode::Triangles => "the read-out",
         Opcode::Counters => "the reading of counters",
         Opcode::Latencies => "the reading of latencies",
     }

@@ -12,13 +12,14 @@ use crate::fault::DeviceFault;
 use crate::link::{Limit, Link};
 use crate::mesh::Mesh;
 use crate::options::{Options, Progress, Stage};
+use crate::pages;
 use crate::point::Point;
 use crate::prepare::{prepare, Prepared};
 use crate::report::Report;
 
 /// Most points of one job: ids of triangles and half-edges must fit 32 bits.
 pub const MAX_POINTS: usize = (1 << 29) - 1;
-/// Records of one `Read` command: 384 kB at most. A slow link takes fewer.
+/// Records of one `Read` or `Triangles` command: 384 kB at most. A slow link takes fewer.
 const READ_CHUNK: usize = 16_384;
 /// Fewest points of an `Insert` command: the device can judge its report only after the first triangle.
 const MIN_INSERT_CHUNK: usize = 3;
@@ -50,8 +51,9 @@ impl<'d> Session<'d> {
     /// # Errors
     /// As [`Session::triangulate_with`].
     pub fn triangulate<P: Into<Point> + Copy>(&mut self, points: &[P]) -> Result<Mesh, Error> {
-        let points = points.iter().map(|&point| point.into()).collect();
-        self.triangulate_owned(points, &Options::default())
+        let mut own = pages::with_room(points.len());
+        own.extend(points.iter().map(|&point| -> Point { point.into() }));
+        self.triangulate_owned(own, &Options::default())
     }
 
     /// Triangulates: the Delaunay triangulation of the distinct points, in canonical form.
@@ -65,7 +67,9 @@ impl<'d> Session<'d> {
     /// sound device gives, a passed deadline, or a cancelled job. After an error of link or device the session is out of
     /// step; after all others it can be used again.
     pub fn triangulate_with(&mut self, points: &[Point], options: &Options<'_>) -> Result<Mesh, Error> {
-        self.triangulate_owned(points.to_vec(), options)
+        let mut own = pages::with_room(points.len());
+        own.extend_from_slice(points);
+        self.triangulate_owned(own, options)
     }
 
     pub(crate) fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Mesh, Error> {
@@ -225,19 +229,29 @@ impl<'j> Job<'j> {
     {
         let mut assembly = Assembly::new(order, self.points, self.layout, self.identity.capacity);
         let records = assembly.records();
-        let width = self.layout.record_words;
-        let chunk = self.link.pace().chunk(READ_CHUNK, width);
-        let mut words = vec![0; chunk.min(records) * width];
+        let is_packed = self.link.packs_records();
+        let opcode = if is_packed { Opcode::Triangles } else { Opcode::Read };
+        let chunk = self.link.pace().chunk(READ_CHUNK, self.words_of(1, is_packed));
+        let mut words = vec![0; self.words_of(chunk.min(records), is_packed)];
         for first in (0..records).step_by(chunk) {
             self.tell(Stage::Read, first, records)?;
             let count = chunk.min(records - first);
-            let words = &mut words[..count * width];
-            self.link.read(first as u32, count as u32, words, self.limit)?;
-            assembly.take(first, words).map_err(|fault| self.link.distrust(Opcode::Read, fault))?;
+            let words = &mut words[..self.words_of(count, is_packed)];
+            self.link.read(opcode, [first as u32, count as u32], words, self.limit)?;
+            let taken = if is_packed { assembly.take_packed(first, count, words) } else { assembly.take(first, words) };
+            taken.map_err(|fault| self.link.distrust(opcode, fault))?;
         }
         self.tell(Stage::Read, records, records)?;
         self.watch.ended(Stage::Read);
         Ok(assembly)
+    }
+
+    /// Words of this many records, or of their vertices; at most `READ_CHUNK` records are read at once.
+    fn words_of(&self, records: usize, is_packed: bool) -> usize {
+        match self.layout.triangles_words(records as u32) {
+            Some(words) if is_packed => words as usize,
+            _ => records * self.layout.record_words,
+        }
     }
 
     /// The canonical triangles and the hull.

@@ -19,6 +19,12 @@ pub trait Transport {
     /// Short name for reports: `model`, `sim:full`.
     fn name(&self) -> String;
 
+    /// Meshes are read with `Triangles`, which leaves out the links: half the words. False where this way knows `Read` alone, as one does
+    /// that asks again for parts of an answer.
+    fn packs_records(&self) -> bool {
+        true
+    }
+
     /// How fast this way is, as far as that matters to whoever uses it.
     fn pace(&self) -> Pace {
         Pace::default()

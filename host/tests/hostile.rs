@@ -23,10 +23,19 @@ fn run(liar: Liar) -> Result<Mesh, Error> {
 
 /// The fault that a lie is found out as.
 fn fault(lie: impl FnMut(Opcode, &mut Vec<u32>) + 'static) -> DeviceFault {
-    match run(Liar::new(16, lie)) {
+    found_out(Liar::new(16, lie))
+}
+
+fn found_out(liar: Liar) -> DeviceFault {
+    match run(liar) {
         Err(Error::Device { fault, .. }) => fault,
         other => panic!("not found out: {other:?}"),
     }
+}
+
+/// As [`fault`], where the host reads whole records.
+fn fault_of_records(lie: impl FnMut(Opcode, &mut Vec<u32>) + 'static) -> DeviceFault {
+    found_out(Liar::new(16, lie).with_links())
 }
 
 /// Changes one word of the answers to one command.
@@ -139,7 +148,7 @@ fn wrong_counts() {
 
 #[test]
 fn wrong_records() {
-    let record = |place: usize, change: fn(u32) -> u32| fault(word(Opcode::Read, 2 + 3 * 5 + place, change));
+    let record = |place: usize, change: fn(u32) -> u32| fault_of_records(word(Opcode::Read, 2 + 3 * 5 + place, change));
     assert_eq!(record(0, |w| w | 1 << 31), DeviceFault::Locked { record: 5 });
     type Change = fn(u32) -> u32;
     let spare: [(usize, Change); 4] =
@@ -154,9 +163,27 @@ fn wrong_records() {
     assert!(matches!(outside, DeviceFault::NeighborOutOfRange { record: 5, neighbor: 78, .. }));
 }
 
+#[test]
+fn wrong_packed_triangles() {
+    // Record 5 has the halves 15, 16 and 17: the high one of word 7, and word 8.
+    let vertex = |place: usize, change: fn(u32) -> u32| fault(word(Opcode::Triangles, 2 + place, change));
+    let outside = vertex(7, |w| w & 0xffff | 63 << 16);
+    assert!(matches!(outside, DeviceFault::VertexOutOfRange { record: 5, vertex: 63, points: 40 }), "{outside}");
+    let outside = vertex(8, |w| w | 0xffff);
+    assert!(matches!(outside, DeviceFault::VertexOutOfRange { record: 5, vertex: 0xffff, .. }), "{outside}");
+    let twice = vertex(8, |w| w >> 16 | w & 0xffff_0000);
+    assert_eq!(twice, DeviceFault::RepeatedVertex { record: 5 });
+    let found = fault(|opcode, answer| {
+        if opcode == Opcode::Triangles {
+            answer[1] -= 1;
+        }
+    });
+    assert!(matches!(found, DeviceFault::PayloadLength { .. }), "{found}");
+}
+
 /// Changes whole records; most such lies show only in the whole.
 fn records(change: impl Fn(&mut [[u32; 3]]) + 'static) -> DeviceFault {
-    fault(move |opcode, answer| {
+    fault_of_records(move |opcode, answer| {
         if opcode == Opcode::Read {
             let (records, _) = answer[2..].as_chunks_mut::<3>();
             change(records);
@@ -214,7 +241,7 @@ fn a_well_formed_mesh_of_another_kind_is_left_to_the_validator() {
             turn_the_inner_edge(answer[2..].as_chunks_mut::<3>().0);
         }
     });
-    let mut device = Device::from_transport(Box::new(liar));
+    let mut device = Device::from_transport(Box::new(liar.with_links()));
     let mut session = device.session().expect("greeted");
     let points = [(0, 0), (10, 1), (19, 16), (1, 9)].map(Point::from);
     let mesh = session.triangulate(&points).expect("well formed");
@@ -224,12 +251,14 @@ fn a_well_formed_mesh_of_another_kind_is_left_to_the_validator() {
 
 #[test]
 fn short_answers_are_timeouts_and_the_session_ends() {
-    for opcode in [Opcode::Hello, Opcode::Clear, Opcode::Insert, Opcode::Read, Opcode::Counters, Opcode::Latencies] {
-        let result = run(Liar::new(16, move |asked, answer| {
+    use Opcode::{Clear, Counters, Hello, Insert, Latencies, Read, Triangles};
+    for opcode in [Hello, Clear, Insert, Read, Counters, Latencies, Triangles] {
+        let liar = Liar::new(16, move |asked, answer| {
             if asked == opcode {
                 answer.pop();
             }
-        }));
+        });
+        let result = run(if opcode == Read { liar.with_links() } else { liar });
         let error = result.expect_err("cut short");
         assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
     }
@@ -263,7 +292,7 @@ fn noise_in_any_word_never_panics() {
     for round in 0..3000u64 {
         let mut noise = Random(random.next());
         let bits = if round % 2 == 0 { 16 } else { 20 };
-        let target = noise.below(6) + 1;
+        let target = noise.below(7) + 1;
         let lie = move |opcode: Opcode, answer: &mut Vec<u32>| {
             if opcode as u32 == target {
                 let place = noise.below(answer.len() as u32) as usize;
@@ -274,7 +303,8 @@ fn noise_in_any_word_never_panics() {
                 };
             }
         };
-        match run(Liar::new(bits, lie)) {
+        let liar = Liar::new(bits, lie);
+        match run(if target == Opcode::Read as u32 { liar.with_links() } else { liar }) {
             // A lie about a link, a counter or a version leaves the mesh right; any other is found by the validator.
             Ok(mesh) if mesh.triangles == honest.triangles => {}
             Ok(mesh) => assert!(mesh.verify().is_err()),

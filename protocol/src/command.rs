@@ -19,7 +19,13 @@ pub enum Opcode {
     Counters = 5,
     /// Read the histogram of insertion latencies. No arguments; answered with [`LATENCY_BUCKETS`](crate::LATENCY_BUCKETS) words.
     Latencies = 6,
+    /// Read the vertices of triangle records without their links: arguments as of [`Opcode::Read`]. Answered with the ids as
+    /// [`Layout::triangles_words`](crate::Layout::triangles_words) packs them.
+    Triangles = 7,
 }
+
+/// A command word that asks for nothing and is not answered: links with wide beats fill them with it.
+pub const PADDING: u32 = 0;
 
 impl Opcode {
     /// The opcode with this number.
@@ -31,6 +37,7 @@ impl Opcode {
             4 => Self::Read,
             5 => Self::Counters,
             6 => Self::Latencies,
+            7 => Self::Triangles,
             _ => return None,
         })
     }

@@ -124,6 +124,42 @@ impl Layout {
         }
     }
 
+    /// Words of the payload of a `Triangles` answer for this many records, if 32 bits can say it. Narrow: ids of 16 bits without gaps, the
+    /// low half of a word first; an odd last half is zero. Wide: a word an id.
+    pub const fn triangles_words(self, records: u32) -> Option<u32> {
+        let ids = 3 * records as u64;
+        let words = if self.record_words == 3 { ids.div_ceil(2) } else { ids };
+        if words <= u32::MAX as u64 {
+            Some(words as u32)
+        } else {
+            None
+        }
+    }
+
+    /// The vertices of a record of such a payload.
+    #[inline]
+    pub fn vertices_from_words(self, words: &[u32], record: usize) -> [u32; 3] {
+        let place = 3 * record;
+        if self.record_words == 3 {
+            let id = |half: usize| words[half / 2] >> (16 * (half % 2)) & 0xffff;
+            [id(place), id(place + 1), id(place + 2)]
+        } else {
+            [words[place], words[place + 1], words[place + 2]]
+        }
+    }
+
+    /// Puts the vertices of a record into such a payload, which was zero there.
+    #[inline]
+    pub fn vertices_to_words(self, v: [u32; 3], words: &mut [u32], record: usize) {
+        for (place, id) in (3 * record..).zip(v) {
+            if self.record_words == 3 {
+                words[place / 2] |= id << (16 * (place % 2));
+            } else {
+                words[place] = id;
+            }
+        }
+    }
+
     /// The first three or all six words of a record on the link; `locked` has a place in the narrow form only.
     pub const fn record_to_words(self, v: [u32; 3], n: [u32; 3], locked: bool) -> [u32; 6] {
         if self.record_words == 3 {

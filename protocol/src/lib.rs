@@ -17,6 +17,7 @@ mod stream;
 
 pub use command::{
     answer_header, answer_opcode, answer_status, clear_word, command_contexts, command_opcode, command_word, Opcode,
+    PADDING,
 };
 pub use config::{
     patience, Config, ConfigError, FIRST_ROUND, FULL, LARGE, MAX_CONTEXTS, MAX_MODEL_POINTS, MAX_POINTS, MAX_RING,
@@ -40,7 +41,7 @@ pub use stream::{
 /// First word of the identity: the letters `inCi`.
 pub const MAGIC: u32 = 0x696e_4369;
 /// Version of the protocol, `major << 16 | minor`. A host refuses a device of another major version.
-pub const PROTOCOL_VERSION: u32 = 1 << 16 | 1;
+pub const PROTOCOL_VERSION: u32 = 1 << 16 | 2;
 /// Bits of one coordinate in the standard core.
 pub const CORE_COORD_BITS: u32 = 16;
 /// Largest coordinate width that any implementation (the software model) takes.

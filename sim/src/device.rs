@@ -37,6 +37,7 @@ struct Ports {
     command_data: PortId,
     response_valid: PortId,
     response_data: PortId,
+    response_both: PortId,
 }
 
 impl SimDevice {
@@ -57,6 +58,7 @@ impl SimDevice {
             command_data: model.port("command_data")?,
             response_valid: model.port("response_valid")?,
             response_data: model.port("response_data")?,
+            response_both: model.port("response_both")?,
         };
         let reset = model.port("reset")?;
         let response_ready = model.port("response_ready")?;
@@ -167,9 +169,11 @@ impl SimDevice {
     fn clock(&mut self) -> bool {
         let is_taken = self.offered.is_some() && self.model.get(self.ports.command_ready) != 0;
         if self.model.get(self.ports.response_valid) != 0 {
-            let word = self.model.get(self.ports.response_data);
-            // A port of 32 bits.
-            self.answers.push_back(word as u32);
+            let words = self.model.get(self.ports.response_data);
+            self.answers.push_back(words as u32);
+            if self.model.get(self.ports.response_both) != 0 {
+                self.answers.push_back((words >> 32) as u32);
+            }
         }
         self.model.clock();
         self.clocks += 1;
@@ -187,6 +191,7 @@ pub(crate) fn description(config: Config) -> Result<&'static ModelDescription, S
     found.ok_or_else(|| SimError::NotBuilt {
         name: config.name,
         points: config.points,
+        contexts: config.contexts,
         ring: config.ring,
         built: built().join(", "),
     })

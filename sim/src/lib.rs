@@ -1,7 +1,7 @@
 //! The incircle core in Verilator, as a device that takes and gives words.
 //!
 //! The Verilog of every named configuration ([`incircle_protocol::NAMED`]) is exported and translated when this crate is built.
-//! [`SimDevice`] drives the two streams at its root: `command_{valid,ready,data}` and `response_{valid,ready,data}`.
+//! [`SimDevice`] drives the two streams at its root: `command_{valid,ready,data}` and `response_{valid,ready,data,both}`.
 //! [`serial`] has whole boards with such a core, behind their serial line; [`faults`] spoils that line, and [`serve`] puts a board behind a
 //! pseudo-terminal. The program `incircle-sim` does that.
 //!

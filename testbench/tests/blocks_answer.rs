@@ -15,7 +15,7 @@ use stepper::{named_ports, Stepper};
 named_ports!(
     AnswerHead,
     [opcode, first, count, is_refused, records, collinear, stuck, some_refused],
-    [header, length, is_empty, is_read],
+    [header, length, is_empty, is_read, is_packed],
     clock
 );
 named_ports!(
@@ -99,10 +99,16 @@ impl Asked {
             None => (Status::UnknownOpcode, 0, Some(vec![])),
             Some(Opcode::Clear) if self.is_refused => (Status::BadContexts, 0, Some(vec![])),
             Some(Opcode::Clear) => (Status::Ok, 0, Some(vec![])),
-            Some(Opcode::Read) if end > u64::from(self.report.records) => (Status::BadRange, 0, None),
+            Some(Opcode::Read | Opcode::Triangles) if end > u64::from(self.report.records) => {
+                (Status::BadRange, 0, None)
+            }
             Some(Opcode::Read) => {
                 let words = Layout::of(CORE_COORD_BITS, self.capacity).record_words as u32;
                 (Status::Ok, words * self.count, None)
+            }
+            Some(Opcode::Triangles) => {
+                let layout = Layout::of(CORE_COORD_BITS, self.capacity);
+                (Status::Ok, layout.triangles_words(self.count).expect("a range of records"), None)
             }
             Some(Opcode::Counters) => {
                 let words = vec![self.counter; COUNTER_WORDS];
@@ -145,7 +151,7 @@ impl Asked {
 fn commands(random: &mut SplitMix64) -> Vec<(u8, bool, usize)> {
     let opcode = |random: &mut SplitMix64| {
         if percent(random, 80) {
-            random.below(8) as u8
+            random.below(9) as u8
         } else {
             word(random) as u8
         }
@@ -176,7 +182,8 @@ fn answer_heads_follow_the_protocol() {
             }
             block.settle();
             answers.push(asked.answer());
-            block.expect("is_read", opcode == Opcode::Read as u8);
+            block.expect("is_read", [Opcode::Read as u8, Opcode::Triangles as u8].contains(&opcode));
+            block.expect("is_packed", opcode == Opcode::Triangles as u8);
             if clock >= 3 {
                 let answer = &answers[clock - 3];
                 bad_ranges += u32::from(answer.status == Status::BadRange);

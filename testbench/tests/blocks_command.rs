@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 use command_reference::{Meaning, Pins, Reference, Shape, Surroundings};
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::CommandPort;
-use incircle_protocol::{clear_word, command_word, Opcode};
+use incircle_protocol::{clear_word, command_word, Opcode, PADDING};
 use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
@@ -54,7 +54,9 @@ named_ports!(
 
 /// The words of a random command.
 fn command(random: &mut SplitMix64) -> Vec<u32> {
-    match random.below(12) {
+    match random.below(14) {
+        12 => vec![PADDING; 1 + random.below(3) as usize],
+        13 => vec![command_word(Opcode::Triangles), random.next_u64() as u32, random.next_u64() as u32],
         0 => vec![command_word(Opcode::Hello)],
         1 | 2 => vec![clear_word([0, random.below(6) as u32, random.below(300) as u32][random.below(3) as usize])],
         3 => vec![command_word(Opcode::Counters)],

@@ -18,11 +18,13 @@ named_ports!(
         answers,
         sweeps,
         first,
+        count,
         header,
         length,
         is_empty,
         word,
         is_read,
+        is_packed,
         read_done,
         v0,
         v1,
@@ -33,7 +35,20 @@ named_ports!(
         was_set,
         response_ready
     ],
-    [index, index_ahead, chooses, read, read_id, response_valid, response_data, is_idle, ends, is_taken],
+    [
+        index,
+        index_ahead,
+        chooses,
+        read,
+        read_id,
+        response_valid,
+        response_data,
+        response_both,
+        response_last,
+        is_idle,
+        ends,
+        is_taken
+    ],
     clock
 );
 
@@ -48,32 +63,65 @@ fn word(random: &mut SplitMix64) -> u32 {
 }
 
 /// What an answer is made of, for the responder.
+#[derive(Default)]
 struct Sent {
     header: u32,
     payload: Vec<u32>,
-    /// First record, for a read; the payload then holds its words.
-    first: Option<u64>,
+    /// First record and number of records, for a read; the payload then holds their words, or their vertices alone.
+    range: Option<(u64, u64)>,
+    is_packed: bool,
 }
 
 impl Sent {
     fn random(random: &mut SplitMix64) -> Self {
-        let reads = percent(random, 50);
-        let first = random.below((1 << 15) - 16);
-        let records = (first..first + random.below(8)).map(columns);
-        let payload = if reads {
-            let layout = Layout::of(CORE_COORD_BITS, 1 << 14);
-            records.flat_map(|(v, n, lock)| layout.record_to_words(v, n, lock)[..3].to_vec()).collect()
-        } else {
-            let most = [15, LATENCY_BUCKETS as u64 + 1][random.below(2) as usize];
-            (0..random.below(most)).map(|_| word(random)).collect()
+        let header = word(random);
+        let first = random.below((1 << 15) - 64);
+        match random.below(4) {
+            0 => Self::read(header, first, random.below(8)),
+            1 | 2 => Self::triangles(header, first, [random.below(8), random.below(64)][random.below(2) as usize]),
+            _ => {
+                let most = [15, LATENCY_BUCKETS as u64 + 1][random.below(2) as usize];
+                Self { header, payload: (0..random.below(most)).map(|_| word(random)).collect(), ..Self::default() }
+            }
+        }
+    }
+
+    /// A read of whole records.
+    fn read(header: u32, first: u64, count: u64) -> Self {
+        let words = |id| {
+            let (v, n, lock) = columns(id);
+            LAYOUT.record_to_words(v, n, lock)[..3].to_vec()
         };
-        Self { header: word(random), payload, first: reads.then_some(first) }
+        let payload = (first..first + count).flat_map(words).collect();
+        Self { header, payload, range: Some((first, count)), is_packed: false }
+    }
+
+    /// A read of their vertices.
+    fn triangles(header: u32, first: u64, count: u64) -> Self {
+        let length = LAYOUT.triangles_words(count as u32).expect("few records");
+        let mut payload = vec![0; length as usize];
+        for place in 0..count {
+            LAYOUT.vertices_to_words(columns(first + place).0, &mut payload, place as usize);
+        }
+        Self { header, payload, range: Some((first, count)), is_packed: true }
     }
 
     fn words(&self) -> Vec<u32> {
         [&[self.header, self.payload.len() as u32], &self.payload[..]].concat()
     }
+
+    /// Words of its last beat: header and length are one, of vertices all have two, but for a word that is left.
+    fn last_beat(&self) -> usize {
+        match self.payload.len() {
+            0 => 2,
+            length if self.is_packed => 2 - length % 2,
+            _ => 1,
+        }
+    }
 }
+
+/// The layout of the largest core.
+const LAYOUT: Layout = Layout::of(CORE_COORD_BITS, 1 << 14);
 
 /// A record whose columns tell its id.
 fn columns(id: u64) -> ([u32; 3], [u32; 3], bool) {
@@ -102,8 +150,12 @@ struct ResponderRig {
     chosen: u32,
     /// Clocks of a sweep that are left.
     sweeping: u64,
-    offered: Option<u128>,
+    offered: Option<(u128, bool, bool)>,
     taken: Vec<u32>,
+    /// Words taken up to the end of each answer.
+    lasts: Vec<usize>,
+    /// Beats loaded since reset.
+    beats: usize,
     /// Words loaded since reset, and those of the answers that have ended.
     loaded: usize,
     ended: usize,
@@ -131,6 +183,8 @@ impl ResponderRig {
             sweeping: 0,
             offered: None,
             taken: vec![],
+            lasts: vec![],
+            beats: 0,
             loaded: 0,
             ended: 0,
             wave: Wave::default(),
@@ -149,7 +203,8 @@ impl ResponderRig {
         self.sweeping = 0;
         self.offered = None;
         self.taken.clear();
-        (self.loaded, self.ended) = (0, 0);
+        self.lasts.clear();
+        (self.loaded, self.ended, self.beats) = (0, 0, 0);
     }
 
     fn set_inputs(&mut self, answers: bool, sent: &Sent) {
@@ -165,9 +220,12 @@ impl ResponderRig {
         block.set("header", if is_good { sent.header } else { 0xbad });
         block.set("length", if is_good { sent.payload.len() as u64 } else { 0xbad });
         block.set("is_empty", is_good == sent.payload.is_empty());
-        block.set("is_read", sent.first.is_some());
+        block.set("is_read", sent.range.is_some());
+        block.set("is_packed", sent.is_packed);
         // Bits above an id do not count.
-        block.set("first", sent.first.unwrap_or(0) | 0xabcd_0000);
+        let (first, count) = sent.range.unwrap_or((0, 77));
+        block.set("first", first | 0xabcd_0000);
+        block.set("count", count | 0x1234_0000);
         block.settle();
         let mask = if is_under_way { 127 } else { 0 };
         let [index, ahead] = ["index", "index_ahead"].map(|port| block.get_masked(port, mask) as usize);
@@ -199,30 +257,35 @@ impl ResponderRig {
         self.block.settle();
         self.block.expect("response_valid", valid);
         self.block.expect("is_taken", !valid || ready);
-        let data = valid.then(|| self.block.get("response_data"));
+        let block = &self.block;
+        let beat = valid.then(|| (block.get("response_data"), block.is("response_both"), block.is("response_last")));
         if self.offered.is_some() {
-            assert_eq!(data, self.offered, "a word offered stands until it is taken");
-        } else {
-            self.loaded += usize::from(valid);
+            assert_eq!(beat, self.offered, "a word offered stands until it is taken");
+        } else if let Some((data, both, _)) = beat {
+            self.loaded += 1 + usize::from(both);
+            self.beats += 1;
+            assert!(both || data >> 32 == 0, "the half of a word that is none: {data:x}");
+        }
+        for read in &mut self.reads {
+            read.0 = read.0.saturating_sub(1);
         }
         if self.block.is("read") {
             self.reads.push_back((self.read_clocks - 1, self.block.get("read_id") as u64));
-        } else {
-            for read in &mut self.reads {
-                read.0 = read.0.saturating_sub(1);
-            }
         }
-        self.offered = data.filter(|_| !ready);
-        if ready {
-            self.taken.extend(data.map(|data| data as u32));
+        self.offered = beat.filter(|_| !ready);
+        if let (true, Some((data, both, last))) = (ready, beat) {
+            self.taken.push(data as u32);
+            self.taken.extend(both.then_some((data >> 32) as u32));
+            self.lasts.extend(last.then_some(self.taken.len()));
         }
         let ends = self.block.is("ends");
         self.wave.take(&[
             ("answers", Cell::Bit(answers)),
             ("read", Cell::Bit(self.block.is("read"))),
             ("response_valid", Cell::Bit(valid)),
-            ("word", if valid { Cell::Number(self.loaded as u128 - 1) } else { Cell::Open }),
+            ("beat", if valid { Cell::Number(self.beats as u128 - 1) } else { Cell::Open }),
             ("response_ready", Cell::Bit(ready)),
+            ("response_last", Cell::Bit(beat.is_some_and(|(_, _, last)| last))),
             ("ends", Cell::Bit(ends)),
             ("is_idle", Cell::Bit(self.block.is("is_idle"))),
         ]);
@@ -230,20 +293,24 @@ impl ResponderRig {
         Clocked { ends, valid }
     }
 
-    /// A whole answer; returns the clocks from its first to that of `ends`, and the clock of the header.
-    fn answer(&mut self, sent: &Sent) -> (usize, usize) {
+    /// A whole answer; returns the clocks from its first to that of `ends`, and the clocks of the header and of the beat after it.
+    fn answer(&mut self, sent: &Sent) -> (usize, [usize; 2]) {
         // The command port awaits a command before.
         self.due = 0;
-        let mut header = None;
+        let before = self.beats;
+        let mut beats = [None; 2];
         for clock in 0..10_000 {
             let shown = self.clock(true, sent);
-            if self.loaded > self.ended {
-                header.get_or_insert(clock);
+            for (place, beat) in beats.iter_mut().enumerate() {
+                if self.beats > before + place {
+                    beat.get_or_insert(clock);
+                }
             }
             if shown.ends {
                 self.ended += sent.words().len();
-                assert_eq!(self.loaded, self.ended - 1, "the last word is loaded at the edge of `ends`");
-                return (clock, header.unwrap_or(clock));
+                assert_eq!(self.loaded, self.ended - sent.last_beat(), "the last word is loaded at the edge of `ends`");
+                // What is loaded at this edge is there in the next clock.
+                return (clock, beats.map(|beat| beat.unwrap_or(clock + 1)));
             }
         }
         panic!("an answer without end");
@@ -255,7 +322,7 @@ fn responder_sends_every_answer_whole_and_in_order() {
     for (ready, read_clocks) in [(100, READ_CLOCKS), (50, 1), (10, 3), (80, 9)] {
         let mut rig = ResponderRig::new(ready, read_clocks);
         let mut random = SplitMix64::new(6);
-        let mut expected = vec![];
+        let (mut expected, mut lasts) = (vec![], vec![]);
         for _ in 0..60 {
             let sent = Sent::random(&mut random);
             if random.below(8) == 0 {
@@ -267,75 +334,68 @@ fn responder_sends_every_answer_whole_and_in_order() {
                 }
                 rig.reset();
                 expected.clear();
+                lasts.clear();
                 continue;
             }
             rig.sweeping = random.below(6);
             rig.answer(&sent);
             expected.extend(sent.words());
+            lasts.push(expected.len());
             for _ in 0..random.below(4) {
                 let shown = rig.clock(false, &sent);
                 assert!(!shown.ends);
             }
         }
-        let nothing = Sent { header: 0, payload: vec![], first: None };
-        while rig.clock(false, &nothing).valid {}
+        while rig.clock(false, &Sent::default()).valid {}
         assert_eq!(rig.taken, expected);
+        assert_eq!(rig.lasts, lasts, "an answer ends with its last word");
     }
 }
 
 #[test]
 fn responder_is_as_fast_as_it_says() {
     let mut rig = ResponderRig::new(100, READ_CLOCKS);
-    let records = |count: u64| Sent {
-        header: 7,
-        payload: (0..count)
-            .flat_map(|id| {
-                let (v, n, lock) = columns(id);
-                Layout::of(CORE_COORD_BITS, 1 << 14).record_to_words(v, n, lock)[..3].to_vec()
-            })
-            .collect(),
-        first: Some(0),
+    let mut ends_of = |answers: &[Sent]| -> Vec<usize> {
+        let mut ends = vec![];
+        for sent in answers {
+            let (end, [header, _]) = rig.answer(sent);
+            rig.clock(false, sent);
+            assert_eq!(header, 4);
+            ends.push(end);
+        }
+        ends
     };
-    let mut ends = vec![];
-    for count in [1, 2, 10] {
-        let (end, header) = rig.answer(&records(count));
-        rig.clock(false, &records(1));
-        assert_eq!(header, 4);
-        ends.push(end);
-    }
+    let ends = ends_of(&[1, 2, 10].map(|count| Sent::read(7, 0, count)));
     assert_eq!(ends[1] - ends[0], 7, "clocks a record");
     assert_eq!(ends[2] - ends[0], 9 * 7);
-    let words = |count| Sent { header: 8, payload: vec![5; count], first: None };
-    let ends = [1, 25].map(|count| {
-        let (end, _) = rig.answer(&words(count));
-        rig.clock(false, &words(count));
-        end
-    });
+    let ends = ends_of(&[1, 25].map(|count| Sent { header: 8, payload: vec![5; count], ..Sent::default() }));
     assert_eq!(ends[1] - ends[0], 24 * 3, "clocks a word");
+    let ends = ends_of(&[4, 8, 1004].map(|count| Sent::triangles(9, 3, count)));
+    assert_eq!([ends[1] - ends[0], ends[2] - ends[0]], [4, 1000], "clocks of as many records");
+    let (_, [header, first]) = rig.answer(&Sent::triangles(9, 3, 4));
+    assert_eq!(first - header, 7, "from the header to the first vertices");
 }
 
 #[test]
 fn responder_begins_no_answer_in_a_sweep() {
     let mut rig = ResponderRig::new(100, READ_CLOCKS);
-    let sent = Sent { header: 9, payload: vec![], first: None };
+    let sent = Sent { header: 9, ..Sent::default() };
     for sweep in [0, 1, 2, LATENCY_BUCKETS as u64] {
         rig.sweeping = sweep;
-        let (_, header) = rig.answer(&sent);
+        let (_, [header, _]) = rig.answer(&sent);
         assert_eq!(header as u64, 4 + sweep);
         rig.clock(false, &sent);
     }
 }
 
-/// A read of one record, whose length word has to wait.
+/// A read of one record, whose header has to wait.
 #[test]
 fn responder_shows_the_wave_of_its_header() {
     let mut rig = ResponderRig::new(100, READ_CLOCKS);
-    let layout = Layout::of(CORE_COORD_BITS, 1 << 14);
-    let (v, n, lock) = columns(5);
-    let sent = Sent { header: 7, payload: layout.record_to_words(v, n, lock)[..3].to_vec(), first: Some(5) };
+    let sent = Sent::read(7, 5, 1);
     let mut answers = false;
     for clock in 0..16 {
-        rig.ready = if (6..8).contains(&clock) { 0 } else { 100 };
+        rig.ready = if (5..7).contains(&clock) { 0 } else { 100 };
         answers |= clock == 1;
         answers &= !rig.clock(answers, &sent).ends;
     }

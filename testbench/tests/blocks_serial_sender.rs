@@ -309,7 +309,7 @@ fn greeting_is_that_of_the_page() {
         QUICK_LINK.clock_hz / 8,
         QUICK_LINK.silence_ms,
         0x696e_4369,
-        0x0001_0001,
+        0x0001_0002,
         CORE_VERSION,
         16,
         SMALL.points,

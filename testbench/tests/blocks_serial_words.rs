@@ -8,18 +8,19 @@ use std::collections::VecDeque;
 
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::export::QUICK_LINK;
-use incircle_hdl::serial::{AnswerPacker, CommandProgress, CommandWords, PayloadDigest, ReceiveFifo};
+use incircle_hdl::serial::{AnswerPacker, CommandProgress, CommandWords, PayloadDigest, ReceiveFifo, WordNarrower};
 use serial_host::crc32_state;
 use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(ReceiveFifo, [reset, begins, push, push_data, commits, takes], [free, byte_valid, byte_data], clock);
 named_ports!(PayloadDigest, [reset, begins, push, push_data, commits], [state], clock);
 named_ports!(CommandWords, [reset, byte_valid, byte_data, word_ready], [takes, word_valid, word], clock);
-named_ports!(CommandProgress, [reset, takes, is_ending, answer_ended], [is_busy], clock);
+named_ports!(CommandProgress, [reset, takes, word, offers_last, takes_answer, answer_ended], [is_busy], clock);
+named_ports!(WordNarrower, [reset, pair_valid, pair, both, word_ready], [pair_ready, word_valid, word], clock);
 named_ports!(
     AnswerPacker,
-    [reset, response_valid, response_data, starts, takes, ended],
-    [response_ready, is_due, is_last, number, part, byte_valid, byte_data, byte_is_last, awaits, is_ending],
+    [reset, word_valid, word_data, starts, takes, ended],
+    [word_ready, is_due, is_last, number, part, byte_valid, byte_data, byte_is_last, awaits],
     clock
 );
 #[test]
@@ -199,33 +200,161 @@ fn command_words_show_the_wave_of_their_header() {
     wave.assert_drawn_in(include_str!("../../hdl/src/serial/command_words.rs"));
 }
 
+/// A core and a link that sends its answers, as the block sees them.
+#[derive(Default)]
+struct Traffic {
+    /// Arguments that the command at work still awaits.
+    arguments: Option<u64>,
+    /// Clocks until it is done.
+    working: Option<u64>,
+    /// The last word of an answer is offered; until it is taken.
+    offers: bool,
+    /// It was taken, and the frame is not over.
+    is_sent: bool,
+    begun: u64,
+    ended: u64,
+}
+
 #[test]
-fn a_command_is_under_way_until_the_last_answer_has_ended() {
+fn a_command_is_under_way_until_its_answer_has_ended() {
     let mut random = SplitMix64::new(4);
     let mut block = Stepper::new("serial_command_progress", CommandProgress::default(), 1);
-    let (mut carried, mut rested) = (0, 0);
-    for run in 0..400 {
-        // A command's words, its answer, and the first words of the next command before it has ended, or none.
-        let (words, before) = (1 + random.below(5), random.below(3));
-        let ends_at = 40 + random.below(20);
-        for clock in 0..80 {
-            let takes = clock < words || (30..30 + before).contains(&clock);
-            block.set("reset", run == 0 && clock == 0);
-            block.set("takes", takes && !(run == 0 && clock == 0));
-            block.set("is_ending", (32..=ends_at).contains(&clock));
-            block.set("answer_ended", clock == ends_at);
-            block.settle();
-            if run > 0 && (words + 4..=ends_at).contains(&clock) {
-                block.expect("is_busy", true);
-            }
-            if run > 0 && clock > ends_at {
-                block.expect("is_busy", before > 0);
-            }
-            block.edge();
+    let mut core = Traffic::default();
+    let (mut rested, mut two_deep, mut paddings) = (0, 0, 0);
+    for clock in 0..40_000 {
+        let reset = clock == 0 || random.below(2000) == 0;
+        // The core takes words of the next command once the last answer is offered to its end.
+        let awaits = core.working.is_none();
+        let takes = awaits && random.below([2, 20][clock / 5000 % 2]) == 0;
+        let is_command = takes && core.arguments.is_none();
+        let word = if random.below(3) == 0 { 0 } else { 1 + random.below(1 << 31) as u32 };
+        // What is offered is taken by a link that has ended the answer before.
+        let takes_answer = !core.is_sent && random.below(4) == 0;
+        let ends = core.is_sent && random.below(6) == 0;
+        for (port, bit) in [
+            ("reset", reset),
+            ("takes", takes),
+            ("offers_last", core.offers),
+            ("takes_answer", takes_answer),
+            ("answer_ended", ends),
+        ] {
+            block.set(port, bit);
         }
-        *(if before > 0 { &mut carried } else { &mut rested }) += 1;
+        block.set("word", word);
+        block.settle();
+        let under_way = core.begun - core.ended;
+        if clock > 0 {
+            block.expect("is_busy", under_way > 0);
+        }
+        rested += u32::from(under_way == 0);
+        two_deep += u32::from(core.is_sent && core.offers && core.arguments.is_some());
+        block.edge();
+        if reset {
+            core = Traffic::default();
+            continue;
+        }
+        core.ended += u64::from(ends);
+        core.is_sent &= !ends;
+        if core.offers && takes_answer {
+            (core.offers, core.is_sent) = (false, true);
+        }
+        if is_command && word == 0 {
+            paddings += 1;
+        } else if is_command {
+            core.begun += 1;
+            core.arguments = Some(random.below(4));
+        } else if takes {
+            core.arguments = core.arguments.map(|left| left - 1);
+        }
+        if core.arguments == Some(0) {
+            (core.arguments, core.working) = (None, Some(random.below(8)));
+        }
+        // Nothing is offered before what was offered is taken.
+        match core.working {
+            Some(0) if !core.offers => (core.working, core.offers) = (None, true),
+            Some(left) => core.working = Some(left.saturating_sub(1)),
+            None => {}
+        }
     }
-    assert!(carried > 50 && rested > 50);
+    assert!(rested > 500 && two_deep > 100 && paddings > 100, "{rested} at rest, {two_deep} deep, {paddings} paddings");
+}
+
+#[test]
+fn narrower_gives_every_word_once() {
+    let mut random = SplitMix64::new(6);
+    let mut block = Stepper::new("serial_word_narrower", WordNarrower::default(), 1);
+    let mut words: VecDeque<u32> = VecDeque::new();
+    let (mut pair, mut pairs) = (None, 0);
+    for clock in 0..8000 {
+        let reset = clock == 0 || random.below(500) == 0;
+        if pair.is_none() && random.below([1, 3][clock / 1000 % 2]) == 0 {
+            let (low, high) = (random.next_u64() as u32, random.next_u64() as u32);
+            let both = random.below(2) == 0;
+            pair = Some((low, high, both));
+            words.push_back(low);
+            words.extend(both.then_some(high));
+        }
+        let (low, high, both) = pair.unwrap_or((1, 2, random.below(2) == 0));
+        let ready = random.below([1, 3][clock / 2000 % 2]) == 0;
+        for (port, bit) in [("reset", reset), ("pair_valid", pair.is_some()), ("both", both), ("word_ready", ready)] {
+            block.set(port, bit);
+        }
+        block.set("pair", u64::from(low) | u64::from(high) << 32);
+        block.settle();
+        if clock > 0 {
+            block.expect("word_valid", pair.is_some());
+            if let Some(word) = words.front() {
+                block.expect("word", *word);
+            }
+            // What is offered alone is taken with its word, of two the second.
+            if pair.is_some() {
+                block.expect("pair_ready", ready && words.len() == 1);
+            }
+        }
+        block.edge();
+        if pair.is_some() && ready {
+            words.pop_front();
+            pairs += u32::from(both && words.is_empty());
+        }
+        if words.is_empty() || reset {
+            words.clear();
+            pair = None;
+        }
+    }
+    assert!(pairs > 500, "{pairs} pairs");
+}
+
+#[test]
+fn narrower_shows_the_wave_of_its_header() {
+    let mut block = Stepper::new("serial_word_narrower", WordNarrower::default(), 1);
+    block.set("reset", true);
+    block.settle();
+    block.edge();
+    block.set("reset", false);
+    let mut wave = Wave::default();
+    let mut pairs = VecDeque::from([(5u64 | 6 << 32, true), (7, false)]);
+    for clock in 0..5 {
+        let (pair, both) = pairs.front().copied().unwrap_or_default();
+        let (valid, ready) = (!pairs.is_empty(), clock != 1);
+        block.set("pair", pair);
+        for (port, bit) in [("pair_valid", valid), ("both", both), ("word_ready", ready)] {
+            block.set(port, bit);
+        }
+        block.settle();
+        let is_taken = block.is("pair_ready");
+        wave.take(&[
+            ("pair_valid", Cell::Bit(valid)),
+            ("both", Cell::Bit(both)),
+            ("pair_ready", Cell::Bit(is_taken)),
+            ("word", if valid { Cell::Number(block.get("word")) } else { Cell::Open }),
+            ("word_ready", Cell::Bit(ready)),
+        ]);
+        block.edge();
+        if is_taken {
+            pairs.pop_front();
+        }
+    }
+    wave.assert_drawn_in(include_str!("../../hdl/src/serial/word_narrower.rs"));
 }
 
 /// Sends the parts of answers as frames would, and compares every byte.
@@ -247,10 +376,10 @@ fn packer_cuts_answers_into_parts() {
                 offered = pending.pop_front();
             }
             clock += 1;
-            block.set("response_valid", offered.is_some());
-            block.set("response_data", offered.unwrap_or(0xffff_ffff));
+            block.set("word_valid", offered.is_some());
+            block.set("word_data", offered.unwrap_or(0xffff_ffff));
             block.settle();
-            if !inputs[0] && block.is("response_ready") {
+            if !inputs[0] && block.is("word_ready") {
                 offered = None;
             }
             if inputs[0] {
@@ -324,9 +453,8 @@ fn packer_cuts_answers_into_parts() {
         }
         let expected: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
         assert!(sent == expected, "an answer of {length} words");
-        for wait in 0..3 + random.below(9) {
+        for _ in 0..3 + random.below(9) {
             step(&mut block, [false; 4], &mut random, None);
-            assert!(wait < 3 || block.is("is_ending"));
             assert!(!block.is("byte_valid") && !block.is("is_due") && !block.is("awaits"));
             block.edge();
         }

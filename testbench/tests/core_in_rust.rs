@@ -37,8 +37,11 @@ fn two_jobs_clock_by_clock() {
         settle(&mut core);
         let expected = model.outputs();
         if !reset {
-            let found = (core.command_ready.val(), core.response_valid.val(), core.response_data.val().to_u32());
+            let found = (core.command_ready.val(), core.response_valid.val(), core.response_data.val().to_u64());
             let said = (expected.command_ready, expected.response_valid, expected.response_data);
+            assert_eq!(found, said, "clock {clock}: {}", model.describe());
+            let found = (core.response_both.val(), core.response_last.val());
+            let said = (expected.response_both, expected.response_last);
             assert_eq!(found, said, "clock {clock}: {}", model.describe());
             let write = core.write.val();
             assert_eq!(write.valid, expected.write.valid, "clock {clock}: {}", model.describe());

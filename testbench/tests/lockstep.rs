@@ -8,7 +8,7 @@
 mod lockstep_rig;
 
 use incircle_cli::generate::{Distribution, SplitMix64};
-use incircle_protocol::{clear_word, command_word, Config, Counter, Opcode, FULL, LARGE, SMALL, TINY};
+use incircle_protocol::{clear_word, command_word, Config, Counter, Opcode, FULL, LARGE, PADDING, SMALL, TINY};
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use lockstep_rig::{ordered, word, Rig};
 use std::path::PathBuf;
@@ -160,7 +160,9 @@ fn commands_out_of_place() {
     for k in 0..300 {
         let mut commands = Vec::new();
         for _ in 0..20 {
-            let mut more = match random.below(6) {
+            let mut more = match random.below(8) {
+                6 => vec![command_word(Opcode::Triangles), random.below(9) as u32, random.below(14) as u32],
+                7 => vec![PADDING; random.below(4) as usize + 1],
                 0 => vec![(random.below(256) as u32) << 24],
                 1 => vec![command_word(Opcode::Read), random.below(20) as u32, random.below(20) as u32],
                 2 => vec![command_word(Opcode::Read), u32::MAX - random.below(3) as u32, random.below(5) as u32],
@@ -171,7 +173,7 @@ fn commands_out_of_place() {
             // A random opcode may want arguments.
             match more[0] >> 24 {
                 3 if more.len() == 1 => more.push(0),
-                4 if more.len() == 1 => more.extend([0, 0]),
+                4 | 7 if more.len() == 1 => more.extend([0, 0]),
                 _ => {}
             }
             commands.extend(more);

@@ -9,7 +9,8 @@ use crate::engine::{
     RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
 use crate::link::{
-    AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordBuffer, RecordWords, Responder,
+    AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordBuffer, RecordReads, RecordWords,
+    Responder, VertexPacker, VertexStream,
 };
 
 /// The name of each root module, and its Verilog.
@@ -58,6 +59,9 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
         block(AnswerHead::default(), "answer_head"),
         block(AnswerWords::default(), "answer_words"),
         block(Responder::default(), "responder"),
+        block(RecordReads::default(), "record_reads"),
+        block(VertexStream::default(), "vertex_stream"),
+        block(VertexPacker::default(), "vertex_packer"),
         block(RecordBuffer::default(), "record_buffer"),
         block(RecordWords::default(), "record_words"),
     ]

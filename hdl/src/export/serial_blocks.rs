@@ -6,7 +6,7 @@ use super::{block, serial_link};
 use crate::serial::{
     AnswerPacker, BitClock, CobsDecoder, CobsEncoder, CommandProgress, CommandWords, Crc32, FrameBytes, FrameChoice,
     FrameHeader, FrameJudge, FramePart, FrameReader, FrameSender, Greeting, LineTimers, PayloadDigest, RateControl,
-    ReceiveFifo, Replies, SessionState, UartReceiver, UartTransmitter,
+    ReceiveFifo, Replies, SessionState, UartReceiver, UartTransmitter, WordNarrower,
 };
 
 /// A link that is quick to simulate: under nine clocks a bit at the first rate, short silence, and the smallest FIFO.
@@ -37,6 +37,7 @@ pub(super) fn serial_blocks() -> Vec<(String, String)> {
         block(PayloadDigest::default(), "serial_payload_digest"),
         block(CommandWords::default(), "serial_command_words"),
         block(CommandProgress::default(), "serial_command_progress"),
+        block(WordNarrower::default(), "serial_word_narrower"),
         block(AnswerPacker::default(), "serial_answer_packer"),
         block(FrameChoice::default(), "serial_frame_choice"),
         block(FramePart::default(), "serial_frame_part"),

@@ -10,10 +10,10 @@
 //! | `some_refused` | in | 1 | points have been refused |
 //! | `header` | out | 32 | first word of the answer |
 //! | `length`, `is_empty` | out | 32, 1 | words of the payload; whether there are none |
-//! | `is_read` | out | 1 | the payload consists of records |
+//! | `is_read`, `is_packed` | out | 1 | the payload consists of records; it has their vertices alone |
 //!
-//! 1. A read is in range if its last record is one; the end of the range and the words of the records are computed in the first rank,
-//!    the end is compared in the second, and the third chooses.
+//! 1. A read is in range if its last record is one; the end of the range and the ids of the records are computed in the first rank,
+//!    the end is compared in the second, and the third chooses. Words of a `Read` are as many as these ids; of `Triangles` half as many, rounded up.
 //! 2. `opcode` and `is_refused` stand still from the command to the end of its answer, so they enter at the last rank.
 //!
 //! Latency: 3 clocks.
@@ -51,6 +51,8 @@ pub struct AnswerHead {
     pub is_empty: Signal<Out, Bit>,
     /// The payload consists of records.
     pub is_read: Signal<Out, Bit>,
+    /// It has their vertices alone.
+    pub is_packed: Signal<Out, Bit>,
     /// First rank.
     range_end: DFF<Bits<33>>,
     range_bound: DFF<Bits<15>>,
@@ -60,6 +62,7 @@ pub struct AnswerHead {
     /// Second rank.
     is_outside: DFF<Bit>,
     read_length: DFF<Bits<32>>,
+    packed_length: DFF<Bits<32>>,
     reads_none: DFF<Bit>,
     report_status: DFF<Bits<3>>,
     /// Third rank.
@@ -79,6 +82,9 @@ pub struct AnswerHead {
     status_shift: Signal<Local, Bits<32>>,
     opcode_shift: Signal<Local, Bits<32>>,
     read_code: Signal<Local, Bits<8>>,
+    packed_code: Signal<Local, Bits<8>>,
+    packs: Signal<Local, Bit>,
+    rounded: Signal<Local, Bits<32>>,
 }
 
 // The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
@@ -89,6 +95,7 @@ const _: () = assert!(
         && Opcode::Read as u8 == 4
         && Opcode::Counters as u8 == 5
         && Opcode::Latencies as u8 == 6
+        && Opcode::Triangles as u8 == 7
         && Status::UnknownOpcode as u8 == 1
         && Status::BadRange as u8 == 2
         && Status::Collinear as u8 == 3
@@ -106,13 +113,14 @@ impl Logic for AnswerHead {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, range_end, range_bound, triple, counts_none, insert_status);
-        dff_setup!(self, clock, is_outside, read_length, reads_none, report_status);
+        dff_setup!(self, clock, is_outside, read_length, packed_length, reads_none, report_status);
         dff_setup!(self, clock, answer_status, answer_length, has_none);
         self.none.next = 0.into();
         self.one.next = 1.into();
         self.status_shift.next = 16.into();
         self.opcode_shift.next = 24.into();
         self.read_code.next = 4.into();
+        self.packed_code.next = 7.into();
 
         // The first rank adds.
         self.wide_first.next = bit_cast::<33, 32>(self.first.val());
@@ -137,6 +145,8 @@ impl Logic for AnswerHead {
         self.wide_bound.next = bit_cast::<33, 15>(self.range_bound.q.val());
         self.is_outside.d.next = self.range_end.q.val() > self.wide_bound.val();
         self.read_length.d.next = self.triple.q.val();
+        self.rounded.next = self.triple.q.val() + self.one.val();
+        self.packed_length.d.next = self.rounded.val() >> self.one.val();
         self.reads_none.d.next = self.counts_none.q.val();
         self.report_status.d.next = self.insert_status.q.val();
 
@@ -173,12 +183,23 @@ impl Logic for AnswerHead {
             6 => {
                 self.answer_length.d.next = 128.into();
             }
+            7 => {
+                self.answer_length.d.next = self.packed_length.q.val();
+                self.has_none.d.next = self.reads_none.q.val();
+                if self.is_outside.q.val() {
+                    self.answer_status.d.next = 2.into();
+                    self.answer_length.d.next = 0.into();
+                    self.has_none.d.next = true;
+                }
+            }
             _ => {
                 self.answer_status.d.next = 1.into();
                 self.has_none.d.next = true;
             }
         }
-        self.is_read.next = self.opcode.val() == self.read_code.val();
+        self.packs.next = self.opcode.val() == self.packed_code.val();
+        self.is_packed.next = self.packs.val();
+        self.is_read.next = self.packs.val() | (self.opcode.val() == self.read_code.val());
         self.length.next = self.answer_length.q.val();
         self.is_empty.next = self.has_none.q.val();
         self.status.next = bit_cast::<32, 3>(self.answer_status.q.val());

@@ -67,7 +67,7 @@ const _: () = assert!(
         && Opcode::Insert as u8 == 3
         && Opcode::Latencies as u8 == 6
         && MAGIC == 0x696e_4369
-        && PROTOCOL_VERSION == 0x0001_0001
+        && PROTOCOL_VERSION == 0x0001_0002
         && CORE_VERSION == 0x0000_0200
         && CORE_COORD_BITS == 16,
     "the words of this block follow the protocol"
@@ -85,7 +85,7 @@ impl Logic for AnswerWords {
                 self.report.d.next = bit_cast::<32, 15>(self.arrived.val());
             }
             1 => {
-                self.identity.d.next = 0x0001_0001.into();
+                self.identity.d.next = 0x0001_0002.into();
                 self.report.d.next = self.insertions.val();
             }
             2 => {

@@ -25,6 +25,7 @@
 //! 2. A point is taken when the one before has been stored; the fourth waits until the first three are known to span a triangle.
 //! 3. A `Clear` for no number of contexts is one for all. One for too many changes nothing, and `clears` stays low.
 //! 4. The answer to a `Clear` is due when `clears` is over.
+//! 5. A word of zeros in place of a command is taken and forgotten.
 //!
 //! Latency: a point accepted at an edge is stored at the next; one is taken every second clock. A point refused is counted at the
 //! next edge.
@@ -41,7 +42,7 @@
 //! ```
 
 use super::{ClearCommand, CommandGate, PointSlot};
-use incircle_protocol::Opcode;
+use incircle_protocol::{Opcode, PADDING};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -141,16 +142,19 @@ pub struct CommandPort {
     accepts_command: Signal<Local, Bit>,
     accepts_point: Signal<Local, Bit>,
     code: Signal<Local, Bits<8>>,
-    is_insert: Signal<Local, Bit>,
+    is_padding: Signal<Local, Bit>,
     read_code: Signal<Local, Bits<8>>,
+    packed_code: Signal<Local, Bits<8>>,
     insert_code: Signal<Local, Bits<8>>,
     none: Signal<Local, Bits<32>>,
     one: Signal<Local, Bits<32>>,
 }
 
 // The kernel names opcodes by number, because rust-hdl takes literals only; a change in the protocol must come here.
-const _: () =
-    assert!(Opcode::Insert as u8 == 3 && Opcode::Read as u8 == 4, "the opcodes of this block follow the protocol");
+const _: () = assert!(
+    Opcode::Insert as u8 == 3 && Opcode::Read as u8 == 4 && Opcode::Triangles as u8 == 7 && PADDING == 0,
+    "the opcodes of this block follow the protocol"
+);
 
 impl Logic for CommandPort {
     #[hdl_gen]
@@ -159,6 +163,7 @@ impl Logic for CommandPort {
         clock!(self, clock, slot, clear);
         self.insert_code.next = 3.into();
         self.read_code.next = 4.into();
+        self.packed_code.next = 7.into();
         self.none.next = 0.into();
         self.one.next = 1.into();
 
@@ -192,7 +197,8 @@ impl Logic for CommandPort {
         self.gate.stuck.next = self.stuck.val();
         self.awaits_point.next = self.gate.awaits_point.val();
         self.command_ready.next = self.gate.ready.val();
-        self.accepts_command.next = self.command_valid.val() & self.gate.takes_command.val();
+        self.is_padding.next = self.command_data.val() == self.none.val();
+        self.accepts_command.next = self.command_valid.val() & self.gate.takes_command.val() & (!self.is_padding.val());
         self.accepts_point.next = self.command_valid.val() & self.gate.takes_point.val();
         self.clear.reset.next = self.reset.val();
         self.clear.built.next = self.built.val();
@@ -206,7 +212,6 @@ impl Logic for CommandPort {
         self.slot.accepts.next = self.accepts_point.val();
         self.slot.word.next = self.command_data.val();
         self.code.next = self.command_data.val().get_bits::<8>(24);
-        self.is_insert.next = self.command.q.val() == self.insert_code.val();
 
         if (self.state.q.val() != CommandState::Answer) & self.responder_is_idle.val() & self.answer_is_taken.val() {
             self.is_reading.d.next = false;
@@ -219,7 +224,7 @@ impl Logic for CommandPort {
                     if self.code.val() == self.insert_code.val() {
                         self.state.d.next = CommandState::Count;
                     }
-                    if self.code.val() == self.read_code.val() {
+                    if (self.code.val() == self.read_code.val()) | (self.code.val() == self.packed_code.val()) {
                         self.state.d.next = CommandState::First;
                     }
                 }
@@ -234,7 +239,7 @@ impl Logic for CommandPort {
                 if self.command_valid.val() {
                     self.left.d.next = self.command_data.val();
                     self.none_is_left.d.next = self.command_data.val() == self.none.val();
-                    if self.is_insert.val() {
+                    if self.command.q.val() == self.insert_code.val() {
                         self.state.d.next = CommandState::Points;
                     } else {
                         self.is_reading.d.next = true;

@@ -1,5 +1,6 @@
 //! The command and answer streams.
 
+mod answer_beat;
 mod answer_head;
 mod answer_words;
 mod clear_command;
@@ -7,9 +8,13 @@ mod command_gate;
 mod command_port;
 mod point_slot;
 mod record_buffer;
+mod record_reads;
 mod record_words;
 mod responder;
+mod vertex_packer;
+mod vertex_stream;
 
+pub use answer_beat::{AnswerBeat, WordPair, ANSWER_BEAT_BITS, WORD_PAIR_BITS};
 pub use answer_head::AnswerHead;
 pub use answer_words::AnswerWords;
 pub use clear_command::ClearCommand;
@@ -17,5 +22,8 @@ pub use command_gate::CommandGate;
 pub use command_port::{CommandPort, CommandState};
 pub use point_slot::PointSlot;
 pub use record_buffer::RecordBuffer;
+pub use record_reads::RecordReads;
 pub use record_words::RecordWords;
 pub use responder::{AnswerState, Responder};
+pub use vertex_packer::VertexPacker;
+pub use vertex_stream::VertexStream;

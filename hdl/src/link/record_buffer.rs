@@ -1,12 +1,14 @@
-//! Holds a record that has been read, and hands out its words.
+//! Holds a record that has been read, and hands out its words, or its vertices alone.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | reset drops the record |
-//! | `read_done`, `v0..v2`, `n0..n2`, `was_set` | in | 1, 15, 1 | a record comes; only when none is held |
+//! | `read_done`, `v0..v2`, `n0..n2`, `was_set` | in | 1, 15, 1 | a record comes; only when none is held, or when it is taken whole |
 //! | `holds` | out | 1 | a word is left |
-//! | `word` | out | 32 | the first that is left |
+//! | `word`, `is_at_last` | out | 32, 1 | the first that is left; there is no other |
 //! | `takes` | in | 1 | it is taken at this edge; only while `holds` |
+//! | `vertex0..2` | out | 15 | the vertices of the record, while no word of it has been taken |
+//! | `takes_whole` | in | 1 | all of it is taken at this edge; only while `holds`, and no word of it has been |
 //!
 //! 1. The record goes into registers straight from the memory; the word is chosen behind them.
 //!
@@ -43,8 +45,18 @@ pub struct RecordBuffer {
     pub holds: Signal<Out, Bit>,
     /// The first that is left.
     pub word: Signal<Out, Bits<32>>,
+    /// There is no other.
+    pub is_at_last: Signal<Out, Bit>,
     /// It is taken.
     pub takes: Signal<In, Bit>,
+    /// A vertex.
+    pub vertex0: Signal<Out, Bits<15>>,
+    /// A vertex.
+    pub vertex1: Signal<Out, Bits<15>>,
+    /// A vertex.
+    pub vertex2: Signal<Out, Bits<15>>,
+    /// The whole record is taken.
+    pub takes_whole: Signal<In, Bit>,
     is_held: DFF<Bit>,
     buffer0: DFF<Bits<32>>,
     buffer1: DFF<Bits<32>>,
@@ -66,12 +78,19 @@ impl Logic for RecordBuffer {
         self.words.n1.next = self.n1.val();
         self.words.n2.next = self.n2.val();
         self.words.was_set.next = self.was_set.val();
+        self.vertex0.next = self.buffer0.q.val().get_bits::<15>(0);
+        self.vertex1.next = self.buffer1.q.val().get_bits::<15>(0);
+        self.vertex2.next = self.buffer2.q.val().get_bits::<15>(0);
+        if self.takes_whole.val() {
+            self.is_held.d.next = false;
+        }
         if self.read_done.val() {
             self.is_held.d.next = true;
             self.buffer0.d.next = self.words.word0.val();
             self.buffer1.d.next = self.words.word1.val();
             self.buffer2.d.next = self.words.word2.val();
         }
+        self.is_at_last.next = self.is_third.q.val();
         self.word.next = self.buffer0.q.val();
         if self.is_second.q.val() {
             self.word.next = self.buffer1.q.val();

@@ -1,38 +1,43 @@
-//! Sends answers: header, length, payload. Records are read from the triangle memory one at a time.
+//! Sends answers: header and length in one beat, then the payload. Records are read from the triangle memory one at a time, or one a
+//! clock where their vertices alone are sent.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | reset drops an answer |
 //! | `answers` | in | 1 | an answer is due, held until `ends` |
 //! | `sweeps` | in | 1 | counts are being cleared: no answer begins |
-//! | `first` | in | 32 | first record of a read |
-//! | `header`, `length`, `is_empty`, `is_read` | in | | the answer, from `AnswerHead`, good 3 clocks after `answers` comes |
+//! | `first`, `count` | in | 32 | first record of a read, and number of its records |
+//! | `header`, `length`, `is_empty`, `is_read`, `is_packed` | in | | the answer, from `AnswerHead`, good 3 clocks after `answers` comes |
 //! | `word` | in | 32 | a word of the payload, from `AnswerWords`, good from `chooses` to the next one |
 //! | `index` | out | 7 | word of the payload that is wanted |
 //! | `index_ahead` | out | 7 | what `index` becomes at this edge, if it changes |
 //! | `chooses` | out | 1 | the word that `index` was a clock ago is taken into a register at this edge, and is then `word` |
 //! | `read`, `read_id` | out | 1, 15 | a record is wanted |
-//! | `read_done`, `v0..n2`, `was_set` | in | | it has come |
-//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 32 | the answer stream |
+//! | `read_done`, `v0..n2`, `was_set` | in | | it has come; records come in the order in which they were wanted |
+//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 64 | the answer stream |
+//! | `response_both`, `response_last` | out | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
 //! | `is_idle`, `ends`, `is_taken` | out | 1 | no answer is under way; its last word is loaded at this edge; no word waits, or it is taken |
 //!
-//! 1. A word offered is held until it is taken; `response_valid` does not wait for `response_ready`.
+//! 1. What is offered is held until it is taken; `response_valid` does not wait for `response_ready`.
 //! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
+//! 3. The second word is zero where there is none.
 //!
-//! Latency: 4 clocks from `answers` to the header; 3 clocks a word, 7 a record: the read's 3 and 4 more.
+//! Latency: 4 clocks from `answers` to the header; 3 clocks a word, 7 a record: the read's 3 and 4 more. Vertices: 1 clock a record, and
+//! the first beat of theirs 7 clocks after the header.
 //!
-//! A read of one record, whose length has to wait; `word` counts the words of the answer:
+//! A read of one record, whose header has to wait; `beat` counts the beats of the answer:
 //! ```text
-//! answers         ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\________
-//! read            __________________/^^\__________________________
-//! response_valid  _______________/^^^^^^^^^^^\_____/^^^^^^^^\_____
-//! word              .  .  .  .  .  0  1  1  1  .  .  2  3  4  .  .
-//! response_ready  /^^^^^^^^^^^^^^^^^\_____/^^^^^^^^^^^^^^^^^^^^^^^
-//! ends            ____________________________________/^^\________
-//! is_idle         /^^^^^\________________________________/^^^^^^^^
+//! answers         ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\___________
+//! read            _______________/^^\_____________________________
+//! response_valid  _______________/^^^^^^^^\_____/^^^^^^^^\________
+//! beat              .  .  .  .  .  0  0  0  .  .  1  2  3  .  .  .
+//! response_ready  /^^^^^^^^^^^^^^\_____/^^^^^^^^^^^^^^^^^^^^^^^^^^
+//! response_last   ____________________________________/^^\________
+//! ends            _________________________________/^^\___________
+//! is_idle         /^^^^^\_____________________________/^^^^^^^^^^^
 //! ```
 
-use super::RecordBuffer;
+use super::{AnswerBeat, RecordReads, WordPair, WORD_PAIR_BITS};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -43,15 +48,13 @@ pub enum AnswerState {
     Idle,
     /// None: header and length are being computed.
     Prepare,
-    /// The header.
+    /// Header and length.
     Header,
-    /// The length.
-    Length,
     /// None: a word of the payload is being chosen.
     Choose,
     /// A word of the payload.
     Payload,
-    /// A word of a record.
+    /// A beat of records or vertices.
     Records,
 }
 
@@ -68,6 +71,8 @@ pub struct Responder {
     pub sweeps: Signal<In, Bit>,
     /// First record of a read.
     pub first: Signal<In, Bits<32>>,
+    /// Its records.
+    pub count: Signal<In, Bits<32>>,
     /// First word of the answer.
     pub header: Signal<In, Bits<32>>,
     /// Words of the payload.
@@ -78,6 +83,8 @@ pub struct Responder {
     pub word: Signal<In, Bits<32>>,
     /// The payload consists of records.
     pub is_read: Signal<In, Bit>,
+    /// It has their vertices alone.
+    pub is_packed: Signal<In, Bit>,
     /// Word of the payload that is wanted.
     pub index: Signal<Out, Bits<7>>,
     /// The one after it, in time for what takes a clock longer to choose.
@@ -104,12 +111,16 @@ pub struct Responder {
     pub n2: Signal<In, Bits<15>>,
     /// Its lock bit.
     pub was_set: Signal<In, Bit>,
-    /// A word is offered.
+    /// A word is offered, or two.
     pub response_valid: Signal<Out, Bit>,
     /// It is taken.
     pub response_ready: Signal<In, Bit>,
-    /// The word.
-    pub response_data: Signal<Out, Bits<32>>,
+    /// The word in the low half, the one that follows it in the high.
+    pub response_data: Signal<Out, Bits<64>>,
+    /// There is one that follows it.
+    pub response_both: Signal<Out, Bit>,
+    /// The last word of the answer is among them.
+    pub response_last: Signal<Out, Bit>,
     /// No answer is under way.
     pub is_idle: Signal<Out, Bit>,
     /// The last word is loaded.
@@ -121,35 +132,39 @@ pub struct Responder {
     /// The first of the two clocks of `Prepare` or `Choose` is over.
     waited: DFF<Bit>,
     valid: DFF<Bit>,
-    data: DFF<Bits<32>>,
+    offered: DFF<AnswerBeat>,
     left: DFF<Bits<32>>,
     /// One word is left.
     is_last: DFF<Bit>,
     loaded: DFF<Bits<7>>,
-    record_id: DFF<Bits<15>>,
-    fetching: DFF<Bit>,
-    record: RecordBuffer,
+    records: RecordReads,
+    pair: Signal<Local, WordPair>,
+    pair_bits: Signal<Local, Bits<WORD_PAIR_BITS>>,
     loads: Signal<Local, Bit>,
-    asks: Signal<Local, Bit>,
     ends_now: Signal<Local, Bit>,
+    no_word: Signal<Local, Bits<32>>,
     one: Signal<Local, Bits<32>>,
     two: Signal<Local, Bits<32>>,
     one_word: Signal<Local, Bits<7>>,
-    one_record: Signal<Local, Bits<15>>,
 }
 
 impl Logic for Responder {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, waited, valid, data, left, is_last, loaded, following, record_id, fetching);
-        clock!(self, clock, record);
+        dff_setup!(self, clock, state, waited, valid, offered, left, is_last, loaded, following);
+        clock!(self, clock, records);
+        self.no_word.next = 0.into();
         self.one.next = 1.into();
         self.two.next = 2.into();
         self.one_word.next = 1.into();
-        self.one_record.next = 1.into();
 
         self.response_valid.next = self.valid.q.val();
-        self.response_data.next = self.data.q.val();
+        self.pair.next.low = self.offered.q.val().low;
+        self.pair.next.high = self.offered.q.val().high;
+        self.pair_bits.next = self.pair.val().into();
+        self.response_data.next = self.pair_bits.val();
+        self.response_both.next = self.offered.q.val().both;
+        self.response_last.next = self.offered.q.val().last;
         self.index.next = self.loaded.q.val();
         self.index_ahead.next = self.following.q.val();
         self.chooses.next = (self.state.q.val() == AnswerState::Choose) & self.waited.q.val();
@@ -157,29 +172,24 @@ impl Logic for Responder {
         self.is_taken.next = self.loads.val();
         self.is_idle.next = self.state.q.val() == AnswerState::Idle;
 
-        // A record is fetched when the one before has been loaded.
-        self.asks.next =
-            (self.state.q.val() == AnswerState::Records) & (!self.fetching.q.val()) & (!self.record.holds.val());
-        self.read.next = self.asks.val();
-        self.read_id.next = self.record_id.q.val();
-        self.record.v0.next = self.v0.val();
-        self.record.v1.next = self.v1.val();
-        self.record.v2.next = self.v2.val();
-        self.record.n0.next = self.n0.val();
-        self.record.n1.next = self.n1.val();
-        self.record.n2.next = self.n2.val();
-        self.record.was_set.next = self.was_set.val();
-        self.record.read_done.next = self.read_done.val();
-        self.record.reset.next = self.reset.val();
-        if self.asks.val() {
-            self.fetching.d.next = true;
-        }
-        if self.read_done.val() {
-            self.fetching.d.next = false;
-            self.record_id.d.next = self.record_id.q.val() + self.one_record.val();
-        }
+        self.records.reset.next = self.reset.val();
+        self.records.starts.next = self.state.q.val() == AnswerState::Header;
+        self.records.first.next = self.first.val().get_bits::<15>(0);
+        self.records.count.next = self.count.val().get_bits::<15>(0);
+        self.records.is_packed.next = self.is_packed.val();
+        self.records.runs.next = self.state.q.val() == AnswerState::Records;
+        self.read.next = self.records.read.val();
+        self.read_id.next = self.records.read_id.val();
+        self.records.read_done.next = self.read_done.val();
+        self.records.v0.next = self.v0.val();
+        self.records.v1.next = self.v1.val();
+        self.records.v2.next = self.v2.val();
+        self.records.n0.next = self.n0.val();
+        self.records.n1.next = self.n1.val();
+        self.records.n2.next = self.n2.val();
+        self.records.was_set.next = self.was_set.val();
 
-        self.record.takes.next = false;
+        self.records.takes.next = false;
         self.ends_now.next = false;
         self.valid.d.next = self.valid.q.val() & (!self.loads.val());
         match self.state.q.val() {
@@ -189,27 +199,22 @@ impl Logic for Responder {
                 }
             }
             AnswerState::Prepare => {
+                self.following.d.next = 0.into();
                 self.waited.d.next = !self.waited.q.val();
                 if self.waited.q.val() {
                     self.state.d.next = AnswerState::Header;
                 }
             }
             AnswerState::Header => {
-                self.following.d.next = 0.into();
-                if self.loads.val() {
-                    self.valid.d.next = true;
-                    self.data.d.next = self.header.val();
-                    self.state.d.next = AnswerState::Length;
-                }
-            }
-            AnswerState::Length => {
                 self.left.d.next = self.length.val();
                 self.is_last.d.next = self.length.val() == self.one.val();
                 self.loaded.d.next = 0.into();
-                self.record_id.d.next = self.first.val().get_bits::<15>(0);
                 if self.loads.val() {
                     self.valid.d.next = true;
-                    self.data.d.next = self.length.val();
+                    self.offered.d.next.low = self.header.val();
+                    self.offered.d.next.high = self.length.val();
+                    self.offered.d.next.both = true;
+                    self.offered.d.next.last = self.is_empty.val();
                     self.ends_now.next = self.is_empty.val();
                     self.state.d.next = AnswerState::Choose;
                     if self.is_read.val() {
@@ -227,7 +232,10 @@ impl Logic for Responder {
             AnswerState::Payload => {
                 if self.loads.val() {
                     self.valid.d.next = true;
-                    self.data.d.next = self.word.val();
+                    self.offered.d.next.low = self.word.val();
+                    self.offered.d.next.high = self.no_word.val();
+                    self.offered.d.next.both = false;
+                    self.offered.d.next.last = self.is_last.q.val();
                     self.loaded.d.next = self.loaded.q.val() + self.one_word.val();
                     self.left.d.next = self.left.q.val() - self.one.val();
                     self.is_last.d.next = self.left.q.val() == self.two.val();
@@ -236,13 +244,11 @@ impl Logic for Responder {
                 }
             }
             AnswerState::Records => {
-                if self.loads.val() & self.record.holds.val() {
+                if self.loads.val() & self.records.valid.val() {
                     self.valid.d.next = true;
-                    self.data.d.next = self.record.word.val();
-                    self.record.takes.next = true;
-                    self.left.d.next = self.left.q.val() - self.one.val();
-                    self.is_last.d.next = self.left.q.val() == self.two.val();
-                    self.ends_now.next = self.is_last.q.val();
+                    self.offered.d.next = self.records.beat.val();
+                    self.records.takes.next = true;
+                    self.ends_now.next = self.records.beat.val().last;
                 }
             }
             _ => {
@@ -257,8 +263,10 @@ impl Logic for Responder {
             self.state.d.next = AnswerState::Idle;
             self.waited.d.next = false;
             self.valid.d.next = false;
-            self.data.d.next = 0.into();
-            self.fetching.d.next = false;
+            self.offered.d.next.low = self.no_word.val();
+            self.offered.d.next.high = self.no_word.val();
+            self.offered.d.next.both = false;
+            self.offered.d.next.last = false;
         }
     }
 }

@@ -3,7 +3,7 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | reset awaits an answer, number 0 |
-//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 32 | the answer stream of the core |
+//! | `word_valid`, `word_ready`, `word_data` | in, out, in | 1, 1, 32 | the answer stream of the core, word by word |
 //! | `is_due`, `is_last` | out | 1 | a part is ready to be sent; it is the last one of its answer |
 //! | `starts` | in | 1 | its frame begins |
 //! | `number`, `part` | out | 8, 8 | answers that have been sent to their end; the part's first word, divided by 256 |
@@ -11,10 +11,9 @@
 //! | `byte_is_last` | out | 1 | it is the last one |
 //! | `ended` | in | 1 | the frame of the last part is over |
 //! | `awaits` | out | 1 | no word of an answer has come |
-//! | `is_ending` | out | 1 | the last word of an answer is offered by the core or taken, and its frame is not over |
 //!
 //! 1. All parts but the last have 256 words. The length of an answer is its second word, below 2^17.
-//! 2. `response_ready`, `is_due` and `byte_valid` depend on registers only.
+//! 2. `word_ready`, `is_due` and `byte_valid` depend on registers only.
 //! 3. A part begins when its first word is there; of the first part the second, too, which is not taken then.
 //!
 //! Latency: 3 clocks from the first two words of an answer to `is_due`.
@@ -46,11 +45,11 @@ pub struct AnswerPacker {
     /// Awaits an answer, number 0.
     pub reset: Signal<In, Bit>,
     /// A word is offered.
-    pub response_valid: Signal<In, Bit>,
+    pub word_valid: Signal<In, Bit>,
     /// It is taken.
-    pub response_ready: Signal<Out, Bit>,
+    pub word_ready: Signal<Out, Bit>,
     /// The word.
-    pub response_data: Signal<In, Bits<32>>,
+    pub word_data: Signal<In, Bits<32>>,
     /// A part is ready.
     pub is_due: Signal<Out, Bit>,
     /// It is the last one.
@@ -73,8 +72,6 @@ pub struct AnswerPacker {
     pub ended: Signal<In, Bit>,
     /// No word has come.
     pub awaits: Signal<Out, Bit>,
-    /// The last word of an answer is under way.
-    pub is_ending: Signal<Out, Bit>,
     state: DFF<PackState>,
     word: DFF<Bits<32>>,
     is_held: DFF<Bit>,
@@ -90,13 +87,11 @@ pub struct AnswerPacker {
     is_settled: DFF<Bit>,
     is_short: DFF<Bit>,
     part_ends: DFF<Bit>,
-    ending: DFF<Bit>,
     is_taking: Signal<Local, Bit>,
     loads: Signal<Local, Bit>,
     many: Signal<Local, Bits<9>>,
     few: Signal<Local, Bits<8>>,
     is_end: Signal<Local, Bit>,
-    is_before_end: Signal<Local, Bit>,
     one: Signal<Local, Bits<17>>,
     one_byte: Signal<Local, Bits<8>>,
     one_place: Signal<Local, Bits<2>>,
@@ -111,7 +106,7 @@ impl Logic for AnswerPacker {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, state, word, is_held, place, after, position, part_number, answers);
-        dff_setup!(self, clock, is_settled, is_short, part_ends, ending, is_head);
+        dff_setup!(self, clock, is_settled, is_short, part_ends, is_head);
         self.one.next = 1.into();
         self.one_byte.next = 1.into();
         self.one_place.next = 1.into();
@@ -126,7 +121,6 @@ impl Logic for AnswerPacker {
         self.byte_data.next = self.word.q.val().get_bits::<8>(0);
         self.byte_is_last.next = self.part_ends.q.val() & (self.place.q.val() == self.last_place.val());
         self.awaits.next = self.state.q.val() == PackState::Head;
-        self.is_ending.next = self.ending.q.val();
 
         // What follows from the words that are left, a clock later.
         self.many.next = self.after.q.val().get_bits::<9>(8);
@@ -136,19 +130,13 @@ impl Logic for AnswerPacker {
         self.is_end.next = (!self.after.q.val().any()) & (!self.is_head.q.val());
         self.part_ends.d.next = self.is_end.val() | (self.position.q.val() == self.last_position.val());
         self.is_settled.d.next = self.is_held.q.val() & (self.state.q.val() == PackState::Start);
-        self.is_before_end.next = (self.after.q.val() == self.one.val()) & (!self.is_head.q.val());
-        if self.is_head.q.val() {
-            self.is_before_end.next = !self.after.q.val().any();
-        }
-        self.ending.d.next =
-            self.is_end.val() | (self.is_before_end.val() & self.response_valid.val() & self.is_held.q.val());
 
         self.is_taking.next = (!self.is_held.q.val())
             & ((self.state.q.val() == PackState::Start) | (self.state.q.val() == PackState::Words));
-        self.response_ready.next = self.is_taking.val() | (self.state.q.val() == PackState::Head);
-        self.loads.next = self.is_taking.val() & self.response_valid.val();
+        self.word_ready.next = self.is_taking.val() | (self.state.q.val() == PackState::Head);
+        self.loads.next = self.is_taking.val() & self.word_valid.val();
         if self.loads.val() {
-            self.word.d.next = self.response_data.val();
+            self.word.d.next = self.word_data.val();
             self.is_held.d.next = true;
             self.is_head.d.next = false;
             if !self.is_head.q.val() {
@@ -161,21 +149,19 @@ impl Logic for AnswerPacker {
         }
         match self.state.q.val() {
             PackState::Head => {
-                self.word.d.next = self.response_data.val();
-                self.is_held.d.next = self.response_valid.val();
+                self.word.d.next = self.word_data.val();
+                self.is_held.d.next = self.word_valid.val();
                 self.place.d.next = 0.into();
                 self.position.d.next = 0.into();
                 self.part_number.d.next = 0.into();
-                self.ending.d.next = false;
-                if self.response_valid.val() {
+                if self.word_valid.val() {
                     self.state.d.next = PackState::Length;
                 }
             }
             PackState::Length => {
-                self.after.d.next = self.response_data.val().get_bits::<17>(0);
+                self.after.d.next = self.word_data.val().get_bits::<17>(0);
                 self.is_head.d.next = true;
-                self.ending.d.next = false;
-                if self.response_valid.val() {
+                if self.word_valid.val() {
                     self.state.d.next = PackState::Start;
                 }
             }
@@ -213,7 +199,6 @@ impl Logic for AnswerPacker {
             self.state.d.next = PackState::Head;
             self.answers.d.next = 0.into();
             self.is_held.d.next = false;
-            self.ending.d.next = false;
         }
     }
 }

@@ -3,16 +3,16 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | after reset none is |
-//! | `takes` | in | 1 | the core takes a command word |
-//! | `is_ending` | in | 1 | the last word of an answer is offered or taken, and its frame is not over |
-//! | `answer_ended` | in | 1 | it is |
+//! | `takes`, `word` | in | 1, 32 | the core takes a command word |
+//! | `offers_last`, `takes_answer` | in | 1 | the core offers the last word of an answer; what it offers is taken |
+//! | `answer_ended` | in | 1 | the frame of an answer's last word is over |
 //! | `is_busy` | out | 1 | a command is under way |
 //!
-//! 1. The core takes the words of the next command as soon as it offers the last word of an answer: a word that comes then belongs to that
-//!    one, and keeps `is_busy` high when the answer has ended.
-//! 2. `is_ending` may rise up to 2 clocks late.
+//! 1. The core takes the words of the next command as soon as it offers the last word of an answer, so a word that comes then or later belongs to
+//!    that one. At most two answers have been offered to their end and not sent to it.
+//! 2. A word of zeros where a command may begin is padding and begins none.
 //!
-//! Latency: 4 clocks from a word taken, 1 from the end of an answer.
+//! Latency: 1 clock from a word taken and from the end of an answer.
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -26,41 +26,49 @@ pub struct CommandProgress {
     pub reset: Signal<In, Bit>,
     /// A command word is taken.
     pub takes: Signal<In, Bit>,
-    /// The last word of an answer is under way.
-    pub is_ending: Signal<In, Bit>,
+    /// It.
+    pub word: Signal<In, Bits<32>>,
+    /// The last word of an answer is offered.
+    pub offers_last: Signal<In, Bit>,
+    /// What is offered is taken.
+    pub takes_answer: Signal<In, Bit>,
     /// The answer has ended.
     pub answer_ended: Signal<In, Bit>,
     /// A command is under way.
     pub is_busy: Signal<Out, Bit>,
-    took_first: DFF<Bit>,
-    took_second: DFF<Bit>,
-    took: DFF<Bit>,
-    busy: DFF<Bit>,
-    follows: DFF<Bit>,
+    /// A word has been taken since the last answer was offered to its end.
+    begun: DFF<Bit>,
+    /// Answers offered to their end whose frames are not over.
+    open: DFF<Bits<2>>,
+    /// The last word that is offered was in the clock before.
+    seen: DFF<Bit>,
+    is_new: Signal<Local, Bit>,
+    goes_on: Signal<Local, Bit>,
+    is_padding: Signal<Local, Bit>,
+    one: Signal<Local, Bits<2>>,
 }
 
 impl Logic for CommandProgress {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, took_first, took_second, took, busy, follows);
-        self.is_busy.next = self.busy.q.val();
-        self.took_first.d.next = self.takes.val();
-        self.took_second.d.next = self.took_first.q.val();
-        self.took.d.next = self.took_second.q.val();
-        if self.took.q.val() {
-            self.busy.d.next = true;
-            self.follows.d.next = self.is_ending.val();
+        dff_setup!(self, clock, begun, open, seen);
+        self.one.next = 1.into();
+        self.is_busy.next = self.begun.q.val() | self.open.q.val().any();
+        self.is_new.next = self.offers_last.val() & (!self.seen.q.val());
+        self.seen.d.next = self.offers_last.val() & (!self.takes_answer.val());
+        self.goes_on.next = self.begun.q.val() & (!self.is_new.val());
+        self.is_padding.next = (!self.goes_on.val()) & (!self.word.val().any());
+        self.begun.d.next = self.goes_on.val() | (self.takes.val() & (!self.is_padding.val()));
+        if self.is_new.val() & (!self.answer_ended.val()) {
+            self.open.d.next = self.open.q.val() + self.one.val();
         }
-        if self.answer_ended.val() {
-            self.busy.d.next = self.follows.q.val() | self.took.q.val();
-            self.follows.d.next = false;
+        if self.answer_ended.val() & (!self.is_new.val()) {
+            self.open.d.next = self.open.q.val() - self.one.val();
         }
         if self.reset.val() {
-            self.took_first.d.next = false;
-            self.took_second.d.next = false;
-            self.took.d.next = false;
-            self.busy.d.next = false;
-            self.follows.d.next = false;
+            self.begun.d.next = false;
+            self.open.d.next = 0.into();
+            self.seen.d.next = false;
         }
     }
 }

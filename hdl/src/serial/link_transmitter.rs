@@ -10,21 +10,22 @@
 //! | `fails`, `forgets`, `holds` | in | 1 | the session ends; its answers are over; no frame may begin |
 //! | `acknowledges`, `closes` | out | 1 | an `Ack` or `Nak` begins; a `Closed` |
 //! | `is_quiet` | out | 1 | no frame is under way, and the last stop bit is over |
-//! | `is_ending`, `answer_ended` | out | 1 | the last word of an answer is offered or taken; its frame is over |
-//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 32 | the answer stream |
+//! | `answer_ended` | out | 1 | the frame of an answer's last word is over |
+//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 64 | the answer stream |
+//! | `response_both` | in | 1 | bits 63 to 32 are a second word, which follows the first |
 //!
 //! 1. A frame says what was true when it began.
 //!
 //! ```text
 //! asked -> Replies -----+-> FrameChoice -> FrameSender -> CobsEncoder -> UartTransmitter -> tx
-//! answers -> AnswerPacker -+                   | ^
+//! answers -> WordNarrower -> AnswerPacker -+   | ^
 //!    FrameHeader, Greeting, Crc32 -> FrameBytes -+
 //! ```
 //! Latency: see the blocks.
 
 use super::{
     AnswerPacker, Asked, CobsEncoder, Crc32, FrameBytes, FrameChoice, FrameHeader, FrameSender, Greeting, Replies,
-    UartTransmitter,
+    UartTransmitter, WordNarrower,
 };
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;
@@ -70,17 +71,18 @@ pub struct LinkTransmitter {
     pub closes: Signal<Out, Bit>,
     /// The line is idle.
     pub is_quiet: Signal<Out, Bit>,
-    /// The last word of an answer is under way.
-    pub is_ending: Signal<Out, Bit>,
     /// The answer has ended.
     pub answer_ended: Signal<Out, Bit>,
-    /// An answer word is offered.
+    /// An answer word is offered, or two.
     pub response_valid: Signal<In, Bit>,
     /// It is taken.
     pub response_ready: Signal<Out, Bit>,
-    /// The word.
-    pub response_data: Signal<In, Bits<32>>,
+    /// The word in the low half, the one that follows it in the high.
+    pub response_data: Signal<In, Bits<64>>,
+    /// There is one that follows it.
+    pub response_both: Signal<In, Bit>,
     replies: Replies,
+    narrower: WordNarrower,
     packer: AnswerPacker,
     choice: FrameChoice,
     sender: FrameSender,
@@ -120,12 +122,13 @@ impl LinkTransmitter {
             acknowledges: Signal::default(),
             closes: Signal::default(),
             is_quiet: Signal::default(),
-            is_ending: Signal::default(),
             answer_ended: Signal::default(),
             response_valid: Signal::default(),
             response_ready: Signal::default(),
             response_data: Signal::default(),
+            response_both: Signal::default(),
             replies: Replies::default(),
+            narrower: WordNarrower::default(),
             packer: AnswerPacker::default(),
             choice: FrameChoice::default(),
             sender: FrameSender::default(),
@@ -145,7 +148,7 @@ impl LinkTransmitter {
 impl Logic for LinkTransmitter {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, replies, packer, choice, sender, header, greeting, bytes);
+        clock!(self, clock, replies, narrower, packer, choice, sender, header, greeting, bytes);
         clock!(self, clock, frame_sum, answer_digest, encoder, uart);
         self.first_state.next = 0xffff_ffffu64.into();
         self.is_over.next = self.forgets.val() | self.reset.val();
@@ -168,13 +171,17 @@ impl Logic for LinkTransmitter {
 
         // Answers.
         self.packer.reset.next = self.is_over.val();
-        self.packer.response_valid.next = self.response_valid.val();
-        self.packer.response_data.next = self.response_data.val();
-        self.response_ready.next = self.packer.response_ready.val();
+        self.narrower.reset.next = self.is_over.val();
+        self.narrower.pair_valid.next = self.response_valid.val();
+        self.narrower.pair.next = self.response_data.val();
+        self.narrower.both.next = self.response_both.val();
+        self.response_ready.next = self.narrower.pair_ready.val();
+        self.packer.word_valid.next = self.narrower.word_valid.val();
+        self.packer.word_data.next = self.narrower.word.val();
+        self.narrower.word_ready.next = self.packer.word_ready.val();
         self.packer.starts.next = self.choice.starts_answer.val();
         self.packer.takes.next = self.sender.loads_word.val();
         self.packer.ended.next = self.sender.answer_ended.val();
-        self.is_ending.next = self.packer.is_ending.val();
         self.answer_ended.next = self.sender.answer_ended.val();
         self.answer_digest.sets.next = self.packer.awaits.val();
         self.answer_digest.start.next = self.first_state.val();

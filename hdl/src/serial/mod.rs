@@ -26,6 +26,7 @@ mod serial_link;
 mod session_state;
 mod uart_receiver;
 mod uart_transmitter;
+mod word_narrower;
 
 pub use answer_packer::{AnswerPacker, PackState};
 pub use bit_clock::BitClock;
@@ -53,3 +54,4 @@ pub use serial_link::{SerialError, SerialLink};
 pub use session_state::SessionState;
 pub use uart_receiver::{ReceiveState, UartReceiver};
 pub use uart_transmitter::UartTransmitter;
+pub use word_narrower::WordNarrower;

@@ -7,7 +7,8 @@
 //! | `alive`, `busy`, `error` | out | 1 | for lamps: a beat, or steady in a session; a command is under way; a frame was dropped in this session |
 //! | `core_reset` | out | 1 | reset of the core |
 //! | `command_valid`, `command_ready`, `command_data` | out, in, out | 1, 1, 32 | the command stream |
-//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 32 | the answer stream |
+//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 64 | the answer stream |
+//! | `response_both`, `response_last` | in | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
 //!
 //! 1. `protocol/SERIAL.md` says what passes on the line.
 //! 2. The core is held in reset while no session is open, and reset when one begins.
@@ -52,12 +53,16 @@ pub struct SerialLink {
     pub command_ready: Signal<In, Bit>,
     /// The word.
     pub command_data: Signal<Out, Bits<32>>,
-    /// An answer word is offered.
+    /// An answer word is offered, or two.
     pub response_valid: Signal<In, Bit>,
     /// It is taken.
     pub response_ready: Signal<Out, Bit>,
-    /// The word.
-    pub response_data: Signal<In, Bits<32>>,
+    /// The word in the low half, the one that follows it in the high.
+    pub response_data: Signal<In, Bits<64>>,
+    /// There is one that follows it.
+    pub response_both: Signal<In, Bit>,
+    /// The last word of the answer is among them.
+    pub response_last: Signal<In, Bit>,
     receiver: LinkReceiver,
     transmitter: LinkTransmitter,
     session: SessionState,
@@ -67,6 +72,7 @@ pub struct SerialLink {
     resets_core: DFF<Bit>,
     has_failed: DFF<Bit>,
     dropped: DFF<Bit>,
+    is_offered: Signal<Local, Bit>,
     takes_command: Signal<Local, Bit>,
     clears: Signal<Local, Bit>,
 }
@@ -114,6 +120,9 @@ impl SerialLink {
             response_valid: Signal::default(),
             response_ready: Signal::default(),
             response_data: Signal::default(),
+            response_both: Signal::default(),
+            response_last: Signal::default(),
+            is_offered: Signal::default(),
             receiver: LinkReceiver::new(link),
             transmitter: LinkTransmitter::new(config, link),
             session: SessionState::default(),
@@ -171,8 +180,11 @@ impl Logic for SerialLink {
         self.rate.acknowledges.next = self.transmitter.acknowledges.val();
         self.rate.closes.next = self.transmitter.closes.val();
         self.rate.is_quiet.next = self.transmitter.is_quiet.val();
+        self.is_offered.next = self.response_valid.val() & (!self.resets_core.q.val());
         self.progress.takes.next = self.takes_command.val();
-        self.progress.is_ending.next = self.transmitter.is_ending.val();
+        self.progress.word.next = self.receiver.command_data.val();
+        self.progress.offers_last.next = self.is_offered.val() & self.response_last.val();
+        self.progress.takes_answer.next = self.transmitter.response_ready.val();
         self.progress.answer_ended.next = self.transmitter.answer_ended.val();
 
         // From the core to the line.
@@ -189,8 +201,9 @@ impl Logic for SerialLink {
         self.transmitter.fails.next = self.has_failed.q.val();
         self.transmitter.forgets.next = self.session.forgets.val();
         self.transmitter.holds.next = self.rate.holds.val() | self.session.settles.val();
-        self.transmitter.response_valid.next = self.response_valid.val() & (!self.resets_core.q.val());
+        self.transmitter.response_valid.next = self.is_offered.val();
         self.transmitter.response_data.next = self.response_data.val();
+        self.transmitter.response_both.next = self.response_both.val();
         self.response_ready.next = self.transmitter.response_ready.val();
         self.tx.next = self.transmitter.tx.val();
 

@@ -4,7 +4,8 @@
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
 //! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
-//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 32 | the answer stream |
+//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 64 | the answer stream |
+//! | `response_both`, `response_last` | out | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
 //! | `write` | out | Write | the write port of the triangle memory, for simulation |
 //!
 //! 1. All outputs are functions of registers.
@@ -36,12 +37,16 @@ pub struct Core {
     pub command_ready: Signal<Out, Bit>,
     /// The word.
     pub command_data: Signal<In, Bits<32>>,
-    /// An answer word is offered.
+    /// An answer word is offered, or two.
     pub response_valid: Signal<Out, Bit>,
     /// It is taken.
     pub response_ready: Signal<In, Bit>,
-    /// The word.
-    pub response_data: Signal<Out, Bits<32>>,
+    /// The word in the low half, the one that follows it in the high.
+    pub response_data: Signal<Out, Bits<64>>,
+    /// There is one that follows it.
+    pub response_both: Signal<Out, Bit>,
+    /// The last word of the answer is among them.
+    pub response_last: Signal<Out, Bit>,
     /// The write port of the triangle memory.
     pub write: Signal<Out, Write>,
     command_port: CommandPort,
@@ -77,6 +82,8 @@ impl Core {
             response_valid: Signal::default(),
             response_ready: Signal::default(),
             response_data: Signal::default(),
+            response_both: Signal::default(),
+            response_last: Signal::default(),
             write: Signal::default(),
             command_port: CommandPort::default(),
             answer_head: AnswerHead::default(),
@@ -148,11 +155,13 @@ impl Logic for Core {
         self.responder.answers.next = self.command_port.answers.val();
         self.responder.sweeps.next = self.latencies.sweeps.val();
         self.responder.first.next = self.command_port.first.val();
+        self.responder.count.next = self.command_port.count.val();
         self.responder.header.next = self.answer_head.header.val();
         self.responder.length.next = self.answer_head.length.val();
         self.responder.is_empty.next = self.answer_head.is_empty.val();
         self.responder.word.next = self.answer_words.word.val();
         self.responder.is_read.next = self.answer_head.is_read.val();
+        self.responder.is_packed.next = self.answer_head.is_packed.val();
         self.responder.read_done.next = self.engine.read_done.val();
         self.responder.v0.next = self.engine.v0.val();
         self.responder.v1.next = self.engine.v1.val();
@@ -164,6 +173,8 @@ impl Logic for Core {
         self.responder.response_ready.next = self.response_ready.val();
         self.response_valid.next = self.responder.response_valid.val();
         self.response_data.next = self.responder.response_data.val();
+        self.response_both.next = self.responder.response_both.val();
+        self.response_last.next = self.responder.response_last.val();
 
         // The engine.
         self.engine.infinite.next = self.infinite.val();

@@ -6,7 +6,8 @@
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
 //! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
-//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 32 | the answer stream |
+//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 64 | the answer stream |
+//! | `response_both`, `response_last` | out | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
 //!
 //! The core behind a serial link, `incircle_serial_top`:
 //!
@@ -29,7 +30,7 @@ pub const CORE_NAME: &str = "incircle_core";
 pub const SERIAL_TOP_NAME: &str = "incircle_serial_top";
 
 /// Ports of the core, and of a core behind a serial link, without the probe: direction, name, width.
-const CORE_PORTS: [(&str, &str, usize); 8] = [
+const CORE_PORTS: [(&str, &str, usize); 10] = [
     ("input", "clock", 1),
     ("input", "reset", 1),
     ("input", "command_valid", 1),
@@ -37,7 +38,9 @@ const CORE_PORTS: [(&str, &str, usize); 8] = [
     ("input", "command_data", 32),
     ("output", "response_valid", 1),
     ("input", "response_ready", 1),
-    ("output", "response_data", 32),
+    ("output", "response_data", 64),
+    ("output", "response_both", 1),
+    ("output", "response_last", 1),
 ];
 const SERIAL_PORTS: [(&str, &str, usize); 5] =
     [("input", "clock", 1), ("input", "reset", 1), ("input", "rx", 1), ("output", "tx", 1), ("output", "leds", 3)];

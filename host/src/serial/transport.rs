@@ -196,6 +196,10 @@ impl Transport for SerialTransport {
         self.name.clone()
     }
 
+    fn packs_records(&self) -> bool {
+        false
+    }
+
     fn pace(&self) -> Pace {
         let words = self.engine.rate() / WORD_BITS / self.slow;
         Pace { slow: self.slow, words_per_second: Some(words.max(1)) }

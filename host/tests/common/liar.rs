@@ -14,6 +14,7 @@ pub struct Liar {
     lie: Lie,
     answer: Vec<u32>,
     pub silent_for: Duration,
+    packs: bool,
 }
 
 impl Liar {
@@ -23,7 +24,13 @@ impl Liar {
             lie: Box::new(lie),
             answer: Vec::new(),
             silent_for: Duration::ZERO,
+            packs: true,
         }
+    }
+
+    /// A way on which the host reads whole records.
+    pub fn with_links(self) -> Self {
+        Self { packs: false, ..self }
     }
 }
 
@@ -54,5 +61,9 @@ impl Transport for Liar {
 
     fn name(&self) -> String {
         "liar".to_owned()
+    }
+
+    fn packs_records(&self) -> bool {
+        self.packs
     }
 }

@@ -236,4 +236,8 @@ impl Transport for Rig {
     fn name(&self) -> String {
         "rig".to_owned()
     }
+
+    fn packs_records(&self) -> bool {
+        false
+    }
 }

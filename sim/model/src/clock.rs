@@ -15,6 +15,7 @@ mod counters;
 mod defect;
 mod memory;
 mod pipeline;
+mod record_reads;
 mod release;
 mod responder;
 mod ring;
@@ -61,12 +62,24 @@ pub struct Inputs {
 pub struct Outputs {
     /// The core takes a command word.
     pub command_ready: bool,
-    /// An answer word is offered.
+    /// An answer word is offered, or two.
     pub response_valid: bool,
-    /// The word; holds the last one while none is offered.
-    pub response_data: u32,
+    /// The word in the low half, the one that follows it in the high; holds the last while none is offered.
+    pub response_data: u64,
+    /// There is one that follows it.
+    pub response_both: bool,
+    /// The last word of the answer is among them.
+    pub response_last: bool,
     /// The write port of the triangle memory (simulation builds).
     pub write: Write,
+}
+
+impl Outputs {
+    /// The answer words that are offered, in their order.
+    pub fn answer_words(&self) -> impl Iterator<Item = u32> {
+        let words = usize::from(self.response_valid) * (1 + usize::from(self.response_both));
+        [self.response_data as u32, (self.response_data >> 32) as u32].into_iter().take(words)
+    }
 }
 
 /// The registers of the core, but those of the visit pipeline, the ring reader and the lock release.
@@ -150,7 +163,9 @@ impl ClockModel {
         Outputs {
             command_ready: now.command.is_ready(now, self.sweeps()),
             response_valid: now.responder.valid,
-            response_data: now.responder.data,
+            response_data: u64::from(now.responder.offered.low) | u64::from(now.responder.offered.high) << 32,
+            response_both: now.responder.offered.both,
+            response_last: now.responder.offered.last,
             write: now.write,
         }
     }

@@ -53,8 +53,15 @@ enum Awaited {
     Command,
     InsertCount,
     Points { left: u32 },
-    ReadFirst,
-    ReadCount { first: u32 },
+    ReadFirst(Range),
+    ReadCount(Range, u32),
+}
+
+/// What is read of records.
+#[derive(Clone, Copy, Debug)]
+enum Range {
+    Records,
+    Vertices,
 }
 
 /// The model driven by whole commands. It carries out each command as its last word arrives.
@@ -67,8 +74,8 @@ pub struct CommandModel {
     /// First word of a point that takes two and was cut off by the end of a piece.
     half_point: Option<u32>,
     answers: VecDeque<u32>,
-    /// A range being read: records `.0` to `.1` are yet to be turned into words.
-    reading: (u32, u32),
+    /// A range being read: of records `.1` to `.2` this is yet to be turned into words.
+    reading: (Range, u32, u32),
 }
 
 impl CommandModel {
@@ -98,7 +105,7 @@ impl CommandModel {
             awaited: Awaited::Command,
             half_point: None,
             answers: VecDeque::new(),
-            reading: (0, 0),
+            reading: (Range::Records, 0, 0),
         })
     }
 
@@ -122,13 +129,13 @@ impl CommandModel {
                     self.await_points(word);
                     after
                 }
-                Awaited::ReadFirst => {
-                    self.awaited = Awaited::ReadCount { first: word };
+                Awaited::ReadFirst(range) => {
+                    self.awaited = Awaited::ReadCount(range, word);
                     after
                 }
-                Awaited::ReadCount { first } => {
+                Awaited::ReadCount(range, first) => {
                     self.awaited = Awaited::Command;
-                    self.take_read(first, word);
+                    self.take_read(range, first, word);
                     after
                 }
             };
@@ -153,19 +160,32 @@ impl CommandModel {
 
     /// Turns the next few records of the range being read into words; false if none is left.
     ///
-    /// Only a window is held, so reading a large mesh takes no memory of its size.
+    /// Only a window is held, so reading a large mesh takes no memory of its size. Its size is even: the ids of a window fill whole words.
     fn read_on(&mut self) -> bool {
         const WINDOW: u32 = 4096;
-        let (first, end) = self.reading;
+        let (range, first, end) = self.reading;
         if first == end {
             return false;
         }
         let stop = end.min(first.saturating_add(WINDOW));
-        for record in &self.mesh.records()[first as usize..stop as usize] {
-            let words = self.layout.record_to_words(record.v, record.n, false);
-            self.answers.extend(&words[..self.layout.record_words]);
+        let records = &self.mesh.records()[first as usize..stop as usize];
+        match range {
+            Range::Records => {
+                for record in records {
+                    let words = self.layout.record_to_words(record.v, record.n, false);
+                    self.answers.extend(&words[..self.layout.record_words]);
+                }
+            }
+            Range::Vertices => {
+                let length = self.layout.triangles_words(stop - first).unwrap_or(0);
+                let mut words = vec![0; length as usize];
+                for (place, record) in records.iter().enumerate() {
+                    self.layout.vertices_to_words(record.v, &mut words, place);
+                }
+                self.answers.extend(words);
+            }
         }
-        self.reading.0 = stop;
+        self.reading.1 = stop;
         true
     }
 
@@ -175,6 +195,9 @@ impl CommandModel {
     }
 
     fn take_command(&mut self, word: u32) {
+        if word == protocol::PADDING {
+            return;
+        }
         self.finish_reading();
         let opcode = protocol::command_opcode(word);
         match Opcode::from_u8(opcode) {
@@ -190,7 +213,8 @@ impl CommandModel {
                 self.answer(opcode, Status::Ok, &[]);
             }
             Some(Opcode::Insert) => self.awaited = Awaited::InsertCount,
-            Some(Opcode::Read) => self.awaited = Awaited::ReadFirst,
+            Some(Opcode::Read) => self.awaited = Awaited::ReadFirst(Range::Records),
+            Some(Opcode::Triangles) => self.awaited = Awaited::ReadFirst(Range::Vertices),
             Some(Opcode::Counters) => {
                 let words = self.counter_words();
                 self.answer(opcode, Status::Ok, &words);
@@ -256,14 +280,16 @@ impl CommandModel {
         self.answer(Opcode::Insert as u8, status, &report.to_words());
     }
 
-    fn take_read(&mut self, first: u32, count: u32) {
+    fn take_read(&mut self, range: Range, first: u32, count: u32) {
         let records = self.mesh.records().len() as u32;
-        let opcode = Opcode::Read as u8;
-        let length = count.checked_mul(self.layout.record_words as u32);
+        let (opcode, length) = match range {
+            Range::Records => (Opcode::Read as u8, count.checked_mul(self.layout.record_words as u32)),
+            Range::Vertices => (Opcode::Triangles as u8, self.layout.triangles_words(count)),
+        };
         match (first.checked_add(count), length) {
             (Some(end), Some(length)) if end <= records => {
                 self.answers.extend([answer_header(opcode, Status::Ok), length]);
-                self.reading = (first, end);
+                self.reading = (range, first, end);
             }
             _ => self.answer(opcode, Status::BadRange, &[]),
         }

@@ -9,8 +9,8 @@ use common::mesh_check::{canonical, records_of};
 use common::{sets, Random};
 use incircle_model::CommandModel;
 use incircle_protocol::{
-    clear_word, command_word, latency_bucket, latency_of_bucket, Config, Counter, Identity, Opcode, Status,
-    COUNTER_WORDS, LATENCY_BUCKETS,
+    clear_word, command_word, latency_bucket, latency_of_bucket, Config, Counter, Identity, Layout, Opcode, Status,
+    COUNTER_WORDS, LATENCY_BUCKETS, PADDING,
 };
 
 /// A job: contexts that work, and the points of each `Insert`.
@@ -92,6 +92,13 @@ fn compare(bench: &mut Bench, job: &Job, stalls: Stalls, random: &mut Random) ->
     let read = run(&[command_word(Opcode::Read), 0, count], 1).swap_remove(0);
     let records: Vec<[u32; 3]> = read.payload.chunks_exact(3).map(|words| [words[0], words[1], words[2]]).collect();
     assert!(read.is(Status::Ok));
+    let triangles = run(&[PADDING, command_word(Opcode::Triangles), 0, count], 1).swap_remove(0);
+    let layout = Layout::of(16, config.points);
+    assert_eq!(Some(triangles.payload.len() as u32), layout.triangles_words(count), "{}", what());
+    for (place, record) in records.iter().enumerate() {
+        let vertices = layout.vertices_from_words(&triangles.payload, place);
+        assert_eq!(vertices, layout.record_from_words(record).0, "record {place}, {}", what());
+    }
     if count > 0 {
         let arrived = &points[..points.len().min(config.points as usize)];
         let found = canonical(&records, arrived, config.points).unwrap_or_else(|fault| panic!("{fault}, {}", what()));
@@ -227,7 +234,7 @@ fn refuses_what_it_does_not_know_and_goes_on() {
     let insert: Vec<u32> = [command_word(Opcode::Insert), 60].into_iter().chain(points.iter().copied()).collect();
     assert!(run(&insert).is(Status::Ok));
     let before = run(&[command_word(Opcode::Counters)]);
-    for word in [0, 0x0700_0000, 0x2a00_0003, 0xffff_ffff, 0x8000_0000] {
+    for word in [1, 0x0800_0000, 0x2a00_0003, 0xffff_ffff, 0x8000_0000] {
         let answer = run(&[word]);
         let opcode = (word >> 24) as u8;
         assert_eq!(answer, Answer { opcode, status: Status::UnknownOpcode as u8, payload: Vec::new() });

@@ -18,6 +18,7 @@ pub(super) struct StreamCore {
     response_valid: PortId,
     response_ready: PortId,
     response_data: PortId,
+    response_both: PortId,
 }
 
 impl StreamCore {
@@ -32,6 +33,7 @@ impl StreamCore {
             response_valid: model.port("response_valid")?,
             response_ready: model.port("response_ready")?,
             response_data: model.port("response_data")?,
+            response_both: model.port("response_both")?,
             model,
         };
         core.model.port("clock")?;
@@ -59,8 +61,9 @@ impl WordDevice for StreamCore {
         self.model.eval();
         let is_taken = command.is_some() && self.model.get(self.command_ready) != 0;
         let is_given = takes_answer && self.model.get(self.response_valid) != 0;
-        // A port of 32 bits.
-        let answer = is_given.then(|| self.model.get(self.response_data) as u32);
+        let data = self.model.get(self.response_data);
+        let has_second = is_given && self.model.get(self.response_both) != 0;
+        let answer = [is_given.then_some(data as u32), has_second.then_some((data >> 32) as u32)];
         self.model.clock();
         Passed { is_taken, answer }
     }

@@ -142,9 +142,7 @@ fn run(mut core: ClockModel, words: &[u32], limit: u64) -> Result<[u32; COUNTER_
         if outputs.command_ready && offered.is_some() {
             rest = &rest[1..];
         }
-        if outputs.response_valid {
-            answers.push(outputs.response_data);
-        }
+        answers.extend(outputs.answer_words());
         if let Some(Ok(counters)) = answers.get(BEFORE..).map(TryInto::try_into) {
             return Ok(counters);
         }

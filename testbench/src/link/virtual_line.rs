@@ -198,4 +198,8 @@ impl Transport for VirtualTransport {
     fn name(&self) -> String {
         "virtual line".to_owned()
     }
+
+    fn packs_records(&self) -> bool {
+        false
+    }
 }

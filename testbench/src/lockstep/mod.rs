@@ -17,10 +17,12 @@ use verilated::{Model, PortId, TraceError};
 const INPUTS: [&str; 4] = ["reset", "command_valid", "command_data", "response_ready"];
 
 /// Output ports of the core with its probe, in the order in which [`words_of`] lists the model's outputs.
-const OUTPUTS: [&str; 13] = [
+const OUTPUTS: [&str; 15] = [
     "command_ready",
     "response_valid",
     "response_data",
+    "response_both",
+    "response_last",
     "write_valid",
     "write_id",
     "write_vertices",
@@ -153,7 +155,9 @@ fn words_of(outputs: &Outputs) -> [u64; OUTPUTS.len()] {
     [
         u64::from(outputs.command_ready),
         u64::from(outputs.response_valid),
-        u64::from(outputs.response_data),
+        outputs.response_data,
+        u64::from(outputs.response_both),
+        u64::from(outputs.response_last),
         u64::from(valid),
         u64::from(id),
         u64::from(vertices),

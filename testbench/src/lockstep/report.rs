@@ -79,7 +79,7 @@ fn describe((clock, inputs, outputs): &(u64, Inputs, Outputs)) -> String {
         text += &format!(" command {:08x}", inputs.command_data);
     }
     if inputs.response_ready && outputs.response_valid {
-        text += &format!(" answer {:08x}", outputs.response_data);
+        outputs.answer_words().for_each(|word| text += &format!(" answer {word:08x}"));
     }
     let write = outputs.write;
     if write.valid {

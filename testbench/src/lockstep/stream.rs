@@ -2,7 +2,7 @@
 
 use super::{Lockstep, Mismatch};
 use incircle_model::Inputs;
-use incircle_protocol::{clear_word, command_word, Config, Opcode};
+use incircle_protocol::{clear_word, command_word, Config, Opcode, PADDING};
 
 /// How often each side of the core stalls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +52,8 @@ pub struct Job {
 }
 
 impl Job {
-    /// Clears, inserts the points in the given pieces with this many contexts (0: all), reads all records, latencies and counters;
+    /// Clears, inserts the points in the given pieces with this many contexts (0: all), reads all triangles and all records, latencies and
+    /// counters, with padding between the commands;
     /// the number of answer words comes from the model by commands.
     pub fn of(points: &[u32], piece: usize, contexts: u32, config: Config) -> Self {
         let mut model =
@@ -65,8 +66,9 @@ impl Job {
         }
         model.send(&commands);
         let records = model.mesh().records().len() as u32;
-        let rest =
-            [command_word(Opcode::Read), 0, records, command_word(Opcode::Latencies), command_word(Opcode::Counters)];
+        let [read, triangles, latencies, counters] =
+            [Opcode::Read, Opcode::Triangles, Opcode::Latencies, Opcode::Counters].map(command_word);
+        let rest = [triangles, 0, records, PADDING, read, 0, records, PADDING, PADDING, latencies, counters];
         commands.extend(rest);
         model.send(&rest);
         let mut answers = 0;
@@ -100,7 +102,7 @@ impl Lockstep {
             let outputs = self.outputs();
             let inputs = stalls.inputs(rest, chance);
             if inputs.response_ready && outputs.response_valid {
-                answers.push(outputs.response_data);
+                answers.extend(outputs.answer_words());
             }
             if inputs.command_valid && outputs.command_ready {
                 rest = &rest[1..];

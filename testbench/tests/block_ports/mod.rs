@@ -7,6 +7,7 @@ use incircle_hdl::engine::{
     Attempt, Bundle, CommitJob, Entry, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
+use incircle_hdl::link::AnswerBeat;
 use incircle_hdl::serial::Asked;
 use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
@@ -67,7 +68,20 @@ macro_rules! packed_values {
         }
     )*};
 }
-packed_values!(Token, Bundle, Turned, Attempt, CommitJob, ReleaseJob, Verdict, Entry, Write, WriteEnables, Asked);
+packed_values!(
+    Token,
+    Bundle,
+    Turned,
+    Attempt,
+    CommitJob,
+    ReleaseJob,
+    Verdict,
+    Entry,
+    Write,
+    WriteEnables,
+    Asked,
+    AnswerBeat
+);
 
 /// A block whose ports are reached by name.
 pub trait NamedPorts: Block {

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use incircle_protocol::Opcode;
+use incircle_protocol::{Opcode, PADDING};
 
 /// Points that the core holds, and contexts that it has.
 #[derive(Clone, Copy, Debug)]
@@ -84,6 +84,7 @@ impl Reference {
 
     fn take(&mut self, word: u32, around: &Surroundings, shape: Shape) {
         match self.wants.pop_front().expect("a word that is wanted") {
+            Meaning::Command if word == PADDING => self.wants.push_back(Meaning::Command),
             Meaning::Command => {
                 let opcode = (word >> 24) as u8;
                 self.opcode = Some(opcode);
@@ -96,7 +97,7 @@ impl Reference {
                 }
                 match Opcode::from_u8(opcode) {
                     Some(Opcode::Insert) => self.wants.push_back(Meaning::Count),
-                    Some(Opcode::Read) => self.wants.extend([Meaning::First, Meaning::Count]),
+                    Some(Opcode::Read | Opcode::Triangles) => self.wants.extend([Meaning::First, Meaning::Count]),
                     _ => self.answers = true,
                 }
             }

@@ -4,7 +4,7 @@ use incircle::Point;
 use incircle_cli::generate::{generate, Distribution, SplitMix64};
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{
-    command_word, Config, Counter, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS,
+    command_word, Config, Counter, Layout, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS,
     LATENCY_BUCKETS,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
@@ -111,10 +111,16 @@ impl Rig {
     /// meshes, under whatever ids.
     fn compare(&self, points: &[u32], piece: usize, answers: &[u32], expected: &[u32]) {
         let reports = points.chunks(piece.max(1)).len() * (2 + INSERT_REPORT_WORDS);
-        let records = 2 + IDENTITY_WORDS + 2 + reports;
+        let triangles = 2 + IDENTITY_WORDS + 2 + reports;
+        let records = triangles + 2 + answers[triangles + 1] as usize;
         let latencies = answers.len() - (2 + COUNTER_WORDS) - (2 + LATENCY_BUCKETS);
         assert_eq!(answers.len(), expected.len());
-        assert_eq!(answers[2 + IDENTITY_WORDS..records + 2], expected[2 + IDENTITY_WORDS..records + 2], "reports");
+        assert_eq!(answers[2 + IDENTITY_WORDS..triangles + 2], expected[2 + IDENTITY_WORDS..triangles + 2], "reports");
+        let layout = Layout::of(CORE_COORD_BITS, self.config.points);
+        for (place, record) in answers[records + 2..latencies].chunks(layout.record_words).enumerate() {
+            let vertices = layout.vertices_from_words(&answers[triangles + 2..records], place);
+            assert_eq!(vertices, layout.record_from_words(record).0, "vertices of record {place}");
+        }
         let mesh = |words: &[u32]| {
             let records: Vec<[u32; 3]> = words[records + 2..latencies].chunks(3).map(|r| [r[0], r[1], r[2]]).collect();
             let arrived = &points[..points.len().min(self.config.points as usize)];

@@ -16,21 +16,21 @@ use crate::stepper::{named_ports, Stepper};
 
 named_ports!(
     SerialLink,
-    [reset, rx, command_ready, response_valid, response_data],
+    [reset, rx, command_ready, response_valid, response_data, response_both, response_last],
     [tx, alive, busy, error, core_reset, command_valid, command_data, response_ready],
     clock
 );
 
 /// A link in one form or both.
 pub trait Pins {
-    fn set(&mut self, port: &'static str, value: u32);
+    fn set(&mut self, port: &'static str, value: u64);
     fn settle(&mut self);
     fn get(&self, port: &'static str) -> u32;
     fn edge(&mut self);
 }
 
 impl Pins for Stepper<SerialLink> {
-    fn set(&mut self, port: &'static str, value: u32) {
+    fn set(&mut self, port: &'static str, value: u64) {
         Stepper::set(self, port, value);
     }
     fn settle(&mut self) {
@@ -60,8 +60,8 @@ impl Verilog {
 }
 
 impl Pins for Verilog {
-    fn set(&mut self, port: &'static str, value: u32) {
-        self.model.set(self.ports[port], value.into());
+    fn set(&mut self, port: &'static str, value: u64) {
+        self.model.set(self.ports[port], value);
     }
     fn settle(&mut self) {
         self.model.eval();
@@ -79,8 +79,8 @@ impl Pins for Verilog {
 pub struct StandIn {
     pub taken: Vec<u32>,
     answer: VecDeque<u32>,
-    /// The word that is offered.
-    offered: Option<u32>,
+    /// The words that are offered: one or two, and whether the answer ends with them.
+    offered: Option<(u32, Option<u32>, bool)>,
     pub resets: usize,
     /// Takes a command this seldom, for a FIFO that fills.
     pub pace: u64,
@@ -133,14 +133,19 @@ impl<P: Pins> Rig<P> {
         self.pins.set("rx", rx.into());
         self.pins.set("command_ready", takes.into());
         self.pins.set("response_valid", self.core.offered.is_some().into());
-        self.pins.set("response_data", self.core.offered.unwrap_or(0xdead_beef));
+        let (low, high, last) = self.core.offered.unwrap_or((0xdead_beef, None, true));
+        self.pins.set("response_data", u64::from(low) | u64::from(high.unwrap_or(0)) << 32);
+        self.pins.set("response_both", high.is_some().into());
+        self.pins.set("response_last", last.into());
         self.pins.settle();
         self.listener.clock(self.pins.get("tx") == 1);
         if self.pins.get("response_ready") == 1 {
             self.core.offered = None;
         }
         if self.core.offered.is_none() && self.random.below(3) == 0 {
-            self.core.offered = self.core.answer.pop_front();
+            let low = self.core.answer.pop_front();
+            let high = if self.random.below(2) == 0 { self.core.answer.pop_front() } else { None };
+            self.core.offered = low.map(|low| (low, high, self.core.answer.is_empty()));
         }
         if takes && self.pins.get("command_valid") == 1 && self.pins.get("core_reset") == 0 {
             let word = self.pins.get("command_data");

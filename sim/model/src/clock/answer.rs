@@ -60,10 +60,12 @@ fn head(was: &Registers) -> (Status, u32) {
             };
             (status, protocol::INSERT_REPORT_WORDS as u32)
         }
-        Some(Opcode::Read) => {
+        Some(Opcode::Read | Opcode::Triangles) => {
             let end = u64::from(command.first) + u64::from(command.count);
             if end <= u64::from(was.commit.records) {
-                (Status::Ok, 3 * command.count)
+                let ids = 3 * command.count;
+                let words = if command.opcode == Opcode::Read as u8 { ids } else { ids.div_ceil(2) };
+                (Status::Ok, words)
             } else {
                 (Status::BadRange, 0)
             }

@@ -2,7 +2,7 @@
 
 use super::wires::Wires;
 use super::Registers;
-use incircle_protocol::{command_contexts, command_opcode, Config, Opcode};
+use incircle_protocol::{command_contexts, command_opcode, Config, Opcode, PADDING};
 
 /// What the next word means, or what is awaited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -66,6 +66,7 @@ impl CommandPort {
             self.reading = false;
         }
         match (self.state, wires.word) {
+            (State::Command, Some(PADDING)) => {}
             (State::Command, Some(word)) => self.take_command(word, config),
             (State::First, Some(word)) => {
                 self.first = word;
@@ -103,7 +104,7 @@ impl CommandPort {
         }
         self.state = match Opcode::from_u8(opcode) {
             Some(Opcode::Insert) => State::Count,
-            Some(Opcode::Read) => State::First,
+            Some(Opcode::Read | Opcode::Triangles) => State::First,
             _ => State::Answer,
         };
     }

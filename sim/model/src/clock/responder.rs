@@ -1,11 +1,31 @@
-//! Sends answers: header, length, payload; records are read from the triangle memory one at a time.
+//! Sends answers: header and length in one beat, then the payload.
 
 use super::answer::Answer;
 use super::command_port::State as CommandState;
 use super::counters::Latencies;
+use super::record_reads::{Event, RecordReads};
 use super::wires::Wires;
 use super::Registers;
 use incircle_protocol::{Config, Opcode};
+
+/// What passes at one edge of the answer stream.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Beat {
+    pub low: u32,
+    /// The word that follows it.
+    pub high: u32,
+    /// There is one.
+    pub both: bool,
+    /// The last word of the answer is among them.
+    pub last: bool,
+}
+
+impl Beat {
+    /// One word, and not the last.
+    pub(super) fn of(word: u32) -> Self {
+        Self { low: word, ..Self::default() }
+    }
+}
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum State {
@@ -14,7 +34,6 @@ pub(super) enum State {
     /// Status and length are computed.
     Prepare,
     Header,
-    Length,
     /// A word of the payload is chosen.
     Choose,
     Payload,
@@ -28,18 +47,18 @@ pub(super) struct Responder {
     waited: bool,
     pub answer: Answer,
     pub valid: bool,
-    pub data: u32,
-    /// Words still to be loaded.
+    /// What is offered; holds the last one while nothing is.
+    pub offered: Beat,
+    /// Words still to be loaded, of a payload that is no read-out.
     left: u32,
-    /// Words of the payload loaded.
+    /// Words of it loaded.
     index: usize,
-    record_id: u32,
-    /// A record has been asked for and has not come.
-    fetching: bool,
-    buffer_valid: bool,
-    buffer: [u32; 3],
-    /// Word of the buffer that is loaded next.
-    column: usize,
+    records: RecordReads,
+}
+
+/// The payload has the vertices of records alone.
+fn packs(was: &Registers) -> bool {
+    was.command.opcode == Opcode::Triangles as u8
 }
 
 impl Responder {
@@ -47,15 +66,14 @@ impl Responder {
         self.state == State::Idle
     }
 
-    pub(super) fn read_request(&self) -> Option<u32> {
-        let asks = self.state == State::Records && !self.fetching && !self.buffer_valid;
-        asks.then_some(self.record_id)
+    pub(super) fn read_request(&self, was: &Registers) -> Option<u32> {
+        self.records.request(packs(was)).filter(|_| self.state == State::Records)
     }
 
     /// The word of the payload that is wanted from the next clock on.
     fn index_ahead(&self) -> usize {
         match self.state {
-            State::Length => 0,
+            State::Header => 0,
             State::Payload => self.index + 1,
             _ => self.index,
         }
@@ -66,40 +84,43 @@ impl Responder {
     }
 
     /// The last word is loaded at this edge.
-    pub(super) fn ends(&self, response_ready: bool) -> bool {
-        self.loads(response_ready)
-            && match self.state {
-                State::Idle | State::Prepare | State::Header | State::Choose => false,
-                State::Length => self.answer.length() == 0,
-                State::Payload => self.left == 1,
-                State::Records => self.left == 1 && self.buffer_valid,
+    pub(super) fn ends(&self, was: &Registers, response_ready: bool) -> bool {
+        self.loads(response_ready) && self.next_beat(was).is_some_and(|beat| beat.last)
+    }
+
+    /// The beat that is loaded at this edge, if the last one is taken.
+    fn next_beat(&self, was: &Registers) -> Option<Beat> {
+        match self.state {
+            State::Idle | State::Prepare | State::Choose => None,
+            State::Header => {
+                let length = self.answer.length();
+                Some(Beat { low: self.answer.header(), high: length, both: true, last: length == 0 })
             }
+            State::Payload => Some(Beat { last: self.left == 1, ..Beat::of(self.answer.word()) }),
+            State::Records => self.records.beat(packs(was)),
+        }
     }
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, latencies: &Latencies, config: Config) {
-        if self.read_request().is_some() {
-            self.fetching = true;
-        }
-        if let Some(words) = wires.record_read {
-            self.fetching = false;
-            self.buffer = words;
-            self.buffer_valid = true;
-            self.record_id += 1;
-        }
         self.answer.clock(was, was.responder.index_ahead());
         if was.responder.state == State::Choose {
             self.answer.choose(was, latencies, config, was.responder.index);
         }
         self.wait(was, latencies);
+        let beat = was.responder.next_beat(was).filter(|_| was.responder.loads(wires.response_ready));
+        self.records.clock(Event {
+            packs: packs(was),
+            asks: wires.read.is_some(),
+            done: wires.record_read,
+            takes: was.responder.state == State::Records && beat.is_some(),
+        });
         if !was.responder.loads(wires.response_ready) {
             return;
         }
-        match self.next_word(was) {
-            Some(word) => {
-                self.valid = true;
-                self.data = word;
-            }
-            None => self.valid = false,
+        self.valid = beat.is_some();
+        if let Some(beat) = beat {
+            self.offered = beat;
+            self.load(was);
         }
         if wires.answer_ends {
             self.state = State::Idle;
@@ -125,37 +146,22 @@ impl Responder {
         }
     }
 
-    /// The word loaded at this edge, if any, and the step to the one after it.
-    fn next_word(&mut self, was: &Registers) -> Option<u32> {
+    /// The step after the beat that is loaded at this edge.
+    fn load(&mut self, was: &Registers) {
         match was.responder.state {
-            State::Idle | State::Prepare | State::Choose => None,
             State::Header => {
-                self.state = State::Length;
-                Some(was.responder.answer.header())
-            }
-            State::Length => {
-                let length = was.responder.answer.length();
-                self.left = length;
+                self.left = was.responder.answer.length();
                 self.index = 0;
-                self.column = 0;
-                self.record_id = was.command.first;
-                let reads = was.command.opcode == Opcode::Read as u8;
+                self.records.start(was.command.first, was.command.count);
+                let reads = was.command.opcode == Opcode::Read as u8 || packs(was);
                 self.state = if reads { State::Records } else { State::Choose };
-                Some(length)
             }
             State::Payload => {
                 self.left -= 1;
                 self.index += 1;
                 self.state = State::Choose;
-                Some(was.responder.answer.word())
             }
-            State::Records if !was.responder.buffer_valid => None,
-            State::Records => {
-                self.left -= 1;
-                self.column = (self.column + 1) % 3;
-                self.buffer_valid = self.column != 0;
-                Some(was.responder.buffer[was.responder.column])
-            }
+            _ => {}
         }
     }
 }

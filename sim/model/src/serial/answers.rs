@@ -10,7 +10,7 @@ use super::crc::Crc32;
 const HEAD_WORDS: u64 = 2;
 /// Most answer words of a frame.
 const FRAME_WORDS: u64 = (MAX_PAYLOAD / 4) as u64;
-/// Answer words that wait for the line; the device is held up by more.
+/// Answer words that wait for the line; the device is held up by so many, and may then have given one more.
 const WAITING: usize = 16;
 
 /// The part of an answer that a frame carries.

@@ -9,7 +9,7 @@ pub trait WordDevice {
     /// Starts anew, as after a reset.
     fn reset(&mut self);
 
-    /// One clock. The device is offered a command word, or none, and may give an answer word if `takes_answer`. What is offered stays
+    /// One clock. The device is offered a command word, or none, and may give answer words if `takes_answer`. What is offered stays
     /// offered in the next clock, on both sides, unless it was taken.
     fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed;
 }
@@ -19,8 +19,8 @@ pub trait WordDevice {
 pub struct Passed {
     /// The command word was taken.
     pub is_taken: bool,
-    /// An answer word that was given.
-    pub answer: Option<u32>,
+    /// Answer words that were given: none, one, or two in their order.
+    pub answer: [Option<u32>; 2],
 }
 
 /// The model by commands: it takes a word in a clock, and its insertions take none.
@@ -77,12 +77,12 @@ impl WordDevice for Instantly {
         match (self.offered(), command) {
             (Some(_), _) => {
                 let answer = if takes_answer { self.answer.take() } else { None };
-                Passed { is_taken: false, answer }
+                Passed { is_taken: false, answer: [answer, None] }
             }
             // As a core, it takes no word while an answer is under way.
             (None, Some(word)) => {
                 self.model.send(&[word]);
-                Passed { is_taken: true, answer: None }
+                Passed { is_taken: true, ..Passed::default() }
             }
             (None, None) => Passed::default(),
         }
@@ -102,10 +102,9 @@ impl WordDevice for ClockModel {
             command_data: command.unwrap_or(0),
             response_ready: takes_answer,
         });
-        Passed {
-            is_taken: command.is_some() && outputs.command_ready,
-            answer: (takes_answer && outputs.response_valid).then_some(outputs.response_data),
-        }
+        let mut words = outputs.answer_words();
+        let mut word = || words.next().filter(|_| takes_answer);
+        Passed { is_taken: command.is_some() && outputs.command_ready, answer: [word(), word()] }
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::collections::VecDeque;
 
+use incircle_protocol::PADDING;
+
 use super::answers::Answers;
 use super::crc::Crc32;
 use super::device::WordDevice;
@@ -70,17 +72,20 @@ impl Session {
             }
             self.quiet += 1;
             let passed = core.step(self.fifo.front().copied(), true);
-            if passed.answer.is_some() || passed.is_taken {
+            if passed.answer[0].is_some() || passed.is_taken {
                 self.quiet = 0;
             }
-            if let Some(word) = passed.answer {
+            for word in passed.answer.into_iter().flatten() {
                 if self.answers.add(word) {
                     self.is_ahead = false;
                 }
             }
             if passed.is_taken {
-                self.fifo.pop_front();
-                (self.is_busy, self.is_ahead) = (true, true);
+                // Padding between commands is none.
+                let is_padding = self.fifo.pop_front() == Some(PADDING) && !self.is_ahead;
+                if !is_padding {
+                    (self.is_busy, self.is_ahead) = (true, true);
+                }
             }
         }
     }

@@ -145,7 +145,7 @@ impl Bench {
                 offered = false;
             }
             if inputs.response_ready && outputs.response_valid {
-                answers.take(outputs.response_data);
+                outputs.answer_words().for_each(|word| answers.take(word));
             }
             self.core.clock(inputs);
             self.clocks += 1;

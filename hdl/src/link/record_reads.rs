@@ -1,0 +1,147 @@
+//! The payload of a read-out: reads records, one at a time for their words, or one a clock for their vertices alone.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset drops everything |
+//! | `starts`, `first`, `count` | in | 1, 15, 15 | the payload is of so many records from this one on; only when nothing of another one is left |
+//! | `is_packed` | in | 1 | it has their vertices alone; stands still while `runs` |
+//! | `runs` | in | 1 | the payload is being sent |
+//! | `read`, `read_id` | out | 1, 15 | a record is wanted |
+//! | `read_done`, `v0..v2`, `n0..n2`, `was_set` | in | 1, 15, 1 | it has come; records come in the order in which they were wanted |
+//! | `valid`, `beat` | out | 1, AnswerBeat | the first beat of the payload that is left; the payload ends with the one that says `last` |
+//! | `takes` | in | 1 | it is taken at this edge; only while `valid` |
+//!
+//! 1. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
+//!
+//! Latency: 1 clock from `read_done` to the first word of the record, 2 to the beat that its vertices fill.
+
+use super::{AnswerBeat, RecordBuffer, VertexStream};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The payload of a read-out; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct RecordReads {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Drops everything.
+    pub reset: Signal<In, Bit>,
+    /// A payload begins.
+    pub starts: Signal<In, Bit>,
+    /// Its first record.
+    pub first: Signal<In, Bits<15>>,
+    /// Its records.
+    pub count: Signal<In, Bits<15>>,
+    /// It has vertices alone.
+    pub is_packed: Signal<In, Bit>,
+    /// It is being sent.
+    pub runs: Signal<In, Bit>,
+    /// A record is wanted.
+    pub read: Signal<Out, Bit>,
+    /// Its id.
+    pub read_id: Signal<Out, Bits<15>>,
+    /// It has come.
+    pub read_done: Signal<In, Bit>,
+    /// Its column.
+    pub v0: Signal<In, Bits<15>>,
+    /// Its column.
+    pub v1: Signal<In, Bits<15>>,
+    /// Its column.
+    pub v2: Signal<In, Bits<15>>,
+    /// Its column.
+    pub n0: Signal<In, Bits<15>>,
+    /// Its column.
+    pub n1: Signal<In, Bits<15>>,
+    /// Its column.
+    pub n2: Signal<In, Bits<15>>,
+    /// Its lock bit.
+    pub was_set: Signal<In, Bit>,
+    /// A beat is left.
+    pub valid: Signal<Out, Bit>,
+    /// The first.
+    pub beat: Signal<Out, AnswerBeat>,
+    /// It is taken.
+    pub takes: Signal<In, Bit>,
+    record_id: DFF<Bits<15>>,
+    /// Records still to be read.
+    left: DFF<Bits<15>>,
+    some_are_left: DFF<Bit>,
+    fetching: DFF<Bit>,
+    record: RecordBuffer,
+    vertices: VertexStream,
+    may_ask: Signal<Local, Bit>,
+    asks: Signal<Local, Bit>,
+    packs: Signal<Local, Bit>,
+    no_word: Signal<Local, Bits<32>>,
+    one: Signal<Local, Bits<15>>,
+}
+
+impl Logic for RecordReads {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, record_id, left, some_are_left, fetching);
+        clock!(self, clock, record, vertices);
+        self.no_word.next = 0.into();
+        self.one.next = 1.into();
+
+        // A whole record is fetched when the one before has been taken.
+        self.may_ask.next = (!self.fetching.q.val()) & (!self.record.holds.val());
+        if self.is_packed.val() {
+            self.may_ask.next = self.vertices.has_room.val();
+        }
+        self.asks.next = self.runs.val() & self.some_are_left.q.val() & self.may_ask.val();
+        self.read.next = self.asks.val();
+        self.read_id.next = self.record_id.q.val();
+        if self.asks.val() {
+            self.fetching.d.next = true;
+            self.record_id.d.next = self.record_id.q.val() + self.one.val();
+            self.left.d.next = self.left.q.val() - self.one.val();
+            self.some_are_left.d.next = self.left.q.val() != self.one.val();
+        }
+        if self.read_done.val() {
+            self.fetching.d.next = false;
+        }
+        if self.starts.val() {
+            self.record_id.d.next = self.first.val();
+            self.left.d.next = self.count.val();
+            self.some_are_left.d.next = self.count.val().any();
+        }
+
+        // The record that has come.
+        self.record.reset.next = self.reset.val();
+        self.record.read_done.next = self.read_done.val();
+        self.record.v0.next = self.v0.val();
+        self.record.v1.next = self.v1.val();
+        self.record.v2.next = self.v2.val();
+        self.record.n0.next = self.n0.val();
+        self.record.n1.next = self.n1.val();
+        self.record.n2.next = self.n2.val();
+        self.record.was_set.next = self.was_set.val();
+        self.packs.next = self.is_packed.val() & self.record.holds.val();
+        self.record.takes_whole.next = self.packs.val();
+        self.vertices.reset.next = self.reset.val();
+        self.vertices.starts.next = self.starts.val();
+        self.vertices.count.next = self.count.val();
+        self.vertices.comes.next = self.packs.val();
+        self.vertices.v0.next = self.record.vertex0.val();
+        self.vertices.v1.next = self.record.vertex1.val();
+        self.vertices.v2.next = self.record.vertex2.val();
+
+        // What is sent of it.
+        self.record.takes.next = self.takes.val() & (!self.is_packed.val());
+        self.vertices.takes.next = self.takes.val() & self.is_packed.val();
+        self.valid.next = self.record.holds.val();
+        self.beat.next.low = self.record.word.val();
+        self.beat.next.high = self.no_word.val();
+        self.beat.next.both = false;
+        self.beat.next.last = self.record.is_at_last.val() & (!self.some_are_left.q.val());
+        if self.is_packed.val() {
+            self.valid.next = self.vertices.valid.val();
+            self.beat.next = self.vertices.beat.val();
+        }
+        if self.reset.val() {
+            self.some_are_left.d.next = false;
+            self.fetching.d.next = false;
+        }
+    }
+}

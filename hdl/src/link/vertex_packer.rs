@@ -1,0 +1,173 @@
+//! Packs the vertices of records into beats of two words: ids of 16 bits without gaps.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset drops the beat |
+//! | `starts`, `count` | in | 1, 15 | so many records will come, one at least |
+//! | `comes`, `v0..v2` | in | 1, 15 | a record comes |
+//! | `valid`, `beat` | out | 1, AnswerBeat | a beat is full, or the last one; it stands for one clock |
+//!
+//! 1. Four records fill three beats: the first of four fills none, and each of the others fills one and leaves what is beyond it.
+//! 2. What the last record leaves follows a clock later as a beat of its own, with the words that it needs; an odd half is zero.
+//! 3. Nothing can be held up here: the user sees to it that there is room for every beat.
+//!
+//! Latency: 1 clock from a record to the beat that it fills, 2 to that with the rest.
+//!
+//! Five records, whose ids are numbered from 1 on; `half` is the lowest of a beat's four:
+//! ```text
+//! starts          /^^\__________________________
+//! comes           ___/^^^^^^^^\__/^^^^^\________
+//! v0                .  1  4  7  . 10 13  .  .  .
+//! valid           _________/^^^^^\__/^^\__/^^\__
+//! half              .  .  .  1  5  .  9  . 13  .
+//! last            ________________________/^^\__
+//! ```
+
+use super::AnswerBeat;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Vertices of records, packed; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct VertexPacker {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Drops the beat.
+    pub reset: Signal<In, Bit>,
+    /// Records will come.
+    pub starts: Signal<In, Bit>,
+    /// So many.
+    pub count: Signal<In, Bits<15>>,
+    /// A record comes.
+    pub comes: Signal<In, Bit>,
+    /// Its vertex.
+    pub v0: Signal<In, Bits<15>>,
+    /// Its vertex.
+    pub v1: Signal<In, Bits<15>>,
+    /// Its vertex.
+    pub v2: Signal<In, Bits<15>>,
+    /// A beat is there.
+    pub valid: Signal<Out, Bit>,
+    /// It.
+    pub beat: Signal<Out, AnswerBeat>,
+    is_there: DFF<Bit>,
+    filled: DFF<AnswerBeat>,
+    /// Records of the present four that have come.
+    place: DFF<Bits<2>>,
+    left: DFF<Bits<15>>,
+    /// One record is left.
+    is_last: DFF<Bit>,
+    /// The rest is due.
+    flushes: DFF<Bit>,
+    held0: DFF<Bits<15>>,
+    held1: DFF<Bits<15>>,
+    held2: DFF<Bits<15>>,
+    takes: Signal<Local, Bit>,
+    ends_full: Signal<Local, Bit>,
+    new0: Signal<Local, Bits<15>>,
+    new1: Signal<Local, Bits<15>>,
+    new2: Signal<Local, Bits<15>>,
+    half1: Signal<Local, Bits<15>>,
+    half2: Signal<Local, Bits<15>>,
+    half3: Signal<Local, Bits<15>>,
+    even0: Signal<Local, Bits<32>>,
+    even1: Signal<Local, Bits<32>>,
+    odd0: Signal<Local, Bits<32>>,
+    odd1: Signal<Local, Bits<32>>,
+    high0: Signal<Local, Bits<32>>,
+    high1: Signal<Local, Bits<32>>,
+    half_shift: Signal<Local, Bits<32>>,
+    one: Signal<Local, Bits<15>>,
+    two: Signal<Local, Bits<15>>,
+    first_place: Signal<Local, Bits<2>>,
+    second_place: Signal<Local, Bits<2>>,
+    last_place: Signal<Local, Bits<2>>,
+}
+
+impl Logic for VertexPacker {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, is_there, filled, place, left, is_last, flushes, held0, held1, held2);
+        self.half_shift.next = 16.into();
+        self.one.next = 1.into();
+        self.two.next = 2.into();
+        self.first_place.next = 0.into();
+        self.second_place.next = 1.into();
+        self.last_place.next = 3.into();
+        self.valid.next = self.is_there.q.val();
+        self.beat.next = self.filled.q.val();
+
+        // The rest goes out as if a record of zeros had come.
+        self.takes.next = self.comes.val() | self.flushes.q.val();
+        self.new0.next = self.v0.val();
+        self.new1.next = self.v1.val();
+        self.new2.next = self.v2.val();
+        if self.flushes.q.val() {
+            self.new0.next = 0.into();
+            self.new1.next = 0.into();
+            self.new2.next = 0.into();
+        }
+
+        // What is held comes first, then the record.
+        self.half1.next = self.held1.q.val();
+        self.half2.next = self.held2.q.val();
+        self.half3.next = self.new0.val();
+        match self.place.q.val().index() {
+            2 => {
+                self.half2.next = self.new0.val();
+                self.half3.next = self.new1.val();
+            }
+            3 => {
+                self.half1.next = self.new0.val();
+                self.half2.next = self.new1.val();
+                self.half3.next = self.new2.val();
+            }
+            _ => {}
+        }
+        if self.takes.val() {
+            match self.place.q.val().index() {
+                0 => {
+                    self.held0.d.next = self.new0.val();
+                    self.held1.d.next = self.new1.val();
+                    self.held2.d.next = self.new2.val();
+                }
+                1 => {
+                    self.held0.d.next = self.new1.val();
+                    self.held1.d.next = self.new2.val();
+                }
+                _ => {
+                    self.held0.d.next = self.new2.val();
+                }
+            }
+            self.place.d.next = self.place.q.val() + self.second_place.val();
+        }
+        self.even0.next = bit_cast::<32, 15>(self.held0.q.val());
+        self.odd0.next = bit_cast::<32, 15>(self.half1.val());
+        self.even1.next = bit_cast::<32, 15>(self.half2.val());
+        self.odd1.next = bit_cast::<32, 15>(self.half3.val());
+        self.high0.next = self.odd0.val() << self.half_shift.val();
+        self.high1.next = self.odd1.val() << self.half_shift.val();
+        self.ends_full.next = self.is_last.q.val() & (self.place.q.val() == self.last_place.val());
+        self.filled.d.next.low = self.even0.val() | self.high0.val();
+        self.filled.d.next.high = self.even1.val() | self.high1.val();
+        self.filled.d.next.both = (!self.flushes.q.val()) | (self.place.q.val() == self.second_place.val());
+        self.filled.d.next.last = self.flushes.q.val() | self.ends_full.val();
+        self.is_there.d.next = self.takes.val() & (self.place.q.val() != self.first_place.val());
+
+        // How many are left.
+        self.flushes.d.next = self.comes.val() & self.is_last.q.val() & (!self.ends_full.val());
+        if self.comes.val() {
+            self.left.d.next = self.left.q.val() - self.one.val();
+            self.is_last.d.next = self.left.q.val() == self.two.val();
+        }
+        if self.starts.val() {
+            self.place.d.next = self.first_place.val();
+            self.left.d.next = self.count.val();
+            self.is_last.d.next = self.count.val() == self.one.val();
+        }
+        if self.reset.val() {
+            self.is_there.d.next = false;
+            self.flushes.d.next = false;
+        }
+    }
+}

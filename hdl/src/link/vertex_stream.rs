@@ -1,0 +1,114 @@
+//! The payload of a `Triangles` answer: packs the vertices of records that come, and keeps the beats until they are taken.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset drops everything |
+//! | `starts`, `count` | in | 1, 15 | so many records will come; only when no beat of others is left |
+//! | `has_room` | out | 1 | a record may be asked for |
+//! | `comes`, `v0..v2` | in | 1, 15 | one that was asked for comes |
+//! | `valid`, `beat` | out | 1, AnswerBeat | the first beat that is left |
+//! | `takes` | in | 1 | it is taken at this edge; only while `valid` |
+//!
+//! 1. `has_room` is low while more than `ROOM` beats wait, two clocks later. The queue holds 16, so there is a place for every record
+//!    under way, if each comes within `PATIENCE` clocks.
+//!
+//! Latency: 1 clock from a record to the beat that it fills, when none waits.
+
+use super::{AnswerBeat, VertexPacker, ANSWER_BEAT_BITS};
+use crate::leaf::{Fifo, Unpack};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Address bits of the queue of beats.
+const QUEUE_BITS: usize = 4;
+
+/// The vertices of a range of records; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct VertexStream {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Drops everything.
+    pub reset: Signal<In, Bit>,
+    /// Records will come.
+    pub starts: Signal<In, Bit>,
+    /// So many.
+    pub count: Signal<In, Bits<15>>,
+    /// A record may be asked for.
+    pub has_room: Signal<Out, Bit>,
+    /// One comes.
+    pub comes: Signal<In, Bit>,
+    /// Its vertex.
+    pub v0: Signal<In, Bits<15>>,
+    /// Its vertex.
+    pub v1: Signal<In, Bits<15>>,
+    /// Its vertex.
+    pub v2: Signal<In, Bits<15>>,
+    /// A beat is left.
+    pub valid: Signal<Out, Bit>,
+    /// The first.
+    pub beat: Signal<Out, AnswerBeat>,
+    /// It is taken.
+    pub takes: Signal<In, Bit>,
+    /// Beats in the queue.
+    waiting: DFF<Bits<5>>,
+    roomy: DFF<Bit>,
+    packer: VertexPacker,
+    queue: Fifo<QUEUE_BITS, ANSWER_BEAT_BITS>,
+    head: Unpack<AnswerBeat, ANSWER_BEAT_BITS>,
+    beat_bits: Signal<Local, Bits<ANSWER_BEAT_BITS>>,
+    one_beat: Signal<Local, Bits<5>>,
+    room: Signal<Local, Bits<5>>,
+}
+
+impl VertexStream {
+    /// Beats that may wait while more are asked for.
+    pub const ROOM: usize = 4;
+    /// Most clocks from a record asked for to its coming.
+    pub const PATIENCE: usize = 10;
+}
+
+// Up to three more records are asked for and packed while the count of beats follows. Four records fill three beats, and the last one may
+// leave a rest.
+const _: () = assert!(
+    VertexStream::ROOM == 4
+        && VertexStream::ROOM + ((VertexStream::PATIENCE + 3) * 3).div_ceil(4) + 1 <= 1 << QUEUE_BITS,
+    "the literal of this block is its constant, and the queue takes what is under way"
+);
+
+impl Logic for VertexStream {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, waiting, roomy);
+        clock!(self, clock, packer, queue);
+        self.one_beat.next = 1.into();
+        self.room.next = 4.into();
+        self.packer.reset.next = self.reset.val();
+        self.packer.starts.next = self.starts.val();
+        self.packer.count.next = self.count.val();
+        self.packer.comes.next = self.comes.val();
+        self.packer.v0.next = self.v0.val();
+        self.packer.v1.next = self.v1.val();
+        self.packer.v2.next = self.v2.val();
+
+        self.queue.reset.next = self.reset.val();
+        self.queue.push.next = self.packer.valid.val();
+        self.beat_bits.next = self.packer.beat.val().into();
+        self.queue.push_data.next = self.beat_bits.val();
+        self.queue.pop.next = self.takes.val();
+        self.valid.next = self.queue.valid.val();
+        self.head.bits.next = self.queue.data.val();
+        self.beat.next = self.head.value.val();
+
+        self.has_room.next = self.roomy.q.val();
+        self.roomy.d.next = self.waiting.q.val() <= self.room.val();
+        if self.packer.valid.val() & (!self.takes.val()) {
+            self.waiting.d.next = self.waiting.q.val() + self.one_beat.val();
+        }
+        if self.takes.val() & (!self.packer.valid.val()) {
+            self.waiting.d.next = self.waiting.q.val() - self.one_beat.val();
+        }
+        if self.reset.val() {
+            self.waiting.d.next = 0.into();
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! The payload of a read-out: reads records, one at a time for their words, or one a clock for their vertices alone.
+
+use super::responder::Beat;
+use incircle_protocol::NARROW_ID_BITS;
+
+/// Beats that may wait while more records are asked for.
+const ROOM: usize = 4;
+/// Beats that the queue holds.
+const QUEUE: usize = 16;
+/// Records that fill whole beats.
+const GROUP: usize = 4;
+
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct RecordReads {
+    record_id: u32,
+    /// Records still to be read.
+    left: u32,
+    /// A record has been asked for and has not come.
+    fetching: bool,
+    buffer_valid: bool,
+    buffer: [u32; 3],
+    /// Word of the buffer that is sent next.
+    column: usize,
+    /// A record may be asked for: few beats wait.
+    has_room: bool,
+    packer: Packer,
+    queue: Queue,
+}
+
+/// What happens to it at an edge.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Event {
+    /// The payload has vertices alone.
+    pub packs: bool,
+    /// A record is asked for.
+    pub asks: bool,
+    /// One that was asked for comes.
+    pub done: Option<[u32; 3]>,
+    /// The first beat is taken.
+    pub takes: bool,
+}
+
+impl RecordReads {
+    /// A payload of `count` records from `first` on begins.
+    pub(super) fn start(&mut self, first: u32, count: u32) {
+        self.record_id = first;
+        self.left = count;
+        self.packer.place = 0;
+        self.packer.left = count;
+    }
+
+    /// The record that is wanted.
+    pub(super) fn request(&self, packs: bool) -> Option<u32> {
+        let may_ask = if packs { self.has_room } else { !self.fetching && !self.buffer_valid };
+        (self.left != 0 && may_ask).then_some(self.record_id)
+    }
+
+    /// The first beat that is left.
+    pub(super) fn beat(&self, packs: bool) -> Option<Beat> {
+        if packs {
+            return self.queue.first().or(self.packer.filled);
+        }
+        let last = self.column == 2 && self.left == 0;
+        self.buffer_valid.then(|| Beat { last, ..Beat::of(self.buffer[self.column]) })
+    }
+
+    pub(super) fn clock(&mut self, event: Event) {
+        let was = *self;
+        let Event { packs, asks, done, takes } = event;
+        if asks {
+            self.fetching = true;
+            self.record_id += 1;
+            self.left -= 1;
+        }
+        let packed = packs && was.buffer_valid;
+        if packed {
+            self.buffer_valid = false;
+        }
+        if let Some(words) = done {
+            self.fetching = false;
+            self.buffer = words;
+            self.buffer_valid = true;
+        }
+        if takes && !packs {
+            self.column = (was.column + 1) % 3;
+            self.buffer_valid = self.column != 0;
+        }
+        self.has_room = was.queue.waiting <= ROOM;
+        self.queue.clock(was.packer.filled, takes && packs);
+        self.packer.clock(packed.then(|| was.buffer.map(|word| word & ((1 << NARROW_ID_BITS) - 1))));
+    }
+}
+
+/// Packs ids of 16 bits without gaps.
+#[derive(Clone, Copy, Debug, Default)]
+struct Packer {
+    /// Records still to come.
+    left: u32,
+    /// Those of the present four that have come.
+    place: usize,
+    /// Ids that are in no beat yet.
+    held: [u32; 3],
+    /// The rest of the last record is due.
+    flushes: bool,
+    /// A beat that is full, or the last one.
+    filled: Option<Beat>,
+}
+
+impl Packer {
+    /// An edge at which a record comes, or none.
+    fn clock(&mut self, record: Option<[u32; 3]>) {
+        let was = *self;
+        let is_last = was.left == 1;
+        let ends_full = is_last && was.place == GROUP - 1;
+        (self.filled, self.flushes) = (None, record.is_some() && is_last && !ends_full);
+        if record.is_some() {
+            self.left = self.left.wrapping_sub(1);
+        }
+        // The rest goes out as if a record of zeros had come.
+        let Some([a, b, c]) = record.or(was.flushes.then_some([0; 3])) else {
+            return;
+        };
+        let [x, y, z] = was.held;
+        let (halves, held) = match was.place {
+            0 => (None, [a, b, c]),
+            1 => (Some([x, y, z, a]), [b, c, z]),
+            2 => (Some([x, y, a, b]), [c, y, z]),
+            _ => (Some([x, a, b, c]), [c, y, z]),
+        };
+        self.held = held;
+        self.place = (was.place + 1) % GROUP;
+        self.filled = halves.map(|[x, y, z, w]| Beat {
+            low: x | y << 16,
+            high: z | w << 16,
+            both: !was.flushes || was.place == 1,
+            last: was.flushes || ends_full,
+        });
+    }
+}
+
+/// Beats that wait. One that comes and goes at one edge passes.
+#[derive(Clone, Copy, Debug, Default)]
+struct Queue {
+    beats: [Beat; QUEUE],
+    oldest: usize,
+    waiting: usize,
+}
+
+impl Queue {
+    fn first(&self) -> Option<Beat> {
+        (self.waiting != 0).then(|| self.beats[self.oldest])
+    }
+
+    fn clock(&mut self, pushed: Option<Beat>, pops: bool) {
+        if let Some(beat) = pushed {
+            assert!(self.waiting < QUEUE, "beats are packed faster than there is room");
+            self.beats[(self.oldest + self.waiting) % QUEUE] = beat;
+            self.waiting += 1;
+        }
+        if pops {
+            self.oldest = (self.oldest + 1) % QUEUE;
+            self.waiting -= 1;
+        }
+    }
+}
