@@ -4,7 +4,7 @@
 `default_nettype none
 
 
-module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,response_valid,response_ready,response_data,write);
+module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,response_valid,response_ready,response_data,response_both,response_last,write);
     
     // Module arguments
     input wire  clock;
@@ -14,7 +14,9 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     input wire  [31:0] command_data;
     output reg  response_valid;
     input wire  response_ready;
-    output reg  [31:0] response_data;
+    output reg  [63:0] response_data;
+    output reg  response_both;
+    output reg  response_last;
     output reg  [109:0] write;
     
     // Constant declarations
@@ -71,6 +73,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     wire  [31:0] answer_head$length;
     wire  answer_head$is_empty;
     wire  answer_head$is_read;
+    wire  answer_head$is_packed;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -91,11 +94,13 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  responder$answers;
     reg  responder$sweeps;
     reg  [31:0] responder$first;
+    reg  [31:0] responder$count;
     reg  [31:0] responder$header;
     reg  [31:0] responder$length;
     reg  responder$is_empty;
     reg  [31:0] responder$word;
     reg  responder$is_read;
+    reg  responder$is_packed;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
     wire  responder$chooses;
@@ -111,7 +116,9 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  responder$was_set;
     wire  responder$response_valid;
     reg  responder$response_ready;
-    wire  [31:0] responder$response_data;
+    wire  [63:0] responder$response_data;
+    wire  responder$response_both;
+    wire  responder$response_last;
     wire  responder$is_idle;
     wire  responder$ends;
     wire  responder$is_taken;
@@ -242,7 +249,8 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .header(answer_head$header),
         .length(answer_head$length),
         .is_empty(answer_head$is_empty),
-        .is_read(answer_head$is_read)
+        .is_read(answer_head$is_read),
+        .is_packed(answer_head$is_packed)
     );
     incircle_core_logic$answer_words answer_words(
         .clock(answer_words$clock),
@@ -267,11 +275,13 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .answers(responder$answers),
         .sweeps(responder$sweeps),
         .first(responder$first),
+        .count(responder$count),
         .header(responder$header),
         .length(responder$length),
         .is_empty(responder$is_empty),
         .word(responder$word),
         .is_read(responder$is_read),
+        .is_packed(responder$is_packed),
         .index(responder$index),
         .index_ahead(responder$index_ahead),
         .chooses(responder$chooses),
@@ -288,6 +298,8 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .response_valid(responder$response_valid),
         .response_ready(responder$response_ready),
         .response_data(responder$response_data),
+        .response_both(responder$response_both),
+        .response_last(responder$response_last),
         .is_idle(responder$is_idle),
         .ends(responder$ends),
         .is_taken(responder$is_taken)
@@ -427,11 +439,13 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         responder$answers = command_port$answers;
         responder$sweeps = latencies$sweeps;
         responder$first = command_port$first;
+        responder$count = command_port$count;
         responder$header = answer_head$header;
         responder$length = answer_head$length;
         responder$is_empty = answer_head$is_empty;
         responder$word = answer_words$word;
         responder$is_read = answer_head$is_read;
+        responder$is_packed = answer_head$is_packed;
         responder$read_done = engine$read_done;
         responder$v0 = engine$v0;
         responder$v1 = engine$v1;
@@ -443,6 +457,8 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         responder$response_ready = response_ready;
         response_valid = responder$response_valid;
         response_data = responder$response_data;
+        response_both = responder$response_both;
+        response_last = responder$response_last;
         engine$infinite = infinite;
         engine$ring = ring;
         engine$last_id = last_id;
@@ -495,7 +511,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
 endmodule // incircle_core_logic
 
 
-module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,records,collinear,stuck,some_refused,header,length,is_empty,is_read);
+module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,records,collinear,stuck,some_refused,header,length,is_empty,is_read,is_packed);
     
     // Module arguments
     input wire  clock;
@@ -511,6 +527,7 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
     output reg  [31:0] length;
     output reg  is_empty;
     output reg  is_read;
+    output reg  is_packed;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -534,6 +551,9 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
     reg  [31:0] read_length$d;
     wire  [31:0] read_length$q;
     reg  read_length$clock;
+    reg  [31:0] packed_length$d;
+    wire  [31:0] packed_length$q;
+    reg  packed_length$clock;
     reg  reads_none$d;
     wire  reads_none$q;
     reg  reads_none$clock;
@@ -564,6 +584,9 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
     reg  [31:0] status_shift;
     reg  [31:0] opcode_shift;
     reg  [7:0] read_code;
+    reg  [7:0] packed_code;
+    reg  packs;
+    reg  [31:0] rounded;
     
     // Sub module instances
     incircle_core_logic$answer_head$range_end range_end(
@@ -600,6 +623,11 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
         .d(read_length$d),
         .q(read_length$q),
         .clock(read_length$clock)
+    );
+    incircle_core_logic$answer_head$packed_length packed_length(
+        .d(packed_length$d),
+        .q(packed_length$q),
+        .clock(packed_length$clock)
     );
     incircle_core_logic$answer_head$reads_none reads_none(
         .d(reads_none$d),
@@ -641,10 +669,12 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
         read_length$clock = clock;
+        packed_length$clock = clock;
         reads_none$clock = clock;
         report_status$clock = clock;
         is_outside$d = is_outside$q;
         read_length$d = read_length$q;
+        packed_length$d = packed_length$q;
         reads_none$d = reads_none$q;
         report_status$d = report_status$q;
         answer_status$clock = clock;
@@ -658,6 +688,7 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
         status_shift = 32'h10;
         opcode_shift = 32'h18;
         read_code = 32'h4;
+        packed_code = 32'h7;
         wide_first = ((first) & 33'h1ffffffff);
         wide_count = ((count) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
@@ -678,6 +709,8 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
+        rounded = triple$q + one;
+        packed_length$d = rounded >> one;
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -718,13 +751,25 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
                 begin
                     answer_length$d = 32'h80;
                 end
+            7:
+                begin
+                    answer_length$d = packed_length$q;
+                    has_none$d = reads_none$q;
+                    if (is_outside$q) begin
+                        answer_status$d = 32'h2;
+                        answer_length$d = 32'h0;
+                        has_none$d = 1'b1;
+                    end
+                end
             default:
                 begin
                     answer_status$d = 32'h1;
                     has_none$d = 1'b1;
                 end
         endcase
-        is_read = opcode == read_code;
+        packs = opcode == packed_code;
+        is_packed = packs;
+        is_read = packs | (opcode == read_code);
         length = answer_length$q;
         is_empty = has_none$q;
         status = ((answer_status$q) & 32'hffffffff);
@@ -849,6 +894,25 @@ module incircle_core_logic$answer_head$is_outside(d,q,clock);
     end
           
 endmodule // incircle_core_logic$answer_head$is_outside
+
+
+module incircle_core_logic$answer_head$packed_length(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$packed_length
 
 
 module incircle_core_logic$answer_head$range_bound(d,q,clock);
@@ -1033,7 +1097,7 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arri
                 end
             1:
                 begin
-                    identity$d = 32'h10001;
+                    identity$d = 32'h10002;
                     report$d = insertions;
                 end
             2:
@@ -1251,8 +1315,9 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     reg  accepts_command;
     reg  accepts_point;
     reg  [7:0] code;
-    reg  is_insert;
+    reg  is_padding;
     reg  [7:0] read_code;
+    reg  [7:0] packed_code;
     reg  [7:0] insert_code;
     reg  [31:0] none;
     reg  [31:0] one;
@@ -1357,6 +1422,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         clear$clock = clock;
         insert_code = 32'h3;
         read_code = 32'h4;
+        packed_code = 32'h7;
         none = 32'h0;
         one = 32'h1;
         came = slot$came;
@@ -1386,7 +1452,8 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         gate$stuck = stuck;
         awaits_point = gate$awaits_point;
         command_ready = gate$ready;
-        accepts_command = command_valid & gate$takes_command;
+        is_padding = command_data == none;
+        accepts_command = command_valid & gate$takes_command & (~is_padding);
         accepts_point = command_valid & gate$takes_point;
         clear$reset = reset;
         clear$built = built;
@@ -1400,7 +1467,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         slot$accepts = accepts_point;
         slot$word = command_data;
         code = command_data[(32'h18)+:(8)];
-        is_insert = command$q == insert_code;
         if ((state$q != CommandState$Answer) & responder_is_idle & answer_is_taken) begin
             is_reading$d = 1'b0;
         end
@@ -1413,7 +1479,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
                         end
-                        if (code == read_code) begin
+                        if ((code == read_code) | (code == packed_code)) begin
                             state$d = CommandState$First;
                         end
                     end
@@ -1430,7 +1496,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
                     if (command_valid) begin
                         left$d = command_data;
                         none_is_left$d = command_data == none;
-                        if (is_insert) begin
+                        if (command$q == insert_code) begin
                             state$d = CommandState$Points;
                         end
                         else begin
@@ -26008,7 +26074,7 @@ module incircle_core_logic$latencies$sweep_bucket(d,q,clock);
 endmodule // incircle_core_logic$latencies$sweep_bucket
 
 
-module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,length,is_empty,word,is_read,index,index_ahead,chooses,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,response_valid,response_ready,response_data,is_idle,ends,is_taken);
+module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,header,length,is_empty,word,is_read,is_packed,index,index_ahead,chooses,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,response_valid,response_ready,response_data,response_both,response_last,is_idle,ends,is_taken);
     
     // Module arguments
     input wire  clock;
@@ -26016,11 +26082,13 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     input wire  answers;
     input wire  sweeps;
     input wire  [31:0] first;
+    input wire  [31:0] count;
     input wire  [31:0] header;
     input wire  [31:0] length;
     input wire  is_empty;
     input wire  [31:0] word;
     input wire  is_read;
+    input wire  is_packed;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
     output reg  chooses;
@@ -26036,7 +26104,9 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     input wire  was_set;
     output reg  response_valid;
     input wire  response_ready;
-    output reg  [31:0] response_data;
+    output reg  [63:0] response_data;
+    output reg  response_both;
+    output reg  response_last;
     output reg  is_idle;
     output reg  ends;
     output reg  is_taken;
@@ -26045,10 +26115,9 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     localparam AnswerState$Idle = 0;
     localparam AnswerState$Prepare = 1;
     localparam AnswerState$Header = 2;
-    localparam AnswerState$Length = 3;
-    localparam AnswerState$Choose = 4;
-    localparam AnswerState$Payload = 5;
-    localparam AnswerState$Records = 6;
+    localparam AnswerState$Choose = 3;
+    localparam AnswerState$Payload = 4;
+    localparam AnswerState$Records = 5;
     
     // Stub signals
     reg  [2:0] state$d;
@@ -26063,9 +26132,9 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     reg  valid$d;
     wire  valid$q;
     reg  valid$clock;
-    reg  [31:0] data$d;
-    wire  [31:0] data$q;
-    reg  data$clock;
+    reg  [65:0] offered$d;
+    wire  [65:0] offered$q;
+    reg  offered$clock;
     reg  [31:0] left$d;
     wire  [31:0] left$q;
     reg  left$clock;
@@ -26075,34 +26144,36 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     reg  [6:0] loaded$d;
     wire  [6:0] loaded$q;
     reg  loaded$clock;
-    reg  [14:0] record_id$d;
-    wire  [14:0] record_id$q;
-    reg  record_id$clock;
-    reg  fetching$d;
-    wire  fetching$q;
-    reg  fetching$clock;
-    reg  record$clock;
-    reg  record$reset;
-    reg  record$read_done;
-    reg  [14:0] record$v0;
-    reg  [14:0] record$v1;
-    reg  [14:0] record$v2;
-    reg  [14:0] record$n0;
-    reg  [14:0] record$n1;
-    reg  [14:0] record$n2;
-    reg  record$was_set;
-    wire  record$holds;
-    wire  [31:0] record$word;
-    reg  record$takes;
+    reg  records$clock;
+    reg  records$reset;
+    reg  records$starts;
+    reg  [14:0] records$first;
+    reg  [14:0] records$count;
+    reg  records$is_packed;
+    reg  records$runs;
+    wire  records$read;
+    wire  [14:0] records$read_id;
+    reg  records$read_done;
+    reg  [14:0] records$v0;
+    reg  [14:0] records$v1;
+    reg  [14:0] records$v2;
+    reg  [14:0] records$n0;
+    reg  [14:0] records$n1;
+    reg  [14:0] records$n2;
+    reg  records$was_set;
+    wire  records$valid;
+    wire  [65:0] records$beat;
+    reg  records$takes;
     
     // Local signals
+    reg  [63:0] pair;
+    reg  [63:0] pair_bits;
     reg  loads;
-    reg  asks;
     reg  ends_now;
+    reg  [31:0] no_word;
     reg  [31:0] one;
     reg  [31:0] two;
     reg  [6:0] one_word;
-    reg  [14:0] one_record;
     
     // Sub module instances
     incircle_core_logic$responder$state state(
@@ -26125,10 +26196,10 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         .q(valid$q),
         .clock(valid$clock)
     );
-    incircle_core_logic$responder$data data(
-        .d(data$d),
-        .q(data$q),
-        .clock(data$clock)
+    incircle_core_logic$responder$offered offered(
+        .d(offered$d),
+        .q(offered$q),
+        .clock(offered$clock)
     );
     incircle_core_logic$responder$left left(
         .d(left$d),
@@ -26145,30 +26216,27 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         .q(loaded$q),
         .clock(loaded$clock)
     );
-    incircle_core_logic$responder$record_id record_id(
-        .d(record_id$d),
-        .q(record_id$q),
-        .clock(record_id$clock)
-    );
-    incircle_core_logic$responder$fetching fetching(
-        .d(fetching$d),
-        .q(fetching$q),
-        .clock(fetching$clock)
-    );
-    incircle_core_logic$responder$record record(
-        .clock(record$clock),
-        .reset(record$reset),
-        .read_done(record$read_done),
-        .v0(record$v0),
-        .v1(record$v1),
-        .v2(record$v2),
-        .n0(record$n0),
-        .n1(record$n1),
-        .n2(record$n2),
-        .was_set(record$was_set),
-        .holds(record$holds),
-        .word(record$word),
-        .takes(record$takes)
+    incircle_core_logic$responder$records records(
+        .clock(records$clock),
+        .reset(records$reset),
+        .starts(records$starts),
+        .first(records$first),
+        .count(records$count),
+        .is_packed(records$is_packed),
+        .runs(records$runs),
+        .read(records$read),
+        .read_id(records$read_id),
+        .read_done(records$read_done),
+        .v0(records$v0),
+        .v1(records$v1),
+        .v2(records$v2),
+        .n0(records$n0),
+        .n1(records$n1),
+        .n2(records$n2),
+        .was_set(records$was_set),
+        .valid(records$valid),
+        .beat(records$beat),
+        .takes(records$takes)
     );
     
     // Update code
@@ -26176,56 +26244,54 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         state$clock = clock;
         waited$clock = clock;
         valid$clock = clock;
-        data$clock = clock;
+        offered$clock = clock;
         left$clock = clock;
         is_last$clock = clock;
         loaded$clock = clock;
         following$clock = clock;
-        record_id$clock = clock;
-        fetching$clock = clock;
         state$d = state$q;
         waited$d = waited$q;
         valid$d = valid$q;
-        data$d = data$q;
+        offered$d = offered$q;
         left$d = left$q;
         is_last$d = is_last$q;
         loaded$d = loaded$q;
         following$d = following$q;
-        record_id$d = record_id$q;
-        fetching$d = fetching$q;
-        record$clock = clock;
+        records$clock = clock;
+        no_word = 32'h0;
         one = 32'h1;
         two = 32'h2;
         one_word = 32'h1;
-        one_record = 32'h1;
         response_valid = valid$q;
-        response_data = data$q;
+        pair[(64'h0)+:(32)] = offered$q[(64'h0)+:(32)];
+        pair[(64'h20)+:(32)] = offered$q[(64'h20)+:(32)];
+        pair_bits = pair;
+        response_data = pair_bits;
+        response_both = offered$q[(64'h40)+:(1)];
+        response_last = offered$q[(64'h41)+:(1)];
         index = loaded$q;
         index_ahead = following$q;
         chooses = (state$q == AnswerState$Choose) & waited$q;
         loads = (~valid$q) | response_ready;
         is_taken = loads;
         is_idle = state$q == AnswerState$Idle;
-        asks = (state$q == AnswerState$Records) & (~fetching$q) & (~record$holds);
-        read = asks;
-        read_id = record_id$q;
-        record$v0 = v0;
-        record$v1 = v1;
-        record$v2 = v2;
-        record$n0 = n0;
-        record$n1 = n1;
-        record$n2 = n2;
-        record$was_set = was_set;
-        record$read_done = read_done;
-        record$reset = reset;
-        if (asks) begin
-            fetching$d = 1'b1;
-        end
-        if (read_done) begin
-            fetching$d = 1'b0;
-            record_id$d = record_id$q + one_record;
-        end
-        record$takes = 1'b0;
+        records$reset = reset;
+        records$starts = state$q == AnswerState$Header;
+        records$first = first[(32'h0)+:(15)];
+        records$count = count[(32'h0)+:(15)];
+        records$is_packed = is_packed;
+        records$runs = state$q == AnswerState$Records;
+        read = records$read;
+        read_id = records$read_id;
+        records$read_done = read_done;
+        records$v0 = v0;
+        records$v1 = v1;
+        records$v2 = v2;
+        records$n0 = n0;
+        records$n1 = n1;
+        records$n2 = n2;
+        records$was_set = was_set;
+        records$takes = 1'b0;
         ends_now = 1'b0;
         valid$d = valid$q & (~loads);
         case (state$q)
@@ -26237,6 +26303,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                 end
             AnswerState$Prepare:
                 begin
+                    following$d = 32'h0;
                     waited$d = ~waited$q;
                     if (waited$q) begin
                         state$d = AnswerState$Header;
@@ -26244,22 +26311,15 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                 end
             AnswerState$Header:
                 begin
-                    following$d = 32'h0;
-                    if (loads) begin
-                        valid$d = 1'b1;
-                        data$d = header;
-                        state$d = AnswerState$Length;
-                    end
-                end
-            AnswerState$Length:
-                begin
                     left$d = length;
                     is_last$d = length == one;
                     loaded$d = 32'h0;
-                    record_id$d = first[(32'h0)+:(15)];
                     if (loads) begin
                         valid$d = 1'b1;
-                        data$d = length;
+                        offered$d[(64'h0)+:(32)] = header;
+                        offered$d[(64'h20)+:(32)] = length;
+                        offered$d[(64'h40)+:(1)] = 1'b1;
+                        offered$d[(64'h41)+:(1)] = is_empty;
                         ends_now = is_empty;
                         state$d = AnswerState$Choose;
                         if (is_read) begin
@@ -26279,7 +26339,10 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                 begin
                     if (loads) begin
                         valid$d = 1'b1;
-                        data$d = word;
+                        offered$d[(64'h0)+:(32)] = word;
+                        offered$d[(64'h20)+:(32)] = no_word;
+                        offered$d[(64'h40)+:(1)] = 1'b0;
+                        offered$d[(64'h41)+:(1)] = is_last$q;
                         loaded$d = loaded$q + one_word;
                         left$d = left$q - one;
                         is_last$d = left$q == two;
@@ -26289,13 +26352,11 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                 end
             AnswerState$Records:
                 begin
-                    if (loads & record$holds) begin
+                    if (loads & records$valid) begin
                         valid$d = 1'b1;
-                        data$d = record$word;
-                        record$takes = 1'b1;
-                        left$d = left$q - one;
-                        is_last$d = left$q == two;
-                        ends_now = is_last$q;
+                        offered$d = records$beat;
+                        records$takes = 1'b1;
+                        ends_now = records$beat[(64'h41)+:(1)];
                     end
                 end
             default:
@@ -26311,50 +26372,14 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
             state$d = AnswerState$Idle;
             waited$d = 1'b0;
             valid$d = 1'b0;
-            data$d = 32'h0;
-            fetching$d = 1'b0;
+            offered$d[(64'h0)+:(32)] = no_word;
+            offered$d[(64'h20)+:(32)] = no_word;
+            offered$d[(64'h40)+:(1)] = 1'b0;
+            offered$d[(64'h41)+:(1)] = 1'b0;
         end
     end
     
 endmodule // incircle_core_logic$responder
-
-
-module incircle_core_logic$responder$data(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$data
-
-
-module incircle_core_logic$responder$fetching(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$fetching
 
 
 module incircle_core_logic$responder$following(d,q,clock);
@@ -26433,7 +26458,268 @@ module incircle_core_logic$responder$loaded(d,q,clock);
 endmodule // incircle_core_logic$responder$loaded
 
 
-module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1,n2,was_set,holds,word,takes);
+module incircle_core_logic$responder$offered(d,q,clock);
+    
+    // Module arguments
+    input wire  [65:0] d;
+    output reg  [65:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 66'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$offered
+
+
+module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,valid,beat,takes);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  starts;
+    input wire  [14:0] first;
+    input wire  [14:0] count;
+    input wire  is_packed;
+    input wire  runs;
+    output reg  read;
+    output reg  [14:0] read_id;
+    input wire  read_done;
+    input wire  [14:0] v0;
+    input wire  [14:0] v1;
+    input wire  [14:0] v2;
+    input wire  [14:0] n0;
+    input wire  [14:0] n1;
+    input wire  [14:0] n2;
+    input wire  was_set;
+    output reg  valid;
+    output reg  [65:0] beat;
+    input wire  takes;
+    
+    // Stub signals
+    reg  [14:0] record_id$d;
+    wire  [14:0] record_id$q;
+    reg  record_id$clock;
+    reg  [14:0] left$d;
+    wire  [14:0] left$q;
+    reg  left$clock;
+    reg  some_are_left$d;
+    wire  some_are_left$q;
+    reg  some_are_left$clock;
+    reg  fetching$d;
+    wire  fetching$q;
+    reg  fetching$clock;
+    reg  record$clock;
+    reg  record$reset;
+    reg  record$read_done;
+    reg  [14:0] record$v0;
+    reg  [14:0] record$v1;
+    reg  [14:0] record$v2;
+    reg  [14:0] record$n0;
+    reg  [14:0] record$n1;
+    reg  [14:0] record$n2;
+    reg  record$was_set;
+    wire  record$holds;
+    wire  [31:0] record$word;
+    wire  record$is_at_last;
+    reg  record$takes;
+    wire  [14:0] record$vertex0;
+    wire  [14:0] record$vertex1;
+    wire  [14:0] record$vertex2;
+    reg  record$takes_whole;
+    reg  vertices$clock;
+    reg  vertices$reset;
+    reg  vertices$starts;
+    reg  [14:0] vertices$count;
+    wire  vertices$has_room;
+    reg  vertices$comes;
+    reg  [14:0] vertices$v0;
+    reg  [14:0] vertices$v1;
+    reg  [14:0] vertices$v2;
+    wire  vertices$valid;
+    wire  [65:0] vertices$beat;
+    reg  vertices$takes;
+    
+    // Local signals
+    reg  may_ask;
+    reg  asks;
+    reg  packs;
+    reg  [31:0] no_word;
+    reg  [14:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$responder$records$record_id record_id(
+        .d(record_id$d),
+        .q(record_id$q),
+        .clock(record_id$clock)
+    );
+    incircle_core_logic$responder$records$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
+    incircle_core_logic$responder$records$some_are_left some_are_left(
+        .d(some_are_left$d),
+        .q(some_are_left$q),
+        .clock(some_are_left$clock)
+    );
+    incircle_core_logic$responder$records$fetching fetching(
+        .d(fetching$d),
+        .q(fetching$q),
+        .clock(fetching$clock)
+    );
+    incircle_core_logic$responder$records$record record(
+        .clock(record$clock),
+        .reset(record$reset),
+        .read_done(record$read_done),
+        .v0(record$v0),
+        .v1(record$v1),
+        .v2(record$v2),
+        .n0(record$n0),
+        .n1(record$n1),
+        .n2(record$n2),
+        .was_set(record$was_set),
+        .holds(record$holds),
+        .word(record$word),
+        .is_at_last(record$is_at_last),
+        .takes(record$takes),
+        .vertex0(record$vertex0),
+        .vertex1(record$vertex1),
+        .vertex2(record$vertex2),
+        .takes_whole(record$takes_whole)
+    );
+    incircle_core_logic$responder$records$vertices vertices(
+        .clock(vertices$clock),
+        .reset(vertices$reset),
+        .starts(vertices$starts),
+        .count(vertices$count),
+        .has_room(vertices$has_room),
+        .comes(vertices$comes),
+        .v0(vertices$v0),
+        .v1(vertices$v1),
+        .v2(vertices$v2),
+        .valid(vertices$valid),
+        .beat(vertices$beat),
+        .takes(vertices$takes)
+    );
+    
+    // Update code
+    always @(*) begin
+        record_id$clock = clock;
+        left$clock = clock;
+        some_are_left$clock = clock;
+        fetching$clock = clock;
+        record_id$d = record_id$q;
+        left$d = left$q;
+        some_are_left$d = some_are_left$q;
+        fetching$d = fetching$q;
+        record$clock = clock;
+        vertices$clock = clock;
+        no_word = 32'h0;
+        one = 32'h1;
+        may_ask = (~fetching$q) & (~record$holds);
+        if (is_packed) begin
+            may_ask = vertices$has_room;
+        end
+        asks = runs & some_are_left$q & may_ask;
+        read = asks;
+        read_id = record_id$q;
+        if (asks) begin
+            fetching$d = 1'b1;
+            record_id$d = record_id$q + one;
+            left$d = left$q - one;
+            some_are_left$d = left$q != one;
+        end
+        if (read_done) begin
+            fetching$d = 1'b0;
+        end
+        if (starts) begin
+            record_id$d = first;
+            left$d = count;
+            some_are_left$d = |count;
+        end
+        record$reset = reset;
+        record$read_done = read_done;
+        record$v0 = v0;
+        record$v1 = v1;
+        record$v2 = v2;
+        record$n0 = n0;
+        record$n1 = n1;
+        record$n2 = n2;
+        record$was_set = was_set;
+        packs = is_packed & record$holds;
+        record$takes_whole = packs;
+        vertices$reset = reset;
+        vertices$starts = starts;
+        vertices$count = count;
+        vertices$comes = packs;
+        vertices$v0 = record$vertex0;
+        vertices$v1 = record$vertex1;
+        vertices$v2 = record$vertex2;
+        record$takes = takes & (~is_packed);
+        vertices$takes = takes & is_packed;
+        valid = record$holds;
+        beat[(64'h0)+:(32)] = record$word;
+        beat[(64'h20)+:(32)] = no_word;
+        beat[(64'h40)+:(1)] = 1'b0;
+        beat[(64'h41)+:(1)] = record$is_at_last & (~some_are_left$q);
+        if (is_packed) begin
+            valid = vertices$valid;
+            beat = vertices$beat;
+        end
+        if (reset) begin
+            some_are_left$d = 1'b0;
+            fetching$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$records
+
+
+module incircle_core_logic$responder$records$fetching(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$fetching
+
+
+module incircle_core_logic$responder$records$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$left
+
+
+module incircle_core_logic$responder$records$record(clock,reset,read_done,v0,v1,v2,n0,n1,n2,was_set,holds,word,is_at_last,takes,vertex0,vertex1,vertex2,takes_whole);
     
     // Module arguments
     input wire  clock;
@@ -26448,7 +26734,12 @@ module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1
     input wire  was_set;
     output reg  holds;
     output reg  [31:0] word;
+    output reg  is_at_last;
     input wire  takes;
+    output reg  [14:0] vertex0;
+    output reg  [14:0] vertex1;
+    output reg  [14:0] vertex2;
+    input wire  takes_whole;
     
     // Stub signals
     reg  is_held$d;
@@ -26481,37 +26772,37 @@ module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1
     wire  [31:0] words$word2;
     
     // Sub module instances
-    incircle_core_logic$responder$record$is_held is_held(
+    incircle_core_logic$responder$records$record$is_held is_held(
         .d(is_held$d),
         .q(is_held$q),
         .clock(is_held$clock)
     );
-    incircle_core_logic$responder$record$buffer0 buffer0(
+    incircle_core_logic$responder$records$record$buffer0 buffer0(
         .d(buffer0$d),
         .q(buffer0$q),
         .clock(buffer0$clock)
     );
-    incircle_core_logic$responder$record$buffer1 buffer1(
+    incircle_core_logic$responder$records$record$buffer1 buffer1(
         .d(buffer1$d),
         .q(buffer1$q),
         .clock(buffer1$clock)
     );
-    incircle_core_logic$responder$record$buffer2 buffer2(
+    incircle_core_logic$responder$records$record$buffer2 buffer2(
         .d(buffer2$d),
         .q(buffer2$q),
         .clock(buffer2$clock)
     );
-    incircle_core_logic$responder$record$is_second is_second(
+    incircle_core_logic$responder$records$record$is_second is_second(
         .d(is_second$d),
         .q(is_second$q),
         .clock(is_second$clock)
     );
-    incircle_core_logic$responder$record$is_third is_third(
+    incircle_core_logic$responder$records$record$is_third is_third(
         .d(is_third$d),
         .q(is_third$q),
         .clock(is_third$clock)
     );
-    incircle_core_logic$responder$record$words words(
+    incircle_core_logic$responder$records$record$words words(
         .v0(words$v0),
         .v1(words$v1),
         .v2(words$v2),
@@ -26546,12 +26837,19 @@ module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1
         words$n1 = n1;
         words$n2 = n2;
         words$was_set = was_set;
+        vertex0 = buffer0$q[(32'h0)+:(15)];
+        vertex1 = buffer1$q[(32'h0)+:(15)];
+        vertex2 = buffer2$q[(32'h0)+:(15)];
+        if (takes_whole) begin
+            is_held$d = 1'b0;
+        end
         if (read_done) begin
             is_held$d = 1'b1;
             buffer0$d = words$word0;
             buffer1$d = words$word1;
             buffer2$d = words$word2;
         end
+        is_at_last = is_third$q;
         word = buffer0$q;
         if (is_second$q) begin
             word = buffer1$q;
@@ -26571,10 +26869,10 @@ module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1
         end
     end
     
-endmodule // incircle_core_logic$responder$record
+endmodule // incircle_core_logic$responder$records$record
 
 
-module incircle_core_logic$responder$record$buffer0(d,q,clock);
+module incircle_core_logic$responder$records$record$buffer0(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -26590,10 +26888,10 @@ module incircle_core_logic$responder$record$buffer0(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$buffer0
+endmodule // incircle_core_logic$responder$records$record$buffer0
 
 
-module incircle_core_logic$responder$record$buffer1(d,q,clock);
+module incircle_core_logic$responder$records$record$buffer1(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -26609,10 +26907,10 @@ module incircle_core_logic$responder$record$buffer1(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$buffer1
+endmodule // incircle_core_logic$responder$records$record$buffer1
 
 
-module incircle_core_logic$responder$record$buffer2(d,q,clock);
+module incircle_core_logic$responder$records$record$buffer2(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -26628,10 +26926,10 @@ module incircle_core_logic$responder$record$buffer2(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$buffer2
+endmodule // incircle_core_logic$responder$records$record$buffer2
 
 
-module incircle_core_logic$responder$record$is_held(d,q,clock);
+module incircle_core_logic$responder$records$record$is_held(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -26647,10 +26945,10 @@ module incircle_core_logic$responder$record$is_held(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$is_held
+endmodule // incircle_core_logic$responder$records$record$is_held
 
 
-module incircle_core_logic$responder$record$is_second(d,q,clock);
+module incircle_core_logic$responder$records$record$is_second(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -26666,10 +26964,10 @@ module incircle_core_logic$responder$record$is_second(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$is_second
+endmodule // incircle_core_logic$responder$records$record$is_second
 
 
-module incircle_core_logic$responder$record$is_third(d,q,clock);
+module incircle_core_logic$responder$records$record$is_third(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -26685,10 +26983,10 @@ module incircle_core_logic$responder$record$is_third(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$is_third
+endmodule // incircle_core_logic$responder$records$record$is_third
 
 
-module incircle_core_logic$responder$record$words(v0,v1,v2,n0,n1,n2,was_set,word0,word1,word2);
+module incircle_core_logic$responder$records$record$words(v0,v1,v2,n0,n1,n2,was_set,word0,word1,word2);
     
     // Module arguments
     input wire  [14:0] v0;
@@ -26736,10 +27034,10 @@ module incircle_core_logic$responder$record$words(v0,v1,v2,n0,n1,n2,was_set,word
         word2 = vertex2 | high2;
     end
     
-endmodule // incircle_core_logic$responder$record$words
+endmodule // incircle_core_logic$responder$records$record$words
 
 
-module incircle_core_logic$responder$record_id(d,q,clock);
+module incircle_core_logic$responder$records$record_id(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -26755,7 +27053,777 @@ module incircle_core_logic$responder$record_id(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record_id
+endmodule // incircle_core_logic$responder$records$record_id
+
+
+module incircle_core_logic$responder$records$some_are_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$some_are_left
+
+
+module incircle_core_logic$responder$records$vertices(clock,reset,starts,count,has_room,comes,v0,v1,v2,valid,beat,takes);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  starts;
+    input wire  [14:0] count;
+    output reg  has_room;
+    input wire  comes;
+    input wire  [14:0] v0;
+    input wire  [14:0] v1;
+    input wire  [14:0] v2;
+    output reg  valid;
+    output reg  [65:0] beat;
+    input wire  takes;
+    
+    // Stub signals
+    reg  [4:0] waiting$d;
+    wire  [4:0] waiting$q;
+    reg  waiting$clock;
+    reg  roomy$d;
+    wire  roomy$q;
+    reg  roomy$clock;
+    reg  packer$clock;
+    reg  packer$reset;
+    reg  packer$starts;
+    reg  [14:0] packer$count;
+    reg  packer$comes;
+    reg  [14:0] packer$v0;
+    reg  [14:0] packer$v1;
+    reg  [14:0] packer$v2;
+    wire  packer$valid;
+    wire  [65:0] packer$beat;
+    reg  queue$clock;
+    reg  queue$reset;
+    reg  queue$push;
+    reg  [65:0] queue$push_data;
+    reg  queue$pop;
+    wire  queue$valid;
+    wire  [65:0] queue$data;
+    reg  [65:0] head$bits;
+    wire  [65:0] head$value;
+    
+    // Local signals
+    reg  [65:0] beat_bits;
+    reg  [4:0] one_beat;
+    reg  [4:0] room;
+    
+    // Sub module instances
+    incircle_core_logic$responder$records$vertices$waiting waiting(
+        .d(waiting$d),
+        .q(waiting$q),
+        .clock(waiting$clock)
+    );
+    incircle_core_logic$responder$records$vertices$roomy roomy(
+        .d(roomy$d),
+        .q(roomy$q),
+        .clock(roomy$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer packer(
+        .clock(packer$clock),
+        .reset(packer$reset),
+        .starts(packer$starts),
+        .count(packer$count),
+        .comes(packer$comes),
+        .v0(packer$v0),
+        .v1(packer$v1),
+        .v2(packer$v2),
+        .valid(packer$valid),
+        .beat(packer$beat)
+    );
+    incircle_core_logic$responder$records$vertices$queue queue(
+        .clock(queue$clock),
+        .reset(queue$reset),
+        .push(queue$push),
+        .push_data(queue$push_data),
+        .pop(queue$pop),
+        .valid(queue$valid),
+        .data(queue$data)
+    );
+    incircle_core_logic$responder$records$vertices$head head(
+        .bits(head$bits),
+        .value(head$value)
+    );
+    
+    // Update code
+    always @(*) begin
+        waiting$clock = clock;
+        roomy$clock = clock;
+        waiting$d = waiting$q;
+        roomy$d = roomy$q;
+        packer$clock = clock;
+        queue$clock = clock;
+        one_beat = 32'h1;
+        room = 32'h4;
+        packer$reset = reset;
+        packer$starts = starts;
+        packer$count = count;
+        packer$comes = comes;
+        packer$v0 = v0;
+        packer$v1 = v1;
+        packer$v2 = v2;
+        queue$reset = reset;
+        queue$push = packer$valid;
+        beat_bits = packer$beat;
+        queue$push_data = beat_bits;
+        queue$pop = takes;
+        valid = queue$valid;
+        head$bits = queue$data;
+        beat = head$value;
+        has_room = roomy$q;
+        roomy$d = waiting$q <= room;
+        if (packer$valid & (~takes)) begin
+            waiting$d = waiting$q + one_beat;
+        end
+        if (takes & (~packer$valid)) begin
+            waiting$d = waiting$q - one_beat;
+        end
+        if (reset) begin
+            waiting$d = 32'h0;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$records$vertices
+
+
+module incircle_core_logic$responder$records$vertices$head(bits,value);
+    
+    // Module arguments
+    input wire  [65:0] bits;
+    output reg  [65:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$responder$records$vertices$head
+
+
+module incircle_core_logic$responder$records$vertices$packer(clock,reset,starts,count,comes,v0,v1,v2,valid,beat);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  starts;
+    input wire  [14:0] count;
+    input wire  comes;
+    input wire  [14:0] v0;
+    input wire  [14:0] v1;
+    input wire  [14:0] v2;
+    output reg  valid;
+    output reg  [65:0] beat;
+    
+    // Stub signals
+    reg  is_there$d;
+    wire  is_there$q;
+    reg  is_there$clock;
+    reg  [65:0] filled$d;
+    wire  [65:0] filled$q;
+    reg  filled$clock;
+    reg  [1:0] place$d;
+    wire  [1:0] place$q;
+    reg  place$clock;
+    reg  [14:0] left$d;
+    wire  [14:0] left$q;
+    reg  left$clock;
+    reg  is_last$d;
+    wire  is_last$q;
+    reg  is_last$clock;
+    reg  flushes$d;
+    wire  flushes$q;
+    reg  flushes$clock;
+    reg  [14:0] held0$d;
+    wire  [14:0] held0$q;
+    reg  held0$clock;
+    reg  [14:0] held1$d;
+    wire  [14:0] held1$q;
+    reg  held1$clock;
+    reg  [14:0] held2$d;
+    wire  [14:0] held2$q;
+    reg  held2$clock;
+    
+    // Local signals
+    reg  takes;
+    reg  ends_full;
+    reg  [14:0] new0;
+    reg  [14:0] new1;
+    reg  [14:0] new2;
+    reg  [14:0] half1;
+    reg  [14:0] half2;
+    reg  [14:0] half3;
+    reg  [31:0] even0;
+    reg  [31:0] even1;
+    reg  [31:0] odd0;
+    reg  [31:0] odd1;
+    reg  [31:0] high0;
+    reg  [31:0] high1;
+    reg  [31:0] half_shift;
+    reg  [14:0] one;
+    reg  [14:0] two;
+    reg  [1:0] first_place;
+    reg  [1:0] second_place;
+    reg  [1:0] last_place;
+    
+    // Sub module instances
+    incircle_core_logic$responder$records$vertices$packer$is_there is_there(
+        .d(is_there$d),
+        .q(is_there$q),
+        .clock(is_there$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$filled filled(
+        .d(filled$d),
+        .q(filled$q),
+        .clock(filled$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$is_last is_last(
+        .d(is_last$d),
+        .q(is_last$q),
+        .clock(is_last$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$flushes flushes(
+        .d(flushes$d),
+        .q(flushes$q),
+        .clock(flushes$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$held0 held0(
+        .d(held0$d),
+        .q(held0$q),
+        .clock(held0$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$held1 held1(
+        .d(held1$d),
+        .q(held1$q),
+        .clock(held1$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$held2 held2(
+        .d(held2$d),
+        .q(held2$q),
+        .clock(held2$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        is_there$clock = clock;
+        filled$clock = clock;
+        place$clock = clock;
+        left$clock = clock;
+        is_last$clock = clock;
+        flushes$clock = clock;
+        held0$clock = clock;
+        held1$clock = clock;
+        held2$clock = clock;
+        is_there$d = is_there$q;
+        filled$d = filled$q;
+        place$d = place$q;
+        left$d = left$q;
+        is_last$d = is_last$q;
+        flushes$d = flushes$q;
+        held0$d = held0$q;
+        held1$d = held1$q;
+        held2$d = held2$q;
+        half_shift = 32'h10;
+        one = 32'h1;
+        two = 32'h2;
+        first_place = 32'h0;
+        second_place = 32'h1;
+        last_place = 32'h3;
+        valid = is_there$q;
+        beat = filled$q;
+        takes = comes | flushes$q;
+        new0 = v0;
+        new1 = v1;
+        new2 = v2;
+        if (flushes$q) begin
+            new0 = 32'h0;
+            new1 = 32'h0;
+            new2 = 32'h0;
+        end
+        half1 = held1$q;
+        half2 = held2$q;
+        half3 = new0;
+        case (place$q)
+            2:
+                begin
+                    half2 = new0;
+                    half3 = new1;
+                end
+            3:
+                begin
+                    half1 = new0;
+                    half2 = new1;
+                    half3 = new2;
+                end
+            default:
+                begin
+                end
+        endcase
+        if (takes) begin
+            case (place$q)
+                0:
+                    begin
+                        held0$d = new0;
+                        held1$d = new1;
+                        held2$d = new2;
+                    end
+                1:
+                    begin
+                        held0$d = new1;
+                        held1$d = new2;
+                    end
+                default:
+                    begin
+                        held0$d = new2;
+                    end
+            endcase
+            place$d = place$q + second_place;
+        end
+        even0 = ((held0$q) & 32'hffffffff);
+        odd0 = ((half1) & 32'hffffffff);
+        even1 = ((half2) & 32'hffffffff);
+        odd1 = ((half3) & 32'hffffffff);
+        high0 = odd0 << half_shift;
+        high1 = odd1 << half_shift;
+        ends_full = is_last$q & (place$q == last_place);
+        filled$d[(64'h0)+:(32)] = even0 | high0;
+        filled$d[(64'h20)+:(32)] = even1 | high1;
+        filled$d[(64'h40)+:(1)] = (~flushes$q) | (place$q == second_place);
+        filled$d[(64'h41)+:(1)] = flushes$q | ends_full;
+        is_there$d = takes & (place$q != first_place);
+        flushes$d = comes & is_last$q & (~ends_full);
+        if (comes) begin
+            left$d = left$q - one;
+            is_last$d = left$q == two;
+        end
+        if (starts) begin
+            place$d = first_place;
+            left$d = count;
+            is_last$d = count == one;
+        end
+        if (reset) begin
+            is_there$d = 1'b0;
+            flushes$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$records$vertices$packer
+
+
+module incircle_core_logic$responder$records$vertices$packer$filled(d,q,clock);
+    
+    // Module arguments
+    input wire  [65:0] d;
+    output reg  [65:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 66'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$filled
+
+
+module incircle_core_logic$responder$records$vertices$packer$flushes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$flushes
+
+
+module incircle_core_logic$responder$records$vertices$packer$held0(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$held0
+
+
+module incircle_core_logic$responder$records$vertices$packer$held1(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$held1
+
+
+module incircle_core_logic$responder$records$vertices$packer$held2(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$held2
+
+
+module incircle_core_logic$responder$records$vertices$packer$is_last(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$is_last
+
+
+module incircle_core_logic$responder$records$vertices$packer$is_there(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$is_there
+
+
+module incircle_core_logic$responder$records$vertices$packer$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$left
+
+
+module incircle_core_logic$responder$records$vertices$packer$place(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$place
+
+
+module incircle_core_logic$responder$records$vertices$queue(clock,reset,push,push_data,pop,valid,data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  push;
+    input wire  [65:0] push_data;
+    input wire  pop;
+    output reg  valid;
+    output reg  [65:0] data;
+    
+    // Constant declarations
+    localparam  one = 4'h1;
+    localparam  nothing = 4'h0;
+    localparam  kept_bits = 66'h3ffffffffffffffff;
+    
+    // Stub signals
+    reg  entries$clock;
+    reg  [3:0] entries$write_address;
+    reg  [65:0] entries$write_data;
+    reg  entries$write_enable;
+    reg  [3:0] entries$read_address;
+    wire  [65:0] entries$read_data;
+    reg  holds_entries$d;
+    wire  holds_entries$q;
+    reg  holds_entries$clock;
+    reg  [3:0] newest$d;
+    wire  [3:0] newest$q;
+    reg  newest$clock;
+    reg  [3:0] oldest$d;
+    wire  [3:0] oldest$q;
+    reg  oldest$clock;
+    
+    // Local signals
+    reg  passes;
+    reg  stores;
+    reg  [3:0] after_newest;
+    reg  [3:0] after_oldest;
+    
+    // Sub module instances
+    incircle_core_logic$responder$records$vertices$queue$entries entries(
+        .clock(entries$clock),
+        .write_address(entries$write_address),
+        .write_data(entries$write_data),
+        .write_enable(entries$write_enable),
+        .read_address(entries$read_address),
+        .read_data(entries$read_data)
+    );
+    incircle_core_logic$responder$records$vertices$queue$holds_entries holds_entries(
+        .d(holds_entries$d),
+        .q(holds_entries$q),
+        .clock(holds_entries$clock)
+    );
+    incircle_core_logic$responder$records$vertices$queue$newest newest(
+        .d(newest$d),
+        .q(newest$q),
+        .clock(newest$clock)
+    );
+    incircle_core_logic$responder$records$vertices$queue$oldest oldest(
+        .d(oldest$d),
+        .q(oldest$q),
+        .clock(oldest$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        holds_entries$clock = clock;
+        newest$clock = clock;
+        oldest$clock = clock;
+        holds_entries$d = holds_entries$q;
+        newest$d = newest$q;
+        oldest$d = oldest$q;
+        entries$clock = clock;
+        after_newest = newest$q + one;
+        after_oldest = oldest$q + one;
+        entries$read_address = oldest$q;
+        valid = holds_entries$q | push;
+        if (holds_entries$q) begin
+            data = entries$read_data;
+        end
+        else begin
+            data = push_data & kept_bits;
+        end
+        passes = (~holds_entries$q) & pop;
+        stores = push & (~passes);
+        entries$write_address = newest$q;
+        entries$write_data = push_data;
+        entries$write_enable = stores;
+        if (stores) begin
+            newest$d = after_newest;
+            holds_entries$d = 1'b1;
+        end
+        if (pop & holds_entries$q) begin
+            oldest$d = after_oldest;
+            if (~stores) begin
+                holds_entries$d = after_oldest != newest$q;
+            end
+        end
+        if (reset) begin
+            holds_entries$d = 1'b0;
+            newest$d = nothing;
+            oldest$d = nothing;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$records$vertices$queue
+
+
+module incircle_core_logic$responder$records$vertices$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  [65:0] write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  [65:0] read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [65:0] memory [0:15];
+    wire [65:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$responder$records$vertices$queue$entries
+
+
+module incircle_core_logic$responder$records$vertices$queue$holds_entries(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$queue$holds_entries
+
+
+module incircle_core_logic$responder$records$vertices$queue$newest(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$queue$newest
+
+
+module incircle_core_logic$responder$records$vertices$queue$oldest(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$queue$oldest
+
+
+module incircle_core_logic$responder$records$vertices$roomy(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$roomy
+
+
+module incircle_core_logic$responder$records$vertices$waiting(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$waiting
 
 
 module incircle_core_logic$responder$state(d,q,clock);
@@ -26769,10 +27837,9 @@ module incircle_core_logic$responder$state(d,q,clock);
     localparam AnswerState$Idle = 0;
     localparam AnswerState$Prepare = 1;
     localparam AnswerState$Header = 2;
-    localparam AnswerState$Length = 3;
-    localparam AnswerState$Choose = 4;
-    localparam AnswerState$Payload = 5;
-    localparam AnswerState$Records = 6;
+    localparam AnswerState$Choose = 3;
+    localparam AnswerState$Payload = 4;
+    localparam AnswerState$Records = 5;
     
     // Update code (custom)
     initial begin
@@ -26833,7 +27900,9 @@ module incircle_core (
     input wire [31:0] command_data,
     output wire response_valid,
     input wire response_ready,
-    output wire [31:0] response_data
+    output wire [63:0] response_data,
+    output wire response_both,
+    output wire response_last
 );
     wire [109:0] unused_write;
     incircle_core_logic core (
@@ -26845,6 +27914,8 @@ module incircle_core (
         .response_valid(response_valid),
         .response_ready(response_ready),
         .response_data(response_data),
+        .response_both(response_both),
+        .response_last(response_last),
         .write(unused_write)
     );
 endmodule

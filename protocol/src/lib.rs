@@ -13,6 +13,7 @@ mod counters;
 mod frame;
 mod layout;
 mod status;
+mod stream;
 
 pub use command::{
     answer_header, answer_opcode, answer_status, batch_word, clear_word, command_contexts, command_opcode,
@@ -31,6 +32,11 @@ pub use frame::{
 };
 pub use layout::{Identity, InsertReport, Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS};
 pub use status::Status;
+pub use stream::{
+    StreamRegister, BEAT_BITS, CONTROL_RESET, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, REGISTER_SPACE,
+    STREAM_FIFO_BEATS, STREAM_STATUS_BUSY, STREAM_STATUS_ERROR, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS,
+    STREAM_VERSION,
+};
 
 /// First word of the identity: the letters `inCi`.
 pub const MAGIC: u32 = 0x696e_4369;

@@ -2,11 +2,12 @@
 
 mod control_blocks;
 mod serial_blocks;
+mod stream_blocks;
 mod visit_blocks;
 
 use std::fmt;
 
-use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
+use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError, BEAT_BITS};
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
@@ -18,6 +19,7 @@ use crate::predicate::{
     CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
 };
 use crate::serial::{SerialError, SerialLink};
+use crate::stream::StreamLink;
 use crate::top::{serial_wrapper, wrapper, Core, SerialTop, CORE_NAME, SERIAL_TOP_NAME};
 
 pub use serial_blocks::{HASTY_LINK, QUICK_LINK};
@@ -35,6 +37,8 @@ pub enum ExportError {
     Config(ConfigError),
     /// A parameter that no serial link can be built with.
     Link(LinkConfigError),
+    /// A width of beats that no stream link can be built with.
+    BeatBits(u32),
 }
 
 impl fmt::Display for ExportError {
@@ -42,6 +46,10 @@ impl fmt::Display for ExportError {
         let (names, fault, remedy) = match self {
             Self::Config(error) => return error.fmt(f),
             Self::Link(error) => return error.fmt(f),
+            Self::BeatBits(given) => {
+                let [narrow, wide] = BEAT_BITS;
+                return write!(f, "a beat of a stream has {narrow} or {wide} bits, not {given}: choose one of them");
+            }
             Self::OpenSignals(names) => (names, "are driven by nothing", "assign or connect each of them"),
             Self::LogicLoops(names) => (names, "are read before they are assigned", "assign them first"),
             Self::DrivenInputs(names) => (names, "are inputs that their own block assigns", "assign them one level up"),
@@ -155,6 +163,24 @@ pub fn serial_link(config: Config, link: LinkConfig, name: &str) -> Result<Strin
     verilog(&uut, name)
 }
 
+/// The Verilog of a stream link alone, with beats of so many bits, as the root module `name`.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn stream_link(config: Config, beat_bits: u32, name: &str) -> Result<String, ExportError> {
+    match beat_bits {
+        64 => connected(StreamLink::<64, 8, 65>::new(config)?, name),
+        128 => connected(StreamLink::<128, 16, 129>::new(config)?, name),
+        _ => Err(ExportError::BeatBits(beat_bits)),
+    }
+}
+
+/// Connects a block and gives its Verilog.
+fn connected<U: Block>(mut uut: U, name: &str) -> Result<String, ExportError> {
+    uut.connect_all();
+    verilog(&uut, name)
+}
+
 /// Every block that is tested alone: the name of its root module, and its Verilog.
 ///
 /// # Panics
@@ -198,5 +224,6 @@ pub fn blocks() -> Vec<(String, String)> {
     blocks.extend(visit_blocks::visit_blocks());
     blocks.extend(control_blocks::control_blocks());
     blocks.extend(serial_blocks::serial_blocks());
+    blocks.extend(stream_blocks::stream_blocks());
     blocks
 }

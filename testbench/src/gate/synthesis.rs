@@ -76,9 +76,40 @@ pub fn cell_count(verilog: &str, top: &str) -> Result<Cells, GateError> {
     })
 }
 
+/// The flat netlist of a design as JSON: registers, memories and the logic between them, before any mapping.
+///
+/// # Errors
+/// As [`synthesise`].
+pub fn netlist(verilog: &str, top: &str) -> Result<String, GateError> {
+    let scratch = Scratch::new(top)?;
+    let passes = format!(
+        "hierarchy -check -top {top}; proc; flatten; opt_expr; opt_clean; memory_collect; opt_clean; write_json netlist.json"
+    );
+    yosys(verilog, top, &passes, &scratch)?;
+    Ok(scratch.read("netlist.json")?)
+}
+
+/// Proves every assertion in a design, by induction over its clocks, from its initial state. With several clocks their edges may come in any order and
+/// together.
+///
+/// # Errors
+/// As [`synthesise`]; [`GateError::Refused`] too if an assertion can fail, or if no more than `steps` steps do not prove that it cannot.
+pub fn prove(verilog: &str, top: &str, has_several_clocks: bool, steps: u32) -> Result<(), GateError> {
+    let clocks = if has_several_clocks { "clk2fflogic; opt -full; " } else { "" };
+    let passes = format!(
+        "hierarchy -check -top {top}; proc; flatten; opt -full; memory -nordff; opt -full; {clocks}\
+         sat -tempinduct -prove-asserts -set-assumes -maxsteps {steps} -verify"
+    );
+    yosys_on("read_verilog -formal", verilog, top, &passes, &Scratch::new(top)?)
+}
+
 fn yosys(verilog: &str, top: &str, passes: &str, scratch: &Scratch) -> Result<(), GateError> {
+    yosys_on("read_verilog", verilog, top, passes, scratch)
+}
+
+fn yosys_on(reader: &str, verilog: &str, top: &str, passes: &str, scratch: &Scratch) -> Result<(), GateError> {
     scratch.write("design.v", verilog)?;
-    let script = format!("read_verilog design.v; {passes}");
+    let script = format!("{reader} design.v; {passes}");
     let printed = run(YOSYS, &["-p", &script], top, scratch)?;
     let complaints: Vec<_> =
         printed.lines().filter(|line| COMPLAINTS.iter().any(|complaint| line.contains(complaint))).collect();

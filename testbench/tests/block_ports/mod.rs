@@ -30,6 +30,16 @@ impl PortValue for bool {
     }
 }
 
+/// For blocks with several clocks: they are inputs like others there.
+impl PortValue for Clock {
+    fn from_number(number: u128) -> Self {
+        (number != 0).into()
+    }
+    fn to_number(self) -> u128 {
+        self.clk.into()
+    }
+}
+
 impl<const N: usize> PortValue for Bits<N> {
     fn from_number(number: u128) -> Self {
         let low = Bits::from(number as u64);

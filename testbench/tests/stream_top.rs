@@ -1,0 +1,160 @@
+//! Whole devices at their AXI ports, with random stalls on all channels and clocks at ratios of 1:4 to 4:1, against the software model.
+
+mod block_ports;
+mod stepper;
+mod stream_rig;
+
+use incircle_cli::generate::SplitMix64;
+use incircle_model::CommandModel;
+use incircle_protocol::{
+    clear_word, command_word, Config, Opcode, Status, StreamRegister, CONTROL_RESET, CORE_COORD_BITS, SMALL,
+    STREAM_STATUS_RUNS, TINY,
+};
+use stream_rig::{Rig, Verilog, PERIODS};
+
+/// Clock edges that a job may take.
+const PATIENCE: usize = 3_000_000;
+
+struct Device {
+    rig: Rig<Verilog>,
+    model: CommandModel,
+    random: SplitMix64,
+    /// Answers that were compared, by status.
+    compared: [usize; 6],
+}
+
+fn model(config: Config) -> CommandModel {
+    CommandModel::new(CORE_COORD_BITS, config.points, config.ring).expect("a sound configuration")
+}
+
+impl Device {
+    fn new(name: &str, beat_bits: usize, config: Config, periods: [u64; 2], seed: u64) -> Self {
+        let mut rig = Rig::new(Verilog::new(name, seed as u32), beat_bits, None, periods, seed);
+        rig.await_core();
+        Self { rig, model: model(config), random: SplitMix64::new(seed), compared: [0; 6] }
+    }
+
+    /// What the model answers to these words, answer by answer.
+    fn expected(&mut self, words: &[u32]) -> Vec<Vec<u32>> {
+        let mut answers = Vec::new();
+        self.model.send(words);
+        loop {
+            let mut head = [0; 2];
+            if self.model.receive(&mut head) == 0 {
+                return answers;
+            }
+            let mut answer = head.to_vec();
+            answer.resize(2 + head[1] as usize, 0);
+            assert_eq!(self.model.receive(&mut answer[2..]), head[1] as usize);
+            answers.push(answer);
+        }
+    }
+
+    /// Sends commands, padded now and then, and compares the answers with the model's.
+    fn exchange(&mut self, commands: &[Vec<u32>]) {
+        let words_of_beat = self.rig.bus.beat_bytes / 4;
+        let mut words = Vec::new();
+        let mut expected = Vec::new();
+        for command in commands {
+            words.extend(command);
+            expected.extend(self.expected(command));
+            if self.random.below(2) == 0 {
+                words.resize(words.len().next_multiple_of(words_of_beat), 0);
+            }
+        }
+        self.rig.bus.send(&words);
+        for answer in expected {
+            assert_eq!(self.rig.answer(PATIENCE), answer);
+            self.compared[(answer[0] >> 16 & 255) as usize] += 1;
+        }
+    }
+
+    /// A job: points on a grid of so many places, and what was made of them.
+    fn job(&mut self, points: usize, places: u64) {
+        let inserts = |points: &[u32]| [&[command_word(Opcode::Insert), points.len() as u32], points].concat();
+        let mut point = || self.random.below(places) as u32 | (self.random.below(places) as u32) << 16;
+        let points: Vec<u32> = (0..points).map(|_| point()).collect();
+        let (first, second) = points.split_at(points.len() / 2);
+        let mut commands = vec![vec![clear_word(0)], inserts(first), inserts(second)];
+        for _ in 0..4 {
+            let opcode = [Opcode::Read, Opcode::Triangles][self.random.below(2) as usize];
+            let (first, count) = (self.random.below(14) as u32, self.random.below(9) as u32);
+            commands.push(vec![command_word(opcode), first, count]);
+        }
+        commands.push(vec![42 << 24]);
+        self.exchange(&commands);
+        // All that there are, of either kind.
+        let records = self.model.mesh().records().len() as u32;
+        let all = |opcode| vec![command_word(opcode), 0, records];
+        self.exchange(&[all(Opcode::Triangles), all(Opcode::Read)]);
+    }
+}
+
+const ONE_CONTEXT_TINY: Config = Config { contexts: 1, ..TINY };
+const ONE_CONTEXT_SMALL: Config = Config { contexts: 1, ..SMALL };
+
+#[test]
+fn jobs_are_answered_as_by_the_model() {
+    for (round, periods) in PERIODS.into_iter().enumerate() {
+        let mut device = Device::new("stream_tiny_64", 64, ONE_CONTEXT_TINY, periods, round as u64);
+        for job in 0..12 {
+            device.rig.bus.pace = [1, 2, 6][job % 3];
+            device.job(3 + job % 8, [3, 9, 60_000][job / 3 % 3]);
+        }
+        assert!(device.rig.bus.came.is_empty());
+        let compared = device.compared;
+        let [ok, unknown, bad_range, ..] = compared;
+        assert!(ok > 60 && unknown == 12 && bad_range > 0, "{compared:?}");
+        assert!(compared[Status::Full as usize] > 0, "{compared:?}");
+        assert_eq!(device.rig.read(StreamRegister::Answers) as usize, compared.iter().sum::<usize>());
+    }
+}
+
+#[test]
+fn a_large_job_at_wide_beats_is_answered_as_by_the_model() {
+    for periods in [PERIODS[0], PERIODS[3]] {
+        let mut device = Device::new("stream_small_128", 128, ONE_CONTEXT_SMALL, periods, 5);
+        device.job(1024, 1 << 16);
+        device.rig.bus.pace = 3;
+        device.job(300, 40);
+    }
+}
+
+#[test]
+fn the_registers_say_what_hello_says() {
+    for (name, beat_bits, config) in
+        [("stream_tiny_64", 64, ONE_CONTEXT_TINY), ("stream_small_128", 128, ONE_CONTEXT_SMALL)]
+    {
+        let mut device = Device::new(name, beat_bits, config, PERIODS[4], 1);
+        device.exchange(&[vec![command_word(Opcode::Hello)]]);
+        device.rig.bus.send(&[command_word(Opcode::Hello)]);
+        let answer = device.rig.answer(PATIENCE);
+        use StreamRegister::{Capacity, Contexts, CoordBits, CoreVersion, Magic, ProtocolVersion, Ring};
+        let registers = [Magic, ProtocolVersion, CoreVersion, CoordBits, Capacity, Contexts, Ring];
+        assert_eq!(registers.map(|register| device.rig.read(register))[..], answer[2..]);
+    }
+}
+
+#[test]
+fn a_reset_in_the_middle_of_a_job_leaves_a_fresh_device() {
+    for (round, periods) in PERIODS.into_iter().enumerate() {
+        let mut device = Device::new("stream_tiny_64", 64, ONE_CONTEXT_TINY, periods, round as u64);
+        for _ in 0..10 {
+            let points: Vec<u32> = (0..200).map(|_| device.random.next_u64() as u32).collect();
+            device.rig.bus.send(&[&[command_word(Opcode::Insert), points.len() as u32], &points[..]].concat());
+            let steps = device.random.below(2500) as usize;
+            device.rig.steps(steps);
+            device.rig.bus.drop_unsent();
+            while device.rig.bus.unsent() > 0 {
+                device.rig.step();
+            }
+            device.rig.write(StreamRegister::Control, CONTROL_RESET);
+            device.rig.await_core();
+            device.rig.bus.came.clear();
+            device.model = model(ONE_CONTEXT_TINY);
+            let status = device.rig.read(StreamRegister::Status);
+            assert_eq!(status & STREAM_STATUS_RUNS, STREAM_STATUS_RUNS);
+            device.job(7, 100);
+        }
+    }
+}
