@@ -6,12 +6,11 @@ mod stepper;
 use std::collections::VecDeque;
 
 use incircle_cli::generate::SplitMix64;
-use incircle_hdl::engine::{NextPoint, Starter};
-use incircle_protocol::{Config, FIRST_ROUND, LARGE, MAX_CONTEXTS, SMALL};
+use incircle_hdl::engine::Starter;
+use incircle_protocol::{Config, FIRST_ROUND, LARGE, SMALL};
 use stepper::bundles::Deal;
 use stepper::{named_ports, Cell, Stepper, Wave};
 
-named_ports!(NextPoint, [deal, turn, has_begun, planned, taker, taken], [next_id, after_taken, first_record]);
 named_ports!(
     Starter,
     [
@@ -44,59 +43,6 @@ named_ports!(
     [starts, owner, u, takes, taken_id, solo_starts, solo_p],
     clock
 );
-
-/// The vertices of a context in their order, without end.
-fn dealt(context: u64, deal: Deal) -> impl Iterator<Item = u64> {
-    let Deal { contexts, is_batch, dealt_from } = deal;
-    let alone = match context {
-        _ if is_batch => 3 * context + 2..3 * context + 3,
-        0 => 2..dealt_from,
-        _ => 0..0,
-    };
-    alone.chain((dealt_from + context..).step_by(contexts as usize))
-}
-
-/// Both ways of dealing points to so many contexts.
-fn deals(contexts: u64) -> [Deal; 2] {
-    [Deal::one_mesh(contexts), Deal::batch(contexts)]
-}
-
-#[test]
-fn next_point_deals_every_vertex_to_one_context() {
-    let mut block = Stepper::new("next_point", NextPoint::default(), 1);
-    for deal in (1..=u64::from(MAX_CONTEXTS)).flat_map(deals) {
-        let contexts = deal.contexts;
-        block.set("deal", deal.bits());
-        let mut owners = vec![0; 400];
-        for turn in 0..contexts {
-            block.set("turn", turn);
-            block.set("taker", turn);
-            let mut planned = None;
-            let vertices: Vec<u64> = dealt(turn, deal).take_while(|vertex| *vertex < 450).collect();
-            for pair in vertices.windows(2).filter(|pair| pair[0] < 400) {
-                // Before the first point the plan is anything.
-                block.set("has_begun", planned.is_some());
-                block.set("planned", planned.unwrap_or(pair[0] * 77));
-                block.set("taken", pair[0]);
-                block.settle();
-                block.expect("next_id", pair[0]);
-                block.expect("after_taken", pair[1]);
-                block.expect("first_record", if deal.is_batch { 4 * turn } else { 0 });
-                owners[pair[0] as usize] += 1;
-                planned = Some(pair[1]);
-            }
-        }
-        // The first two of a triple are taken with its third.
-        let triples = if deal.is_batch { contexts as usize } else { 1 };
-        let waits = |id: usize| id < 3 * triples && id % 3 != 2;
-        assert!((0..400).all(|id| owners[id] == usize::from(!waits(id))), "{deal:?}: {owners:?}");
-        for id in (1 << 14) - 40..1 << 14 {
-            block.set("taken", id as u64);
-            block.settle();
-            block.expect("after_taken", id as u64 + contexts);
-        }
-    }
-}
 
 /// A context as the blocks around see it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -203,7 +149,7 @@ impl Rig {
     }
 
     fn deal(&self) -> Deal {
-        deals(self.contexts)[usize::from(self.is_batch)]
+        Deal::both(self.contexts)[usize::from(self.is_batch)]
     }
 
     fn set(&self, flag: impl Fn(&Life) -> bool) -> u64 {
@@ -334,7 +280,7 @@ impl Rig {
         if !seen.waits {
             let context = self.steps % self.contexts;
             let last = self.lives[context as usize].last.filter(|_| self.lives[context as usize].began);
-            let mut vertices = dealt(context, self.deal());
+            let mut vertices = self.deal().dealt(context);
             let vertex = match last {
                 Some(last) => vertices.find(|vertex| *vertex > last),
                 None => vertices.next(),
@@ -453,7 +399,7 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool)
         let mut vertices: Vec<u64> = tally.taken.iter().map(|(_, vertex)| *vertex).collect();
         for context in 0..contexts {
             let own = tally.taken.iter().filter(|(owner, _)| *owner == context).map(|(_, vertex)| *vertex);
-            let expected = dealt(context, rig.deal()).take_while(|vertex| *vertex < points);
+            let expected = rig.deal().dealt(context).take_while(|vertex| *vertex < points);
             assert!(own.eq(expected), "{contexts} contexts, context {context}");
         }
         // Until vertex 16 is taken, context 0 is the only one.

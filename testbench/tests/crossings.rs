@@ -60,7 +60,8 @@ fn other_crossings_are_found() {
     ] {
         let places = sound.matches(old).count();
         if places == 0 {
-            let hint: Vec<_> = sound.lines().filter(|line| line.contains(old.split(' ').next().unwrap_or(old))).collect();
+            let hint: Vec<_> =
+                sound.lines().filter(|line| line.contains(old.split(' ').next().unwrap_or(old))).collect();
             panic!("{old:?} is not in the Verilog, but {hint:?}");
         }
         let found = found(&sound.replace(old, new));

@@ -200,6 +200,22 @@ pub struct Deal {
 }
 
 impl Deal {
+    /// Both ways of dealing points to so many contexts.
+    pub fn both(contexts: u64) -> [Self; 2] {
+        [Self::one_mesh(contexts), Self::batch(contexts)]
+    }
+
+    /// The vertices of a context in their order, without end.
+    pub fn dealt(self, context: u64) -> impl Iterator<Item = u64> {
+        let Self { contexts, is_batch, dealt_from } = self;
+        let alone = match context {
+            _ if is_batch => 3 * context + 2..3 * context + 3,
+            0 => 2..dealt_from,
+            _ => 0..0,
+        };
+        alone.chain((dealt_from + context..).step_by(contexts as usize))
+    }
+
     /// So many contexts that work on one mesh.
     pub fn one_mesh(contexts: u64) -> Self {
         Self { contexts, is_batch: false, dealt_from: incircle_protocol::FIRST_ROUND.into() }
