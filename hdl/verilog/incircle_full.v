@@ -4,7 +4,7 @@
 `default_nettype none
 
 
-module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,response_valid,response_ready,response_data,write);
+module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,response_valid,response_ready,response_data,response_both,response_last,write);
     
     // Module arguments
     input wire  clock;
@@ -14,7 +14,9 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     input wire  [31:0] command_data;
     output reg  response_valid;
     input wire  response_ready;
-    output reg  [31:0] response_data;
+    output reg  [63:0] response_data;
+    output reg  response_both;
+    output reg  response_last;
     output reg  [109:0] write;
     
     // Constant declarations
@@ -35,7 +37,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     wire  command_port$command_ready;
     reg  [31:0] command_port$command_data;
     reg  command_port$sweeps;
-    reg  command_port$seeded;
+    reg  command_port$start_is_open;
     reg  command_port$collinear;
     reg  command_port$stuck;
     reg  command_port$is_quiet;
@@ -43,7 +45,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     wire  [14:0] command_port$came_id;
     wire  [31:0] command_port$point;
     wire  command_port$clears;
-    wire  [4:0] command_port$contexts;
+    wire  [12:0] command_port$deal;
     wire  command_port$is_refused;
     wire  command_port$answers;
     wire  [7:0] command_port$opcode;
@@ -71,6 +73,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     wire  [31:0] answer_head$length;
     wire  answer_head$is_empty;
     wire  answer_head$is_read;
+    wire  answer_head$is_packed;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -91,11 +94,13 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  responder$answers;
     reg  responder$sweeps;
     reg  [31:0] responder$first;
+    reg  [31:0] responder$count;
     reg  [31:0] responder$header;
     reg  [31:0] responder$length;
     reg  responder$is_empty;
     reg  [31:0] responder$word;
     reg  responder$is_read;
+    reg  responder$is_packed;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
     wire  responder$chooses;
@@ -111,7 +116,9 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  responder$was_set;
     wire  responder$response_valid;
     reg  responder$response_ready;
-    wire  [31:0] responder$response_data;
+    wire  [63:0] responder$response_data;
+    wire  responder$response_both;
+    wire  responder$response_last;
     wire  responder$is_idle;
     wire  responder$ends;
     wire  responder$is_taken;
@@ -122,7 +129,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  [14:0] engine$last_id;
     reg  [23:0] engine$all;
     reg  [21:0] engine$patience;
-    reg  [4:0] engine$contexts;
+    reg  [12:0] engine$deal;
     reg  engine$clears;
     reg  engine$came;
     reg  [14:0] engine$came_id;
@@ -131,7 +138,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  engine$read;
     reg  [14:0] engine$read_id;
     reg  [21:0] engine$now;
-    wire  engine$seeded;
+    wire  engine$start_is_open;
     wire  engine$collinear;
     wire  [14:0] engine$records;
     wire  engine$is_quiet;
@@ -205,7 +212,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .command_ready(command_port$command_ready),
         .command_data(command_port$command_data),
         .sweeps(command_port$sweeps),
-        .seeded(command_port$seeded),
+        .start_is_open(command_port$start_is_open),
         .collinear(command_port$collinear),
         .stuck(command_port$stuck),
         .is_quiet(command_port$is_quiet),
@@ -213,7 +220,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .came_id(command_port$came_id),
         .point(command_port$point),
         .clears(command_port$clears),
-        .contexts(command_port$contexts),
+        .deal(command_port$deal),
         .is_refused(command_port$is_refused),
         .answers(command_port$answers),
         .opcode(command_port$opcode),
@@ -242,7 +249,8 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .header(answer_head$header),
         .length(answer_head$length),
         .is_empty(answer_head$is_empty),
-        .is_read(answer_head$is_read)
+        .is_read(answer_head$is_read),
+        .is_packed(answer_head$is_packed)
     );
     incircle_core_logic$answer_words answer_words(
         .clock(answer_words$clock),
@@ -267,11 +275,13 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .answers(responder$answers),
         .sweeps(responder$sweeps),
         .first(responder$first),
+        .count(responder$count),
         .header(responder$header),
         .length(responder$length),
         .is_empty(responder$is_empty),
         .word(responder$word),
         .is_read(responder$is_read),
+        .is_packed(responder$is_packed),
         .index(responder$index),
         .index_ahead(responder$index_ahead),
         .chooses(responder$chooses),
@@ -288,6 +298,8 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .response_valid(responder$response_valid),
         .response_ready(responder$response_ready),
         .response_data(responder$response_data),
+        .response_both(responder$response_both),
+        .response_last(responder$response_last),
         .is_idle(responder$is_idle),
         .ends(responder$ends),
         .is_taken(responder$is_taken)
@@ -300,7 +312,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .last_id(engine$last_id),
         .all(engine$all),
         .patience(engine$patience),
-        .contexts(engine$contexts),
+        .deal(engine$deal),
         .clears(engine$clears),
         .came(engine$came),
         .came_id(engine$came_id),
@@ -309,7 +321,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .read(engine$read),
         .read_id(engine$read_id),
         .now(engine$now),
-        .seeded(engine$seeded),
+        .start_is_open(engine$start_is_open),
         .collinear(engine$collinear),
         .records(engine$records),
         .is_quiet(engine$is_quiet),
@@ -396,7 +408,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         command_port$command_data = command_data;
         command_ready = command_port$command_ready;
         command_port$sweeps = sweeps;
-        command_port$seeded = engine$seeded;
+        command_port$start_is_open = engine$start_is_open;
         command_port$collinear = engine$collinear;
         command_port$stuck = engine$stuck;
         command_port$is_quiet = engine$is_quiet;
@@ -427,11 +439,13 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         responder$answers = command_port$answers;
         responder$sweeps = latencies$sweeps;
         responder$first = command_port$first;
+        responder$count = command_port$count;
         responder$header = answer_head$header;
         responder$length = answer_head$length;
         responder$is_empty = answer_head$is_empty;
         responder$word = answer_words$word;
         responder$is_read = answer_head$is_read;
+        responder$is_packed = answer_head$is_packed;
         responder$read_done = engine$read_done;
         responder$v0 = engine$v0;
         responder$v1 = engine$v1;
@@ -443,12 +457,14 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         responder$response_ready = response_ready;
         response_valid = responder$response_valid;
         response_data = responder$response_data;
+        response_both = responder$response_both;
+        response_last = responder$response_last;
         engine$infinite = infinite;
         engine$ring = ring;
         engine$last_id = last_id;
         engine$all = all_contexts;
         engine$patience = patience;
-        engine$contexts = command_port$contexts;
+        engine$deal = command_port$deal;
         engine$clears = command_port$clears;
         engine$came = command_port$came;
         engine$came_id = command_port$came_id;
@@ -495,7 +511,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
 endmodule // incircle_core_logic
 
 
-module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,records,collinear,stuck,some_refused,header,length,is_empty,is_read);
+module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,records,collinear,stuck,some_refused,header,length,is_empty,is_read,is_packed);
     
     // Module arguments
     input wire  clock;
@@ -511,6 +527,7 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
     output reg  [31:0] length;
     output reg  is_empty;
     output reg  is_read;
+    output reg  is_packed;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -534,6 +551,9 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
     reg  [31:0] read_length$d;
     wire  [31:0] read_length$q;
     reg  read_length$clock;
+    reg  [31:0] packed_length$d;
+    wire  [31:0] packed_length$q;
+    reg  packed_length$clock;
     reg  reads_none$d;
     wire  reads_none$q;
     reg  reads_none$clock;
@@ -564,6 +584,9 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
     reg  [31:0] status_shift;
     reg  [31:0] opcode_shift;
     reg  [7:0] read_code;
+    reg  [7:0] packed_code;
+    reg  packs;
+    reg  [31:0] rounded;
     
     // Sub module instances
     incircle_core_logic$answer_head$range_end range_end(
@@ -600,6 +623,11 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
         .d(read_length$d),
         .q(read_length$q),
         .clock(read_length$clock)
+    );
+    incircle_core_logic$answer_head$packed_length packed_length(
+        .d(packed_length$d),
+        .q(packed_length$q),
+        .clock(packed_length$clock)
     );
     incircle_core_logic$answer_head$reads_none reads_none(
         .d(reads_none$d),
@@ -641,10 +669,12 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
         insert_status$d = insert_status$q;
         is_outside$clock = clock;
         read_length$clock = clock;
+        packed_length$clock = clock;
         reads_none$clock = clock;
         report_status$clock = clock;
         is_outside$d = is_outside$q;
         read_length$d = read_length$q;
+        packed_length$d = packed_length$q;
         reads_none$d = reads_none$q;
         report_status$d = report_status$q;
         answer_status$clock = clock;
@@ -658,6 +688,7 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
         status_shift = 32'h10;
         opcode_shift = 32'h18;
         read_code = 32'h4;
+        packed_code = 32'h7;
         wide_first = ((first) & 33'h1ffffffff);
         wide_count = ((count) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
@@ -678,6 +709,8 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
         wide_bound = ((range_bound$q) & 33'h1ffffffff);
         is_outside$d = range_end$q > wide_bound;
         read_length$d = triple$q;
+        rounded = triple$q + one;
+        packed_length$d = rounded >> one;
         reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
@@ -718,13 +751,25 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
                 begin
                     answer_length$d = 32'h80;
                 end
+            7:
+                begin
+                    answer_length$d = packed_length$q;
+                    has_none$d = reads_none$q;
+                    if (is_outside$q) begin
+                        answer_status$d = 32'h2;
+                        answer_length$d = 32'h0;
+                        has_none$d = 1'b1;
+                    end
+                end
             default:
                 begin
                     answer_status$d = 32'h1;
                     has_none$d = 1'b1;
                 end
         endcase
-        is_read = opcode == read_code;
+        packs = opcode == packed_code;
+        is_packed = packs;
+        is_read = packs | (opcode == read_code);
         length = answer_length$q;
         is_empty = has_none$q;
         status = ((answer_status$q) & 32'hffffffff);
@@ -849,6 +894,25 @@ module incircle_core_logic$answer_head$is_outside(d,q,clock);
     end
           
 endmodule // incircle_core_logic$answer_head$is_outside
+
+
+module incircle_core_logic$answer_head$packed_length(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$answer_head$packed_length
 
 
 module incircle_core_logic$answer_head$range_bound(d,q,clock);
@@ -1033,7 +1097,7 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arri
                 end
             1:
                 begin
-                    identity$d = 32'h10001;
+                    identity$d = 32'h10002;
                     report$d = insertions;
                 end
             2:
@@ -1144,7 +1208,7 @@ module incircle_core_logic$answer_words$report(d,q,clock);
 endmodule // incircle_core_logic$answer_words$report
 
 
-module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid,command_ready,command_data,sweeps,seeded,collinear,stuck,is_quiet,came,came_id,point,clears,contexts,is_refused,answers,opcode,first,count,arrived,refused,some_refused,responder_is_idle,answer_ends,answer_is_taken,inserting,reading,awaits_point);
+module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid,command_ready,command_data,sweeps,start_is_open,collinear,stuck,is_quiet,came,came_id,point,clears,deal,is_refused,answers,opcode,first,count,arrived,refused,some_refused,responder_is_idle,answer_ends,answer_is_taken,inserting,reading,awaits_point);
     
     // Module arguments
     input wire  clock;
@@ -1155,7 +1219,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     output reg  command_ready;
     input wire  [31:0] command_data;
     input wire  sweeps;
-    input wire  seeded;
+    input wire  start_is_open;
     input wire  collinear;
     input wire  stuck;
     input wire  is_quiet;
@@ -1163,7 +1227,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     output reg  [14:0] came_id;
     output reg  [31:0] point;
     output reg  clears;
-    output reg  [4:0] contexts;
+    output reg  [12:0] deal;
     output reg  is_refused;
     output reg  answers;
     output reg  [7:0] opcode;
@@ -1222,7 +1286,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     wire  [31:0] slot$point;
     wire  [14:0] slot$arrived;
     wire  [31:0] slot$refused;
-    wire  slot$has_three;
     wire  slot$some_refused;
     reg  gate$is_command;
     reg  gate$is_argument;
@@ -1230,9 +1293,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     reg  gate$sweeps;
     reg  gate$none_is_left;
     reg  gate$came;
-    reg  gate$has_three;
-    reg  gate$seeded;
-    reg  gate$collinear;
+    reg  gate$start_is_open;
     reg  gate$stuck;
     wire  gate$ready;
     wire  gate$takes_command;
@@ -1244,15 +1305,16 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     reg  clear$accepts;
     reg  [31:0] clear$word;
     wire  clear$clears;
-    wire  [4:0] clear$contexts;
+    wire  [12:0] clear$deal;
     wire  clear$is_refused;
     
     // Local signals
     reg  accepts_command;
     reg  accepts_point;
     reg  [7:0] code;
-    reg  is_insert;
+    reg  is_padding;
     reg  [7:0] read_code;
+    reg  [7:0] packed_code;
     reg  [7:0] insert_code;
     reg  [31:0] none;
     reg  [31:0] one;
@@ -1307,7 +1369,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .point(slot$point),
         .arrived(slot$arrived),
         .refused(slot$refused),
-        .has_three(slot$has_three),
         .some_refused(slot$some_refused)
     );
     incircle_core_logic$command_port$gate gate(
@@ -1317,9 +1378,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .sweeps(gate$sweeps),
         .none_is_left(gate$none_is_left),
         .came(gate$came),
-        .has_three(gate$has_three),
-        .seeded(gate$seeded),
-        .collinear(gate$collinear),
+        .start_is_open(gate$start_is_open),
         .stuck(gate$stuck),
         .ready(gate$ready),
         .takes_command(gate$takes_command),
@@ -1333,7 +1392,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .accepts(clear$accepts),
         .word(clear$word),
         .clears(clear$clears),
-        .contexts(clear$contexts),
+        .deal(clear$deal),
         .is_refused(clear$is_refused)
     );
     
@@ -1357,13 +1416,14 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         clear$clock = clock;
         insert_code = 32'h3;
         read_code = 32'h4;
+        packed_code = 32'h7;
         none = 32'h0;
         one = 32'h1;
         came = slot$came;
         came_id = slot$came_id;
         point = slot$point;
         clears = clear$clears;
-        contexts = clear$contexts;
+        deal = clear$deal;
         is_refused = clear$is_refused;
         answers = (state$q == CommandState$Answer) & (~clear$clears);
         opcode = command$q;
@@ -1380,13 +1440,12 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         gate$sweeps = sweeps;
         gate$none_is_left = none_is_left$q;
         gate$came = slot$came;
-        gate$has_three = slot$has_three;
-        gate$seeded = seeded;
-        gate$collinear = collinear;
+        gate$start_is_open = start_is_open;
         gate$stuck = stuck;
         awaits_point = gate$awaits_point;
         command_ready = gate$ready;
-        accepts_command = command_valid & gate$takes_command;
+        is_padding = command_data == none;
+        accepts_command = command_valid & gate$takes_command & (~is_padding);
         accepts_point = command_valid & gate$takes_point;
         clear$reset = reset;
         clear$built = built;
@@ -1400,7 +1459,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         slot$accepts = accepts_point;
         slot$word = command_data;
         code = command_data[(32'h18)+:(8)];
-        is_insert = command$q == insert_code;
         if ((state$q != CommandState$Answer) & responder_is_idle & answer_is_taken) begin
             is_reading$d = 1'b0;
         end
@@ -1413,7 +1471,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
                         end
-                        if (code == read_code) begin
+                        if ((code == read_code) | (code == packed_code)) begin
                             state$d = CommandState$First;
                         end
                     end
@@ -1430,7 +1488,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
                     if (command_valid) begin
                         left$d = command_data;
                         none_is_left$d = command_data == none;
-                        if (is_insert) begin
+                        if (command$q == insert_code) begin
                             state$d = CommandState$Points;
                         end
                         else begin
@@ -1478,7 +1536,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
 endmodule // incircle_core_logic$command_port
 
 
-module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,clears,contexts,is_refused);
+module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,clears,deal,is_refused);
     
     // Module arguments
     input wire  clock;
@@ -1487,7 +1545,7 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     input wire  accepts;
     input wire  [31:0] word;
     output reg  clears;
-    output reg  [4:0] contexts;
+    output reg  [12:0] deal;
     output reg  is_refused;
     
     // Stub signals
@@ -1497,6 +1555,12 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     reg  [4:0] working$d;
     wire  [4:0] working$q;
     reg  working$clock;
+    reg  batch$d;
+    wire  batch$q;
+    reg  batch$clock;
+    reg  [6:0] dealt$d;
+    wire  [6:0] dealt$q;
+    reg  dealt$clock;
     reg  refusing$d;
     wire  refusing$q;
     reg  refusing$clock;
@@ -1508,6 +1572,8 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     reg  is_clear;
     reg  asks_too_much;
     reg  is_granted;
+    reg  [6:0] wide_working;
+    reg  [6:0] twice_working;
     reg  [7:0] clear_code;
     reg  [7:0] all_contexts;
     
@@ -1522,6 +1588,16 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
         .q(working$q),
         .clock(working$clock)
     );
+    incircle_core_logic$command_port$clear$batch batch(
+        .d(batch$d),
+        .q(batch$q),
+        .clock(batch$clock)
+    );
+    incircle_core_logic$command_port$clear$dealt dealt(
+        .d(dealt$d),
+        .q(dealt$q),
+        .clock(dealt$clock)
+    );
     incircle_core_logic$command_port$clear$refusing refusing(
         .d(refusing$d),
         .q(refusing$q),
@@ -1532,14 +1608,20 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     always @(*) begin
         clearing$clock = clock;
         working$clock = clock;
+        batch$clock = clock;
+        dealt$clock = clock;
         refusing$clock = clock;
         clearing$d = clearing$q;
         working$d = working$q;
+        batch$d = batch$q;
+        dealt$d = dealt$q;
         refusing$d = refusing$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clears = clearing$q;
-        contexts = working$q;
+        deal[(64'h0)+:(5)] = working$q;
+        deal[(64'h5)+:(1)] = batch$q;
+        deal[(64'h6)+:(7)] = dealt$q;
         is_refused = refusing$q;
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
@@ -1552,18 +1634,46 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
             refusing$d = is_clear & asks_too_much;
         end
         if (is_granted) begin
+            batch$d = word[32'h8];
             working$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
                 working$d = built;
             end
         end
+        wide_working = ((working$q) & 7'h7f);
+        twice_working = wide_working + wide_working;
+        dealt$d = 32'h10;
+        if (batch$q) begin
+            dealt$d = twice_working + wide_working;
+        end
         if (reset) begin
             clearing$d = 1'b0;
+            batch$d = 1'b0;
+            dealt$d = 32'h10;
             working$d = built;
         end
     end
     
 endmodule // incircle_core_logic$command_port$clear
+
+
+module incircle_core_logic$command_port$clear$batch(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$batch
 
 
 module incircle_core_logic$command_port$clear$clearing(d,q,clock);
@@ -1583,6 +1693,25 @@ module incircle_core_logic$command_port$clear$clearing(d,q,clock);
     end
           
 endmodule // incircle_core_logic$command_port$clear$clearing
+
+
+module incircle_core_logic$command_port$clear$dealt(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$dealt
 
 
 module incircle_core_logic$command_port$clear$refusing(d,q,clock);
@@ -1661,7 +1790,7 @@ module incircle_core_logic$command_port$first_word(d,q,clock);
 endmodule // incircle_core_logic$command_port$first_word
 
 
-module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,came,has_three,seeded,collinear,stuck,ready,takes_command,takes_point,awaits_point);
+module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,came,start_is_open,stuck,ready,takes_command,takes_point,awaits_point);
     
     // Module arguments
     input wire  is_command;
@@ -1670,9 +1799,7 @@ module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sw
     input wire  sweeps;
     input wire  none_is_left;
     input wire  came;
-    input wire  has_three;
-    input wire  seeded;
-    input wire  collinear;
+    input wire  start_is_open;
     input wire  stuck;
     output reg  ready;
     output reg  takes_command;
@@ -1680,14 +1807,14 @@ module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sw
     output reg  awaits_point;
     
     // Local signals
-    reg  start_is_open;
+    reg  is_held;
     
     // Update code
     always @(*) begin
-        start_is_open = has_three & (~seeded) & (~collinear) & (~stuck);
+        is_held = start_is_open & (~stuck);
         awaits_point = is_points & (~none_is_left);
         takes_command = is_command & (~sweeps);
-        takes_point = awaits_point & (~came) & (~start_is_open);
+        takes_point = awaits_point & (~came) & (~is_held);
         ready = is_argument | takes_command | takes_point;
     end
     
@@ -1770,7 +1897,7 @@ module incircle_core_logic$command_port$none_is_left(d,q,clock);
 endmodule // incircle_core_logic$command_port$none_is_left
 
 
-module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,collinear,stuck,accepts,word,came,came_id,point,arrived,refused,has_three,some_refused);
+module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,collinear,stuck,accepts,word,came,came_id,point,arrived,refused,some_refused);
     
     // Module arguments
     input wire  clock;
@@ -1786,7 +1913,6 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
     output reg  [31:0] point;
     output reg  [14:0] arrived;
     output reg  [31:0] refused;
-    output reg  has_three;
     output reg  some_refused;
     
     // Stub signals
@@ -1805,9 +1931,6 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
     reg  is_full$d;
     wire  is_full$q;
     reg  is_full$clock;
-    reg  is_triple$d;
-    wire  is_triple$q;
-    reg  is_triple$clock;
     reg  is_surplus$d;
     wire  is_surplus$q;
     reg  is_surplus$clock;
@@ -1822,7 +1945,6 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
     reg  stores;
     reg  has_room;
     reg  [14:0] one_arrival;
-    reg  [14:0] three;
     reg  [31:0] one;
     
     // Sub module instances
@@ -1850,11 +1972,6 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
         .d(is_full$d),
         .q(is_full$q),
         .clock(is_full$clock)
-    );
-    incircle_core_logic$command_port$slot$is_triple is_triple(
-        .d(is_triple$d),
-        .q(is_triple$q),
-        .clock(is_triple$clock)
     );
     incircle_core_logic$command_port$slot$is_surplus is_surplus(
         .d(is_surplus$d),
@@ -1885,25 +2002,20 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
         arrivals$d = arrivals$q;
         refusals$d = refusals$q;
         is_full$clock = clock;
-        is_triple$clock = clock;
         is_surplus$clock = clock;
         has_refused$clock = clock;
         is_full$d = is_full$q;
-        is_triple$d = is_triple$q;
         is_surplus$d = is_surplus$q;
         has_refused$d = has_refused$q;
         one_arrival = 32'h1;
-        three = 32'h3;
         one = 32'h1;
         came = is_new$q;
         came_id = last_id$q;
         point = last_point$q;
         arrived = arrivals$q;
         refused = refusals$q;
-        has_three = is_triple$q;
         some_refused = has_refused$q;
         is_full$d = arrivals$q == capacity;
-        is_triple$d = arrivals$q == three;
         has_room = (~collinear) & (~stuck) & (~is_full$q);
         stores = accepts & has_room;
         is_surplus$d = accepts & (~has_room);
@@ -1920,7 +2032,6 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
         if (clears | reset) begin
             arrivals$d = 32'h0;
             is_full$d = 1'b0;
-            is_triple$d = 1'b0;
             is_surplus$d = 1'b0;
             refusals$d = 32'h0;
             has_refused$d = 1'b0;
@@ -2026,25 +2137,6 @@ module incircle_core_logic$command_port$slot$is_surplus(d,q,clock);
     end
           
 endmodule // incircle_core_logic$command_port$slot$is_surplus
-
-
-module incircle_core_logic$command_port$slot$is_triple(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$slot$is_triple
 
 
 module incircle_core_logic$command_port$slot$last_id(d,q,clock);
@@ -5009,7 +5101,7 @@ module incircle_core_logic$counters$zeroes(d,q,clock);
 endmodule // incircle_core_logic$counters$zeroes
 
 
-module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience,contexts,clears,came,came_id,point,arrived,read,read_id,now,seeded,collinear,records,is_quiet,stuck,sweeps,read_done,v0,v1,v2,n0,n1,n2,was_set,write,events);
+module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience,deal,clears,came,came_id,point,arrived,read,read_id,now,start_is_open,collinear,records,is_quiet,stuck,sweeps,read_done,v0,v1,v2,n0,n1,n2,was_set,write,events);
     
     // Module arguments
     input wire  clock;
@@ -5019,7 +5111,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     input wire  [14:0] last_id;
     input wire  [23:0] all;
     input wire  [21:0] patience;
-    input wire  [4:0] contexts;
+    input wire  [12:0] deal;
     input wire  clears;
     input wire  came;
     input wire  [14:0] came_id;
@@ -5028,7 +5120,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     input wire  read;
     input wire  [14:0] read_id;
     input wire  [21:0] now;
-    output reg  seeded;
+    output reg  start_is_open;
     output reg  collinear;
     output reg  [14:0] records;
     output reg  is_quiet;
@@ -5053,7 +5145,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  [14:0] insertions$last_id;
     reg  [23:0] insertions$all;
     reg  [21:0] insertions$patience;
-    reg  [4:0] insertions$contexts;
+    reg  [12:0] insertions$deal;
     reg  [14:0] insertions$arrived;
     reg  insertions$came;
     reg  [21:0] insertions$now;
@@ -5064,8 +5156,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  [97:0] insertions$turned;
     reg  [19:0] insertions$verdict;
     reg  insertions$seeded;
-    reg  insertions$collinear;
-    reg  insertions$is_seeding;
+    reg  insertions$has_no_start;
     reg  insertions$seeds;
     reg  insertions$solo_is_at_work;
     reg  insertions$solo_ends;
@@ -5151,13 +5242,17 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  seeder$reset;
     reg  seeder$clears;
     reg  [14:0] seeder$infinite;
-    reg  seeder$prepares;
+    reg  [12:0] seeder$deal;
+    reg  seeder$came;
+    reg  [14:0] seeder$came_id;
+    reg  [14:0] seeder$arrived;
     reg  seeder$looks;
     reg  [19:0] seeder$verdict;
     wire  seeder$seeded;
+    wire  seeder$start_is_open;
     wire  seeder$collinear;
+    wire  seeder$has_no_start;
     wire  seeder$seeds;
-    wire  seeder$is_at_work;
     wire  [109:0] seeder$write;
     reg  push_port$clock;
     reg  push_port$reset;
@@ -5180,9 +5275,6 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     wire  [109:0] write_port$write;
     wire  [33:0] write_port$enables;
     
-    // Local signals
-    reg  [14:0] first_vertex;
-    
     // Sub module instances
     incircle_core_logic$engine$insertions insertions(
         .clock(insertions$clock),
@@ -5192,7 +5284,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .last_id(insertions$last_id),
         .all(insertions$all),
         .patience(insertions$patience),
-        .contexts(insertions$contexts),
+        .deal(insertions$deal),
         .arrived(insertions$arrived),
         .came(insertions$came),
         .now(insertions$now),
@@ -5203,8 +5295,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .turned(insertions$turned),
         .verdict(insertions$verdict),
         .seeded(insertions$seeded),
-        .collinear(insertions$collinear),
-        .is_seeding(insertions$is_seeding),
+        .has_no_start(insertions$has_no_start),
         .seeds(insertions$seeds),
         .solo_is_at_work(insertions$solo_is_at_work),
         .solo_ends(insertions$solo_ends),
@@ -5296,13 +5387,17 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .reset(seeder$reset),
         .clears(seeder$clears),
         .infinite(seeder$infinite),
-        .prepares(seeder$prepares),
+        .deal(seeder$deal),
+        .came(seeder$came),
+        .came_id(seeder$came_id),
+        .arrived(seeder$arrived),
         .looks(seeder$looks),
         .verdict(seeder$verdict),
         .seeded(seeder$seeded),
+        .start_is_open(seeder$start_is_open),
         .collinear(seeder$collinear),
+        .has_no_start(seeder$has_no_start),
         .seeds(seeder$seeds),
-        .is_at_work(seeder$is_at_work),
         .write(seeder$write)
     );
     incircle_core_logic$engine$push_port push_port(
@@ -5338,7 +5433,6 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         seeder$clock = clock;
         push_port$clock = clock;
         write_port$clock = clock;
-        first_vertex = 32'h0;
         insertions$reset = reset;
         pipeline$reset = reset;
         solo$reset = reset;
@@ -5347,7 +5441,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         write_port$reset = reset;
         insertions$clears = clears;
         seeder$clears = clears;
-        seeded = seeder$seeded;
+        start_is_open = seeder$start_is_open;
         collinear = seeder$collinear;
         records = insertions$records;
         is_quiet = insertions$is_quiet;
@@ -5383,7 +5477,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         insertions$last_id = last_id;
         insertions$all = all;
         insertions$patience = patience;
-        insertions$contexts = contexts;
+        insertions$deal = deal;
         insertions$arrived = arrived;
         insertions$came = came;
         insertions$now = now;
@@ -5394,14 +5488,16 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         insertions$turned = pipeline$turned;
         insertions$verdict = pipeline$verdict;
         insertions$seeded = seeder$seeded;
-        insertions$collinear = seeder$collinear;
         insertions$seeds = seeder$seeds;
-        insertions$is_seeding = seeder$is_at_work;
+        insertions$has_no_start = seeder$has_no_start;
         insertions$solo_is_at_work = solo$is_at_work;
         insertions$solo_ends = solo$ends;
         insertions$solo_inserts = solo$inserts;
         seeder$infinite = infinite;
-        seeder$prepares = came & (came_id == first_vertex);
+        seeder$deal = deal;
+        seeder$came = came;
+        seeder$came_id = came_id;
+        seeder$arrived = arrived;
         seeder$looks = insertions$looks;
         seeder$verdict = pipeline$verdict;
         solo$starts = insertions$solo_starts;
@@ -5435,7 +5531,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
 endmodule // incircle_core_logic$engine
 
 
-module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,contexts,arrived,came,now,early_done,early_token,early_turned,token,turned,verdict,seeded,collinear,is_seeding,seeds,solo_is_at_work,solo_ends,solo_inserts,asks,may_ask,follows,starts,starter,u,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,write,records,fresh,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
+module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,deal,arrived,came,now,early_done,early_token,early_turned,token,turned,verdict,seeded,has_no_start,seeds,solo_is_at_work,solo_ends,solo_inserts,asks,may_ask,follows,starts,starter,u,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,write,records,fresh,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
     
     // Module arguments
     input wire  clock;
@@ -5445,7 +5541,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     input wire  [14:0] last_id;
     input wire  [23:0] all;
     input wire  [21:0] patience;
-    input wire  [4:0] contexts;
+    input wire  [12:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  [21:0] now;
@@ -5456,8 +5552,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     input wire  [97:0] turned;
     input wire  [19:0] verdict;
     input wire  seeded;
-    input wire  collinear;
-    input wire  is_seeding;
+    input wire  has_no_start;
     input wire  seeds;
     input wire  solo_is_at_work;
     input wire  solo_ends;
@@ -5491,12 +5586,11 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     reg  dispatcher$clears;
     reg  [23:0] dispatcher$all;
     reg  [21:0] dispatcher$patience;
-    reg  [4:0] dispatcher$contexts;
+    reg  [12:0] dispatcher$deal;
     reg  [14:0] dispatcher$arrived;
     reg  dispatcher$came;
     reg  dispatcher$seeded;
-    reg  dispatcher$collinear;
-    reg  dispatcher$is_seeding;
+    reg  dispatcher$has_no_start;
     reg  dispatcher$seeds;
     reg  [4:0] dispatcher$owner;
     reg  dispatcher$sleeps;
@@ -5625,12 +5719,11 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         .clears(dispatcher$clears),
         .all(dispatcher$all),
         .patience(dispatcher$patience),
-        .contexts(dispatcher$contexts),
+        .deal(dispatcher$deal),
         .arrived(dispatcher$arrived),
         .came(dispatcher$came),
         .seeded(dispatcher$seeded),
-        .collinear(dispatcher$collinear),
-        .is_seeding(dispatcher$is_seeding),
+        .has_no_start(dispatcher$has_no_start),
         .seeds(dispatcher$seeds),
         .owner(dispatcher$owner),
         .sleeps(dispatcher$sleeps),
@@ -5787,12 +5880,11 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         follows = attempts$bundle;
         dispatcher$all = all;
         dispatcher$patience = patience;
-        dispatcher$contexts = contexts;
+        dispatcher$deal = deal;
         dispatcher$arrived = arrived;
         dispatcher$came = came;
         dispatcher$seeded = seeded;
-        dispatcher$collinear = collinear;
-        dispatcher$is_seeding = is_seeding;
+        dispatcher$has_no_start = has_no_start;
         dispatcher$seeds = seeds;
         dispatcher$solo_is_at_work = solo_is_at_work;
         dispatcher$solo_ends = solo_ends;
@@ -8585,8 +8677,11 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids(clock,rese
         if (solo_inserts) begin
             step = two;
         end
+        if (seeds) begin
+            step = seed_records;
+        end
         raised = taken$q + step;
-        if (takes | solo_inserts) begin
+        if (takes | solo_inserts | seeds) begin
             taken$d = raised;
         end
         ended_before_1$d = ends;
@@ -8597,12 +8692,8 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids(clock,rese
         if (ended_before_2$q) begin
             written$d = ended$q;
         end
-        if (solo_inserts) begin
+        if (solo_inserts | seeds) begin
             written$d = raised;
-        end
-        if (seeds) begin
-            taken$d = seed_records;
-            written$d = seed_records;
         end
         if (clears | reset) begin
             taken$d = none;
@@ -12506,7 +12597,7 @@ module incircle_core_logic$engine$insertions$commits$rings$rings$oldest(d,q,cloc
 endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$oldest
 
 
-module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,contexts,arrived,came,seeded,collinear,is_seeding,seeds,owner,sleeps,keeps,hands_over,asks_to_wait,waits,stops_waiting,overflows,duplicate,root_enable,root,is_done,may_ask,commit_ends,commit_owner,hint,released,released_owner,solo_is_at_work,solo_ends,starts,starter,u,takes,taken_id,position_enable,position_owner,busy,waiter_valid,waiter,solo_starts,solo_owner,solo_p,takes_token,is_quiet,stuck);
+module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,deal,arrived,came,seeded,has_no_start,seeds,owner,sleeps,keeps,hands_over,asks_to_wait,waits,stops_waiting,overflows,duplicate,root_enable,root,is_done,may_ask,commit_ends,commit_owner,hint,released,released_owner,solo_is_at_work,solo_ends,starts,starter,u,takes,taken_id,position_enable,position_owner,busy,waiter_valid,waiter,solo_starts,solo_owner,solo_p,takes_token,is_quiet,stuck);
     
     // Module arguments
     input wire  clock;
@@ -12514,12 +12605,11 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     input wire  clears;
     input wire  [23:0] all;
     input wire  [21:0] patience;
-    input wire  [4:0] contexts;
+    input wire  [12:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  seeded;
-    input wire  collinear;
-    input wire  is_seeding;
+    input wire  has_no_start;
     input wire  seeds;
     input wire  [4:0] owner;
     input wire  sleeps;
@@ -12638,7 +12728,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     reg  start$clock;
     reg  start$reset;
     reg  start$clears;
-    reg  [4:0] start$contexts;
+    reg  [12:0] start$deal;
     reg  [14:0] start$arrived;
     reg  start$came;
     reg  start$seeded;
@@ -12676,8 +12766,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     reg  progress$commit_ends;
     reg  progress$solo_ends;
     reg  progress$duplicate;
-    reg  progress$collinear;
-    reg  progress$is_seeding;
+    reg  progress$has_no_start;
     reg  progress$all_rest;
     wire  progress$is_quiet;
     wire  progress$finishes;
@@ -12801,7 +12890,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         .clock(start$clock),
         .reset(start$reset),
         .clears(start$clears),
-        .contexts(start$contexts),
+        .deal(start$deal),
         .arrived(start$arrived),
         .came(start$came),
         .seeded(start$seeded),
@@ -12841,8 +12930,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         .commit_ends(progress$commit_ends),
         .solo_ends(progress$solo_ends),
         .duplicate(progress$duplicate),
-        .collinear(progress$collinear),
-        .is_seeding(progress$is_seeding),
+        .has_no_start(progress$has_no_start),
         .all_rest(progress$all_rest),
         .is_quiet(progress$is_quiet),
         .finishes(progress$finishes)
@@ -12931,7 +13019,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         waiter = flags$waiter;
         solo_owner = flags$solo_owner;
         takes_token = flags$takes_token;
-        start$contexts = contexts;
+        start$deal = deal;
         start$arrived = arrived;
         start$came = came;
         start$seeded = seeded;
@@ -12972,8 +13060,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         progress$commit_ends = commit_ends;
         progress$solo_ends = solo_ends;
         progress$duplicate = found_duplicate$q;
-        progress$collinear = collinear;
-        progress$is_seeding = is_seeding;
+        progress$has_no_start = has_no_start;
         progress$all_rest = flags$all_rest;
         is_quiet = progress$is_quiet;
         watchdog$patience = patience;
@@ -13676,7 +13763,7 @@ module incircle_core_logic$engine$insertions$dispatcher$found_waits(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$dispatcher$found_waits
 
 
-module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,clears,arrived,seeds,commit_ends,solo_ends,duplicate,collinear,is_seeding,all_rest,is_quiet,finishes);
+module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,clears,arrived,seeds,commit_ends,solo_ends,duplicate,has_no_start,all_rest,is_quiet,finishes);
     
     // Module arguments
     input wire  clock;
@@ -13687,8 +13774,7 @@ module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,cle
     input wire  commit_ends;
     input wire  solo_ends;
     input wire  duplicate;
-    input wire  collinear;
-    input wire  is_seeding;
+    input wire  has_no_start;
     input wire  all_rest;
     output reg  is_quiet;
     output reg  finishes;
@@ -13700,21 +13786,13 @@ module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,cle
     reg  [1:0] more$d;
     wire  [1:0] more$q;
     reg  more$clock;
-    reg  starts$d;
-    wire  starts$q;
-    reg  starts$clock;
     reg  is_behind$d;
     wire  is_behind$q;
     reg  is_behind$clock;
-    reg  has_triple$d;
-    wire  has_triple$q;
-    reg  has_triple$clock;
     
     // Local signals
     reg  inserts;
-    reg  has_no_start;
     reg  [14:0] wide_more;
-    reg  [14:0] three;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$dispatcher$progress$finished finished(
@@ -13727,42 +13805,24 @@ module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,cle
         .q(more$q),
         .clock(more$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$progress$starts starts(
-        .d(starts$d),
-        .q(starts$q),
-        .clock(starts$clock)
-    );
     incircle_core_logic$engine$insertions$dispatcher$progress$is_behind is_behind(
         .d(is_behind$d),
         .q(is_behind$q),
         .clock(is_behind$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$progress$has_triple has_triple(
-        .d(has_triple$d),
-        .q(has_triple$q),
-        .clock(has_triple$clock)
     );
     
     // Update code
     always @(*) begin
         finished$clock = clock;
         more$clock = clock;
-        starts$clock = clock;
         is_behind$clock = clock;
-        has_triple$clock = clock;
         finished$d = finished$q;
         more$d = more$q;
-        starts$d = starts$q;
         is_behind$d = is_behind$q;
-        has_triple$d = has_triple$q;
-        three = 32'h3;
         inserts = commit_ends | solo_ends;
         finishes = inserts | duplicate | seeds;
         is_behind$d = finished$q != arrived;
-        has_triple$d = arrived >= three;
-        has_no_start = ((~has_triple$q) | collinear) & (~is_seeding);
         is_quiet = ((~is_behind$q) | has_no_start) & all_rest;
-        starts$d = seeds;
         more$d = 32'h0;
         if (inserts | duplicate) begin
             more$d = 32'h1;
@@ -13770,19 +13830,17 @@ module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,cle
         if (inserts & duplicate) begin
             more$d = 32'h2;
         end
+        if (seeds) begin
+            more$d = 32'h3;
+        end
         wide_more = ((more$q) & 15'h7fff);
         finished$d = finished$q + wide_more;
-        if (starts$q) begin
-            finished$d = 32'h3;
-        end
         if (reset | clears) begin
-            starts$d = 1'b0;
             more$d = 32'h0;
             finished$d = 32'h0;
         end
         if (reset) begin
             is_behind$d = 1'b0;
-            has_triple$d = 1'b0;
         end
     end
     
@@ -13806,25 +13864,6 @@ module incircle_core_logic$engine$insertions$dispatcher$progress$finished(d,q,cl
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$finished
-
-
-module incircle_core_logic$engine$insertions$dispatcher$progress$has_triple(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$has_triple
 
 
 module incircle_core_logic$engine$insertions$dispatcher$progress$is_behind(d,q,clock);
@@ -13865,32 +13904,13 @@ module incircle_core_logic$engine$insertions$dispatcher$progress$more(d,q,clock)
 endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$more
 
 
-module incircle_core_logic$engine$insertions$dispatcher$progress$starts(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$starts
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears,contexts,arrived,came,seeded,asleep,keeping,busy,began,hinted,solo_valid,is_urgent,waiter,solo_owner,solo_is_at_work,all_rest,is_done,is_blocked,root_enable,root_owner,root,hint_enable,hint_owner,hint,starts,owner,u,takes,taken_id,solo_starts,solo_p);
+module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears,deal,arrived,came,seeded,asleep,keeping,busy,began,hinted,solo_valid,is_urgent,waiter,solo_owner,solo_is_at_work,all_rest,is_done,is_blocked,root_enable,root_owner,root,hint_enable,hint_owner,hint,starts,owner,u,takes,taken_id,solo_starts,solo_p);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
-    input wire  [4:0] contexts;
+    input wire  [12:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  seeded;
@@ -13991,15 +14011,18 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  hints$write_enable;
     reg  [4:0] hints$read_address;
     wire  [14:0] hints$read_data;
+    reg  [12:0] following$deal;
     reg  [4:0] following$turn;
     reg  following$has_begun;
     reg  [14:0] following$planned;
     wire  [14:0] following$next_id;
+    reg  [4:0] following$taker;
     reg  [14:0] following$taken;
-    reg  [4:0] following$contexts;
     wire  [14:0] following$after_taken;
+    wire  [14:0] following$first_record;
     
     // Local signals
+    reg  [4:0] contexts;
     reg  [4:0] turn_index;
     reg  [4:0] index;
     reg  is_asleep;
@@ -14131,13 +14154,15 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .read_data(hints$read_data)
     );
     incircle_core_logic$engine$insertions$dispatcher$start$following following(
+        .deal(following$deal),
         .turn(following$turn),
         .has_begun(following$has_begun),
         .planned(following$planned),
         .next_id(following$next_id),
+        .taker(following$taker),
         .taken(following$taken),
-        .contexts(following$contexts),
-        .after_taken(following$after_taken)
+        .after_taken(following$after_taken),
+        .first_record(following$first_record)
     );
     
     // Update code
@@ -14181,6 +14206,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         resting_round = 32'h0;
         first_context = 32'h0;
         first_round = 32'h10;
+        contexts = deal[(64'h0)+:(5)];
         turn_index = turn$q;
         points$read_address = turn$q;
         following$turn = turn$q;
@@ -14188,7 +14214,8 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         plans$read_address = turn$q;
         following$planned = plans$read_data;
         following$taken = passed_id$q;
-        following$contexts = contexts;
+        following$taker = passed$q;
+        following$deal = deal;
         index = passed$q;
         is_barred = solo_valid | ((wants_again$q | wants_new$q) & (contexts == one_turn));
         is_asleep = asleep[index] & (~is_barred);
@@ -14243,7 +14270,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
             wants_again$d = is_asleep & tries_again & is_rested & may_try;
             wants_new$d = is_asleep & (~tries_again) & is_there & may_work;
             is_alone$d = passed$q == solo_owner;
-            from$d = 32'h0;
+            from$d = following$first_record;
             if (hinted[index]) begin
                 from$d = hints$read_data;
             end
@@ -14267,7 +14294,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
             is_alone$d = 1'b0;
-            all_work$d = 1'b0;
+            all_work$d = deal[(64'h5)+:(1)] & (~reset);
         end
     end
     
@@ -14369,38 +14396,66 @@ module incircle_core_logic$engine$insertions$dispatcher$start$candidate_point(d,
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$following(turn,has_begun,planned,next_id,taken,contexts,after_taken);
+module incircle_core_logic$engine$insertions$dispatcher$start$following(deal,turn,has_begun,planned,next_id,taker,taken,after_taken,first_record);
     
     // Module arguments
+    input wire  [12:0] deal;
     input wire  [4:0] turn;
     input wire  has_begun;
     input wire  [14:0] planned;
     output reg  [14:0] next_id;
+    input wire  [4:0] taker;
     input wire  [14:0] taken;
-    input wire  [4:0] contexts;
     output reg  [14:0] after_taken;
+    output reg  [14:0] first_record;
     
     // Local signals
+    reg  is_batch;
+    reg  is_early;
+    reg  [14:0] from;
     reg  [14:0] step;
     reg  [14:0] wide_turn;
+    reg  [14:0] twice_turn;
+    reg  [14:0] thrice_turn;
+    reg  [14:0] wide_taker;
+    reg  [14:0] dealt_from;
     reg  [14:0] first_round;
     reg  [4:0] first_context;
+    reg  [14:0] one;
+    reg  [14:0] two;
     
     // Update code
     always @(*) begin
         first_round = 32'h10;
         first_context = 32'h0;
+        one = 32'h1;
+        two = 32'h2;
+        is_batch = deal[(64'h5)+:(1)];
         wide_turn = ((turn) & 15'h7fff);
-        step = ((contexts) & 15'h7fff);
-        if (taken < first_round) begin
-            step = 32'h1;
+        wide_taker = ((taker) & 15'h7fff);
+        dealt_from = ((deal[(64'h6)+:(7)]) & 15'h7fff);
+        is_early = taken < dealt_from;
+        from = taken;
+        step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
+        if (is_early) begin
+            step = one;
         end
-        after_taken = taken + step;
+        if (is_early & is_batch) begin
+            from = dealt_from;
+            step = wide_taker;
+        end
+        after_taken = from + step;
+        first_record = 32'h0;
+        if (is_batch) begin
+            first_record = wide_taker << two;
+        end
+        twice_turn = wide_turn << one;
+        thrice_turn = wide_turn + twice_turn;
         next_id = planned;
         if (~has_begun) begin
             next_id = wide_turn + first_round;
-            if (turn == first_context) begin
-                next_id = 32'h2;
+            if (is_batch | (turn == first_context)) begin
+                next_id = thrice_turn + two;
             end
         end
     end
@@ -23081,20 +23136,24 @@ module incircle_core_logic$engine$push_port$pushes(d,q,clock);
 endmodule // incircle_core_logic$engine$push_port$pushes
 
 
-module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,looks,verdict,seeded,collinear,seeds,is_at_work,write);
+module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,deal,came,came_id,arrived,looks,verdict,seeded,start_is_open,collinear,has_no_start,seeds,write);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
     input wire  [14:0] infinite;
-    input wire  prepares;
+    input wire  [12:0] deal;
+    input wire  came;
+    input wire  [14:0] came_id;
+    input wire  [14:0] arrived;
     input wire  looks;
     input wire  [19:0] verdict;
     output reg  seeded;
+    output reg  start_is_open;
     output reg  collinear;
+    output reg  has_no_start;
     output reg  seeds;
-    output reg  is_at_work;
     output reg  [109:0] write;
     
     // Stub signals
@@ -23113,17 +23172,39 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,lo
     reg  [109:0] request$d;
     wire  [109:0] request$q;
     reg  request$clock;
+    reg  [14:0] vertex$d;
+    wire  [14:0] vertex$q;
+    reg  vertex$clock;
+    reg  [14:0] record$d;
+    wire  [14:0] record$q;
+    reg  record$clock;
+    reg  [14:0] triple$d;
+    wire  [14:0] triple$q;
+    reg  triple$clock;
+    reg  [4:0] following$d;
+    wire  [4:0] following$q;
+    reg  following$clock;
+    reg  has_triple$d;
+    wire  has_triple$q;
+    reg  has_triple$clock;
     reg  [2:0] writes$step;
+    reg  [14:0] writes$first_vertex;
+    reg  [14:0] writes$first_record;
     reg  writes$turns_left;
     reg  [14:0] writes$infinite;
     wire  [109:0] writes$write;
     
     // Local signals
+    reg  prepares;
     reg  is_writing;
     reg  is_last;
+    reg  is_last_job;
     reg  [2:0] look_step;
     reg  [2:0] last_step;
     reg  [2:0] one;
+    reg  [4:0] one_job;
+    reg  [14:0] three_vertices;
+    reg  [14:0] four_records;
     
     // Sub module instances
     incircle_core_logic$engine$seeder$step step(
@@ -23151,8 +23232,35 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,lo
         .q(request$q),
         .clock(request$clock)
     );
+    incircle_core_logic$engine$seeder$vertex vertex(
+        .d(vertex$d),
+        .q(vertex$q),
+        .clock(vertex$clock)
+    );
+    incircle_core_logic$engine$seeder$record record(
+        .d(record$d),
+        .q(record$q),
+        .clock(record$clock)
+    );
+    incircle_core_logic$engine$seeder$triple triple(
+        .d(triple$d),
+        .q(triple$q),
+        .clock(triple$clock)
+    );
+    incircle_core_logic$engine$seeder$following following(
+        .d(following$d),
+        .q(following$q),
+        .clock(following$clock)
+    );
+    incircle_core_logic$engine$seeder$has_triple has_triple(
+        .d(has_triple$d),
+        .q(has_triple$q),
+        .clock(has_triple$clock)
+    );
     incircle_core_logic$engine$seeder$writes writes(
         .step(writes$step),
+        .first_vertex(writes$first_vertex),
+        .first_record(writes$first_record),
         .turns_left(writes$turns_left),
         .infinite(writes$infinite),
         .write(writes$write)
@@ -23170,27 +23278,52 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,lo
         is_collinear$d = is_collinear$q;
         turns_left$d = turns_left$q;
         request$d = request$q;
+        vertex$clock = clock;
+        record$clock = clock;
+        triple$clock = clock;
+        following$clock = clock;
+        has_triple$clock = clock;
+        vertex$d = vertex$q;
+        record$d = record$q;
+        triple$d = triple$q;
+        following$d = following$q;
+        has_triple$d = has_triple$q;
         look_step = 32'h0;
         last_step = 32'h4;
         one = 32'h1;
+        one_job = 32'h1;
+        three_vertices = 32'h3;
+        four_records = 32'h4;
         is_writing = step$q != look_step;
         is_last = step$q == last_step;
         seeded = is_seeded$q;
         collinear = is_collinear$q;
         seeds = is_last;
-        is_at_work = is_writing;
+        start_is_open = has_triple$q & (~is_seeded$q) & (~is_collinear$q);
+        has_no_start = ((~has_triple$q) | is_collinear$q) & (~is_writing);
+        prepares = came & (came_id == vertex$q);
         writes$step = step$q;
+        writes$first_vertex = vertex$q;
+        writes$first_record = record$q;
         writes$turns_left = turns_left$q;
         writes$infinite = infinite;
         request$d = writes$write;
         request$d[(64'h0)+:(1)] = is_writing | prepares;
         write = request$q;
+        has_triple$d = arrived >= triple$q;
+        is_last_job = (~deal[(64'h5)+:(1)]) | (following$q == deal[(64'h0)+:(5)]);
         if (is_writing) begin
             step$d = step$q + one;
         end
         if (is_last) begin
-            is_seeded$d = 1'b1;
             step$d = 32'h0;
+            is_seeded$d = is_last_job;
+            if (~is_last_job) begin
+                vertex$d = vertex$q + three_vertices;
+                record$d = record$q + four_records;
+                triple$d = triple$q + three_vertices;
+                following$d = following$q + one_job;
+            end
         end
         if (looks) begin
             turns_left$d = verdict[(64'h3)+:(1)];
@@ -23202,6 +23335,11 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,lo
         if (clears | reset) begin
             is_seeded$d = 1'b0;
             is_collinear$d = 1'b0;
+            has_triple$d = 1'b0;
+            vertex$d = 32'h0;
+            record$d = 32'h0;
+            triple$d = 32'h3;
+            following$d = 32'h1;
         end
         if (reset) begin
             step$d = 32'h0;
@@ -23210,6 +23348,44 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,lo
     end
     
 endmodule // incircle_core_logic$engine$seeder
+
+
+module incircle_core_logic$engine$seeder$following(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$seeder$following
+
+
+module incircle_core_logic$engine$seeder$has_triple(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$seeder$has_triple
 
 
 module incircle_core_logic$engine$seeder$is_collinear(d,q,clock);
@@ -23250,6 +23426,25 @@ module incircle_core_logic$engine$seeder$is_seeded(d,q,clock);
 endmodule // incircle_core_logic$engine$seeder$is_seeded
 
 
+module incircle_core_logic$engine$seeder$record(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$seeder$record
+
+
 module incircle_core_logic$engine$seeder$request(d,q,clock);
     
     // Module arguments
@@ -23288,6 +23483,25 @@ module incircle_core_logic$engine$seeder$step(d,q,clock);
 endmodule // incircle_core_logic$engine$seeder$step
 
 
+module incircle_core_logic$engine$seeder$triple(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$seeder$triple
+
+
 module incircle_core_logic$engine$seeder$turns_left(d,q,clock);
     
     // Module arguments
@@ -23307,10 +23521,31 @@ module incircle_core_logic$engine$seeder$turns_left(d,q,clock);
 endmodule // incircle_core_logic$engine$seeder$turns_left
 
 
-module incircle_core_logic$engine$seeder$writes(step,turns_left,infinite,write);
+module incircle_core_logic$engine$seeder$vertex(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$seeder$vertex
+
+
+module incircle_core_logic$engine$seeder$writes(step,first_vertex,first_record,turns_left,infinite,write);
     
     // Module arguments
     input wire  [2:0] step;
+    input wire  [14:0] first_vertex;
+    input wire  [14:0] first_record;
     input wire  turns_left;
     input wire  [14:0] infinite;
     output reg  [109:0] write;
@@ -23326,8 +23561,15 @@ module incircle_core_logic$engine$seeder$writes(step,turns_left,infinite,write);
     wire  [109:0] record$write;
     
     // Local signals
+    reg  [14:0] a;
     reg  [14:0] b;
     reg  [14:0] c;
+    reg  [14:0] second;
+    reg  [14:0] third;
+    reg  [14:0] id0;
+    reg  [14:0] id1;
+    reg  [14:0] id2;
+    reg  [14:0] id3;
     reg  is_look;
     reg  is_triangle;
     reg  is_ghost1;
@@ -23336,6 +23578,9 @@ module incircle_core_logic$engine$seeder$writes(step,turns_left,infinite,write);
     reg  [2:0] triangle_step;
     reg  [2:0] ghost1_step;
     reg  [2:0] ghost2_step;
+    reg  [14:0] one;
+    reg  [14:0] two;
+    reg  [14:0] three;
     
     // Sub module instances
     incircle_core_logic$engine$seeder$writes$record record(
@@ -23355,50 +23600,60 @@ module incircle_core_logic$engine$seeder$writes(step,turns_left,infinite,write);
         triangle_step = 32'h1;
         ghost1_step = 32'h2;
         ghost2_step = 32'h3;
+        one = 32'h1;
+        two = 32'h2;
+        three = 32'h3;
         is_look = step == look_step;
         is_triangle = step == triangle_step;
         is_ghost1 = step == ghost1_step;
         is_ghost2 = step == ghost2_step;
-        b = 32'h2;
-        c = 32'h1;
+        a = first_vertex;
+        second = first_vertex + one;
+        third = first_vertex + two;
+        b = third;
+        c = second;
         if (turns_left | is_look) begin
-            b = 32'h1;
-            c = 32'h2;
+            b = second;
+            c = third;
         end
-        record$id = 32'h3;
+        id0 = first_record;
+        id1 = first_record | one;
+        id2 = first_record | two;
+        id3 = first_record | three;
+        record$id = id3;
         record$v0 = b;
-        record$v1 = 32'h0;
+        record$v1 = a;
         record$v2 = infinite;
-        record$n0 = 32'h2;
-        record$n1 = 32'h1;
-        record$n2 = 32'h0;
+        record$n0 = id2;
+        record$n1 = id1;
+        record$n2 = id0;
         if (is_ghost2) begin
-            record$id = 32'h2;
-            record$v0 = 32'h0;
+            record$id = id2;
+            record$v0 = a;
             record$v1 = c;
-            record$n0 = 32'h1;
-            record$n1 = 32'h3;
+            record$n0 = id1;
+            record$n1 = id3;
         end
         if (is_ghost1) begin
-            record$id = 32'h1;
+            record$id = id1;
             record$v0 = c;
             record$v1 = b;
-            record$n0 = 32'h3;
-            record$n1 = 32'h2;
+            record$n0 = id3;
+            record$n1 = id2;
         end
         if (is_triangle | is_look) begin
-            record$id = 32'h0;
-            record$v0 = 32'h0;
+            record$id = id0;
+            record$v0 = a;
             record$v1 = b;
             record$v2 = c;
-            record$n0 = 32'h1;
-            record$n1 = 32'h2;
-            record$n2 = 32'h3;
+            record$n0 = id1;
+            record$n1 = id2;
+            record$n2 = id3;
         end
         if (is_look) begin
-            record$n0 = 32'h0;
-            record$n1 = 32'h0;
-            record$n2 = 32'h0;
+            record$n0 = id0;
+            record$n1 = id0;
+            record$n2 = id0;
         end
         write = record$write;
     end
@@ -26080,7 +26335,7 @@ module incircle_core_logic$latencies$sweep_bucket(d,q,clock);
 endmodule // incircle_core_logic$latencies$sweep_bucket
 
 
-module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,length,is_empty,word,is_read,index,index_ahead,chooses,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,response_valid,response_ready,response_data,is_idle,ends,is_taken);
+module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,header,length,is_empty,word,is_read,is_packed,index,index_ahead,chooses,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,response_valid,response_ready,response_data,response_both,response_last,is_idle,ends,is_taken);
     
     // Module arguments
     input wire  clock;
@@ -26088,11 +26343,13 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     input wire  answers;
     input wire  sweeps;
     input wire  [31:0] first;
+    input wire  [31:0] count;
     input wire  [31:0] header;
     input wire  [31:0] length;
     input wire  is_empty;
     input wire  [31:0] word;
     input wire  is_read;
+    input wire  is_packed;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
     output reg  chooses;
@@ -26108,7 +26365,9 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     input wire  was_set;
     output reg  response_valid;
     input wire  response_ready;
-    output reg  [31:0] response_data;
+    output reg  [63:0] response_data;
+    output reg  response_both;
+    output reg  response_last;
     output reg  is_idle;
     output reg  ends;
     output reg  is_taken;
@@ -26117,10 +26376,9 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     localparam AnswerState$Idle = 0;
     localparam AnswerState$Prepare = 1;
     localparam AnswerState$Header = 2;
-    localparam AnswerState$Length = 3;
-    localparam AnswerState$Choose = 4;
-    localparam AnswerState$Payload = 5;
-    localparam AnswerState$Records = 6;
+    localparam AnswerState$Choose = 3;
+    localparam AnswerState$Payload = 4;
+    localparam AnswerState$Records = 5;
     
     // Stub signals
     reg  [2:0] state$d;
@@ -26135,9 +26393,9 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     reg  valid$d;
     wire  valid$q;
     reg  valid$clock;
-    reg  [31:0] data$d;
-    wire  [31:0] data$q;
-    reg  data$clock;
+    reg  [65:0] offered$d;
+    wire  [65:0] offered$q;
+    reg  offered$clock;
     reg  [31:0] left$d;
     wire  [31:0] left$q;
     reg  left$clock;
@@ -26147,34 +26405,36 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
     reg  [6:0] loaded$d;
     wire  [6:0] loaded$q;
     reg  loaded$clock;
-    reg  [14:0] record_id$d;
-    wire  [14:0] record_id$q;
-    reg  record_id$clock;
-    reg  fetching$d;
-    wire  fetching$q;
-    reg  fetching$clock;
-    reg  record$clock;
-    reg  record$reset;
-    reg  record$read_done;
-    reg  [14:0] record$v0;
-    reg  [14:0] record$v1;
-    reg  [14:0] record$v2;
-    reg  [14:0] record$n0;
-    reg  [14:0] record$n1;
-    reg  [14:0] record$n2;
-    reg  record$was_set;
-    wire  record$holds;
-    wire  [31:0] record$word;
-    reg  record$takes;
+    reg  records$clock;
+    reg  records$reset;
+    reg  records$starts;
+    reg  [14:0] records$first;
+    reg  [14:0] records$count;
+    reg  records$is_packed;
+    reg  records$runs;
+    wire  records$read;
+    wire  [14:0] records$read_id;
+    reg  records$read_done;
+    reg  [14:0] records$v0;
+    reg  [14:0] records$v1;
+    reg  [14:0] records$v2;
+    reg  [14:0] records$n0;
+    reg  [14:0] records$n1;
+    reg  [14:0] records$n2;
+    reg  records$was_set;
+    wire  records$valid;
+    wire  [65:0] records$beat;
+    reg  records$takes;
     
     // Local signals
+    reg  [63:0] pair;
+    reg  [63:0] pair_bits;
     reg  loads;
-    reg  asks;
     reg  ends_now;
+    reg  [31:0] no_word;
     reg  [31:0] one;
     reg  [31:0] two;
     reg  [6:0] one_word;
-    reg  [14:0] one_record;
     
     // Sub module instances
     incircle_core_logic$responder$state state(
@@ -26197,10 +26457,10 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         .q(valid$q),
         .clock(valid$clock)
     );
-    incircle_core_logic$responder$data data(
-        .d(data$d),
-        .q(data$q),
-        .clock(data$clock)
+    incircle_core_logic$responder$offered offered(
+        .d(offered$d),
+        .q(offered$q),
+        .clock(offered$clock)
     );
     incircle_core_logic$responder$left left(
         .d(left$d),
@@ -26217,30 +26477,27 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         .q(loaded$q),
         .clock(loaded$clock)
     );
-    incircle_core_logic$responder$record_id record_id(
-        .d(record_id$d),
-        .q(record_id$q),
-        .clock(record_id$clock)
-    );
-    incircle_core_logic$responder$fetching fetching(
-        .d(fetching$d),
-        .q(fetching$q),
-        .clock(fetching$clock)
-    );
-    incircle_core_logic$responder$record record(
-        .clock(record$clock),
-        .reset(record$reset),
-        .read_done(record$read_done),
-        .v0(record$v0),
-        .v1(record$v1),
-        .v2(record$v2),
-        .n0(record$n0),
-        .n1(record$n1),
-        .n2(record$n2),
-        .was_set(record$was_set),
-        .holds(record$holds),
-        .word(record$word),
-        .takes(record$takes)
+    incircle_core_logic$responder$records records(
+        .clock(records$clock),
+        .reset(records$reset),
+        .starts(records$starts),
+        .first(records$first),
+        .count(records$count),
+        .is_packed(records$is_packed),
+        .runs(records$runs),
+        .read(records$read),
+        .read_id(records$read_id),
+        .read_done(records$read_done),
+        .v0(records$v0),
+        .v1(records$v1),
+        .v2(records$v2),
+        .n0(records$n0),
+        .n1(records$n1),
+        .n2(records$n2),
+        .was_set(records$was_set),
+        .valid(records$valid),
+        .beat(records$beat),
+        .takes(records$takes)
     );
     
     // Update code
@@ -26248,56 +26505,54 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
         state$clock = clock;
         waited$clock = clock;
         valid$clock = clock;
-        data$clock = clock;
+        offered$clock = clock;
         left$clock = clock;
         is_last$clock = clock;
         loaded$clock = clock;
         following$clock = clock;
-        record_id$clock = clock;
-        fetching$clock = clock;
         state$d = state$q;
         waited$d = waited$q;
         valid$d = valid$q;
-        data$d = data$q;
+        offered$d = offered$q;
         left$d = left$q;
         is_last$d = is_last$q;
         loaded$d = loaded$q;
         following$d = following$q;
-        record_id$d = record_id$q;
-        fetching$d = fetching$q;
-        record$clock = clock;
+        records$clock = clock;
+        no_word = 32'h0;
         one = 32'h1;
         two = 32'h2;
         one_word = 32'h1;
-        one_record = 32'h1;
         response_valid = valid$q;
-        response_data = data$q;
+        pair[(64'h0)+:(32)] = offered$q[(64'h0)+:(32)];
+        pair[(64'h20)+:(32)] = offered$q[(64'h20)+:(32)];
+        pair_bits = pair;
+        response_data = pair_bits;
+        response_both = offered$q[(64'h40)+:(1)];
+        response_last = offered$q[(64'h41)+:(1)];
         index = loaded$q;
         index_ahead = following$q;
         chooses = (state$q == AnswerState$Choose) & waited$q;
         loads = (~valid$q) | response_ready;
         is_taken = loads;
         is_idle = state$q == AnswerState$Idle;
-        asks = (state$q == AnswerState$Records) & (~fetching$q) & (~record$holds);
-        read = asks;
-        read_id = record_id$q;
-        record$v0 = v0;
-        record$v1 = v1;
-        record$v2 = v2;
-        record$n0 = n0;
-        record$n1 = n1;
-        record$n2 = n2;
-        record$was_set = was_set;
-        record$read_done = read_done;
-        record$reset = reset;
-        if (asks) begin
-            fetching$d = 1'b1;
-        end
-        if (read_done) begin
-            fetching$d = 1'b0;
-            record_id$d = record_id$q + one_record;
-        end
-        record$takes = 1'b0;
+        records$reset = reset;
+        records$starts = state$q == AnswerState$Header;
+        records$first = first[(32'h0)+:(15)];
+        records$count = count[(32'h0)+:(15)];
+        records$is_packed = is_packed;
+        records$runs = state$q == AnswerState$Records;
+        read = records$read;
+        read_id = records$read_id;
+        records$read_done = read_done;
+        records$v0 = v0;
+        records$v1 = v1;
+        records$v2 = v2;
+        records$n0 = n0;
+        records$n1 = n1;
+        records$n2 = n2;
+        records$was_set = was_set;
+        records$takes = 1'b0;
         ends_now = 1'b0;
         valid$d = valid$q & (~loads);
         case (state$q)
@@ -26309,6 +26564,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                 end
             AnswerState$Prepare:
                 begin
+                    following$d = 32'h0;
                     waited$d = ~waited$q;
                     if (waited$q) begin
                         state$d = AnswerState$Header;
@@ -26316,22 +26572,15 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                 end
             AnswerState$Header:
                 begin
-                    following$d = 32'h0;
-                    if (loads) begin
-                        valid$d = 1'b1;
-                        data$d = header;
-                        state$d = AnswerState$Length;
-                    end
-                end
-            AnswerState$Length:
-                begin
                     left$d = length;
                     is_last$d = length == one;
                     loaded$d = 32'h0;
-                    record_id$d = first[(32'h0)+:(15)];
                     if (loads) begin
                         valid$d = 1'b1;
-                        data$d = length;
+                        offered$d[(64'h0)+:(32)] = header;
+                        offered$d[(64'h20)+:(32)] = length;
+                        offered$d[(64'h40)+:(1)] = 1'b1;
+                        offered$d[(64'h41)+:(1)] = is_empty;
                         ends_now = is_empty;
                         state$d = AnswerState$Choose;
                         if (is_read) begin
@@ -26351,7 +26600,10 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                 begin
                     if (loads) begin
                         valid$d = 1'b1;
-                        data$d = word;
+                        offered$d[(64'h0)+:(32)] = word;
+                        offered$d[(64'h20)+:(32)] = no_word;
+                        offered$d[(64'h40)+:(1)] = 1'b0;
+                        offered$d[(64'h41)+:(1)] = is_last$q;
                         loaded$d = loaded$q + one_word;
                         left$d = left$q - one;
                         is_last$d = left$q == two;
@@ -26361,13 +26613,11 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
                 end
             AnswerState$Records:
                 begin
-                    if (loads & record$holds) begin
+                    if (loads & records$valid) begin
                         valid$d = 1'b1;
-                        data$d = record$word;
-                        record$takes = 1'b1;
-                        left$d = left$q - one;
-                        is_last$d = left$q == two;
-                        ends_now = is_last$q;
+                        offered$d = records$beat;
+                        records$takes = 1'b1;
+                        ends_now = records$beat[(64'h41)+:(1)];
                     end
                 end
             default:
@@ -26383,50 +26633,14 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,header,len
             state$d = AnswerState$Idle;
             waited$d = 1'b0;
             valid$d = 1'b0;
-            data$d = 32'h0;
-            fetching$d = 1'b0;
+            offered$d[(64'h0)+:(32)] = no_word;
+            offered$d[(64'h20)+:(32)] = no_word;
+            offered$d[(64'h40)+:(1)] = 1'b0;
+            offered$d[(64'h41)+:(1)] = 1'b0;
         end
     end
     
 endmodule // incircle_core_logic$responder
-
-
-module incircle_core_logic$responder$data(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$data
-
-
-module incircle_core_logic$responder$fetching(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$fetching
 
 
 module incircle_core_logic$responder$following(d,q,clock);
@@ -26505,7 +26719,268 @@ module incircle_core_logic$responder$loaded(d,q,clock);
 endmodule // incircle_core_logic$responder$loaded
 
 
-module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1,n2,was_set,holds,word,takes);
+module incircle_core_logic$responder$offered(d,q,clock);
+    
+    // Module arguments
+    input wire  [65:0] d;
+    output reg  [65:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 66'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$offered
+
+
+module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,valid,beat,takes);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  starts;
+    input wire  [14:0] first;
+    input wire  [14:0] count;
+    input wire  is_packed;
+    input wire  runs;
+    output reg  read;
+    output reg  [14:0] read_id;
+    input wire  read_done;
+    input wire  [14:0] v0;
+    input wire  [14:0] v1;
+    input wire  [14:0] v2;
+    input wire  [14:0] n0;
+    input wire  [14:0] n1;
+    input wire  [14:0] n2;
+    input wire  was_set;
+    output reg  valid;
+    output reg  [65:0] beat;
+    input wire  takes;
+    
+    // Stub signals
+    reg  [14:0] record_id$d;
+    wire  [14:0] record_id$q;
+    reg  record_id$clock;
+    reg  [14:0] left$d;
+    wire  [14:0] left$q;
+    reg  left$clock;
+    reg  some_are_left$d;
+    wire  some_are_left$q;
+    reg  some_are_left$clock;
+    reg  fetching$d;
+    wire  fetching$q;
+    reg  fetching$clock;
+    reg  record$clock;
+    reg  record$reset;
+    reg  record$read_done;
+    reg  [14:0] record$v0;
+    reg  [14:0] record$v1;
+    reg  [14:0] record$v2;
+    reg  [14:0] record$n0;
+    reg  [14:0] record$n1;
+    reg  [14:0] record$n2;
+    reg  record$was_set;
+    wire  record$holds;
+    wire  [31:0] record$word;
+    wire  record$is_at_last;
+    reg  record$takes;
+    wire  [14:0] record$vertex0;
+    wire  [14:0] record$vertex1;
+    wire  [14:0] record$vertex2;
+    reg  record$takes_whole;
+    reg  vertices$clock;
+    reg  vertices$reset;
+    reg  vertices$starts;
+    reg  [14:0] vertices$count;
+    wire  vertices$has_room;
+    reg  vertices$comes;
+    reg  [14:0] vertices$v0;
+    reg  [14:0] vertices$v1;
+    reg  [14:0] vertices$v2;
+    wire  vertices$valid;
+    wire  [65:0] vertices$beat;
+    reg  vertices$takes;
+    
+    // Local signals
+    reg  may_ask;
+    reg  asks;
+    reg  packs;
+    reg  [31:0] no_word;
+    reg  [14:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$responder$records$record_id record_id(
+        .d(record_id$d),
+        .q(record_id$q),
+        .clock(record_id$clock)
+    );
+    incircle_core_logic$responder$records$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
+    incircle_core_logic$responder$records$some_are_left some_are_left(
+        .d(some_are_left$d),
+        .q(some_are_left$q),
+        .clock(some_are_left$clock)
+    );
+    incircle_core_logic$responder$records$fetching fetching(
+        .d(fetching$d),
+        .q(fetching$q),
+        .clock(fetching$clock)
+    );
+    incircle_core_logic$responder$records$record record(
+        .clock(record$clock),
+        .reset(record$reset),
+        .read_done(record$read_done),
+        .v0(record$v0),
+        .v1(record$v1),
+        .v2(record$v2),
+        .n0(record$n0),
+        .n1(record$n1),
+        .n2(record$n2),
+        .was_set(record$was_set),
+        .holds(record$holds),
+        .word(record$word),
+        .is_at_last(record$is_at_last),
+        .takes(record$takes),
+        .vertex0(record$vertex0),
+        .vertex1(record$vertex1),
+        .vertex2(record$vertex2),
+        .takes_whole(record$takes_whole)
+    );
+    incircle_core_logic$responder$records$vertices vertices(
+        .clock(vertices$clock),
+        .reset(vertices$reset),
+        .starts(vertices$starts),
+        .count(vertices$count),
+        .has_room(vertices$has_room),
+        .comes(vertices$comes),
+        .v0(vertices$v0),
+        .v1(vertices$v1),
+        .v2(vertices$v2),
+        .valid(vertices$valid),
+        .beat(vertices$beat),
+        .takes(vertices$takes)
+    );
+    
+    // Update code
+    always @(*) begin
+        record_id$clock = clock;
+        left$clock = clock;
+        some_are_left$clock = clock;
+        fetching$clock = clock;
+        record_id$d = record_id$q;
+        left$d = left$q;
+        some_are_left$d = some_are_left$q;
+        fetching$d = fetching$q;
+        record$clock = clock;
+        vertices$clock = clock;
+        no_word = 32'h0;
+        one = 32'h1;
+        may_ask = (~fetching$q) & (~record$holds);
+        if (is_packed) begin
+            may_ask = vertices$has_room;
+        end
+        asks = runs & some_are_left$q & may_ask;
+        read = asks;
+        read_id = record_id$q;
+        if (asks) begin
+            fetching$d = 1'b1;
+            record_id$d = record_id$q + one;
+            left$d = left$q - one;
+            some_are_left$d = left$q != one;
+        end
+        if (read_done) begin
+            fetching$d = 1'b0;
+        end
+        if (starts) begin
+            record_id$d = first;
+            left$d = count;
+            some_are_left$d = |count;
+        end
+        record$reset = reset;
+        record$read_done = read_done;
+        record$v0 = v0;
+        record$v1 = v1;
+        record$v2 = v2;
+        record$n0 = n0;
+        record$n1 = n1;
+        record$n2 = n2;
+        record$was_set = was_set;
+        packs = is_packed & record$holds;
+        record$takes_whole = packs;
+        vertices$reset = reset;
+        vertices$starts = starts;
+        vertices$count = count;
+        vertices$comes = packs;
+        vertices$v0 = record$vertex0;
+        vertices$v1 = record$vertex1;
+        vertices$v2 = record$vertex2;
+        record$takes = takes & (~is_packed);
+        vertices$takes = takes & is_packed;
+        valid = record$holds;
+        beat[(64'h0)+:(32)] = record$word;
+        beat[(64'h20)+:(32)] = no_word;
+        beat[(64'h40)+:(1)] = 1'b0;
+        beat[(64'h41)+:(1)] = record$is_at_last & (~some_are_left$q);
+        if (is_packed) begin
+            valid = vertices$valid;
+            beat = vertices$beat;
+        end
+        if (reset) begin
+            some_are_left$d = 1'b0;
+            fetching$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$records
+
+
+module incircle_core_logic$responder$records$fetching(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$fetching
+
+
+module incircle_core_logic$responder$records$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$left
+
+
+module incircle_core_logic$responder$records$record(clock,reset,read_done,v0,v1,v2,n0,n1,n2,was_set,holds,word,is_at_last,takes,vertex0,vertex1,vertex2,takes_whole);
     
     // Module arguments
     input wire  clock;
@@ -26520,7 +26995,12 @@ module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1
     input wire  was_set;
     output reg  holds;
     output reg  [31:0] word;
+    output reg  is_at_last;
     input wire  takes;
+    output reg  [14:0] vertex0;
+    output reg  [14:0] vertex1;
+    output reg  [14:0] vertex2;
+    input wire  takes_whole;
     
     // Stub signals
     reg  is_held$d;
@@ -26553,37 +27033,37 @@ module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1
     wire  [31:0] words$word2;
     
     // Sub module instances
-    incircle_core_logic$responder$record$is_held is_held(
+    incircle_core_logic$responder$records$record$is_held is_held(
         .d(is_held$d),
         .q(is_held$q),
         .clock(is_held$clock)
     );
-    incircle_core_logic$responder$record$buffer0 buffer0(
+    incircle_core_logic$responder$records$record$buffer0 buffer0(
         .d(buffer0$d),
         .q(buffer0$q),
         .clock(buffer0$clock)
     );
-    incircle_core_logic$responder$record$buffer1 buffer1(
+    incircle_core_logic$responder$records$record$buffer1 buffer1(
         .d(buffer1$d),
         .q(buffer1$q),
         .clock(buffer1$clock)
     );
-    incircle_core_logic$responder$record$buffer2 buffer2(
+    incircle_core_logic$responder$records$record$buffer2 buffer2(
         .d(buffer2$d),
         .q(buffer2$q),
         .clock(buffer2$clock)
     );
-    incircle_core_logic$responder$record$is_second is_second(
+    incircle_core_logic$responder$records$record$is_second is_second(
         .d(is_second$d),
         .q(is_second$q),
         .clock(is_second$clock)
     );
-    incircle_core_logic$responder$record$is_third is_third(
+    incircle_core_logic$responder$records$record$is_third is_third(
         .d(is_third$d),
         .q(is_third$q),
         .clock(is_third$clock)
     );
-    incircle_core_logic$responder$record$words words(
+    incircle_core_logic$responder$records$record$words words(
         .v0(words$v0),
         .v1(words$v1),
         .v2(words$v2),
@@ -26618,12 +27098,19 @@ module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1
         words$n1 = n1;
         words$n2 = n2;
         words$was_set = was_set;
+        vertex0 = buffer0$q[(32'h0)+:(15)];
+        vertex1 = buffer1$q[(32'h0)+:(15)];
+        vertex2 = buffer2$q[(32'h0)+:(15)];
+        if (takes_whole) begin
+            is_held$d = 1'b0;
+        end
         if (read_done) begin
             is_held$d = 1'b1;
             buffer0$d = words$word0;
             buffer1$d = words$word1;
             buffer2$d = words$word2;
         end
+        is_at_last = is_third$q;
         word = buffer0$q;
         if (is_second$q) begin
             word = buffer1$q;
@@ -26643,10 +27130,10 @@ module incircle_core_logic$responder$record(clock,reset,read_done,v0,v1,v2,n0,n1
         end
     end
     
-endmodule // incircle_core_logic$responder$record
+endmodule // incircle_core_logic$responder$records$record
 
 
-module incircle_core_logic$responder$record$buffer0(d,q,clock);
+module incircle_core_logic$responder$records$record$buffer0(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -26662,10 +27149,10 @@ module incircle_core_logic$responder$record$buffer0(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$buffer0
+endmodule // incircle_core_logic$responder$records$record$buffer0
 
 
-module incircle_core_logic$responder$record$buffer1(d,q,clock);
+module incircle_core_logic$responder$records$record$buffer1(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -26681,10 +27168,10 @@ module incircle_core_logic$responder$record$buffer1(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$buffer1
+endmodule // incircle_core_logic$responder$records$record$buffer1
 
 
-module incircle_core_logic$responder$record$buffer2(d,q,clock);
+module incircle_core_logic$responder$records$record$buffer2(d,q,clock);
     
     // Module arguments
     input wire  [31:0] d;
@@ -26700,10 +27187,10 @@ module incircle_core_logic$responder$record$buffer2(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$buffer2
+endmodule // incircle_core_logic$responder$records$record$buffer2
 
 
-module incircle_core_logic$responder$record$is_held(d,q,clock);
+module incircle_core_logic$responder$records$record$is_held(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -26719,10 +27206,10 @@ module incircle_core_logic$responder$record$is_held(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$is_held
+endmodule // incircle_core_logic$responder$records$record$is_held
 
 
-module incircle_core_logic$responder$record$is_second(d,q,clock);
+module incircle_core_logic$responder$records$record$is_second(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -26738,10 +27225,10 @@ module incircle_core_logic$responder$record$is_second(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$is_second
+endmodule // incircle_core_logic$responder$records$record$is_second
 
 
-module incircle_core_logic$responder$record$is_third(d,q,clock);
+module incircle_core_logic$responder$records$record$is_third(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -26757,10 +27244,10 @@ module incircle_core_logic$responder$record$is_third(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record$is_third
+endmodule // incircle_core_logic$responder$records$record$is_third
 
 
-module incircle_core_logic$responder$record$words(v0,v1,v2,n0,n1,n2,was_set,word0,word1,word2);
+module incircle_core_logic$responder$records$record$words(v0,v1,v2,n0,n1,n2,was_set,word0,word1,word2);
     
     // Module arguments
     input wire  [14:0] v0;
@@ -26808,10 +27295,10 @@ module incircle_core_logic$responder$record$words(v0,v1,v2,n0,n1,n2,was_set,word
         word2 = vertex2 | high2;
     end
     
-endmodule // incircle_core_logic$responder$record$words
+endmodule // incircle_core_logic$responder$records$record$words
 
 
-module incircle_core_logic$responder$record_id(d,q,clock);
+module incircle_core_logic$responder$records$record_id(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -26827,7 +27314,777 @@ module incircle_core_logic$responder$record_id(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$responder$record_id
+endmodule // incircle_core_logic$responder$records$record_id
+
+
+module incircle_core_logic$responder$records$some_are_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$some_are_left
+
+
+module incircle_core_logic$responder$records$vertices(clock,reset,starts,count,has_room,comes,v0,v1,v2,valid,beat,takes);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  starts;
+    input wire  [14:0] count;
+    output reg  has_room;
+    input wire  comes;
+    input wire  [14:0] v0;
+    input wire  [14:0] v1;
+    input wire  [14:0] v2;
+    output reg  valid;
+    output reg  [65:0] beat;
+    input wire  takes;
+    
+    // Stub signals
+    reg  [4:0] waiting$d;
+    wire  [4:0] waiting$q;
+    reg  waiting$clock;
+    reg  roomy$d;
+    wire  roomy$q;
+    reg  roomy$clock;
+    reg  packer$clock;
+    reg  packer$reset;
+    reg  packer$starts;
+    reg  [14:0] packer$count;
+    reg  packer$comes;
+    reg  [14:0] packer$v0;
+    reg  [14:0] packer$v1;
+    reg  [14:0] packer$v2;
+    wire  packer$valid;
+    wire  [65:0] packer$beat;
+    reg  queue$clock;
+    reg  queue$reset;
+    reg  queue$push;
+    reg  [65:0] queue$push_data;
+    reg  queue$pop;
+    wire  queue$valid;
+    wire  [65:0] queue$data;
+    reg  [65:0] head$bits;
+    wire  [65:0] head$value;
+    
+    // Local signals
+    reg  [65:0] beat_bits;
+    reg  [4:0] one_beat;
+    reg  [4:0] room;
+    
+    // Sub module instances
+    incircle_core_logic$responder$records$vertices$waiting waiting(
+        .d(waiting$d),
+        .q(waiting$q),
+        .clock(waiting$clock)
+    );
+    incircle_core_logic$responder$records$vertices$roomy roomy(
+        .d(roomy$d),
+        .q(roomy$q),
+        .clock(roomy$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer packer(
+        .clock(packer$clock),
+        .reset(packer$reset),
+        .starts(packer$starts),
+        .count(packer$count),
+        .comes(packer$comes),
+        .v0(packer$v0),
+        .v1(packer$v1),
+        .v2(packer$v2),
+        .valid(packer$valid),
+        .beat(packer$beat)
+    );
+    incircle_core_logic$responder$records$vertices$queue queue(
+        .clock(queue$clock),
+        .reset(queue$reset),
+        .push(queue$push),
+        .push_data(queue$push_data),
+        .pop(queue$pop),
+        .valid(queue$valid),
+        .data(queue$data)
+    );
+    incircle_core_logic$responder$records$vertices$head head(
+        .bits(head$bits),
+        .value(head$value)
+    );
+    
+    // Update code
+    always @(*) begin
+        waiting$clock = clock;
+        roomy$clock = clock;
+        waiting$d = waiting$q;
+        roomy$d = roomy$q;
+        packer$clock = clock;
+        queue$clock = clock;
+        one_beat = 32'h1;
+        room = 32'h4;
+        packer$reset = reset;
+        packer$starts = starts;
+        packer$count = count;
+        packer$comes = comes;
+        packer$v0 = v0;
+        packer$v1 = v1;
+        packer$v2 = v2;
+        queue$reset = reset;
+        queue$push = packer$valid;
+        beat_bits = packer$beat;
+        queue$push_data = beat_bits;
+        queue$pop = takes;
+        valid = queue$valid;
+        head$bits = queue$data;
+        beat = head$value;
+        has_room = roomy$q;
+        roomy$d = waiting$q <= room;
+        if (packer$valid & (~takes)) begin
+            waiting$d = waiting$q + one_beat;
+        end
+        if (takes & (~packer$valid)) begin
+            waiting$d = waiting$q - one_beat;
+        end
+        if (reset) begin
+            waiting$d = 32'h0;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$records$vertices
+
+
+module incircle_core_logic$responder$records$vertices$head(bits,value);
+    
+    // Module arguments
+    input wire  [65:0] bits;
+    output reg  [65:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$responder$records$vertices$head
+
+
+module incircle_core_logic$responder$records$vertices$packer(clock,reset,starts,count,comes,v0,v1,v2,valid,beat);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  starts;
+    input wire  [14:0] count;
+    input wire  comes;
+    input wire  [14:0] v0;
+    input wire  [14:0] v1;
+    input wire  [14:0] v2;
+    output reg  valid;
+    output reg  [65:0] beat;
+    
+    // Stub signals
+    reg  is_there$d;
+    wire  is_there$q;
+    reg  is_there$clock;
+    reg  [65:0] filled$d;
+    wire  [65:0] filled$q;
+    reg  filled$clock;
+    reg  [1:0] place$d;
+    wire  [1:0] place$q;
+    reg  place$clock;
+    reg  [14:0] left$d;
+    wire  [14:0] left$q;
+    reg  left$clock;
+    reg  is_last$d;
+    wire  is_last$q;
+    reg  is_last$clock;
+    reg  flushes$d;
+    wire  flushes$q;
+    reg  flushes$clock;
+    reg  [14:0] held0$d;
+    wire  [14:0] held0$q;
+    reg  held0$clock;
+    reg  [14:0] held1$d;
+    wire  [14:0] held1$q;
+    reg  held1$clock;
+    reg  [14:0] held2$d;
+    wire  [14:0] held2$q;
+    reg  held2$clock;
+    
+    // Local signals
+    reg  takes;
+    reg  ends_full;
+    reg  [14:0] new0;
+    reg  [14:0] new1;
+    reg  [14:0] new2;
+    reg  [14:0] half1;
+    reg  [14:0] half2;
+    reg  [14:0] half3;
+    reg  [31:0] even0;
+    reg  [31:0] even1;
+    reg  [31:0] odd0;
+    reg  [31:0] odd1;
+    reg  [31:0] high0;
+    reg  [31:0] high1;
+    reg  [31:0] half_shift;
+    reg  [14:0] one;
+    reg  [14:0] two;
+    reg  [1:0] first_place;
+    reg  [1:0] second_place;
+    reg  [1:0] last_place;
+    
+    // Sub module instances
+    incircle_core_logic$responder$records$vertices$packer$is_there is_there(
+        .d(is_there$d),
+        .q(is_there$q),
+        .clock(is_there$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$filled filled(
+        .d(filled$d),
+        .q(filled$q),
+        .clock(filled$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$is_last is_last(
+        .d(is_last$d),
+        .q(is_last$q),
+        .clock(is_last$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$flushes flushes(
+        .d(flushes$d),
+        .q(flushes$q),
+        .clock(flushes$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$held0 held0(
+        .d(held0$d),
+        .q(held0$q),
+        .clock(held0$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$held1 held1(
+        .d(held1$d),
+        .q(held1$q),
+        .clock(held1$clock)
+    );
+    incircle_core_logic$responder$records$vertices$packer$held2 held2(
+        .d(held2$d),
+        .q(held2$q),
+        .clock(held2$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        is_there$clock = clock;
+        filled$clock = clock;
+        place$clock = clock;
+        left$clock = clock;
+        is_last$clock = clock;
+        flushes$clock = clock;
+        held0$clock = clock;
+        held1$clock = clock;
+        held2$clock = clock;
+        is_there$d = is_there$q;
+        filled$d = filled$q;
+        place$d = place$q;
+        left$d = left$q;
+        is_last$d = is_last$q;
+        flushes$d = flushes$q;
+        held0$d = held0$q;
+        held1$d = held1$q;
+        held2$d = held2$q;
+        half_shift = 32'h10;
+        one = 32'h1;
+        two = 32'h2;
+        first_place = 32'h0;
+        second_place = 32'h1;
+        last_place = 32'h3;
+        valid = is_there$q;
+        beat = filled$q;
+        takes = comes | flushes$q;
+        new0 = v0;
+        new1 = v1;
+        new2 = v2;
+        if (flushes$q) begin
+            new0 = 32'h0;
+            new1 = 32'h0;
+            new2 = 32'h0;
+        end
+        half1 = held1$q;
+        half2 = held2$q;
+        half3 = new0;
+        case (place$q)
+            2:
+                begin
+                    half2 = new0;
+                    half3 = new1;
+                end
+            3:
+                begin
+                    half1 = new0;
+                    half2 = new1;
+                    half3 = new2;
+                end
+            default:
+                begin
+                end
+        endcase
+        if (takes) begin
+            case (place$q)
+                0:
+                    begin
+                        held0$d = new0;
+                        held1$d = new1;
+                        held2$d = new2;
+                    end
+                1:
+                    begin
+                        held0$d = new1;
+                        held1$d = new2;
+                    end
+                default:
+                    begin
+                        held0$d = new2;
+                    end
+            endcase
+            place$d = place$q + second_place;
+        end
+        even0 = ((held0$q) & 32'hffffffff);
+        odd0 = ((half1) & 32'hffffffff);
+        even1 = ((half2) & 32'hffffffff);
+        odd1 = ((half3) & 32'hffffffff);
+        high0 = odd0 << half_shift;
+        high1 = odd1 << half_shift;
+        ends_full = is_last$q & (place$q == last_place);
+        filled$d[(64'h0)+:(32)] = even0 | high0;
+        filled$d[(64'h20)+:(32)] = even1 | high1;
+        filled$d[(64'h40)+:(1)] = (~flushes$q) | (place$q == second_place);
+        filled$d[(64'h41)+:(1)] = flushes$q | ends_full;
+        is_there$d = takes & (place$q != first_place);
+        flushes$d = comes & is_last$q & (~ends_full);
+        if (comes) begin
+            left$d = left$q - one;
+            is_last$d = left$q == two;
+        end
+        if (starts) begin
+            place$d = first_place;
+            left$d = count;
+            is_last$d = count == one;
+        end
+        if (reset) begin
+            is_there$d = 1'b0;
+            flushes$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$records$vertices$packer
+
+
+module incircle_core_logic$responder$records$vertices$packer$filled(d,q,clock);
+    
+    // Module arguments
+    input wire  [65:0] d;
+    output reg  [65:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 66'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$filled
+
+
+module incircle_core_logic$responder$records$vertices$packer$flushes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$flushes
+
+
+module incircle_core_logic$responder$records$vertices$packer$held0(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$held0
+
+
+module incircle_core_logic$responder$records$vertices$packer$held1(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$held1
+
+
+module incircle_core_logic$responder$records$vertices$packer$held2(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$held2
+
+
+module incircle_core_logic$responder$records$vertices$packer$is_last(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$is_last
+
+
+module incircle_core_logic$responder$records$vertices$packer$is_there(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$is_there
+
+
+module incircle_core_logic$responder$records$vertices$packer$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$left
+
+
+module incircle_core_logic$responder$records$vertices$packer$place(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$packer$place
+
+
+module incircle_core_logic$responder$records$vertices$queue(clock,reset,push,push_data,pop,valid,data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  push;
+    input wire  [65:0] push_data;
+    input wire  pop;
+    output reg  valid;
+    output reg  [65:0] data;
+    
+    // Constant declarations
+    localparam  one = 4'h1;
+    localparam  nothing = 4'h0;
+    localparam  kept_bits = 66'h3ffffffffffffffff;
+    
+    // Stub signals
+    reg  entries$clock;
+    reg  [3:0] entries$write_address;
+    reg  [65:0] entries$write_data;
+    reg  entries$write_enable;
+    reg  [3:0] entries$read_address;
+    wire  [65:0] entries$read_data;
+    reg  holds_entries$d;
+    wire  holds_entries$q;
+    reg  holds_entries$clock;
+    reg  [3:0] newest$d;
+    wire  [3:0] newest$q;
+    reg  newest$clock;
+    reg  [3:0] oldest$d;
+    wire  [3:0] oldest$q;
+    reg  oldest$clock;
+    
+    // Local signals
+    reg  passes;
+    reg  stores;
+    reg  [3:0] after_newest;
+    reg  [3:0] after_oldest;
+    
+    // Sub module instances
+    incircle_core_logic$responder$records$vertices$queue$entries entries(
+        .clock(entries$clock),
+        .write_address(entries$write_address),
+        .write_data(entries$write_data),
+        .write_enable(entries$write_enable),
+        .read_address(entries$read_address),
+        .read_data(entries$read_data)
+    );
+    incircle_core_logic$responder$records$vertices$queue$holds_entries holds_entries(
+        .d(holds_entries$d),
+        .q(holds_entries$q),
+        .clock(holds_entries$clock)
+    );
+    incircle_core_logic$responder$records$vertices$queue$newest newest(
+        .d(newest$d),
+        .q(newest$q),
+        .clock(newest$clock)
+    );
+    incircle_core_logic$responder$records$vertices$queue$oldest oldest(
+        .d(oldest$d),
+        .q(oldest$q),
+        .clock(oldest$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        holds_entries$clock = clock;
+        newest$clock = clock;
+        oldest$clock = clock;
+        holds_entries$d = holds_entries$q;
+        newest$d = newest$q;
+        oldest$d = oldest$q;
+        entries$clock = clock;
+        after_newest = newest$q + one;
+        after_oldest = oldest$q + one;
+        entries$read_address = oldest$q;
+        valid = holds_entries$q | push;
+        if (holds_entries$q) begin
+            data = entries$read_data;
+        end
+        else begin
+            data = push_data & kept_bits;
+        end
+        passes = (~holds_entries$q) & pop;
+        stores = push & (~passes);
+        entries$write_address = newest$q;
+        entries$write_data = push_data;
+        entries$write_enable = stores;
+        if (stores) begin
+            newest$d = after_newest;
+            holds_entries$d = 1'b1;
+        end
+        if (pop & holds_entries$q) begin
+            oldest$d = after_oldest;
+            if (~stores) begin
+                holds_entries$d = after_oldest != newest$q;
+            end
+        end
+        if (reset) begin
+            holds_entries$d = 1'b0;
+            newest$d = nothing;
+            oldest$d = nothing;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$records$vertices$queue
+
+
+module incircle_core_logic$responder$records$vertices$queue$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  [65:0] write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  [65:0] read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [65:0] memory [0:15];
+    wire [65:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$responder$records$vertices$queue$entries
+
+
+module incircle_core_logic$responder$records$vertices$queue$holds_entries(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$queue$holds_entries
+
+
+module incircle_core_logic$responder$records$vertices$queue$newest(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$queue$newest
+
+
+module incircle_core_logic$responder$records$vertices$queue$oldest(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$queue$oldest
+
+
+module incircle_core_logic$responder$records$vertices$roomy(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$roomy
+
+
+module incircle_core_logic$responder$records$vertices$waiting(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices$waiting
 
 
 module incircle_core_logic$responder$state(d,q,clock);
@@ -26841,10 +28098,9 @@ module incircle_core_logic$responder$state(d,q,clock);
     localparam AnswerState$Idle = 0;
     localparam AnswerState$Prepare = 1;
     localparam AnswerState$Header = 2;
-    localparam AnswerState$Length = 3;
-    localparam AnswerState$Choose = 4;
-    localparam AnswerState$Payload = 5;
-    localparam AnswerState$Records = 6;
+    localparam AnswerState$Choose = 3;
+    localparam AnswerState$Payload = 4;
+    localparam AnswerState$Records = 5;
     
     // Update code (custom)
     initial begin
@@ -26905,7 +28161,9 @@ module incircle_core (
     input wire [31:0] command_data,
     output wire response_valid,
     input wire response_ready,
-    output wire [31:0] response_data
+    output wire [63:0] response_data,
+    output wire response_both,
+    output wire response_last
 );
     wire [109:0] unused_write;
     incircle_core_logic core (
@@ -26917,6 +28175,8 @@ module incircle_core (
         .response_valid(response_valid),
         .response_ready(response_ready),
         .response_data(response_data),
+        .response_both(response_both),
+        .response_last(response_last),
         .write(unused_write)
     );
 endmodule
