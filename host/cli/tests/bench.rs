@@ -154,7 +154,6 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
         let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
         assert_eq!((bench.get("mhz"), bench["sets"][0].get("cycles")), (None, None));
     }
-    scratch.run("bench --batch 0 -n 200").fails(2, &["--batch"]);
     scratch.run("bench --batch 2 -n 2000 --backend clock --config small").fails(7, &["2000", "--config full"]);
 }
 
