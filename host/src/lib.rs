@@ -46,6 +46,7 @@ mod mesh;
 mod model;
 mod options;
 pub mod order;
+mod pages;
 mod point;
 mod prepare;
 pub mod quantize;

@@ -13,6 +13,7 @@ use crate::fault::DeviceFault;
 use crate::link::{Limit, Link};
 use crate::mesh::Mesh;
 use crate::options::{Options, Progress, Stage};
+use crate::pages;
 use crate::point::Point;
 use crate::prepare::{prepare, Prepared};
 use crate::report::Report;
@@ -51,8 +52,9 @@ impl<'d> Session<'d> {
     /// # Errors
     /// As [`Session::triangulate_with`].
     pub fn triangulate<P: Into<Point> + Copy>(&mut self, points: &[P]) -> Result<Mesh, Error> {
-        let points = points.iter().map(|&point| point.into()).collect();
-        self.triangulate_owned(points, &Options::default())
+        let mut own = pages::with_room(points.len());
+        own.extend(points.iter().map(|&point| -> Point { point.into() }));
+        self.triangulate_owned(own, &Options::default())
     }
 
     /// Triangulates: the Delaunay triangulation of the distinct points, in canonical form.
@@ -66,7 +68,9 @@ impl<'d> Session<'d> {
     /// sound device gives, a passed deadline, or a cancelled job. After an error of link or device the session is out of
     /// step; after all others it can be used again.
     pub fn triangulate_with(&mut self, points: &[Point], options: &Options<'_>) -> Result<Mesh, Error> {
-        self.triangulate_owned(points.to_vec(), options)
+        let mut own = pages::with_room(points.len());
+        own.extend_from_slice(points);
+        self.triangulate_owned(own, options)
     }
 
     /// Triangulates many small sets in one call: the mesh of each is that of [`Session::triangulate_with`], byte for byte but for its

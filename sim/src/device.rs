@@ -191,6 +191,7 @@ pub(crate) fn description(config: Config) -> Result<&'static ModelDescription, S
     found.ok_or_else(|| SimError::NotBuilt {
         name: config.name,
         points: config.points,
+        contexts: config.contexts,
         ring: config.ring,
         built: built().join(", "),
     })

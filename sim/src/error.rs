@@ -26,13 +26,15 @@ impl std::fmt::Display for Awaited {
 pub enum SimError {
     /// Not one of the configurations this program was built with.
     #[error(
-        "there is no simulated core {name:?} of {points} points with {ring} boundary edges: choose one of {built}"
+        "there is no simulated core {name:?} of {points} points with {contexts} contexts and {ring} boundary edges: choose one of {built}"
     )]
     NotBuilt {
         /// Name asked for.
         name: &'static str,
         /// Points asked for.
         points: u32,
+        /// Contexts asked for.
+        contexts: u32,
         /// Boundary edges asked for.
         ring: u32,
         /// The names there are.

@@ -9,6 +9,7 @@ use attempt_state::State;
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::{AttemptPoints, AttemptStep, AttemptStore};
 use incircle_protocol::SMALL;
+use stepper::bundles::flip;
 use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
@@ -25,10 +26,6 @@ named_ports!(
 named_ports!(AttemptPoints, [takes, taker, taken_id, now, owner], [p, since], clock);
 
 const ROUNDS: usize = 6000;
-
-fn flip(random: &mut SplitMix64) -> bool {
-    random.below(2) == 1
-}
 
 #[test]
 fn attempt_step_counts_visits_entries_triangles_and_locks() {

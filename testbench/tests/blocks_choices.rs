@@ -7,7 +7,7 @@ use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::SoloVisit;
 use incircle_hdl::link::{CommandGate, RecordWords};
 use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
-use stepper::bundles::{turned, LockFinding, Visit};
+use stepper::bundles::{flip, id, turned, LockFinding, Visit};
 use stepper::{named_ports, Stepper};
 
 named_ports!(SoloVisit, [owner, is_locate, is_mend, is_second, is_fetch, root_id, root, id, outer, back], [bundle]);
@@ -19,14 +19,6 @@ named_ports!(
 named_ports!(RecordWords, [v0, v1, v2, n0, n1, n2, was_set], [word0, word1, word2]);
 
 const ROUNDS: usize = 4000;
-
-fn id(random: &mut SplitMix64) -> u64 {
-    random.below(1 << 15)
-}
-
-fn flip(random: &mut SplitMix64) -> bool {
-    random.below(2) == 1
-}
 
 #[test]
 fn solo_visit_looks_where_each_state_must() {

@@ -7,8 +7,8 @@ mod stepper;
 
 use attempt_state::State;
 use incircle_cli::generate::SplitMix64;
-use incircle_hdl::engine::{AttemptLists, NextVisits, PushPort, VisitCase};
-use stepper::bundles::{commit_job, release_job, turned, Edge, Finding, LockFinding, Visit};
+use incircle_hdl::engine::{AttemptLists, NextVisits, VisitCase};
+use stepper::bundles::{commit_job, flip, id, release_job, turned, Edge, Finding, LockFinding, Visit};
 use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
@@ -40,12 +40,6 @@ named_ports!(
 );
 named_ports!(NextVisits, [early_token, early_turned, walks_on, locates, walk_next, entry], [bundle], clock);
 named_ports!(
-    PushPort,
-    [reset, asks, may_ask, follows, starts, starter, u, is_alone, solo_asks, solo],
-    [push, bundle],
-    clock
-);
-named_ports!(
     AttemptLists,
     [done, token, turned, attempt, after, p, since, is_root, settles, finds_inner, succeeds, fails, stops_at_root],
     [
@@ -66,28 +60,6 @@ named_ports!(
 );
 
 const ROUNDS: usize = 6000;
-
-fn id(random: &mut SplitMix64) -> u64 {
-    random.below(1 << 15)
-}
-
-fn flip(random: &mut SplitMix64) -> bool {
-    random.below(2) == 1
-}
-
-/// Every field random.
-fn visit(random: &mut SplitMix64) -> Visit {
-    Visit {
-        owner: random.below(24),
-        rotates: flip(random),
-        locks: flip(random),
-        x: random.below(64),
-        after: random.below(64),
-        f_entry: random.below(64),
-        f: id(random),
-        u: id(random),
-    }
-}
 
 /// Outputs of `VisitCase` of which at most one is high.
 const CASES: [&str; 13] = [
@@ -177,7 +149,7 @@ impl Bits {
 
 /// Drives what is looked at a clock ahead.
 fn set_early(block: &mut Stepper<VisitCase>, bits: &Bits, random: &mut SplitMix64) {
-    let token = Visit { rotates: bits.rotates, locks: bits.locks, ..visit(random) };
+    let token = Visit { rotates: bits.rotates, locks: bits.locks, ..Visit::random(random) };
     let lock = LockFinding { took: flip(random), ..bits.lock };
     block.set("early_done", bits.done);
     block.set("early_token", token.token());
@@ -289,7 +261,7 @@ impl Follow {
     fn random(case: u64, random: &mut SplitMix64) -> Self {
         let n = [(); 3].map(|()| id(random));
         let (walk_next, y) = (id(random), random.below(64));
-        let any = visit(random);
+        let any = Visit::random(random);
         // Walks and roots have no entry.
         let look = Visit { owner: any.owner, ..Visit::look(any.u) };
         let token = match case {
@@ -397,128 +369,12 @@ fn next_visits_show_the_wave_of_their_header() {
     wave.assert_drawn_in(include_str!("../../hdl/src/engine/next_visits.rs"));
 }
 
-/// Who asks for visits in a clock; nobody else may.
-#[derive(Clone, Copy, Debug, Default)]
-struct Asking {
-    reset: bool,
-    may_ask: bool,
-    asks: bool,
-    starts: bool,
-    is_alone: bool,
-    solo_asks: bool,
-    follows: Visit,
-    starter: Visit,
-    solo: Visit,
-}
-
-/// One clock of the push port; what it must show in the next one.
-fn push_clock(block: &mut Stepper<PushPort>, asking: &Asking, shown: Option<Visit>) -> Option<Visit> {
-    for (port, value) in [
-        ("reset", asking.reset),
-        ("may_ask", asking.may_ask),
-        ("asks", asking.asks),
-        ("starts", asking.starts),
-        ("is_alone", asking.is_alone),
-        ("solo_asks", asking.solo_asks),
-    ] {
-        block.set(port, value);
-    }
-    block.set("follows", asking.follows.bundle(3, 1, 2, 3));
-    block.set("starter", asking.starter.owner);
-    block.set("u", asking.starter.u);
-    block.set("solo", asking.solo.bundle(1, 0, 0, 0));
-    block.settle();
-    if block.clocks() > 0 {
-        block.expect("push", shown.is_some());
-    }
-    if let Some(visit) = shown {
-        // A walk's visit has no entry.
-        let visits = if visit.locks && !visit.rotates { 3 } else { 1 };
-        let bits = if visits == 3 {
-            93
-        } else if visit.rotates {
-            57
-        } else {
-            9
-        };
-        let mask = (1 << bits) - 1;
-        block.expect_masked("bundle", mask, visit.bundle(visits, 1, 2, 3) & mask);
-        block.expect_masked("bundle", 0x7fff << 42, u128::from(visit.u) << 42);
-    }
-    block.edge();
-    match (asking.reset, asking.asks, asking.starts, asking.solo_asks) {
-        (true, ..) => None,
-        (_, true, ..) => Some(asking.follows),
-        (_, _, true, _) => Some(asking.starter),
-        (.., true) => Some(asking.solo),
-        _ => None,
-    }
-}
-
-#[test]
-fn push_port_takes_the_visits_of_whoever_asks() {
-    let mut random = SplitMix64::new(58);
-    let mut block = Stepper::new("push_port", PushPort::default(), 1);
-    let mut shown = push_clock(&mut block, &Asking { reset: true, ..Asking::default() }, None);
-    for _ in 0..ROUNDS {
-        let [is_alone, may_ask, asks, solo_asks, starts] = [(); 5].map(|()| flip(&mut random));
-        let asking = Asking {
-            reset: random.below(100) == 0,
-            may_ask: may_ask && !is_alone,
-            asks: asks && may_ask && !is_alone,
-            starts: starts && !may_ask && !is_alone,
-            is_alone,
-            solo_asks: is_alone && solo_asks,
-            // A root's three tests are told from the others by the kind of visit here.
-            follows: Visit { rotates: false, locks: true, ..visit(&mut random) },
-            starter: Visit { owner: random.below(24), ..Visit::look(id(&mut random)) },
-            solo: Visit { rotates: true, ..visit(&mut random) },
-        };
-        shown = push_clock(&mut block, &asking, shown);
-    }
-}
-
-#[test]
-fn push_port_shows_the_wave_of_its_header() {
-    let mut block = Stepper::new("push_port", PushPort::default(), 2);
-    let mut shown = push_clock(&mut block, &Asking { reset: true, ..Asking::default() }, None);
-    let mut wave = Wave::default();
-    for clock in 0..7 {
-        let asking = Asking {
-            may_ask: matches!(clock, 1 | 2),
-            asks: clock == 1,
-            starts: clock == 3,
-            is_alone: matches!(clock, 4 | 5),
-            solo_asks: clock == 5,
-            follows: Visit { locks: true, ..Visit::look(5) },
-            starter: Visit::look(6),
-            solo: Visit { rotates: true, ..Visit::look(7) },
-            ..Asking::default()
-        };
-        let number = |is_shown: bool, visit: Visit| if is_shown { Cell::Number(visit.u.into()) } else { Cell::Open };
-        wave.take(&[
-            ("asks", Cell::Bit(asking.asks)),
-            ("may_ask", Cell::Bit(asking.may_ask)),
-            ("follows.u", number(asking.asks, asking.follows)),
-            ("starts", Cell::Bit(asking.starts)),
-            ("u", number(asking.starts, asking.starter)),
-            ("is_alone", Cell::Bit(asking.is_alone)),
-            ("solo_asks", Cell::Bit(asking.solo_asks)),
-            ("solo.u", number(asking.solo_asks, asking.solo)),
-            ("push", Cell::Bit(shown.is_some())),
-            ("bundle.u", number(shown.is_some(), shown.unwrap_or_default())),
-        ]);
-        shown = push_clock(&mut block, &asking, shown);
-    }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/push_port.rs"));
-}
-
 #[test]
 fn attempt_lists_add_what_was_found_and_hand_over_what_was_counted() {
     let mut random = SplitMix64::new(53);
     let mut block = Stepper::new("attempt_lists", AttemptLists::default(), 1);
     for _ in 0..ROUNDS {
-        let token = visit(&mut random);
+        let token = Visit::random(&mut random);
         let [v0, v1, v2, n0, n1, n2, p] = [(); 7].map(|()| id(&mut random));
         let lock = LockFinding { took: flip(&mut random), ..LockFinding::default() };
         let (slot, since) = (random.below(3), random.below(1 << 22));

@@ -1,5 +1,4 @@
-//! The leaves of the core: Rust behaviour, Verilog and an independent reference agree clock by clock, and each maps to the
-//! primitive it is meant for.
+//! The leaves of the core: Rust behaviour, Verilog and an independent reference agree clock by clock.
 
 mod block_ports;
 mod cosimulation;
@@ -10,7 +9,6 @@ use cosimulation::{named_ports, Cosimulation, Delay, Expected, NamedPorts, Numbe
 use incircle_hdl::leaf::{
     BankedMemory, BlockMemory, DeepFifo, DelayLine, Fifo, FlagDelay, LockMemory, LutMemory, Multiplier, PacedMemory,
 };
-use incircle_testbench::gate::{cell_count, Cells};
 use rust_hdl_core::prelude::*;
 
 named_ports!([] Multiplier, [a, b], [product], clock);
@@ -34,17 +32,6 @@ named_ports!([const A: usize, const D: usize] DeepFifo<A, D>,
 const CYCLES: usize = 20_000;
 const MEMORY_PORTS: [&str; 4] = ["write_address", "write_data", "write_enable", "read_address"];
 const LOCK_PORTS: [&str; 4] = ["test_address", "test_set", "clear_address", "clear_enable"];
-
-/// What the exported block of this name takes in an ECP5, with these lines before its Verilog.
-fn cells_with(defines: &str, name: &str) -> Cells {
-    let blocks = incircle_hdl::export::blocks();
-    let (_, verilog) = blocks.iter().find(|block| block.0 == name).expect("a block of this name");
-    cell_count(&format!("{defines}{verilog}"), name).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn cells(name: &str) -> Cells {
-    cells_with("", name)
-}
 
 /// The model of a block as neutral Verilog, and that with the primitives of the ECP5.
 fn both_forms(name: &str) -> [String; 2] {
@@ -459,66 +446,4 @@ fn deep_fifo_of_the_least_depth() {
 #[should_panic(expected = "a deep buffer has more than 4 address bits, not 4")]
 fn deep_fifo_refuses_what_a_fifo_holds() {
     DeepFifo::<6, 8>::new(4, 8);
-}
-
-#[test]
-fn multiplier_is_one_dsp_block() {
-    assert_eq!(cells("multiplier").multipliers, 1);
-}
-
-#[test]
-fn multiplier_as_a_primitive_needs_no_register_outside() {
-    let cells = cells_with("`define INCIRCLE_ECP5\n", "multiplier");
-    assert_eq!((cells.multipliers, cells.flip_flops), (1, 0));
-}
-
-#[test]
-fn memories_are_block_ram_without_bypass_logic() {
-    let shapes = [
-        ("block_memory_8x12", 12),
-        ("block_memory_6x33", 33),
-        ("paced_memory_8x12", 12),
-        ("paced_memory_6x33", 33),
-        ("lock_memory_14", 1),
-    ];
-    for (name, output_bits) in shapes {
-        let cells = cells(name);
-        assert_eq!((cells.block_ram, cells.lut4), (1, 0), "{name}");
-        assert_eq!(cells.flip_flops, output_bits, "{name} has its output register and no other");
-    }
-}
-
-#[test]
-fn memories_as_primitives_are_block_ram_and_nothing_else() {
-    let shapes = [
-        ("block_memory_8x12", 1),
-        ("block_memory_6x33", 2),
-        ("block_memory_11x20", 3),
-        ("block_memory_12x10", 3),
-        ("block_memory_13x3", 2),
-        ("block_memory_14x2", 2),
-        ("paced_memory_8x12", 1),
-        ("paced_memory_6x33", 2),
-        ("shared_memory_8x12", 1),
-        ("shared_memory_6x33", 2),
-        ("lock_memory_14", 1),
-        ("lock_memory_4", 1),
-    ];
-    for (name, block_ram) in shapes {
-        let cells = cells_with("`define INCIRCLE_ECP5\n", name);
-        assert_eq!(cells, Cells { block_ram, ..Cells::default() }, "{name}");
-    }
-}
-
-#[test]
-fn deep_fifo_is_block_ram_behind_two_banks_in_luts() {
-    let cells = cells("deep_fifo_5x37");
-    // Ten slices of four bits for either bank, and one for the bit that tells them apart.
-    assert_eq!((cells.block_ram, cells.distributed_ram), (2, 21));
-}
-
-#[test]
-fn small_memory_is_distributed_ram() {
-    let cells = cells("lut_memory_4x8");
-    assert_eq!((cells.distributed_ram, cells.flip_flops), (2, 0));
 }

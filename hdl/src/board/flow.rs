@@ -3,7 +3,7 @@
 //! The clock is the largest of the board's list that the median of the seeds meets. A clock that is missed says what is within reach,
 //! so the next one tried is the largest below that.
 
-use super::mapping::{mapping, PLACER};
+use super::mapping::{mapping, placer, FLOORPLAN};
 use super::readings;
 use super::report::dividers;
 use super::tools::{run_strictly, Origin, Tools};
@@ -112,7 +112,7 @@ fn place(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> Resul
     for seed in 1..=request.seeds {
         let (report, config) = (format!("report-{seed}.json"), format!("seed-{seed}.config"));
         let seed_text = seed.to_string();
-        let mut arguments = [&board.chip[..], &PLACER].concat();
+        let mut arguments: Vec<_> = board.chip.into_iter().chain(placer()).collect();
         arguments.extend(["--json", "netlist.json", "--lpf", "pins.lpf", "--textcfg", &config, "--report", &report]);
         // Whether the clock is met is judged here, over all seeds.
         arguments.extend(["--seed", &seed_text, "--timing-allow-fail"]);
@@ -139,8 +139,10 @@ fn synthesise(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> 
     let device = export::serial_top(request.config, board.link(clock_mhz), false)?;
     let written = work.join("device.v");
     std::fs::write(&written, device).map_err(BoardError::file(&written))?;
+    let shared = constraints().join("ecp5");
     let copies = [
-        (constraints().join("ecp5").join("clock.v"), "clock.v"),
+        (shared.join("clock.v"), "clock.v"),
+        (shared.join(FLOORPLAN), FLOORPLAN),
         (board.folder().join("top.v"), "top.v"),
         (board.folder().join("pins.lpf"), "pins.lpf"),
     ];
@@ -148,11 +150,12 @@ fn synthesise(request: &Request, tools: &Tools, work: &Path, clock_mhz: u32) -> 
         std::fs::copy(&from, work.join(to)).map_err(BoardError::file(from))?;
     }
     let counts = "counts.txt";
-    let mut script = format!(
-        "read_verilog -D INCIRCLE_ECP5 -D {} device.v clock.v top.v; {}; write_json netlist.json",
-        pll.define(),
-        mapping(board.top)
-    );
+    let mut script =
+        format!("read_verilog -D INCIRCLE_ECP5 -D {} device.v clock.v top.v; {}", pll.define(), mapping(board.top));
+    if board.has_floorplan(request.config) {
+        script += &format!("; script {FLOORPLAN}");
+    }
+    script += "; write_json netlist.json";
     for cell in readings::COUNTED {
         script += &format!("; tee -a {counts} select -count t:{cell}");
         script += &format!("; tee -a {counts} select -count {CORE} t:{cell} %i");

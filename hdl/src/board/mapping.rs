@@ -1,28 +1,39 @@
-//! How yosys maps a design to the ECP5.
+//! How the tools map a design to the ECP5 and place it: what `constraints/ecp5` says, which `constraints/ecp5/timing` reads as well.
 
-/// What mapping takes a wire to cost, in picoseconds: about what wires of the routed core take. The tool's default, 300, favours more
-/// levels of tables, which then miss the clock.
-const WIRE_PICOSECONDS: u32 = 900;
+/// The passes of yosys, with a placeholder for the root module.
+const PASSES: &str = include_str!("../../../constraints/ecp5/mapping.ys");
 
-/// Options of nextpnr besides those that name files and device: its default placer leaves block RAMs further from what they belong to.
-pub(super) const PLACER: [&str; 2] = ["--placer", "static"];
+/// Options of nextpnr.
+const PLACER: &str = include_str!("../../../constraints/ecp5/placer.txt");
+
+/// The file that gives places to block RAMs of `full` in the largest devices.
+pub(super) const FLOORPLAN: &str = "floorplan.ys";
 
 /// The passes from a design that has been read to its cells, `top` being its root module.
-///
-/// They are those of `synth_ecp5 -abc9` but for two things: initial values of the generated Verilog are dropped, as reset sets what
-/// matters and a register that resets to 1 would otherwise need a table; and mapping tries its longer script.
 pub fn mapping(top: &str) -> String {
-    let synth = format!("synth_ecp5 -abc9 -top {top}");
-    [
-        &format!("hierarchy -top {top}"),
-        "proc",
-        "setattr -unset init incircle*/w:*",
-        &format!("{synth} -run begin:map_luts"),
-        "scratchpad -copy abc9.script.flow2 abc9.script",
-        &format!("abc9 -W {WIRE_PICOSECONDS}"),
-        "clean",
-        &format!("{synth} -run map_cells:"),
-        "check -assert",
-    ]
-    .join("; ")
+    let passes: Vec<_> = lines(PASSES).map(|pass| pass.replace("TOP", top)).collect();
+    passes.join("; ")
+}
+
+/// Options of nextpnr besides those that name files and device.
+pub(super) fn placer() -> impl Iterator<Item = &'static str> {
+    lines(PLACER).flat_map(str::split_whitespace)
+}
+
+/// Lines that say something.
+fn lines(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_and_placeholders_are_gone() {
+        let mapping = mapping("some_top");
+        assert!(mapping.starts_with("hierarchy -top some_top; proc; "), "{mapping}");
+        assert!(!mapping.contains("TOP") && !mapping.contains('#') && !mapping.contains('\n'), "{mapping}");
+        assert!(placer().eq(["--placer", "static"]));
+    }
 }

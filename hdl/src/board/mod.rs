@@ -128,6 +128,11 @@ impl Board {
         Pll::new(self.oscillator_hz, clock_mhz * MHZ)
     }
 
+    /// Whether the floorplan in `constraints/ecp5` is for it: one of the largest devices, with the full core.
+    pub fn has_floorplan(&self, config: Config) -> bool {
+        self.chip[0].ends_with("85k") && config == FULL
+    }
+
     /// The serial link at a clock.
     pub fn link(&self, clock_mhz: u32) -> LinkConfig {
         LinkConfig { clock_hz: clock_mhz * MHZ, fifo_bytes: self.fifo_bytes, silence_ms: SILENCE_MS }

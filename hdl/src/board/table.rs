@@ -1,6 +1,6 @@
 //! The tables of the documents, from the reports in the boards' folders and the table of cycles. No figure in them is typed.
 
-use super::{constraints, repository, Board, BoardError, Cells, Report, Summary, BOARDS, MHZ};
+use super::{constraints, repository, Board, BoardError, Cells, Parts, Report, Summary, BOARDS, MHZ};
 use std::path::PathBuf;
 
 /// What stands before a table in a document, and behind it.
@@ -161,9 +161,13 @@ fn tools(report: &Report) -> String {
 /// The table of one board.
 fn details(measurement: Option<&Measurement>) -> String {
     let Some(measurement) = measurement else { return "\nNot measured.\n".into() };
-    let report = &measurement.report;
-    let cells = &report.cells;
-    let seeds: Vec<_> = report.seeds.iter().map(|seed| format!("{:.1} (seed {})", seed.fmax_mhz, seed.seed)).collect();
+    let rows: String =
+        readings(measurement).into_iter().map(|(name, value)| format!("| {name} | {value} |\n")).collect();
+    format!("{}\n| | |\n|---|---|\n{rows}", resources(&measurement.report.cells))
+}
+
+/// What core and shell take of the device.
+fn resources(cells: &Parts) -> String {
     let row = |name: &str, of: fn(&Cells) -> u64| {
         let (core, shell, placed, available) = (&cells.core, &cells.shell, &cells.placed, &cells.available);
         let share = 100.0 * of(placed) as f64 / of(available).max(1) as f64;
@@ -176,9 +180,15 @@ fn details(measurement: Option<&Measurement>) -> String {
     text += &row("FF", |cells| cells.ff);
     text += &row("DSP", |cells| cells.dsp);
     text += &row("EBR", |cells| cells.ebr);
-    text += "\n| | |\n|---|---|\n";
+    text
+}
+
+/// What was measured besides, by name.
+fn readings(measurement: &Measurement) -> [(&'static str, String); 9] {
+    let report = &measurement.report;
+    let seeds: Vec<_> = report.seeds.iter().map(|seed| format!("{:.1} (seed {})", seed.fmax_mhz, seed.seed)).collect();
     let bitstream = report.bitstream.as_ref();
-    let lines = [
+    [
         ("configuration", format!("{}: {} points, {} contexts", report.configuration, report.points, report.contexts)),
         ("clock", measurement.clock()),
         ("Fmax, MHz", seeds.join(", ")),
@@ -197,9 +207,5 @@ fn details(measurement: Option<&Measurement>) -> String {
             bitstream.map_or("none".into(), |made| format!("`{}`, {} bytes", made.sha256, made.bytes)),
         ),
         ("measured", format!("{}, {}, ecppack {}", report.date, tools(report), report.tools.ecppack)),
-    ];
-    for (name, value) in lines {
-        text += &format!("| {name} | {value} |\n");
-    }
-    text
+    ]
 }

@@ -7,7 +7,7 @@
 //! | `leds` | out | 3 | alive, busy, error, from bit 0 up; see `SerialLink` |
 //! | `write` | out | Write | the write port of the triangle memory, for simulation |
 //!
-//! 1. `reset` is needed once, after power-up.
+//! 1. `reset` is needed once, after power-up, for two clocks or more: it passes a register, since the pin's side of it may be far away.
 //!
 //! Latency: see the blocks.
 
@@ -16,6 +16,7 @@ use crate::engine::Write;
 use crate::serial::{SerialError, SerialLink};
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The core behind its serial link; see the top of this file.
 #[derive(LogicBlock)]
@@ -34,6 +35,7 @@ pub struct SerialTop {
     pub write: Signal<Out, Write>,
     core: Core,
     link: SerialLink,
+    resets: DFF<Bit>,
     alive: Signal<Local, Bits<3>>,
     busy: Signal<Local, Bits<3>>,
     error: Signal<Local, Bits<3>>,
@@ -54,6 +56,7 @@ impl SerialTop {
             write: Signal::default(),
             core: Core::new(config)?,
             link: SerialLink::new(config, link)?,
+            resets: DFF::default(),
             alive: Signal::default(),
             busy: Signal::default(),
             error: Signal::default(),
@@ -64,8 +67,10 @@ impl SerialTop {
 impl Logic for SerialTop {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, resets);
         clock!(self, clock, core, link);
-        self.link.reset.next = self.reset.val();
+        self.resets.d.next = self.reset.val();
+        self.link.reset.next = self.resets.q.val();
         self.link.rx.next = self.rx.val();
         self.tx.next = self.link.tx.val();
         self.core.reset.next = self.link.core_reset.val();

@@ -50,7 +50,7 @@ fn all_sets_in_all_orders_with_all_contexts() {
 
 #[test]
 fn short_boundary_lists_change_nothing() {
-    compare(Config { ring: 12, ..LARGE }, 400);
+    compare(Config { ring: 7, ..LARGE }, 400);
 }
 
 /// Triangulates `p.csv` with both back ends and gives the report of the clock's.

@@ -6,6 +6,7 @@
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use super::edges::Half;
+use crate::pages;
 
 /// Marks the end of the half-edge after which, counter-clockwise, its vertex sees the outside.
 const GAP: u32 = 1 << 31;
@@ -48,7 +49,7 @@ pub(super) fn triangles(halves: &[Half], ids: &[u32], points: usize, count: usiz
     for start in &mut starts {
         sum += std::mem::replace(start, sum);
     }
-    let mut triangles = vec![[0; 3]; count];
+    let mut triangles = pages::zeros(count);
     in_parallel(split(&mut triangles, &starts, threads).into_iter(), |(own, first)| {
         stars.iter().for_each(|stars| stars.write(&starts, own, first));
     });
@@ -56,7 +57,9 @@ pub(super) fn triangles(halves: &[Half], ids: &[u32], points: usize, count: usiz
 }
 
 fn zeros(count: usize) -> Vec<AtomicU32> {
-    (0..count).map(|_| AtomicU32::new(0)).collect()
+    let mut list = pages::with_room(count);
+    list.resize_with(count, || AtomicU32::new(0));
+    list
 }
 
 /// The results of all items, in their order, each worked out on a thread of its own; a single one on this.
@@ -95,7 +98,7 @@ struct Stars<'a> {
 
 impl<'a> Stars<'a> {
     fn of(halves: &[Half], all: &[u32], ids: &'a [u32], first: &[AtomicU32]) -> Self {
-        let mut stars = Self { ids, pairs: vec![0; 2 * ids.len() + 64], ends: Vec::with_capacity(ids.len()) };
+        let mut stars = Self { ids, pairs: pages::zeros(2 * ids.len() + 64), ends: pages::with_room(ids.len()) };
         let mut end = 0;
         for (&id, first) in ids.iter().zip(first) {
             end = stars.go_round(halves, all, id, first.load(Relaxed), end);

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::link::Limit;
 use crate::mesh::{Duplicate, Mesh};
 use crate::options::{Options, Stage};
+use crate::pages;
 use crate::point::Point;
 use crate::report::Report;
 use crate::session::{tell, Stopwatch, MAX_POINTS};
@@ -77,7 +78,7 @@ impl CpuJob<'_> {
         bits: u32,
         threads: usize,
     ) -> Result<(Vec<[u32; 3]>, Vec<u32>), Error> {
-        let mut halves = vec![Half::default(); HALVES * sites.len()];
+        let mut halves = pages::filled(Half::default(), HALVES * sites.len());
         self.tell(Stage::Insert, 0, sites.len())?;
         let (mut done, mut failure) = (0, None);
         let mut go_on = |more| {

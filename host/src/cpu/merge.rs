@@ -194,8 +194,8 @@ impl Edges<'_> {
     fn zip<W: Width>(&mut self, mut base: Base, free: &mut Free) -> Base {
         loop {
             let (a, b) = (self.site(base.a), self.site(base.b));
-            let one = self.candidate_of_a::<W>(base, a, b, free);
-            let other = self.candidate_of_b::<W>(base, a, b, free);
+            let one = self.candidate::<W, true>(base, a, b, free);
+            let other = self.candidate::<W, false>(base, a, b, free);
             let other_is_next = match (one.is_valid(), other.is_valid()) {
                 (false, false) => return base,
                 (true, true) => is_inside::<W>(a, b, one.seen, other.seen),
@@ -205,15 +205,15 @@ impl Edges<'_> {
         }
     }
 
-    /// The first point of the first part that a circle through `a` and `b` meets as it grows to the left; edges of `a` that are in the way
-    /// are removed.
+    /// The first point of one part, the first one if `OF_A`, that a circle through `a` and `b` meets as it grows to the left; edges of that
+    /// part's end of the base that are in the way are removed.
     #[inline(always)]
-    fn candidate_of_a<W: Width>(&mut self, base: Base, a: Site, b: Site, free: &mut Free) -> Candidate {
-        let mut edge = self.next(base.at_a);
-        let (mut after, mut end) = self.next_and_end(edge);
+    fn candidate<W: Width, const OF_A: bool>(&mut self, base: Base, a: Site, b: Site, free: &mut Free) -> Candidate {
+        let mut edge = if OF_A { self.next(base.at_a) } else { self.previous(base.at_b) };
+        let (mut after, mut end) = self.beside::<OF_A>(edge);
         let mut seen = Seen::new(a, b, self.site(end));
         while seen.view.cross > 0 {
-            let (after_next, end_of_next) = self.next_and_end(after);
+            let (after_next, end_of_next) = self.beside::<OF_A>(after);
             let behind = Seen::new(a, b, self.site(end_of_next));
             if !is_inside::<W>(a, b, seen, behind) {
                 break;
@@ -224,22 +224,14 @@ impl Edges<'_> {
         Candidate { edge, end, seen }
     }
 
-    /// The same of the other part.
+    /// The half-edge further from the base around the same vertex, and the end of this one.
     #[inline(always)]
-    fn candidate_of_b<W: Width>(&mut self, base: Base, a: Site, b: Site, free: &mut Free) -> Candidate {
-        let mut edge = self.previous(base.at_b);
-        let (mut after, mut end) = self.previous_and_end(edge);
-        let mut seen = Seen::new(a, b, self.site(end));
-        while seen.view.cross > 0 {
-            let (after_next, end_of_next) = self.previous_and_end(after);
-            let behind = Seen::new(a, b, self.site(end_of_next));
-            if !is_inside::<W>(a, b, seen, behind) {
-                break;
-            }
-            self.remove(edge, free);
-            (edge, after, end, seen) = (after, after_next, end_of_next, behind);
+    fn beside<const OF_A: bool>(&self, edge: u32) -> (u32, u32) {
+        if OF_A {
+            self.next_and_end(edge)
+        } else {
+            self.previous_and_end(edge)
         }
-        Candidate { edge, end, seen }
     }
 
     /// The next base edge: from `a` to the end of `other`, or from the end of `one` to `b`. Selections instead of branches: no

@@ -5,6 +5,7 @@ use std::panic::resume_unwind;
 
 use super::view::Site;
 use crate::mesh::Duplicate;
+use crate::pages;
 use crate::point::Point;
 
 /// Bits of a radix digit: 2048 counters stay in the first-level cache.
@@ -118,7 +119,7 @@ fn sort_entries(entries: &mut Vec<Entry>) {
             counts[digit(entry, place)] += 1;
         }
     }
-    let mut scratch = vec![0; entries.len()];
+    let mut scratch = pages::zeros(entries.len());
     for (place, starts) in starts.iter_mut().enumerate() {
         if starts[digit(entries[0], place)] as usize == entries.len() {
             continue;
@@ -175,8 +176,12 @@ fn ranges(points: &[Point], window: Window, count: usize) -> Vec<RangeInclusive<
 fn sort_range(points: &[Point], window: Window, range: RangeInclusive<Entry>) -> Sites {
     let all = points.iter().zip(0..=u32::MAX).map(|(&point, index)| window.entry(point, index));
     let is_whole = range == (0..=u64::MAX);
-    let mut entries: Vec<Entry> =
-        if is_whole { all.collect() } else { all.filter(|entry| range.contains(entry)).collect() };
+    let mut entries: Vec<Entry> = pages::with_room(if is_whole { points.len() } else { 0 });
+    if is_whole {
+        entries.extend(all);
+    } else {
+        entries.extend(all.filter(|entry| range.contains(entry)));
+    }
     sort_entries(&mut entries);
     let mut sorted = Sites::with_room(entries.len(), window);
     if window.shift == 0 {
@@ -190,8 +195,8 @@ fn sort_range(points: &[Point], window: Window, range: RangeInclusive<Entry>) ->
 impl Sites {
     fn with_room(points: usize, window: Window) -> Self {
         Self {
-            sites: Vec::with_capacity(points),
-            ids: Vec::with_capacity(points),
+            sites: pages::with_room(points),
+            ids: pages::with_room(points),
             duplicates: Vec::new(),
             bits: window.bits,
         }

@@ -37,6 +37,30 @@ pub struct Cells {
     pub block_ram: u64,
 }
 
+impl Cells {
+    /// Holds that each count is within 5 % of what was measured: a memory in flip-flops, logic that a constant swept away, or a
+    /// change that doubles something, is not.
+    ///
+    /// # Errors
+    /// A sentence with the first count that is not, and what to do.
+    pub fn check_near(&self, measured: &Self) -> Result<(), String> {
+        let counts = [
+            ("LUT4", self.lut4, measured.lut4),
+            ("carry cells", self.carry, measured.carry),
+            ("distributed RAMs", self.distributed_ram, measured.distributed_ram),
+            ("flip-flops", self.flip_flops, measured.flip_flops),
+            ("multipliers", self.multipliers, measured.multipliers),
+            ("block RAMs", self.block_ram, measured.block_ram),
+        ];
+        match counts.into_iter().find(|(_, count, measured)| 20 * count.abs_diff(*measured) > *measured) {
+            None => Ok(()),
+            Some((name, count, measured)) => Err(format!(
+                "{count} {name}, but {measured} were measured: find out why, or measure again and renew the figures"
+            )),
+        }
+    }
+}
+
 /// What a block takes in an ECP5, by `synth_ecp5 -abc9`. Takes seconds for a block, a minute or more for a core.
 ///
 /// # Errors

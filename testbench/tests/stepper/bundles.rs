@@ -1,5 +1,7 @@
 //! The packed structures of the engine as numbers: what stands where, lowest field first.
 
+use incircle_cli::generate::SplitMix64;
+
 /// Bits of a triangle or vertex id.
 pub const ID_BITS: u32 = 15;
 
@@ -11,6 +13,16 @@ pub fn pack(fields: &[(u64, u32)]) -> u128 {
         place += bits;
         number | u128::from(*value) << (place - bits)
     })
+}
+
+/// A random id.
+pub fn id(random: &mut SplitMix64) -> u64 {
+    random.below(1 << ID_BITS)
+}
+
+/// A random bit.
+pub fn flip(random: &mut SplitMix64) -> bool {
+    random.below(2) == 1
 }
 
 fn ids(values: &[u64]) -> Vec<(u64, u32)> {
@@ -47,6 +59,20 @@ impl Visit {
     /// A look at a record as it is stored.
     pub fn look(u: u64) -> Self {
         Self { u, ..Self::default() }
+    }
+
+    /// Every field random.
+    pub fn random(random: &mut SplitMix64) -> Self {
+        Self {
+            owner: random.below(24),
+            rotates: flip(random),
+            locks: flip(random),
+            x: random.below(64),
+            after: random.below(64),
+            f_entry: random.below(64),
+            f: id(random),
+            u: id(random),
+        }
     }
 
     fn fields(self) -> [(u64, u32); 8] {

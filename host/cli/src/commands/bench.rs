@@ -40,14 +40,13 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     backend.check_job(&arguments.job)?;
     let Backend { name, config, board, insert_chunk, .. } = backend;
     let has_clock = backend.has_clock();
-    let board_mhz = board.map(|board| f64::from(board.greeting.clock_hz) / 1e6).filter(|&mhz| mhz > 0.0);
     let mut session = backend.device.session().map_err(|error| failure_of(&error))?;
     let bench = Bench {
         arguments,
         backend: name,
         config: config.map(|config| config.name),
         has_clock,
-        mhz: arguments.mhz.or(board_mhz).unwrap_or(DEFAULT_MHZ),
+        mhz: arguments.mhz.or(board.and_then(clock_of)).unwrap_or(DEFAULT_MHZ),
         rate: board.map(|board| board.rate),
         capacity: session.identity().capacity,
         contexts: arguments.job.contexts.unwrap_or(session.identity().contexts),
@@ -69,6 +68,11 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
         output::print(&format!("{}\n", bench.to_json(&rows)))?;
     }
     Ok(())
+}
+
+/// The clock that a board told, in MHz.
+fn clock_of(board: backend::Board) -> Option<f64> {
+    Some(f64::from(board.greeting.clock_hz) / 1e6).filter(|&mhz| mhz > 0.0)
 }
 
 /// It is timed, not counted in cycles.
