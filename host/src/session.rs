@@ -78,7 +78,20 @@ impl<'d> Session<'d> {
     ///
     /// A device works on as many jobs side by side as it has contexts, each in its share of the memory; [`Options::contexts`] says how
     /// many at most. Jobs too large for a share are done one by one. The engine in this process works on a job with each thread.
-    /// [`Options::insert_chunk`] is not used, and the time of [`Options::timeout`] is for all jobs that share the memory, and for each other.
+    /// [`Options::insert_chunk`] is not used, and the time of [`Options::timeout`] is for all jobs that share the memory together, and for each
+    /// of the others.
+    ///
+    /// ```
+    /// use incircle::{Device, Options, Point};
+    ///
+    /// let job = |seed: u32| (0..50).map(|k| Point::new(k * (seed + 7) % 83, k * k % 89)).collect::<Vec<_>>();
+    /// let jobs = [job(1), job(2), job(3)];
+    /// let mut device = Device::open("clock?config=small")?;
+    /// let mut session = device.session()?;
+    /// let meshes = session.triangulate_batch(&jobs, &Options::default())?;
+    /// assert_eq!(meshes[2].triangles, session.triangulate(&jobs[2])?.triangles);
+    /// # Ok::<(), incircle::Error>(())
+    /// ```
     ///
     /// # Errors
     /// Those of [`Session::triangulate_with`], with the number of the job where one is at fault. There are no meshes then.

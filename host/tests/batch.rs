@@ -3,9 +3,14 @@
 mod common;
 
 use std::ops::ControlFlow;
+use std::time::Instant;
 
 use common::Random;
-use incircle::{Config, Device, Error, ErrorKind, Mesh, Options, Order, Point, Progress, Stage};
+use incircle::{
+    Config, Device, DeviceFault, Error, ErrorKind, Mesh, Options, Order, Point, Progress, Stage, Transport,
+    TransportError,
+};
+use incircle_model::CommandModel;
 use incircle_protocol::{FULL, SMALL};
 use proptest::prelude::*;
 
@@ -126,6 +131,108 @@ fn a_cancelled_batch_leaves_the_session_in_step() {
             assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()));
         }
     }
+}
+
+/// The software model with five contexts, over any kind of link. One word of its answers is a lie.
+struct Mock {
+    model: CommandModel,
+    takes_ahead: bool,
+    packs_records: bool,
+    /// Which word, and the bits that are turned over.
+    lie: (usize, u32),
+    received: usize,
+    /// Answers that have not been received.
+    open: usize,
+}
+
+impl Mock {
+    fn device(takes_ahead: bool, packs_records: bool, lie: (usize, u32)) -> Device {
+        let model = CommandModel::new(16, 512, 32).expect("possible").with_contexts(5);
+        Device::from_transport(Box::new(Self { model, takes_ahead, packs_records, lie, received: 0, open: 0 }))
+    }
+}
+
+impl Transport for Mock {
+    fn send(&mut self, words: &[u32], _: Instant) -> Result<(), TransportError> {
+        assert!(self.takes_ahead || self.open == 0, "one command at a time");
+        self.open += 1;
+        self.model.send(words);
+        Ok(())
+    }
+
+    fn receive(&mut self, words: &mut [u32], _: Instant) -> Result<(), TransportError> {
+        self.open = 0;
+        let wanted = words.len();
+        let mut done = 0;
+        while done < wanted {
+            match self.model.receive(&mut words[done..]) {
+                0 => return Err(TransportError::Closed { done, wanted }),
+                more => done += more,
+            }
+        }
+        if let Some(word) = self.lie.0.checked_sub(self.received).and_then(|place| words.get_mut(place)) {
+            *word ^= self.lie.1;
+        }
+        self.received += wanted;
+        Ok(())
+    }
+
+    fn takes_ahead(&self) -> bool {
+        self.takes_ahead
+    }
+
+    fn packs_records(&self) -> bool {
+        self.packs_records
+    }
+
+    fn name(&self) -> String {
+        "mock".to_owned()
+    }
+}
+
+#[test]
+fn every_kind_of_link_carries_a_batch() {
+    let jobs = mixed(&mut Random(66), 40, 90);
+    let right = alone(&jobs);
+    for (takes_ahead, packs_records) in [(true, true), (true, false), (false, true), (false, false)] {
+        let mut device = Mock::device(takes_ahead, packs_records, (0, 0));
+        assert!(batch(&mut device, &jobs, &Options::default()).expect("meshes") == right);
+    }
+}
+
+#[test]
+fn lies_end_in_typed_errors() {
+    let mut random = Random(67);
+    let jobs: Vec<Vec<Point>> = (0..7).map(|job| random.points(4 + 2 * job, 1 << 16)).collect();
+    let right = alone(&jobs);
+    let (mut kinds, mut mixes) = ([0; 3], 0);
+    for packs_records in [true, false] {
+        // Behind the identity.
+        for place in 9..420 {
+            for bits in [1, 1 << 4, 1 << 16, 1 << 20, 1 << 31, 0xffff_ffff] {
+                let mut device = Mock::device(true, packs_records, (place, bits));
+                let mut session = device.session().expect("an honest greeting");
+                match session.triangulate_batch(&jobs, &Options::default()) {
+                    // Behind the last word, or in a link, which is not used.
+                    Ok(meshes) => {
+                        assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()), "{place}, {bits:x}");
+                        kinds[0] += 1;
+                    }
+                    Err(Error::Device { fault, .. }) => {
+                        mixes += usize::from(matches!(fault, DeviceFault::MixedJobs { .. }));
+                        kinds[1] += 1;
+                        let again = session.triangulate_batch(&jobs, &Options::default()).expect_err("out of step");
+                        assert!(matches!(again, Error::OutOfStep { .. }), "{again}");
+                    }
+                    Err(error) => {
+                        assert_eq!(error.kind(), ErrorKind::Link, "{error}");
+                        kinds[2] += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(kinds[0] > 100 && kinds[1] > 1000 && mixes > 100, "{kinds:?} {mixes}");
 }
 
 #[test]

@@ -15,7 +15,7 @@ fn settle(core: &mut Core) {
 }
 
 #[test]
-fn two_jobs_clock_by_clock() {
+fn two_jobs_and_a_batch_clock_by_clock() {
     let mut core = Core::new(TINY).unwrap();
     core.connect_all();
     let mut model = ClockModel::new(TINY).unwrap();
@@ -23,9 +23,12 @@ fn two_jobs_clock_by_clock() {
         [0x0000_0000, 0x0000_0009, 0x0009_0000, 0x0003_0003, 0x0009_0009, 0x0005_0001, 0x0003_0003, 0x0001_0008];
     let mut commands = Job::of(&points, 8, 0, TINY).commands;
     commands.extend(Job::of(&points[..5], 2, 1, TINY).commands);
+    // Two jobs of three points, and one more for each.
+    let batch = [0, 9, 0x0009_0000, 0, 0x0005_0005, 0x0000_0005, 0x0003_0003, 0x0001_0003];
+    commands.extend(Job::batch_of(&batch, 8, 0, TINY).commands);
     let mut rest = commands.as_slice();
     let mut chance = 1u64;
-    for clock in 0..3500 {
+    for clock in 0..5500 {
         chance = chance.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         let reset = clock == 0;
         let inputs = Inputs { reset, ..Stalls { idle: 20, back_pressure: 20 }.inputs(rest, chance >> 8) };
