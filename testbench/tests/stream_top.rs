@@ -7,8 +7,8 @@ mod stream_rig;
 use incircle_cli::generate::SplitMix64;
 use incircle_model::CommandModel;
 use incircle_protocol::{
-    clear_word, command_word, Config, Opcode, Status, StreamRegister, CONTROL_RESET, CORE_COORD_BITS, SMALL,
-    STREAM_STATUS_RUNS, TINY,
+    answer_header, clear_word, command_word, Config, Opcode, Status, StreamRegister, CONTROL_RESET, CORE_COORD_BITS,
+    SMALL, STREAM_STATUS_RUNS, TINY,
 };
 use stream_rig::{Rig, Verilog, PERIODS};
 
@@ -25,6 +25,34 @@ struct Device {
 
 fn model(config: Config) -> CommandModel {
     CommandModel::new(CORE_COORD_BITS, config.points, config.ring).expect("a sound configuration")
+}
+
+/// Vertices of records, each from its smallest one, sorted.
+fn sorted(mut all: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
+    for record in &mut all {
+        let smallest = (0..3).min_by_key(|place| record[*place]).unwrap_or(0);
+        record.rotate_left(smallest);
+    }
+    all.sort_unstable();
+    all
+}
+
+/// The vertices that an answer holds, if it is one with records.
+fn records(answer: &[u32]) -> Option<Vec<[u32; 3]>> {
+    let payload = &answer[2..];
+    let ids: Vec<u32> = match answer[0] {
+        header if header == answer_header(Opcode::Read as u8, Status::Ok) => {
+            payload.iter().map(|word| word & 0x7fff).collect()
+        }
+        header if header == answer_header(Opcode::Triangles as u8, Status::Ok) => {
+            payload.iter().flat_map(|word| [word & 0xffff, word >> 16]).collect()
+        }
+        _ => return None,
+    };
+    // A half-word behind the last record is 0.
+    let (records, rest) = ids.as_chunks::<3>();
+    assert!(rest.iter().all(|id| *id == 0));
+    Some(sorted(records.to_vec()))
 }
 
 impl Device {
@@ -63,10 +91,25 @@ impl Device {
             }
         }
         self.rig.bus.send(&words);
-        for answer in expected {
-            assert_eq!(self.rig.answer(PATIENCE), answer);
+        let mesh = self.mesh();
+        for expected in expected {
+            let answer = self.rig.answer(PATIENCE);
+            assert_eq!(answer[..2], expected[..2], "header and length");
+            match records(&answer) {
+                // The order of records, and where each begins, is the device's own.
+                Some(found) => {
+                    assert!(found.iter().all(|record| mesh.binary_search(record).is_ok()), "a record of no mesh");
+                    assert!(found.len() < mesh.len() || found == mesh, "a record twice");
+                }
+                None => assert_eq!(answer, expected),
+            }
             self.compared[(answer[0] >> 16 & 255) as usize] += 1;
         }
+    }
+
+    /// Every record of the model, as [`records`] has them.
+    fn mesh(&self) -> Vec<[u32; 3]> {
+        sorted(self.model.mesh().records().iter().map(|record| record.v).collect())
     }
 
     /// A job: points on a grid of so many places, and what was made of them.

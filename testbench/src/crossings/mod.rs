@@ -61,11 +61,8 @@ pub fn crossings(
     clock_of_port: impl Fn(&str) -> &'static str,
 ) -> Result<Vec<Crossing>, GateError> {
     let json = gate::netlist(verilog, top)?;
-    let netlist = Netlist::read(&json).map_err(|reason| GateError::Report {
-        tool: "yosys",
-        top: top.to_string(),
-        reason,
-    })?;
+    let netlist =
+        Netlist::read(&json).map_err(|reason| GateError::Report { tool: "yosys", top: top.to_string(), reason })?;
     let mut found: BTreeMap<(String, String, Way, String), usize> = BTreeMap::new();
     let mut search = Search { netlist: &netlist, clock_of_port: &clock_of_port, cones: BTreeMap::new() };
     for receiver in netlist.receivers(&clock_of_port) {
