@@ -178,6 +178,68 @@ fn the_registers_say_what_hello_says() {
     }
 }
 
+/// The page of the protocol, in whose table a row begins with the offset in three hexadecimal digits.
+const PAGE: &str = include_str!("../../protocol/STREAM.md");
+
+#[test]
+fn the_example_of_the_page_is_true() {
+    let (_, rest) = PAGE.split_once("```beats\n").expect("an example");
+    let (example, _) = rest.split_once("```").expect("its end");
+    let mut device = Device::new("stream_tiny_64", 64, ONE_CONTEXT_TINY, PERIODS[4], 1);
+    let mut beats = Vec::new();
+    for line in example.lines() {
+        let words: Vec<u32> =
+            line[2..].split_whitespace().map_while(|word| u32::from_str_radix(word, 16).ok()).take(2).collect();
+        let [low, high] = words[..] else { panic!("a beat of two words: {line}") };
+        match &line[..1] {
+            ">" => device.rig.bus.send(&[low, high]),
+            _ => beats.push((u128::from(high) << 32 | u128::from(low), line[19..].starts_with(" +"))),
+        }
+    }
+    while device.rig.bus.came.len() < beats.len() {
+        device.rig.step();
+    }
+    assert_eq!(device.rig.bus.came, beats);
+}
+
+#[test]
+fn the_table_of_the_page_is_the_registers() {
+    let name = |register: StreamRegister| {
+        let name = format!("{register:?}");
+        name.chars().fold(String::new(), |name, letter| {
+            let begins = letter.is_uppercase() && !name.is_empty();
+            name + if begins { "_" } else { "" } + &letter.to_uppercase().to_string()
+        })
+    };
+    let expected: Vec<String> = StreamRegister::ALL
+        .into_iter()
+        .map(|register| {
+            let access = if matches!(register, StreamRegister::Control | StreamRegister::Errors) { "rw" } else { "r" };
+            format!("| {:03x} | `{}` | {access} |", register.offset(), name(register))
+        })
+        .collect();
+    let is_row = |line: &&str| line.len() > 5 && line[2..5].chars().all(|digit| digit.is_ascii_hexdigit());
+    let rows: Vec<&str> = PAGE.lines().filter(|line| line.starts_with("| ")).filter(is_row).collect();
+    assert_eq!(rows.len(), expected.len());
+    for (row, expected) in rows.into_iter().zip(expected) {
+        assert!(row.starts_with(&expected), "{row} does not begin with {expected}");
+    }
+}
+
+#[test]
+fn triangles_leave_the_link_as_fast_as_the_core_gives_them() {
+    // Equal clocks, and a host that takes everything: two records a point, one a clock.
+    let mut device = Device::new("stream_small_128", 128, ONE_CONTEXT_SMALL, [8000, 8000], 2);
+    device.job(1000, 1 << 16);
+    let records = device.model.mesh().records().len() as u32;
+    device.rig.steps(200);
+    let start = device.rig.edges[0];
+    device.exchange(&[vec![command_word(Opcode::Triangles), 0, records]]);
+    let clocks = device.rig.edges[0] - start;
+    println!("{clocks} clocks for {records} records");
+    assert!(clocks < u64::from(records) * 11 / 10 + 60, "{clocks} clocks for {records} records");
+}
+
 #[test]
 fn a_reset_in_the_middle_of_a_job_leaves_a_fresh_device() {
     for (round, periods) in PERIODS.into_iter().enumerate() {
