@@ -146,6 +146,8 @@ fn both_fifos_fill_and_nothing_is_lost() {
         let left = rig.bus.unsent();
         rig.steps(5000);
         assert!(left > 0 && rig.bus.unsent() == left && rig.bus.came.is_empty());
+        // An answer is offered though nobody was ever ready for one.
+        assert_eq!(rig.pins.get("m_axis_tvalid"), 1);
         rig.bus.is_deaf = false;
         for command in &commands {
             assert_eq!(rig.answer(60_000), answer(&[*command]));

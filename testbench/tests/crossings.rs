@@ -56,7 +56,7 @@ fn other_crossings_are_found() {
         // A reset of the other side.
         ("answers$write_reset = core$core_reset;", "answers$write_reset = bus$resets;"),
         // A whole word between the clocks.
-        ("watch$m_axis_tdata = entry;", "watch$m_axis_tdata = {entry[63:1], core_beat};"),
+        ("watch$m_axis_tdata = ((entry)", "watch$m_axis_tdata = ((entry ^ core_beat)"),
     ] {
         let places = sound.matches(old).count();
         if places == 0 {

@@ -7,8 +7,8 @@ mod stream_rig;
 use incircle_cli::generate::SplitMix64;
 use incircle_model::CommandModel;
 use incircle_protocol::{
-    clear_word, command_word, Config, Opcode, Status, StreamRegister, CONTROL_RESET, CORE_COORD_BITS, SMALL,
-    STREAM_STATUS_RUNS, TINY,
+    answer_header, clear_word, command_word, Config, Opcode, Status, StreamRegister, CONTROL_RESET, CORE_COORD_BITS,
+    SMALL, STREAM_STATUS_RUNS, TINY,
 };
 use stream_rig::{Rig, Verilog, PERIODS};
 
@@ -25,6 +25,34 @@ struct Device {
 
 fn model(config: Config) -> CommandModel {
     CommandModel::new(CORE_COORD_BITS, config.points, config.ring).expect("a sound configuration")
+}
+
+/// Vertices of records, each from its smallest one, sorted.
+fn sorted(mut all: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
+    for record in &mut all {
+        let smallest = (0..3).min_by_key(|place| record[*place]).unwrap_or(0);
+        record.rotate_left(smallest);
+    }
+    all.sort_unstable();
+    all
+}
+
+/// The vertices that an answer holds, if it is one with records.
+fn records(answer: &[u32]) -> Option<Vec<[u32; 3]>> {
+    let payload = &answer[2..];
+    let ids: Vec<u32> = match answer[0] {
+        header if header == answer_header(Opcode::Read as u8, Status::Ok) => {
+            payload.iter().map(|word| word & 0x7fff).collect()
+        }
+        header if header == answer_header(Opcode::Triangles as u8, Status::Ok) => {
+            payload.iter().flat_map(|word| [word & 0xffff, word >> 16]).collect()
+        }
+        _ => return None,
+    };
+    // A half-word behind the last record is 0.
+    let (records, rest) = ids.as_chunks::<3>();
+    assert!(rest.iter().all(|id| *id == 0));
+    Some(sorted(records.to_vec()))
 }
 
 impl Device {
@@ -63,10 +91,25 @@ impl Device {
             }
         }
         self.rig.bus.send(&words);
-        for answer in expected {
-            assert_eq!(self.rig.answer(PATIENCE), answer);
+        let mesh = self.mesh();
+        for expected in expected {
+            let answer = self.rig.answer(PATIENCE);
+            assert_eq!(answer[..2], expected[..2], "header and length");
+            match records(&answer) {
+                // The order of records, and where each begins, is the device's own.
+                Some(found) => {
+                    assert!(found.iter().all(|record| mesh.binary_search(record).is_ok()), "a record of no mesh");
+                    assert!(found.len() < mesh.len() || found == mesh, "a record twice");
+                }
+                None => assert_eq!(answer, expected),
+            }
             self.compared[(answer[0] >> 16 & 255) as usize] += 1;
         }
+    }
+
+    /// Every record of the model, as [`records`] has them.
+    fn mesh(&self) -> Vec<[u32; 3]> {
+        sorted(self.model.mesh().records().iter().map(|record| record.v).collect())
     }
 
     /// A job: points on a grid of so many places, and what was made of them.
@@ -133,6 +176,68 @@ fn the_registers_say_what_hello_says() {
         let registers = [Magic, ProtocolVersion, CoreVersion, CoordBits, Capacity, Contexts, Ring];
         assert_eq!(registers.map(|register| device.rig.read(register))[..], answer[2..]);
     }
+}
+
+/// The page of the protocol, in whose table a row begins with the offset in three hexadecimal digits.
+const PAGE: &str = include_str!("../../protocol/STREAM.md");
+
+#[test]
+fn the_example_of_the_page_is_true() {
+    let (_, rest) = PAGE.split_once("```beats\n").expect("an example");
+    let (example, _) = rest.split_once("```").expect("its end");
+    let mut device = Device::new("stream_tiny_64", 64, ONE_CONTEXT_TINY, PERIODS[4], 1);
+    let mut beats = Vec::new();
+    for line in example.lines() {
+        let words: Vec<u32> =
+            line[2..].split_whitespace().map_while(|word| u32::from_str_radix(word, 16).ok()).take(2).collect();
+        let [low, high] = words[..] else { panic!("a beat of two words: {line}") };
+        match &line[..1] {
+            ">" => device.rig.bus.send(&[low, high]),
+            _ => beats.push((u128::from(high) << 32 | u128::from(low), line[19..].starts_with(" +"))),
+        }
+    }
+    while device.rig.bus.came.len() < beats.len() {
+        device.rig.step();
+    }
+    assert_eq!(device.rig.bus.came, beats);
+}
+
+#[test]
+fn the_table_of_the_page_is_the_registers() {
+    let name = |register: StreamRegister| {
+        let name = format!("{register:?}");
+        name.chars().fold(String::new(), |name, letter| {
+            let begins = letter.is_uppercase() && !name.is_empty();
+            name + if begins { "_" } else { "" } + &letter.to_uppercase().to_string()
+        })
+    };
+    let expected: Vec<String> = StreamRegister::ALL
+        .into_iter()
+        .map(|register| {
+            let access = if matches!(register, StreamRegister::Control | StreamRegister::Errors) { "rw" } else { "r" };
+            format!("| {:03x} | `{}` | {access} |", register.offset(), name(register))
+        })
+        .collect();
+    let is_row = |line: &&str| line.len() > 5 && line[2..5].chars().all(|digit| digit.is_ascii_hexdigit());
+    let rows: Vec<&str> = PAGE.lines().filter(|line| line.starts_with("| ")).filter(is_row).collect();
+    assert_eq!(rows.len(), expected.len());
+    for (row, expected) in rows.into_iter().zip(expected) {
+        assert!(row.starts_with(&expected), "{row} does not begin with {expected}");
+    }
+}
+
+#[test]
+fn triangles_leave_the_link_as_fast_as_the_core_gives_them() {
+    // Equal clocks, and a host that takes everything: two records a point, one a clock.
+    let mut device = Device::new("stream_small_128", 128, ONE_CONTEXT_SMALL, [8000, 8000], 2);
+    device.job(1000, 1 << 16);
+    let records = device.model.mesh().records().len() as u32;
+    device.rig.steps(200);
+    let start = device.rig.edges[0];
+    device.exchange(&[vec![command_word(Opcode::Triangles), 0, records]]);
+    let clocks = device.rig.edges[0] - start;
+    println!("{clocks} clocks for {records} records");
+    assert!(clocks < u64::from(records) * 11 / 10 + 60, "{clocks} clocks for {records} records");
 }
 
 #[test]

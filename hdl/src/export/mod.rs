@@ -20,7 +20,9 @@ use crate::predicate::{
 };
 use crate::serial::{SerialError, SerialLink};
 use crate::stream::StreamLink;
-use crate::top::{serial_wrapper, wrapper, Core, SerialTop, CORE_NAME, SERIAL_TOP_NAME};
+use crate::top::{
+    serial_wrapper, stream_wrapper, wrapper, Core, SerialTop, StreamTop, CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME,
+};
 
 pub use serial_blocks::{HASTY_LINK, QUICK_LINK};
 
@@ -140,6 +142,25 @@ pub fn serial_top(config: Config, link: LinkConfig, with_probe: bool) -> Result<
         uut.connect_all();
         let inside = format!("{SERIAL_TOP_NAME}_logic");
         Ok(format!("{}{}", verilog(&uut, &inside)?, serial_wrapper(&inside, with_probe)))
+    })
+}
+
+/// The whole Verilog of a core behind a stream link with beats of 64 or 128 bits: the device and the ANSI wrapper
+/// [`STREAM_TOP_NAME`](crate::top::STREAM_TOP_NAME) around it.
+///
+/// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn stream_top(config: Config, beat_bits: u32, with_probe: bool) -> Result<String, ExportError> {
+    on_large_stack(|| {
+        let inside = format!("{STREAM_TOP_NAME}_logic");
+        let device = match beat_bits {
+            64 => connected(StreamTop::<64, 8, 65>::new(config)?, &inside)?,
+            128 => connected(StreamTop::<128, 16, 129>::new(config)?, &inside)?,
+            _ => return Err(ExportError::BeatBits(beat_bits)),
+        };
+        Ok(format!("{device}{}", stream_wrapper(&inside, beat_bits as usize, with_probe)))
     })
 }
 

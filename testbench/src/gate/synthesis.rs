@@ -76,6 +76,38 @@ pub fn cell_count(verilog: &str, top: &str) -> Result<Cells, GateError> {
     })
 }
 
+/// Cells of an Artix-7 that a block takes after mapping, without placement.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ArtixCells {
+    /// Tables of two to six inputs.
+    pub luts: u64,
+    /// Carry cells of four bits.
+    pub carry: u64,
+    /// Flip-flops.
+    pub flip_flops: u64,
+    /// Block memories of 18 kbit; one of 36 counts as two.
+    pub block_ram: u64,
+}
+
+/// What a block takes in an Artix-7, by `synth_xilinx`.
+///
+/// # Errors
+/// As [`cell_count`].
+pub fn artix_cell_count(verilog: &str, top: &str) -> Result<ArtixCells, GateError> {
+    let scratch = Scratch::new(top)?;
+    let passes = format!("synth_xilinx -family xc7 -flatten -noiopad -top {top}; tee -q -o cells.json stat -json");
+    yosys(verilog, top, &passes, &scratch)?;
+    let report = |reason| GateError::Report { tool: YOSYS, top: top.to_string(), reason };
+    let count = counts(&scratch.read("cells.json")?).map_err(report)?;
+    let all = |cells: &[&str]| cells.iter().map(|cell| count(cell)).sum::<u64>();
+    Ok(ArtixCells {
+        luts: all(&["LUT1", "LUT2", "LUT3", "LUT4", "LUT5", "LUT6"]),
+        carry: count("CARRY4"),
+        flip_flops: all(&["FDRE", "FDSE", "FDCE", "FDPE"]),
+        block_ram: count("RAMB18E1") + 2 * count("RAMB36E1"),
+    })
+}
+
 /// The flat netlist of a design as JSON: registers, memories and the logic between them, before any mapping.
 ///
 /// # Errors
@@ -116,13 +148,19 @@ fn yosys_on(reader: &str, verilog: &str, top: &str, passes: &str, scratch: &Scra
     complain(YOSYS, top, &complaints)
 }
 
-fn cells(report: &str) -> Result<Cells, String> {
+/// How many cells of each type a report tells of.
+fn counts(report: &str) -> Result<impl Fn(&str) -> u64, String> {
     let report: serde_json::Value = serde_json::from_str(report).map_err(|error| error.to_string())?;
     let counts = report
         .pointer("/design/num_cells_by_type")
         .and_then(serde_json::Value::as_object)
+        .cloned()
         .ok_or("it has no table design/num_cells_by_type")?;
-    let count = |cell: &str| counts.get(cell).and_then(serde_json::Value::as_u64).unwrap_or(0);
+    Ok(move |cell: &str| counts.get(cell).and_then(serde_json::Value::as_u64).unwrap_or(0))
+}
+
+fn cells(report: &str) -> Result<Cells, String> {
+    let count = counts(report)?;
     Ok(Cells {
         lut4: count("LUT4"),
         carry: count("CCU2C"),

@@ -93,6 +93,7 @@ pub trait NamedPorts: Block {
 
 /// Gives a block [`NamedPorts`]: its type, its inputs, its outputs, and `clock` if it has one. Before the type may stand generic
 /// parameters in brackets, or none: `[]`.
+#[allow(unused_macros)] // As above.
 macro_rules! named_ports {
     ([$($generics:tt)*] $block:ty, [$($input:ident),*], [$($output:ident),*] $(, $clock:ident)?) => {
         impl<$($generics)*> $crate::block_ports::NamedPorts for $block {

@@ -14,9 +14,8 @@ use std::collections::BTreeMap;
 use incircle_testbench::blocks;
 use verilated::{Model, PortId};
 
-pub(crate) use crate::block_ports::named_ports;
 #[allow(unused_imports)] // As below.
-pub use crate::block_ports::NamedPorts;
+pub(crate) use crate::block_ports::{named_ports, NamedPorts};
 use crate::block_ports::{number, set_number, settle};
 #[allow(unused_imports)] // As above.
 pub use wave::{Cell, Wave};

@@ -164,8 +164,12 @@ impl<P: Pins> Rig<P> {
         if bus {
             self.bus.before_edge(&mut self.pins);
         }
-        if let (true, false, Some(stand_in)) = (core, self.bus.reset, &mut self.core) {
-            stand_in.before_edge(&mut self.pins);
+        if let (true, Some(stand_in)) = (core, &mut self.core) {
+            if self.bus.reset {
+                stand_in.lose_track();
+            } else {
+                stand_in.before_edge(&mut self.pins);
+            }
         }
         for level in [1, 0] {
             for (name, rises) in [("bus_clock", bus), ("core_clock", core)] {

@@ -50,6 +50,11 @@ impl StandIn {
         }
     }
 
+    /// Nothing at the ports counts: they may be in their first reset.
+    pub fn lose_track(&mut self) {
+        self.before = None;
+    }
+
     pub fn before_edge(&mut self, pins: &mut impl Pins) {
         let valid = pins.get("command_valid") == 1;
         let word = pins.get("command_data");
