@@ -213,9 +213,11 @@ impl Engine {
         self.reader.take_answer()
     }
 
-    /// Ends the session, so that the next host finds the device at the first rate; [`Engine::is_closed`] tells when it is done,
-    /// a few tries and at most a fifth of a second later.
+    /// Ends the session, so that the next host finds the device at the first rate, and gives up a command under way. [`Engine::is_closed`]
+    /// tells when it is done: after three tries at most, each of which waits for twice the mean round trip, and for 60 ms at least.
     pub fn close(&mut self, now: Duration) {
+        self.queued = None;
+        self.reader.abandon();
         self.stage = match &self.stage {
             Stage::Open => Stage::Closing { said: 0, due: now },
             Stage::Connecting(connect) if connect.may_be_open() && connect.greeting().is_some() => {

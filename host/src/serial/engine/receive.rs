@@ -117,7 +117,7 @@ impl Engine {
             }
         }
         if is_current {
-            self.reader.passed(message.answers, &mut self.sender);
+            self.reader.passed(message.answers, &mut self.sender)?;
             match message.kind {
                 DeviceFrame::Nak => self.go_back_once(now),
                 DeviceFrame::Ack => self.hear_polled(now),
