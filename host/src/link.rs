@@ -29,6 +29,16 @@ impl Limit {
         Self { deadline: Instant::now() + timeout, timeout }
     }
 
+    /// Until when.
+    pub(crate) fn deadline(self) -> Instant {
+        self.deadline
+    }
+
+    /// How long that was at the start.
+    pub(crate) fn timeout(self) -> Duration {
+        self.timeout
+    }
+
     /// An error once the deadline has passed.
     pub(crate) fn check(&self, device: &str, during: &'static str) -> Result<(), Error> {
         if Instant::now() <= self.deadline {
