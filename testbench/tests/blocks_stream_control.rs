@@ -202,7 +202,8 @@ fn the_port_follows_the_rules_of_axi() {
             reads_done += 1;
         }
         if writes {
-            (addresses.clear(), words.clear());
+            addresses.clear();
+            words.clear();
             b = Some(if write_is_known { 0 } else { 2 });
         }
         if reads_now {

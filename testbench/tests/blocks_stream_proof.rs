@@ -1,4 +1,4 @@
-//! The FIFO between two clocks and the AXI4-Lite port are proven: for every sequence of inputs, and of edges of two clocks, of any length. So that this says
+//! The FIFO between two clocks, the AXI4-Lite port and the clocks of the counters are proven: for every sequence of inputs, and of edges of two clocks, of any length. So that this says
 //! something, faults are put in, and must be found.
 
 use incircle_hdl::export;
@@ -111,5 +111,23 @@ fn faults_of_the_register_port_are_found() {
         ("if (could_read) assert (s_axi_rvalid);", "if (could_read) assert (!s_axi_rvalid);"),
     ] {
         must_fail(&text, (PORT, false), fault);
+    }
+}
+
+const BLOCK: &str = "stream_register_block";
+
+fn traffic() -> String {
+    with_properties(&block(BLOCK), &format!("{BLOCK}$traffic"), include_str!("../formal/traffic.v"))
+}
+
+#[test]
+fn the_clocks_and_their_high_half_are_proven() {
+    let text = traffic();
+    gate::prove(&text, BLOCK, false, STEPS).unwrap_or_else(|error| panic!("{error}"));
+    for fault in [
+        ("kept$d = clocks$q[(32'h20)+:(32)];", "kept$d = clocks$q[(32'h1f)+:(32)];"),
+        ("clocks$d = clocks$q + one_clock;", "clocks$d[31:0] = clocks$q[31:0] + one;"),
+    ] {
+        must_fail(&text, (BLOCK, false), fault);
     }
 }

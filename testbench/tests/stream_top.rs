@@ -8,7 +8,7 @@ use incircle_cli::generate::SplitMix64;
 use incircle_model::CommandModel;
 use incircle_protocol::{
     answer_header, clear_word, command_word, Config, Opcode, Status, StreamRegister, CONTROL_RESET, CORE_COORD_BITS,
-    SMALL, STREAM_STATUS_RUNS, TINY,
+    SMALL, STREAM_STATUS_BUSY, STREAM_STATUS_RUNS, TINY,
 };
 use stream_rig::{Rig, Verilog, PERIODS};
 
@@ -238,6 +238,28 @@ fn triangles_leave_the_link_as_fast_as_the_core_gives_them() {
     let clocks = device.rig.edges[0] - start;
     println!("{clocks} clocks for {records} records");
     assert!(clocks < u64::from(records) * 11 / 10 + 60, "{clocks} clocks for {records} records");
+}
+
+#[test]
+fn a_device_is_busy_until_it_owes_nothing() {
+    let mut device = Device::new("stream_tiny_64", 64, ONE_CONTEXT_TINY, PERIODS[5], 3);
+    let is_busy = |device: &mut Device| device.rig.read(StreamRegister::Status) & STREAM_STATUS_BUSY != 0;
+    for round in 0..6 {
+        device.rig.bus.pace = 1 + round % 3;
+        device.job(7, 50);
+        device.rig.steps(200);
+        assert!(!is_busy(&mut device), "nothing is owed");
+        // Padding alone is no command.
+        device.rig.bus.send(&[0; 12]);
+        device.rig.steps(400);
+        assert!(!is_busy(&mut device) && device.rig.bus.came.is_empty());
+        // All but the last point, then nothing for a while.
+        device.rig.bus.send(&[command_word(Opcode::Insert), 3, 0, 9]);
+        device.rig.steps(3000);
+        assert!(is_busy(&mut device) && device.rig.bus.came.is_empty());
+        device.rig.bus.send(&[7 << 16, 0]);
+        assert_eq!(device.rig.answer(PATIENCE)[0] >> 24, Opcode::Insert as u32);
+    }
 }
 
 #[test]

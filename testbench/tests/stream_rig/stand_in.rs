@@ -60,7 +60,9 @@ impl StandIn {
         let word = pins.get("command_data");
         if pins.get("core_reset") == 1 {
             self.resets += 1;
-            (self.taken.clear(), self.answer.clear(), self.offered.clear());
+            self.taken.clear();
+            self.answer.clear();
+            self.offered.clear();
             self.before = None;
             return;
         }
