@@ -13888,6 +13888,12 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  [14:0] passed_point$d;
     wire  [14:0] passed_point$q;
     reg  passed_point$clock;
+    reg  passed_is_seed$d;
+    wire  passed_is_seed$q;
+    reg  passed_is_seed$clock;
+    reg  [6:0] passed_dealt$d;
+    wire  [6:0] passed_dealt$q;
+    reg  passed_dealt$clock;
     reg  [4:0] candidate$d;
     wire  [4:0] candidate$q;
     reg  candidate$clock;
@@ -13944,8 +13950,12 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  following$has_begun;
     reg  [14:0] following$planned;
     wire  [14:0] following$next_id;
+    wire  following$is_seed;
+    wire  [6:0] following$first_dealt;
     reg  [4:0] following$taker;
     reg  [14:0] following$taken;
+    reg  following$took_seed;
+    reg  [6:0] following$taken_dealt;
     wire  [14:0] following$after_taken;
     wire  [14:0] following$first_record;
     
@@ -14003,6 +14013,16 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .d(passed_point$d),
         .q(passed_point$q),
         .clock(passed_point$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$passed_is_seed passed_is_seed(
+        .d(passed_is_seed$d),
+        .q(passed_is_seed$q),
+        .clock(passed_is_seed$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$passed_dealt passed_dealt(
+        .d(passed_dealt$d),
+        .q(passed_dealt$q),
+        .clock(passed_dealt$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$start$candidate candidate(
         .d(candidate$d),
@@ -14087,8 +14107,12 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .has_begun(following$has_begun),
         .planned(following$planned),
         .next_id(following$next_id),
+        .is_seed(following$is_seed),
+        .first_dealt(following$first_dealt),
         .taker(following$taker),
         .taken(following$taken),
+        .took_seed(following$took_seed),
+        .taken_dealt(following$taken_dealt),
         .after_taken(following$after_taken),
         .first_record(following$first_record)
     );
@@ -14125,6 +14149,10 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         from$d = from$q;
         is_alone$d = is_alone$q;
         all_work$d = all_work$q;
+        passed_is_seed$clock = clock;
+        passed_dealt$clock = clock;
+        passed_is_seed$d = passed_is_seed$q;
+        passed_dealt$d = passed_dealt$q;
         points$clock = clock;
         plans$clock = clock;
         roots$clock = clock;
@@ -14143,6 +14171,8 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         following$planned = plans$read_data;
         following$taken = passed_id$q;
         following$taker = passed$q;
+        following$took_seed = passed_is_seed$q;
+        following$taken_dealt = passed_dealt$q;
         following$deal = deal;
         index = passed$q;
         is_barred = solo_valid | ((wants_again$q | wants_new$q) & (contexts == one_turn));
@@ -14209,6 +14239,8 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
             passed$d = turn$q;
             passed_id$d = following$next_id;
             passed_point$d = points$read_data;
+            passed_is_seed$d = following$is_seed;
+            passed_dealt$d = following$first_dealt;
             turn$d = after_turn;
             if (after_turn == contexts) begin
                 turn$d = 32'h0;
@@ -14324,7 +14356,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$candidate_point(d,
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$following(deal,turn,has_begun,planned,next_id,taker,taken,after_taken,first_record);
+module incircle_core_logic$engine$insertions$dispatcher$start$following(deal,turn,has_begun,planned,next_id,is_seed,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record);
     
     // Module arguments
     input wire  [12:0] deal;
@@ -14332,8 +14364,12 @@ module incircle_core_logic$engine$insertions$dispatcher$start$following(deal,tur
     input wire  has_begun;
     input wire  [14:0] planned;
     output reg  [14:0] next_id;
+    output reg  is_seed;
+    output reg  [6:0] first_dealt;
     input wire  [4:0] taker;
     input wire  [14:0] taken;
+    input wire  took_seed;
+    input wire  [6:0] taken_dealt;
     output reg  [14:0] after_taken;
     output reg  [14:0] first_record;
     
@@ -14346,7 +14382,8 @@ module incircle_core_logic$engine$insertions$dispatcher$start$following(deal,tur
     reg  [14:0] twice_turn;
     reg  [14:0] thrice_turn;
     reg  [14:0] wide_taker;
-    reg  [14:0] dealt_from;
+    reg  [6:0] narrow_turn;
+    reg  [6:0] dealt_from;
     reg  [14:0] first_round;
     reg  [4:0] first_context;
     reg  [14:0] one;
@@ -14361,16 +14398,19 @@ module incircle_core_logic$engine$insertions$dispatcher$start$following(deal,tur
         is_batch = deal[(64'h5)+:(1)];
         wide_turn = ((turn) & 15'h7fff);
         wide_taker = ((taker) & 15'h7fff);
-        dealt_from = ((deal[(64'h6)+:(7)]) & 15'h7fff);
-        is_early = taken < dealt_from;
+        narrow_turn = ((turn) & 7'h7f);
+        dealt_from = deal[(64'h6)+:(7)];
+        is_seed = is_batch & (~has_begun);
+        first_dealt = dealt_from + narrow_turn;
+        is_early = (taken < first_round) & (~is_batch);
         from = taken;
         step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
         if (is_early) begin
             step = one;
         end
-        if (is_early & is_batch) begin
-            from = dealt_from;
-            step = wide_taker;
+        if (took_seed) begin
+            from = ((taken_dealt) & 15'h7fff);
+            step = 32'h0;
         end
         after_taken = from + step;
         first_record = 32'h0;
@@ -14490,6 +14530,25 @@ module incircle_core_logic$engine$insertions$dispatcher$start$passed(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed
 
 
+module incircle_core_logic$engine$insertions$dispatcher$start$passed_dealt(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_dealt
+
+
 module incircle_core_logic$engine$insertions$dispatcher$start$passed_id(d,q,clock);
     
     // Module arguments
@@ -14507,6 +14566,25 @@ module incircle_core_logic$engine$insertions$dispatcher$start$passed_id(d,q,cloc
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_id
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$passed_is_seed(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_is_seed
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$passed_point(d,q,clock);

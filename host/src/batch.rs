@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::fault::DeviceFault;
 use crate::link::{Limit, Link};
 use crate::mesh::Mesh;
-use crate::options::{Options, Stage};
+use crate::options::{Options, Order, Stage};
 use crate::point::Point;
 use crate::prepare::{prepare, Prepared};
 use crate::report::Report;
@@ -75,26 +75,27 @@ impl Batch<'_> {
         let mut done = Done { meshes: self.jobs.iter().map(|_| None).collect(), singles: Vec::new() };
         let groups = self.prepare_all(&mut done)?;
         let total = groups.iter().map(|group| group.jobs.iter().map(Ordered::vertices).sum::<usize>()).sum();
-        let (mut sent, mut waiting) = (0, None::<Group>);
+        let (mut sent, mut waiting) = (0, None);
         for group in groups {
             if let Err(cancelled) = tell(self.options, Stage::Insert, sent, total) {
-                if let Some(group) = waiting {
+                if let Some((group, commands)) = waiting {
                     // The session stays in step.
-                    self.finish(group, &mut done.meshes)?;
+                    self.finish(group, commands, &mut done.meshes)?;
                 }
                 return Err(cancelled);
             }
             sent += group.jobs.iter().map(Ordered::vertices).sum::<usize>();
+            let commands = self.commands(&group);
             if self.link.takes_ahead() {
-                let words: Vec<u32> = self.commands(&group).into_iter().flat_map(|command| command.words).collect();
+                let words = commands.each_ref().map(|command| &command.words[..]).concat();
                 self.link.send_ahead(Opcode::Insert, &words, self.limit)?;
             }
-            if let Some(before) = waiting.replace(group) {
-                self.finish(before, &mut done.meshes)?;
+            if let Some((before, commands)) = waiting.replace((group, commands)) {
+                self.finish(before, commands, &mut done.meshes)?;
             }
         }
-        if let Some(last) = waiting {
-            self.finish(last, &mut done.meshes)?;
+        if let Some((last, commands)) = waiting {
+            self.finish(last, commands, &mut done.meshes)?;
         }
         tell(self.options, Stage::Insert, total, total)?;
         Ok(done)
@@ -156,11 +157,11 @@ impl Batch<'_> {
     }
 
     /// Receives the answers of a group and makes its meshes.
-    fn finish(&mut self, group: Group, meshes: &mut [Option<Mesh>]) -> Result<(), Error> {
+    fn finish(&mut self, group: Group, commands: [Command; 3], meshes: &mut [Option<Mesh>]) -> Result<(), Error> {
         let is_sent = self.link.takes_ahead();
-        let sent = group.points(self.jobs).len();
+        let sent = (commands[1].words.len() - 2) / self.layout().point_words;
         let mut answer = Vec::new();
-        for Command { opcode, words, payload } in self.commands(&group) {
+        for Command { opcode, words, payload } in commands {
             if !is_sent {
                 self.link.send_ahead(opcode, &words, self.limit)?;
             }
@@ -315,15 +316,7 @@ pub(crate) fn on_threads(
     for look in small.chunks(JOBS_PER_LOOK * threads as usize) {
         tell(options, Stage::Insert, seen, total)?;
         let taken = AtomicUsize::new(0);
-        let work = || {
-            let options = Options { order, ..Options::default() };
-            let mut own = Vec::new();
-            while let Some(&job) = look.get(taken.fetch_add(1, Ordering::Relaxed)) {
-                let watch = Stopwatch::start();
-                own.push((job, CpuJob { points: &jobs[job], contexts: 1, options: &options, limit, watch }.run()));
-            }
-            own
-        };
+        let work = || take_jobs(jobs, look, &taken, order, limit);
         let results = std::thread::scope(|scope| {
             let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
             let mut results = work();
@@ -342,4 +335,21 @@ pub(crate) fn on_threads(
     }
     tell(options, Stage::Insert, total, total)?;
     Ok(done)
+}
+
+/// What a thread does: the next of these jobs that nobody has taken, until there is none.
+fn take_jobs(
+    jobs: &[Vec<Point>],
+    look: &[usize],
+    taken: &AtomicUsize,
+    order: Order,
+    limit: Limit,
+) -> Vec<(usize, Result<Mesh, Error>)> {
+    let options = Options { order, ..Options::default() };
+    let mut own = Vec::new();
+    while let Some(&job) = look.get(taken.fetch_add(1, Ordering::Relaxed)) {
+        let watch = Stopwatch::start();
+        own.push((job, CpuJob { points: &jobs[job], contexts: 1, options: &options, limit, watch }.run()));
+    }
+    own
 }

@@ -6,14 +6,17 @@
 //! | `turn` | in | 5 | the context |
 //! | `has_begun`, `planned` | in | 1, 15 | it has had a point; what then stood on `after_taken` |
 //! | `next_id` | out | 15 | the vertex it takes next |
+//! | `is_seed`, `first_dealt` | out | 1, 7 | that is the third of its own first triangle, in a batch; the vertex it takes after that |
 //! | `taker`, `taken` | in | 5, 15 | another context, and a vertex that it takes |
+//! | `took_seed`, `taken_dealt` | in | 1, 7 | what stood on `is_seed` and `first_dealt` with that vertex |
 //! | `after_taken` | out | 15 | the vertex that it takes after that |
 //! | `first_record` | out | 15 | the first record of its mesh |
 //!
 //! 1. Context 0 takes vertex 2, whose arrival completes the first triangle, and then those below 16 one by one.
 //! 2. From there on points are dealt: vertex `j` belongs to context `(j - 16) mod contexts`.
 //! 3. In a batch context `c` takes vertex `3c + 2`, the third of its own first triangle, whose first record is `4c`. From
-//!    `dealt_from = 3 contexts` on vertex `j` belongs to context `(j - dealt_from) mod contexts`.
+//!    `dealt_from = 3 contexts` on vertex `j` belongs to context `(j - dealt_from) mod contexts`. That a vertex is such a third is known when
+//!    it is chosen, a clock ahead of what follows it: a comparison with `dealt_from` before the sum would set the clock of the core.
 //!
 //! Latency: none (combinational).
 
@@ -34,10 +37,18 @@ pub struct NextPoint {
     pub planned: Signal<In, Bits<15>>,
     /// The vertex it takes next.
     pub next_id: Signal<Out, Bits<15>>,
+    /// That is the third of its first triangle.
+    pub is_seed: Signal<Out, Bit>,
+    /// The one after such a third.
+    pub first_dealt: Signal<Out, Bits<7>>,
     /// Another context.
     pub taker: Signal<In, Bits<5>>,
     /// A vertex that it takes.
     pub taken: Signal<In, Bits<15>>,
+    /// That is the third of its first triangle.
+    pub took_seed: Signal<In, Bit>,
+    /// The one after such a third.
+    pub taken_dealt: Signal<In, Bits<7>>,
     /// The one after it.
     pub after_taken: Signal<Out, Bits<15>>,
     /// The first record of its mesh.
@@ -50,7 +61,8 @@ pub struct NextPoint {
     twice_turn: Signal<Local, Bits<15>>,
     thrice_turn: Signal<Local, Bits<15>>,
     wide_taker: Signal<Local, Bits<15>>,
-    dealt_from: Signal<Local, Bits<15>>,
+    narrow_turn: Signal<Local, Bits<7>>,
+    dealt_from: Signal<Local, Bits<7>>,
     first_round: Signal<Local, Bits<15>>,
     first_context: Signal<Local, Bits<5>>,
     one: Signal<Local, Bits<15>>,
@@ -70,16 +82,19 @@ impl Logic for NextPoint {
         self.is_batch.next = self.deal.val().is_batch;
         self.wide_turn.next = bit_cast::<15, 5>(self.turn.val());
         self.wide_taker.next = bit_cast::<15, 5>(self.taker.val());
-        self.dealt_from.next = bit_cast::<15, 7>(self.deal.val().dealt_from);
-        self.is_early.next = self.taken.val() < self.dealt_from.val();
+        self.narrow_turn.next = bit_cast::<7, 5>(self.turn.val());
+        self.dealt_from.next = self.deal.val().dealt_from;
+        self.is_seed.next = self.is_batch.val() & (!self.has_begun.val());
+        self.first_dealt.next = self.dealt_from.val() + self.narrow_turn.val();
+        self.is_early.next = (self.taken.val() < self.first_round.val()) & (!self.is_batch.val());
         self.from.next = self.taken.val();
         self.step.next = bit_cast::<15, 5>(self.deal.val().contexts);
         if self.is_early.val() {
             self.step.next = self.one.val();
         }
-        if self.is_early.val() & self.is_batch.val() {
-            self.from.next = self.dealt_from.val();
-            self.step.next = self.wide_taker.val();
+        if self.took_seed.val() {
+            self.from.next = bit_cast::<15, 7>(self.taken_dealt.val());
+            self.step.next = 0.into();
         }
         self.after_taken.next = self.from.val() + self.step.val();
         self.first_record.next = 0.into();

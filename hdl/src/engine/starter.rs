@@ -125,11 +125,14 @@ pub struct Starter {
     pub solo_p: Signal<Out, Bits<15>>,
     turn: DFF<Bits<5>>,
     round: DFF<Bits<2>>,
-    /// The context that the pointer has left last, the vertex that it would take, and the one it has.
+    /// The context that the pointer has left last, the vertex that it would take, and the one it has; whether it would take its first in a
+    /// batch, and what follows that.
     has_passed: DFF<Bit>,
     passed: DFF<Bits<5>>,
     passed_id: DFF<Bits<15>>,
     passed_point: DFF<Bits<15>>,
+    passed_is_seed: DFF<Bit>,
+    passed_dealt: DFF<Bits<7>>,
     /// The one before: the vertex that it would take and the one after that; whether it is due, with its point or a new one, where it would start, and whether it wants to be alone.
     candidate: DFF<Bits<5>>,
     candidate_id: DFF<Bits<15>>,
@@ -184,6 +187,7 @@ impl Logic for Starter {
     fn update(&mut self) {
         dff_setup!(self, clock, turn, round, has_passed, passed, passed_id, passed_point, candidate, candidate_id);
         dff_setup!(self, clock, candidate_plan, candidate_point, wants_again, wants_new, from, is_alone, all_work);
+        dff_setup!(self, clock, passed_is_seed, passed_dealt);
         clock!(self, clock, points, plans, roots, hints);
         self.one_turn.next = 1.into();
         self.one_round.next = 1.into();
@@ -201,6 +205,8 @@ impl Logic for Starter {
         self.following.planned.next = self.plans.read_data.val();
         self.following.taken.next = self.passed_id.q.val();
         self.following.taker.next = self.passed.q.val();
+        self.following.took_seed.next = self.passed_is_seed.q.val();
+        self.following.taken_dealt.next = self.passed_dealt.q.val();
         self.following.deal.next = self.deal.val();
 
         // The one before: is it due? If only one context works, it may be the one that starts at this edge; and a point that is inserted
@@ -280,6 +286,8 @@ impl Logic for Starter {
             self.passed.d.next = self.turn.q.val();
             self.passed_id.d.next = self.following.next_id.val();
             self.passed_point.d.next = self.points.read_data.val();
+            self.passed_is_seed.d.next = self.following.is_seed.val();
+            self.passed_dealt.d.next = self.following.first_dealt.val();
             self.turn.d.next = self.after_turn.val();
             if self.after_turn.val() == self.contexts.val() {
                 self.turn.d.next = 0.into();
