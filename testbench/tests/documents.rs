@@ -6,17 +6,19 @@ use std::path::{Path, PathBuf};
 
 use cargo_metadata::{Metadata, MetadataCommand, Package};
 
-const DOCUMENTS: [&str; 12] = [
+const DOCUMENTS: [&str; 14] = [
     "README.md",
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "constraints/README.md",
+    "constraints/acorn-cle-215/README.md",
     "constraints/colorlight-i5/README.md",
     "constraints/ecpix-5/README.md",
     "constraints/ulx3s-85f/README.md",
     "host/cli/README.md",
     "protocol/README.md",
     "protocol/SERIAL.md",
+    "protocol/STREAM.md",
     "testbench/README.md",
     "testbench/data/README.md",
 ];

@@ -71,7 +71,7 @@ impl VertexStream {
 // leave a rest.
 const _: () = assert!(
     VertexStream::ROOM == 4
-        && VertexStream::ROOM + ((VertexStream::PATIENCE + 3) * 3).div_ceil(4) + 1 <= 1 << QUEUE_BITS,
+        && VertexStream::ROOM + ((VertexStream::PATIENCE + 3) * 3).div_ceil(4) < 1 << QUEUE_BITS,
     "the literal of this block is its constant, and the queue takes what is under way"
 );
 
