@@ -82,3 +82,12 @@ fn every_pin_has_a_site_of_its_own() {
     sites.dedup();
     assert_eq!(sites.len(), pins.len(), "one site for two pins");
 }
+
+#[test]
+fn the_top_fits_the_device_and_the_bridge() {
+    let stand_ins = text(&root().join("testbench/cells/xilinx.v"));
+    let device = incircle_hdl::export::stream_top(incircle_protocol::TINY, 128, false).unwrap();
+    let design = format!("{stand_ins}{}{device}", text(&file("top.v")));
+    let passed = incircle_testbench::gate::lint(&design, "acorn_cle_215");
+    assert!(passed.is_ok(), "{}", passed.unwrap_err());
+}
