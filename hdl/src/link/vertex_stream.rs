@@ -70,8 +70,7 @@ impl VertexStream {
 // Up to three more records are asked for and packed while the count of beats follows. Four records fill three beats, and the last one may
 // leave a rest.
 const _: () = assert!(
-    VertexStream::ROOM == 4
-        && VertexStream::ROOM + ((VertexStream::PATIENCE + 3) * 3).div_ceil(4) + 1 <= 1 << QUEUE_BITS,
+    VertexStream::ROOM == 4 && VertexStream::ROOM + ((VertexStream::PATIENCE + 3) * 3).div_ceil(4) < 1 << QUEUE_BITS,
     "the literal of this block is its constant, and the queue takes what is under way"
 );
 
