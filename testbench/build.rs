@@ -9,6 +9,8 @@ mod cells;
 mod cores;
 #[path = "build/netlists.rs"]
 mod netlists;
+#[path = "build/streams.rs"]
+mod streams;
 
 use verilated::build::{Builder, ModelSource, Optimisation};
 
@@ -18,6 +20,7 @@ fn main() {
     println!("cargo:rerun-if-changed=build/cells.rs");
     println!("cargo:rerun-if-changed=build/cores.rs");
     println!("cargo:rerun-if-changed=build/netlists.rs");
+    println!("cargo:rerun-if-changed=build/streams.rs");
     println!("cargo:rerun-if-changed=cells");
     println!("cargo:rerun-if-changed=../constraints");
     println!("cargo:rerun-if-env-changed=INCIRCLE_ONLY");
@@ -46,6 +49,14 @@ fn main() {
         // Quick to compile: it is large, and runs no more than some hundred thousand clocks.
         builder =
             builder.model(ModelSource::new(name, incircle_hdl::top::CORE_NAME, verilog).random_initial_state(true));
+    }
+    let streams = if only.is_empty() || only.contains("stream") { streams::all() } else { Vec::new() };
+    for (name, verilog) in streams.into_iter().filter(|(name, _)| is_wanted(name)) {
+        builder = builder.model(
+            ModelSource::new(name, incircle_hdl::top::STREAM_TOP_NAME, verilog)
+                .random_initial_state(true)
+                .optimisation(Optimisation::Fast),
+        );
     }
     for (name, verilog) in boards::all().into_iter().filter(|(name, _)| is_wanted(name)) {
         builder = builder.model(ModelSource::new(&name, boards::NAME, verilog).random_initial_state(true));

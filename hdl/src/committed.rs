@@ -16,6 +16,8 @@ pub enum Top {
     Core,
     /// The core behind a serial link.
     Serial(LinkConfig),
+    /// The core behind a stream link with beats of so many bits.
+    Stream(u32),
 }
 
 /// An export that did not reach its file.
@@ -62,6 +64,9 @@ fn top_text(config: Config, top: Top, with_probe: bool) -> Result<String, Export
     let (what, verilog) = match top {
         Top::Core => ("incircle core", export::core(config, with_probe)?),
         Top::Serial(link) => ("incircle core behind a serial link", export::serial_top(config, link, with_probe)?),
+        Top::Stream(beat_bits) => {
+            ("incircle core behind a stream link", export::stream_top(config, beat_bits, with_probe)?)
+        }
     };
     Ok(format!(
         "// {what}, configuration {name}: {points} points, boundary lists of {ring} edges, {contexts} context.\n\

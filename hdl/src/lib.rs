@@ -9,4 +9,5 @@ pub mod link;
 pub mod mesh;
 pub mod predicate;
 pub mod serial;
+pub mod stream;
 pub mod top;

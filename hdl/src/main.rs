@@ -3,7 +3,7 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use incircle_hdl::board::{self, Board, BoardError, Origin, Report, Request, BOARDS};
 use incircle_hdl::committed::{self, Top};
-use incircle_protocol::{Config, LinkConfig, NAMED, SILENCE_MS};
+use incircle_protocol::{Config, LinkConfig, BEAT_BITS, NAMED, SILENCE_MS};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -39,7 +39,7 @@ struct ExportArguments {
     /// Add the write port of the triangle memory to the ports, for simulation.
     #[arg(long, requires = "config")]
     probe: bool,
-    /// What to export: the core with its two streams of words, or the core behind a serial link.
+    /// What to export: the core with its two streams of words, or the core behind a serial link or a stream link.
     #[arg(long, value_enum, default_value = "core", requires = "config")]
     top: TopName,
     /// Clock of the serial link in Hz.
@@ -48,6 +48,9 @@ struct ExportArguments {
     /// Bytes of the serial link's receive FIFO: a power of two.
     #[arg(long, default_value_t = 4_096)]
     fifo_bytes: u32,
+    /// Bits of a beat of the stream link: 64 or 128.
+    #[arg(long, default_value_t = 64, value_parser = beat_bits)]
+    width: u32,
 }
 
 #[derive(Args)]
@@ -90,11 +93,18 @@ enum TopName {
     Core,
     /// incircle_serial_top
     Serial,
+    /// incircle_stream_top
+    Stream,
 }
 
 fn config(name: &str) -> Result<Config, String> {
     let names = NAMED.map(|config| config.name).join(", ");
     Config::named(name).ok_or_else(|| format!("there is no configuration of this name: choose one of {names}"))
+}
+
+fn beat_bits(number: &str) -> Result<u32, String> {
+    let known = BEAT_BITS.into_iter().find(|bits| bits.to_string() == number);
+    known.ok_or_else(|| format!("a beat of a stream has {} or {} bits: choose one of them", BEAT_BITS[0], BEAT_BITS[1]))
 }
 
 fn named_board(name: &str) -> Result<Board, String> {
@@ -104,10 +114,11 @@ fn named_board(name: &str) -> Result<Board, String> {
 
 /// Writes one configuration's Verilog, or renews what is committed.
 fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
-    let ExportArguments { config, out, probe, top, clock_hz, fifo_bytes } = arguments;
+    let ExportArguments { config, out, probe, top, clock_hz, fifo_bytes, width } = arguments;
     let top = match top {
         TopName::Core => Top::Core,
         TopName::Serial => Top::Serial(LinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS }),
+        TopName::Stream => Top::Stream(width),
     };
     if let Some(config) = config {
         return committed::write(config, top, probe, out);

@@ -37,7 +37,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     wire  command_port$command_ready;
     reg  [31:0] command_port$command_data;
     reg  command_port$sweeps;
-    reg  command_port$seeded;
+    reg  command_port$start_is_open;
     reg  command_port$collinear;
     reg  command_port$stuck;
     reg  command_port$is_quiet;
@@ -45,7 +45,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     wire  [14:0] command_port$came_id;
     wire  [31:0] command_port$point;
     wire  command_port$clears;
-    wire  [4:0] command_port$contexts;
+    wire  [12:0] command_port$deal;
     wire  command_port$is_refused;
     wire  command_port$answers;
     wire  [7:0] command_port$opcode;
@@ -129,7 +129,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  [14:0] engine$last_id;
     reg  [23:0] engine$all;
     reg  [21:0] engine$patience;
-    reg  [4:0] engine$contexts;
+    reg  [12:0] engine$deal;
     reg  engine$clears;
     reg  engine$came;
     reg  [14:0] engine$came_id;
@@ -138,7 +138,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  engine$read;
     reg  [14:0] engine$read_id;
     reg  [21:0] engine$now;
-    wire  engine$seeded;
+    wire  engine$start_is_open;
     wire  engine$collinear;
     wire  [14:0] engine$records;
     wire  engine$is_quiet;
@@ -212,7 +212,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .command_ready(command_port$command_ready),
         .command_data(command_port$command_data),
         .sweeps(command_port$sweeps),
-        .seeded(command_port$seeded),
+        .start_is_open(command_port$start_is_open),
         .collinear(command_port$collinear),
         .stuck(command_port$stuck),
         .is_quiet(command_port$is_quiet),
@@ -220,7 +220,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .came_id(command_port$came_id),
         .point(command_port$point),
         .clears(command_port$clears),
-        .contexts(command_port$contexts),
+        .deal(command_port$deal),
         .is_refused(command_port$is_refused),
         .answers(command_port$answers),
         .opcode(command_port$opcode),
@@ -312,7 +312,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .last_id(engine$last_id),
         .all(engine$all),
         .patience(engine$patience),
-        .contexts(engine$contexts),
+        .deal(engine$deal),
         .clears(engine$clears),
         .came(engine$came),
         .came_id(engine$came_id),
@@ -321,7 +321,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .read(engine$read),
         .read_id(engine$read_id),
         .now(engine$now),
-        .seeded(engine$seeded),
+        .start_is_open(engine$start_is_open),
         .collinear(engine$collinear),
         .records(engine$records),
         .is_quiet(engine$is_quiet),
@@ -408,7 +408,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         command_port$command_data = command_data;
         command_ready = command_port$command_ready;
         command_port$sweeps = sweeps;
-        command_port$seeded = engine$seeded;
+        command_port$start_is_open = engine$start_is_open;
         command_port$collinear = engine$collinear;
         command_port$stuck = engine$stuck;
         command_port$is_quiet = engine$is_quiet;
@@ -464,7 +464,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         engine$last_id = last_id;
         engine$all = all_contexts;
         engine$patience = patience;
-        engine$contexts = command_port$contexts;
+        engine$deal = command_port$deal;
         engine$clears = command_port$clears;
         engine$came = command_port$came;
         engine$came_id = command_port$came_id;
@@ -1208,7 +1208,7 @@ module incircle_core_logic$answer_words$report(d,q,clock);
 endmodule // incircle_core_logic$answer_words$report
 
 
-module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid,command_ready,command_data,sweeps,seeded,collinear,stuck,is_quiet,came,came_id,point,clears,contexts,is_refused,answers,opcode,first,count,arrived,refused,some_refused,responder_is_idle,answer_ends,answer_is_taken,inserting,reading,awaits_point);
+module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid,command_ready,command_data,sweeps,start_is_open,collinear,stuck,is_quiet,came,came_id,point,clears,deal,is_refused,answers,opcode,first,count,arrived,refused,some_refused,responder_is_idle,answer_ends,answer_is_taken,inserting,reading,awaits_point);
     
     // Module arguments
     input wire  clock;
@@ -1219,7 +1219,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     output reg  command_ready;
     input wire  [31:0] command_data;
     input wire  sweeps;
-    input wire  seeded;
+    input wire  start_is_open;
     input wire  collinear;
     input wire  stuck;
     input wire  is_quiet;
@@ -1227,7 +1227,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     output reg  [14:0] came_id;
     output reg  [31:0] point;
     output reg  clears;
-    output reg  [4:0] contexts;
+    output reg  [12:0] deal;
     output reg  is_refused;
     output reg  answers;
     output reg  [7:0] opcode;
@@ -1286,7 +1286,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     wire  [31:0] slot$point;
     wire  [14:0] slot$arrived;
     wire  [31:0] slot$refused;
-    wire  slot$has_three;
     wire  slot$some_refused;
     reg  gate$is_command;
     reg  gate$is_argument;
@@ -1294,9 +1293,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     reg  gate$sweeps;
     reg  gate$none_is_left;
     reg  gate$came;
-    reg  gate$has_three;
-    reg  gate$seeded;
-    reg  gate$collinear;
+    reg  gate$start_is_open;
     reg  gate$stuck;
     wire  gate$ready;
     wire  gate$takes_command;
@@ -1308,7 +1305,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     reg  clear$accepts;
     reg  [31:0] clear$word;
     wire  clear$clears;
-    wire  [4:0] clear$contexts;
+    wire  [12:0] clear$deal;
     wire  clear$is_refused;
     
     // Local signals
@@ -1372,7 +1369,6 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .point(slot$point),
         .arrived(slot$arrived),
         .refused(slot$refused),
-        .has_three(slot$has_three),
         .some_refused(slot$some_refused)
     );
     incircle_core_logic$command_port$gate gate(
@@ -1382,9 +1378,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .sweeps(gate$sweeps),
         .none_is_left(gate$none_is_left),
         .came(gate$came),
-        .has_three(gate$has_three),
-        .seeded(gate$seeded),
-        .collinear(gate$collinear),
+        .start_is_open(gate$start_is_open),
         .stuck(gate$stuck),
         .ready(gate$ready),
         .takes_command(gate$takes_command),
@@ -1398,7 +1392,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .accepts(clear$accepts),
         .word(clear$word),
         .clears(clear$clears),
-        .contexts(clear$contexts),
+        .deal(clear$deal),
         .is_refused(clear$is_refused)
     );
     
@@ -1429,7 +1423,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         came_id = slot$came_id;
         point = slot$point;
         clears = clear$clears;
-        contexts = clear$contexts;
+        deal = clear$deal;
         is_refused = clear$is_refused;
         answers = (state$q == CommandState$Answer) & (~clear$clears);
         opcode = command$q;
@@ -1446,9 +1440,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         gate$sweeps = sweeps;
         gate$none_is_left = none_is_left$q;
         gate$came = slot$came;
-        gate$has_three = slot$has_three;
-        gate$seeded = seeded;
-        gate$collinear = collinear;
+        gate$start_is_open = start_is_open;
         gate$stuck = stuck;
         awaits_point = gate$awaits_point;
         command_ready = gate$ready;
@@ -1544,7 +1536,7 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
 endmodule // incircle_core_logic$command_port
 
 
-module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,clears,contexts,is_refused);
+module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,clears,deal,is_refused);
     
     // Module arguments
     input wire  clock;
@@ -1553,7 +1545,7 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     input wire  accepts;
     input wire  [31:0] word;
     output reg  clears;
-    output reg  [4:0] contexts;
+    output reg  [12:0] deal;
     output reg  is_refused;
     
     // Stub signals
@@ -1563,6 +1555,12 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     reg  [4:0] working$d;
     wire  [4:0] working$q;
     reg  working$clock;
+    reg  batch$d;
+    wire  batch$q;
+    reg  batch$clock;
+    reg  [6:0] dealt$d;
+    wire  [6:0] dealt$q;
+    reg  dealt$clock;
     reg  refusing$d;
     wire  refusing$q;
     reg  refusing$clock;
@@ -1574,6 +1572,8 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     reg  is_clear;
     reg  asks_too_much;
     reg  is_granted;
+    reg  [6:0] wide_working;
+    reg  [6:0] twice_working;
     reg  [7:0] clear_code;
     reg  [7:0] all_contexts;
     
@@ -1588,6 +1588,16 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
         .q(working$q),
         .clock(working$clock)
     );
+    incircle_core_logic$command_port$clear$batch batch(
+        .d(batch$d),
+        .q(batch$q),
+        .clock(batch$clock)
+    );
+    incircle_core_logic$command_port$clear$dealt dealt(
+        .d(dealt$d),
+        .q(dealt$q),
+        .clock(dealt$clock)
+    );
     incircle_core_logic$command_port$clear$refusing refusing(
         .d(refusing$d),
         .q(refusing$q),
@@ -1598,14 +1608,20 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     always @(*) begin
         clearing$clock = clock;
         working$clock = clock;
+        batch$clock = clock;
+        dealt$clock = clock;
         refusing$clock = clock;
         clearing$d = clearing$q;
         working$d = working$q;
+        batch$d = batch$q;
+        dealt$d = dealt$q;
         refusing$d = refusing$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
         clears = clearing$q;
-        contexts = working$q;
+        deal[(64'h0)+:(5)] = working$q;
+        deal[(64'h5)+:(1)] = batch$q;
+        deal[(64'h6)+:(7)] = dealt$q;
         is_refused = refusing$q;
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
@@ -1618,18 +1634,46 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
             refusing$d = is_clear & asks_too_much;
         end
         if (is_granted) begin
+            batch$d = word[32'h8];
             working$d = word[(32'h0)+:(5)];
             if (asked == all_contexts) begin
                 working$d = built;
             end
         end
+        wide_working = ((working$q) & 7'h7f);
+        twice_working = wide_working + wide_working;
+        dealt$d = 32'h10;
+        if (batch$q) begin
+            dealt$d = twice_working + wide_working;
+        end
         if (reset) begin
             clearing$d = 1'b0;
+            batch$d = 1'b0;
+            dealt$d = 32'h10;
             working$d = built;
         end
     end
     
 endmodule // incircle_core_logic$command_port$clear
+
+
+module incircle_core_logic$command_port$clear$batch(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$batch
 
 
 module incircle_core_logic$command_port$clear$clearing(d,q,clock);
@@ -1649,6 +1693,25 @@ module incircle_core_logic$command_port$clear$clearing(d,q,clock);
     end
           
 endmodule // incircle_core_logic$command_port$clear$clearing
+
+
+module incircle_core_logic$command_port$clear$dealt(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$clear$dealt
 
 
 module incircle_core_logic$command_port$clear$refusing(d,q,clock);
@@ -1727,7 +1790,7 @@ module incircle_core_logic$command_port$first_word(d,q,clock);
 endmodule // incircle_core_logic$command_port$first_word
 
 
-module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,came,has_three,seeded,collinear,stuck,ready,takes_command,takes_point,awaits_point);
+module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,came,start_is_open,stuck,ready,takes_command,takes_point,awaits_point);
     
     // Module arguments
     input wire  is_command;
@@ -1736,9 +1799,7 @@ module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sw
     input wire  sweeps;
     input wire  none_is_left;
     input wire  came;
-    input wire  has_three;
-    input wire  seeded;
-    input wire  collinear;
+    input wire  start_is_open;
     input wire  stuck;
     output reg  ready;
     output reg  takes_command;
@@ -1746,14 +1807,14 @@ module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sw
     output reg  awaits_point;
     
     // Local signals
-    reg  start_is_open;
+    reg  is_held;
     
     // Update code
     always @(*) begin
-        start_is_open = has_three & (~seeded) & (~collinear) & (~stuck);
+        is_held = start_is_open & (~stuck);
         awaits_point = is_points & (~none_is_left);
         takes_command = is_command & (~sweeps);
-        takes_point = awaits_point & (~came) & (~start_is_open);
+        takes_point = awaits_point & (~came) & (~is_held);
         ready = is_argument | takes_command | takes_point;
     end
     
@@ -1836,7 +1897,7 @@ module incircle_core_logic$command_port$none_is_left(d,q,clock);
 endmodule // incircle_core_logic$command_port$none_is_left
 
 
-module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,collinear,stuck,accepts,word,came,came_id,point,arrived,refused,has_three,some_refused);
+module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,collinear,stuck,accepts,word,came,came_id,point,arrived,refused,some_refused);
     
     // Module arguments
     input wire  clock;
@@ -1852,7 +1913,6 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
     output reg  [31:0] point;
     output reg  [14:0] arrived;
     output reg  [31:0] refused;
-    output reg  has_three;
     output reg  some_refused;
     
     // Stub signals
@@ -1871,9 +1931,6 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
     reg  is_full$d;
     wire  is_full$q;
     reg  is_full$clock;
-    reg  is_triple$d;
-    wire  is_triple$q;
-    reg  is_triple$clock;
     reg  is_surplus$d;
     wire  is_surplus$q;
     reg  is_surplus$clock;
@@ -1888,7 +1945,6 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
     reg  stores;
     reg  has_room;
     reg  [14:0] one_arrival;
-    reg  [14:0] three;
     reg  [31:0] one;
     
     // Sub module instances
@@ -1916,11 +1972,6 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
         .d(is_full$d),
         .q(is_full$q),
         .clock(is_full$clock)
-    );
-    incircle_core_logic$command_port$slot$is_triple is_triple(
-        .d(is_triple$d),
-        .q(is_triple$q),
-        .clock(is_triple$clock)
     );
     incircle_core_logic$command_port$slot$is_surplus is_surplus(
         .d(is_surplus$d),
@@ -1951,25 +2002,20 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
         arrivals$d = arrivals$q;
         refusals$d = refusals$q;
         is_full$clock = clock;
-        is_triple$clock = clock;
         is_surplus$clock = clock;
         has_refused$clock = clock;
         is_full$d = is_full$q;
-        is_triple$d = is_triple$q;
         is_surplus$d = is_surplus$q;
         has_refused$d = has_refused$q;
         one_arrival = 32'h1;
-        three = 32'h3;
         one = 32'h1;
         came = is_new$q;
         came_id = last_id$q;
         point = last_point$q;
         arrived = arrivals$q;
         refused = refusals$q;
-        has_three = is_triple$q;
         some_refused = has_refused$q;
         is_full$d = arrivals$q == capacity;
-        is_triple$d = arrivals$q == three;
         has_room = (~collinear) & (~stuck) & (~is_full$q);
         stores = accepts & has_room;
         is_surplus$d = accepts & (~has_room);
@@ -1986,7 +2032,6 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
         if (clears | reset) begin
             arrivals$d = 32'h0;
             is_full$d = 1'b0;
-            is_triple$d = 1'b0;
             is_surplus$d = 1'b0;
             refusals$d = 32'h0;
             has_refused$d = 1'b0;
@@ -2092,25 +2137,6 @@ module incircle_core_logic$command_port$slot$is_surplus(d,q,clock);
     end
           
 endmodule // incircle_core_logic$command_port$slot$is_surplus
-
-
-module incircle_core_logic$command_port$slot$is_triple(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$slot$is_triple
 
 
 module incircle_core_logic$command_port$slot$last_id(d,q,clock);
@@ -5075,7 +5101,7 @@ module incircle_core_logic$counters$zeroes(d,q,clock);
 endmodule // incircle_core_logic$counters$zeroes
 
 
-module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience,contexts,clears,came,came_id,point,arrived,read,read_id,now,seeded,collinear,records,is_quiet,stuck,sweeps,read_done,v0,v1,v2,n0,n1,n2,was_set,write,events);
+module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience,deal,clears,came,came_id,point,arrived,read,read_id,now,start_is_open,collinear,records,is_quiet,stuck,sweeps,read_done,v0,v1,v2,n0,n1,n2,was_set,write,events);
     
     // Module arguments
     input wire  clock;
@@ -5085,7 +5111,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     input wire  [14:0] last_id;
     input wire  [23:0] all;
     input wire  [21:0] patience;
-    input wire  [4:0] contexts;
+    input wire  [12:0] deal;
     input wire  clears;
     input wire  came;
     input wire  [14:0] came_id;
@@ -5094,7 +5120,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     input wire  read;
     input wire  [14:0] read_id;
     input wire  [21:0] now;
-    output reg  seeded;
+    output reg  start_is_open;
     output reg  collinear;
     output reg  [14:0] records;
     output reg  is_quiet;
@@ -5119,7 +5145,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  [14:0] insertions$last_id;
     reg  [23:0] insertions$all;
     reg  [21:0] insertions$patience;
-    reg  [4:0] insertions$contexts;
+    reg  [12:0] insertions$deal;
     reg  [14:0] insertions$arrived;
     reg  insertions$came;
     reg  [21:0] insertions$now;
@@ -5130,8 +5156,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  [97:0] insertions$turned;
     reg  [19:0] insertions$verdict;
     reg  insertions$seeded;
-    reg  insertions$collinear;
-    reg  insertions$is_seeding;
+    reg  insertions$has_no_start;
     reg  insertions$seeds;
     reg  insertions$solo_is_at_work;
     reg  insertions$solo_ends;
@@ -5217,13 +5242,17 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     reg  seeder$reset;
     reg  seeder$clears;
     reg  [14:0] seeder$infinite;
-    reg  seeder$prepares;
+    reg  [12:0] seeder$deal;
+    reg  seeder$came;
+    reg  [14:0] seeder$came_id;
+    reg  [14:0] seeder$arrived;
     reg  seeder$looks;
     reg  [19:0] seeder$verdict;
     wire  seeder$seeded;
+    wire  seeder$start_is_open;
     wire  seeder$collinear;
+    wire  seeder$has_no_start;
     wire  seeder$seeds;
-    wire  seeder$is_at_work;
     wire  [109:0] seeder$write;
     reg  push_port$clock;
     reg  push_port$reset;
@@ -5246,9 +5275,6 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     wire  [109:0] write_port$write;
     wire  [33:0] write_port$enables;
     
-    // Local signals
-    reg  [14:0] first_vertex;
-    
     // Sub module instances
     incircle_core_logic$engine$insertions insertions(
         .clock(insertions$clock),
@@ -5258,7 +5284,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .last_id(insertions$last_id),
         .all(insertions$all),
         .patience(insertions$patience),
-        .contexts(insertions$contexts),
+        .deal(insertions$deal),
         .arrived(insertions$arrived),
         .came(insertions$came),
         .now(insertions$now),
@@ -5269,8 +5295,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .turned(insertions$turned),
         .verdict(insertions$verdict),
         .seeded(insertions$seeded),
-        .collinear(insertions$collinear),
-        .is_seeding(insertions$is_seeding),
+        .has_no_start(insertions$has_no_start),
         .seeds(insertions$seeds),
         .solo_is_at_work(insertions$solo_is_at_work),
         .solo_ends(insertions$solo_ends),
@@ -5362,13 +5387,17 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .reset(seeder$reset),
         .clears(seeder$clears),
         .infinite(seeder$infinite),
-        .prepares(seeder$prepares),
+        .deal(seeder$deal),
+        .came(seeder$came),
+        .came_id(seeder$came_id),
+        .arrived(seeder$arrived),
         .looks(seeder$looks),
         .verdict(seeder$verdict),
         .seeded(seeder$seeded),
+        .start_is_open(seeder$start_is_open),
         .collinear(seeder$collinear),
+        .has_no_start(seeder$has_no_start),
         .seeds(seeder$seeds),
-        .is_at_work(seeder$is_at_work),
         .write(seeder$write)
     );
     incircle_core_logic$engine$push_port push_port(
@@ -5404,7 +5433,6 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         seeder$clock = clock;
         push_port$clock = clock;
         write_port$clock = clock;
-        first_vertex = 32'h0;
         insertions$reset = reset;
         pipeline$reset = reset;
         solo$reset = reset;
@@ -5413,7 +5441,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         write_port$reset = reset;
         insertions$clears = clears;
         seeder$clears = clears;
-        seeded = seeder$seeded;
+        start_is_open = seeder$start_is_open;
         collinear = seeder$collinear;
         records = insertions$records;
         is_quiet = insertions$is_quiet;
@@ -5449,7 +5477,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         insertions$last_id = last_id;
         insertions$all = all;
         insertions$patience = patience;
-        insertions$contexts = contexts;
+        insertions$deal = deal;
         insertions$arrived = arrived;
         insertions$came = came;
         insertions$now = now;
@@ -5460,14 +5488,16 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         insertions$turned = pipeline$turned;
         insertions$verdict = pipeline$verdict;
         insertions$seeded = seeder$seeded;
-        insertions$collinear = seeder$collinear;
         insertions$seeds = seeder$seeds;
-        insertions$is_seeding = seeder$is_at_work;
+        insertions$has_no_start = seeder$has_no_start;
         insertions$solo_is_at_work = solo$is_at_work;
         insertions$solo_ends = solo$ends;
         insertions$solo_inserts = solo$inserts;
         seeder$infinite = infinite;
-        seeder$prepares = came & (came_id == first_vertex);
+        seeder$deal = deal;
+        seeder$came = came;
+        seeder$came_id = came_id;
+        seeder$arrived = arrived;
         seeder$looks = insertions$looks;
         seeder$verdict = pipeline$verdict;
         solo$starts = insertions$solo_starts;
@@ -5501,7 +5531,7 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
 endmodule // incircle_core_logic$engine
 
 
-module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,contexts,arrived,came,now,early_done,early_token,early_turned,token,turned,verdict,seeded,collinear,is_seeding,seeds,solo_is_at_work,solo_ends,solo_inserts,asks,may_ask,follows,starts,starter,u,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,write,records,fresh,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
+module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,deal,arrived,came,now,early_done,early_token,early_turned,token,turned,verdict,seeded,has_no_start,seeds,solo_is_at_work,solo_ends,solo_inserts,asks,may_ask,follows,starts,starter,u,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,write,records,fresh,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
     
     // Module arguments
     input wire  clock;
@@ -5511,7 +5541,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     input wire  [14:0] last_id;
     input wire  [23:0] all;
     input wire  [21:0] patience;
-    input wire  [4:0] contexts;
+    input wire  [12:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  [21:0] now;
@@ -5522,8 +5552,7 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     input wire  [97:0] turned;
     input wire  [19:0] verdict;
     input wire  seeded;
-    input wire  collinear;
-    input wire  is_seeding;
+    input wire  has_no_start;
     input wire  seeds;
     input wire  solo_is_at_work;
     input wire  solo_ends;
@@ -5557,12 +5586,11 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     reg  dispatcher$clears;
     reg  [23:0] dispatcher$all;
     reg  [21:0] dispatcher$patience;
-    reg  [4:0] dispatcher$contexts;
+    reg  [12:0] dispatcher$deal;
     reg  [14:0] dispatcher$arrived;
     reg  dispatcher$came;
     reg  dispatcher$seeded;
-    reg  dispatcher$collinear;
-    reg  dispatcher$is_seeding;
+    reg  dispatcher$has_no_start;
     reg  dispatcher$seeds;
     reg  [4:0] dispatcher$owner;
     reg  dispatcher$sleeps;
@@ -5691,12 +5719,11 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         .clears(dispatcher$clears),
         .all(dispatcher$all),
         .patience(dispatcher$patience),
-        .contexts(dispatcher$contexts),
+        .deal(dispatcher$deal),
         .arrived(dispatcher$arrived),
         .came(dispatcher$came),
         .seeded(dispatcher$seeded),
-        .collinear(dispatcher$collinear),
-        .is_seeding(dispatcher$is_seeding),
+        .has_no_start(dispatcher$has_no_start),
         .seeds(dispatcher$seeds),
         .owner(dispatcher$owner),
         .sleeps(dispatcher$sleeps),
@@ -5853,12 +5880,11 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         follows = attempts$bundle;
         dispatcher$all = all;
         dispatcher$patience = patience;
-        dispatcher$contexts = contexts;
+        dispatcher$deal = deal;
         dispatcher$arrived = arrived;
         dispatcher$came = came;
         dispatcher$seeded = seeded;
-        dispatcher$collinear = collinear;
-        dispatcher$is_seeding = is_seeding;
+        dispatcher$has_no_start = has_no_start;
         dispatcher$seeds = seeds;
         dispatcher$solo_is_at_work = solo_is_at_work;
         dispatcher$solo_ends = solo_ends;
@@ -8651,8 +8677,11 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids(clock,rese
         if (solo_inserts) begin
             step = two;
         end
+        if (seeds) begin
+            step = seed_records;
+        end
         raised = taken$q + step;
-        if (takes | solo_inserts) begin
+        if (takes | solo_inserts | seeds) begin
             taken$d = raised;
         end
         ended_before_1$d = ends;
@@ -8663,12 +8692,8 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids(clock,rese
         if (ended_before_2$q) begin
             written$d = ended$q;
         end
-        if (solo_inserts) begin
+        if (solo_inserts | seeds) begin
             written$d = raised;
-        end
-        if (seeds) begin
-            taken$d = seed_records;
-            written$d = seed_records;
         end
         if (clears | reset) begin
             taken$d = none;
@@ -12500,7 +12525,7 @@ module incircle_core_logic$engine$insertions$commits$rings$rings$oldest(d,q,cloc
 endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$oldest
 
 
-module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,contexts,arrived,came,seeded,collinear,is_seeding,seeds,owner,sleeps,keeps,hands_over,asks_to_wait,waits,stops_waiting,overflows,duplicate,root_enable,root,is_done,may_ask,commit_ends,commit_owner,hint,released,released_owner,solo_is_at_work,solo_ends,starts,starter,u,takes,taken_id,position_enable,position_owner,busy,waiter_valid,waiter,solo_starts,solo_owner,solo_p,takes_token,is_quiet,stuck);
+module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,deal,arrived,came,seeded,has_no_start,seeds,owner,sleeps,keeps,hands_over,asks_to_wait,waits,stops_waiting,overflows,duplicate,root_enable,root,is_done,may_ask,commit_ends,commit_owner,hint,released,released_owner,solo_is_at_work,solo_ends,starts,starter,u,takes,taken_id,position_enable,position_owner,busy,waiter_valid,waiter,solo_starts,solo_owner,solo_p,takes_token,is_quiet,stuck);
     
     // Module arguments
     input wire  clock;
@@ -12508,12 +12533,11 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     input wire  clears;
     input wire  [23:0] all;
     input wire  [21:0] patience;
-    input wire  [4:0] contexts;
+    input wire  [12:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  seeded;
-    input wire  collinear;
-    input wire  is_seeding;
+    input wire  has_no_start;
     input wire  seeds;
     input wire  [4:0] owner;
     input wire  sleeps;
@@ -12632,7 +12656,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     reg  start$clock;
     reg  start$reset;
     reg  start$clears;
-    reg  [4:0] start$contexts;
+    reg  [12:0] start$deal;
     reg  [14:0] start$arrived;
     reg  start$came;
     reg  start$seeded;
@@ -12670,8 +12694,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     reg  progress$commit_ends;
     reg  progress$solo_ends;
     reg  progress$duplicate;
-    reg  progress$collinear;
-    reg  progress$is_seeding;
+    reg  progress$has_no_start;
     reg  progress$all_rest;
     wire  progress$is_quiet;
     wire  progress$finishes;
@@ -12795,7 +12818,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         .clock(start$clock),
         .reset(start$reset),
         .clears(start$clears),
-        .contexts(start$contexts),
+        .deal(start$deal),
         .arrived(start$arrived),
         .came(start$came),
         .seeded(start$seeded),
@@ -12835,8 +12858,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         .commit_ends(progress$commit_ends),
         .solo_ends(progress$solo_ends),
         .duplicate(progress$duplicate),
-        .collinear(progress$collinear),
-        .is_seeding(progress$is_seeding),
+        .has_no_start(progress$has_no_start),
         .all_rest(progress$all_rest),
         .is_quiet(progress$is_quiet),
         .finishes(progress$finishes)
@@ -12925,7 +12947,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         waiter = flags$waiter;
         solo_owner = flags$solo_owner;
         takes_token = flags$takes_token;
-        start$contexts = contexts;
+        start$deal = deal;
         start$arrived = arrived;
         start$came = came;
         start$seeded = seeded;
@@ -12966,8 +12988,7 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         progress$commit_ends = commit_ends;
         progress$solo_ends = solo_ends;
         progress$duplicate = found_duplicate$q;
-        progress$collinear = collinear;
-        progress$is_seeding = is_seeding;
+        progress$has_no_start = has_no_start;
         progress$all_rest = flags$all_rest;
         is_quiet = progress$is_quiet;
         watchdog$patience = patience;
@@ -13670,7 +13691,7 @@ module incircle_core_logic$engine$insertions$dispatcher$found_waits(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$dispatcher$found_waits
 
 
-module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,clears,arrived,seeds,commit_ends,solo_ends,duplicate,collinear,is_seeding,all_rest,is_quiet,finishes);
+module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,clears,arrived,seeds,commit_ends,solo_ends,duplicate,has_no_start,all_rest,is_quiet,finishes);
     
     // Module arguments
     input wire  clock;
@@ -13681,8 +13702,7 @@ module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,cle
     input wire  commit_ends;
     input wire  solo_ends;
     input wire  duplicate;
-    input wire  collinear;
-    input wire  is_seeding;
+    input wire  has_no_start;
     input wire  all_rest;
     output reg  is_quiet;
     output reg  finishes;
@@ -13694,21 +13714,13 @@ module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,cle
     reg  [1:0] more$d;
     wire  [1:0] more$q;
     reg  more$clock;
-    reg  starts$d;
-    wire  starts$q;
-    reg  starts$clock;
     reg  is_behind$d;
     wire  is_behind$q;
     reg  is_behind$clock;
-    reg  has_triple$d;
-    wire  has_triple$q;
-    reg  has_triple$clock;
     
     // Local signals
     reg  inserts;
-    reg  has_no_start;
     reg  [14:0] wide_more;
-    reg  [14:0] three;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$dispatcher$progress$finished finished(
@@ -13721,42 +13733,24 @@ module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,cle
         .q(more$q),
         .clock(more$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$progress$starts starts(
-        .d(starts$d),
-        .q(starts$q),
-        .clock(starts$clock)
-    );
     incircle_core_logic$engine$insertions$dispatcher$progress$is_behind is_behind(
         .d(is_behind$d),
         .q(is_behind$q),
         .clock(is_behind$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$progress$has_triple has_triple(
-        .d(has_triple$d),
-        .q(has_triple$q),
-        .clock(has_triple$clock)
     );
     
     // Update code
     always @(*) begin
         finished$clock = clock;
         more$clock = clock;
-        starts$clock = clock;
         is_behind$clock = clock;
-        has_triple$clock = clock;
         finished$d = finished$q;
         more$d = more$q;
-        starts$d = starts$q;
         is_behind$d = is_behind$q;
-        has_triple$d = has_triple$q;
-        three = 32'h3;
         inserts = commit_ends | solo_ends;
         finishes = inserts | duplicate | seeds;
         is_behind$d = finished$q != arrived;
-        has_triple$d = arrived >= three;
-        has_no_start = ((~has_triple$q) | collinear) & (~is_seeding);
         is_quiet = ((~is_behind$q) | has_no_start) & all_rest;
-        starts$d = seeds;
         more$d = 32'h0;
         if (inserts | duplicate) begin
             more$d = 32'h1;
@@ -13764,19 +13758,17 @@ module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,cle
         if (inserts & duplicate) begin
             more$d = 32'h2;
         end
+        if (seeds) begin
+            more$d = 32'h3;
+        end
         wide_more = ((more$q) & 15'h7fff);
         finished$d = finished$q + wide_more;
-        if (starts$q) begin
-            finished$d = 32'h3;
-        end
         if (reset | clears) begin
-            starts$d = 1'b0;
             more$d = 32'h0;
             finished$d = 32'h0;
         end
         if (reset) begin
             is_behind$d = 1'b0;
-            has_triple$d = 1'b0;
         end
     end
     
@@ -13800,25 +13792,6 @@ module incircle_core_logic$engine$insertions$dispatcher$progress$finished(d,q,cl
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$finished
-
-
-module incircle_core_logic$engine$insertions$dispatcher$progress$has_triple(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$has_triple
 
 
 module incircle_core_logic$engine$insertions$dispatcher$progress$is_behind(d,q,clock);
@@ -13859,32 +13832,13 @@ module incircle_core_logic$engine$insertions$dispatcher$progress$more(d,q,clock)
 endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$more
 
 
-module incircle_core_logic$engine$insertions$dispatcher$progress$starts(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$starts
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears,contexts,arrived,came,seeded,asleep,keeping,busy,began,hinted,solo_valid,is_urgent,waiter,solo_owner,solo_is_at_work,all_rest,is_done,is_blocked,root_enable,root_owner,root,hint_enable,hint_owner,hint,starts,owner,u,takes,taken_id,solo_starts,solo_p);
+module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears,deal,arrived,came,seeded,asleep,keeping,busy,began,hinted,solo_valid,is_urgent,waiter,solo_owner,solo_is_at_work,all_rest,is_done,is_blocked,root_enable,root_owner,root,hint_enable,hint_owner,hint,starts,owner,u,takes,taken_id,solo_starts,solo_p);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
-    input wire  [4:0] contexts;
+    input wire  [12:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  seeded;
@@ -13934,6 +13888,12 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  [14:0] passed_point$d;
     wire  [14:0] passed_point$q;
     reg  passed_point$clock;
+    reg  passed_is_seed$d;
+    wire  passed_is_seed$q;
+    reg  passed_is_seed$clock;
+    reg  [6:0] passed_dealt$d;
+    wire  [6:0] passed_dealt$q;
+    reg  passed_dealt$clock;
     reg  [4:0] candidate$d;
     wire  [4:0] candidate$q;
     reg  candidate$clock;
@@ -13985,15 +13945,22 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  hints$write_enable;
     reg  [4:0] hints$read_address;
     wire  [14:0] hints$read_data;
+    reg  [12:0] following$deal;
     reg  [4:0] following$turn;
     reg  following$has_begun;
     reg  [14:0] following$planned;
     wire  [14:0] following$next_id;
+    wire  following$is_seed;
+    wire  [6:0] following$first_dealt;
+    reg  [4:0] following$taker;
     reg  [14:0] following$taken;
-    reg  [4:0] following$contexts;
+    reg  following$took_seed;
+    reg  [6:0] following$taken_dealt;
     wire  [14:0] following$after_taken;
+    wire  [14:0] following$first_record;
     
     // Local signals
+    reg  [4:0] contexts;
     reg  [4:0] turn_index;
     reg  [4:0] index;
     reg  is_asleep;
@@ -14046,6 +14013,16 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .d(passed_point$d),
         .q(passed_point$q),
         .clock(passed_point$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$passed_is_seed passed_is_seed(
+        .d(passed_is_seed$d),
+        .q(passed_is_seed$q),
+        .clock(passed_is_seed$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$passed_dealt passed_dealt(
+        .d(passed_dealt$d),
+        .q(passed_dealt$q),
+        .clock(passed_dealt$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$start$candidate candidate(
         .d(candidate$d),
@@ -14125,13 +14102,19 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .read_data(hints$read_data)
     );
     incircle_core_logic$engine$insertions$dispatcher$start$following following(
+        .deal(following$deal),
         .turn(following$turn),
         .has_begun(following$has_begun),
         .planned(following$planned),
         .next_id(following$next_id),
+        .is_seed(following$is_seed),
+        .first_dealt(following$first_dealt),
+        .taker(following$taker),
         .taken(following$taken),
-        .contexts(following$contexts),
-        .after_taken(following$after_taken)
+        .took_seed(following$took_seed),
+        .taken_dealt(following$taken_dealt),
+        .after_taken(following$after_taken),
+        .first_record(following$first_record)
     );
     
     // Update code
@@ -14166,6 +14149,10 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         from$d = from$q;
         is_alone$d = is_alone$q;
         all_work$d = all_work$q;
+        passed_is_seed$clock = clock;
+        passed_dealt$clock = clock;
+        passed_is_seed$d = passed_is_seed$q;
+        passed_dealt$d = passed_dealt$q;
         points$clock = clock;
         plans$clock = clock;
         roots$clock = clock;
@@ -14175,6 +14162,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         resting_round = 32'h0;
         first_context = 32'h0;
         first_round = 32'h10;
+        contexts = deal[(64'h0)+:(5)];
         turn_index = turn$q;
         points$read_address = turn$q;
         following$turn = turn$q;
@@ -14182,7 +14170,10 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         plans$read_address = turn$q;
         following$planned = plans$read_data;
         following$taken = passed_id$q;
-        following$contexts = contexts;
+        following$taker = passed$q;
+        following$took_seed = passed_is_seed$q;
+        following$taken_dealt = passed_dealt$q;
+        following$deal = deal;
         index = passed$q;
         is_barred = solo_valid | ((wants_again$q | wants_new$q) & (contexts == one_turn));
         is_asleep = asleep[index] & (~is_barred);
@@ -14237,7 +14228,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
             wants_again$d = is_asleep & tries_again & is_rested & may_try;
             wants_new$d = is_asleep & (~tries_again) & is_there & may_work;
             is_alone$d = passed$q == solo_owner;
-            from$d = 32'h0;
+            from$d = following$first_record;
             if (hinted[index]) begin
                 from$d = hints$read_data;
             end
@@ -14248,6 +14239,8 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
             passed$d = turn$q;
             passed_id$d = following$next_id;
             passed_point$d = points$read_data;
+            passed_is_seed$d = following$is_seed;
+            passed_dealt$d = following$first_dealt;
             turn$d = after_turn;
             if (after_turn == contexts) begin
                 turn$d = 32'h0;
@@ -14261,7 +14254,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
             is_alone$d = 1'b0;
-            all_work$d = 1'b0;
+            all_work$d = deal[(64'h5)+:(1)] & (~reset);
         end
     end
     
@@ -14363,38 +14356,74 @@ module incircle_core_logic$engine$insertions$dispatcher$start$candidate_point(d,
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$following(turn,has_begun,planned,next_id,taken,contexts,after_taken);
+module incircle_core_logic$engine$insertions$dispatcher$start$following(deal,turn,has_begun,planned,next_id,is_seed,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record);
     
     // Module arguments
+    input wire  [12:0] deal;
     input wire  [4:0] turn;
     input wire  has_begun;
     input wire  [14:0] planned;
     output reg  [14:0] next_id;
+    output reg  is_seed;
+    output reg  [6:0] first_dealt;
+    input wire  [4:0] taker;
     input wire  [14:0] taken;
-    input wire  [4:0] contexts;
+    input wire  took_seed;
+    input wire  [6:0] taken_dealt;
     output reg  [14:0] after_taken;
+    output reg  [14:0] first_record;
     
     // Local signals
+    reg  is_batch;
+    reg  is_early;
+    reg  [14:0] from;
     reg  [14:0] step;
     reg  [14:0] wide_turn;
+    reg  [14:0] twice_turn;
+    reg  [14:0] thrice_turn;
+    reg  [14:0] wide_taker;
+    reg  [6:0] narrow_turn;
+    reg  [6:0] dealt_from;
     reg  [14:0] first_round;
     reg  [4:0] first_context;
+    reg  [14:0] one;
+    reg  [14:0] two;
     
     // Update code
     always @(*) begin
         first_round = 32'h10;
         first_context = 32'h0;
+        one = 32'h1;
+        two = 32'h2;
+        is_batch = deal[(64'h5)+:(1)];
         wide_turn = ((turn) & 15'h7fff);
-        step = ((contexts) & 15'h7fff);
-        if (taken < first_round) begin
-            step = 32'h1;
+        wide_taker = ((taker) & 15'h7fff);
+        narrow_turn = ((turn) & 7'h7f);
+        dealt_from = deal[(64'h6)+:(7)];
+        is_seed = is_batch & (~has_begun);
+        first_dealt = dealt_from + narrow_turn;
+        is_early = (taken < first_round) & (~is_batch);
+        from = taken;
+        step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
+        if (is_early) begin
+            step = one;
         end
-        after_taken = taken + step;
+        if (took_seed) begin
+            from = ((taken_dealt) & 15'h7fff);
+            step = 32'h0;
+        end
+        after_taken = from + step;
+        first_record = 32'h0;
+        if (is_batch) begin
+            first_record = wide_taker << two;
+        end
+        twice_turn = wide_turn << one;
+        thrice_turn = wide_turn + twice_turn;
         next_id = planned;
         if (~has_begun) begin
             next_id = wide_turn + first_round;
-            if (turn == first_context) begin
-                next_id = 32'h2;
+            if (is_batch | (turn == first_context)) begin
+                next_id = thrice_turn + two;
             end
         end
     end
@@ -14501,6 +14530,25 @@ module incircle_core_logic$engine$insertions$dispatcher$start$passed(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed
 
 
+module incircle_core_logic$engine$insertions$dispatcher$start$passed_dealt(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_dealt
+
+
 module incircle_core_logic$engine$insertions$dispatcher$start$passed_id(d,q,clock);
     
     // Module arguments
@@ -14518,6 +14566,25 @@ module incircle_core_logic$engine$insertions$dispatcher$start$passed_id(d,q,cloc
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_id
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$passed_is_seed(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_is_seed
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$passed_point(d,q,clock);
@@ -23075,20 +23142,24 @@ module incircle_core_logic$engine$push_port$pushes(d,q,clock);
 endmodule // incircle_core_logic$engine$push_port$pushes
 
 
-module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,looks,verdict,seeded,collinear,seeds,is_at_work,write);
+module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,deal,came,came_id,arrived,looks,verdict,seeded,start_is_open,collinear,has_no_start,seeds,write);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
     input wire  [14:0] infinite;
-    input wire  prepares;
+    input wire  [12:0] deal;
+    input wire  came;
+    input wire  [14:0] came_id;
+    input wire  [14:0] arrived;
     input wire  looks;
     input wire  [19:0] verdict;
     output reg  seeded;
+    output reg  start_is_open;
     output reg  collinear;
+    output reg  has_no_start;
     output reg  seeds;
-    output reg  is_at_work;
     output reg  [109:0] write;
     
     // Stub signals
@@ -23107,17 +23178,39 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,lo
     reg  [109:0] request$d;
     wire  [109:0] request$q;
     reg  request$clock;
+    reg  [14:0] vertex$d;
+    wire  [14:0] vertex$q;
+    reg  vertex$clock;
+    reg  [14:0] record$d;
+    wire  [14:0] record$q;
+    reg  record$clock;
+    reg  [14:0] triple$d;
+    wire  [14:0] triple$q;
+    reg  triple$clock;
+    reg  [4:0] following$d;
+    wire  [4:0] following$q;
+    reg  following$clock;
+    reg  has_triple$d;
+    wire  has_triple$q;
+    reg  has_triple$clock;
     reg  [2:0] writes$step;
+    reg  [14:0] writes$first_vertex;
+    reg  [14:0] writes$first_record;
     reg  writes$turns_left;
     reg  [14:0] writes$infinite;
     wire  [109:0] writes$write;
     
     // Local signals
+    reg  prepares;
     reg  is_writing;
     reg  is_last;
+    reg  is_last_job;
     reg  [2:0] look_step;
     reg  [2:0] last_step;
     reg  [2:0] one;
+    reg  [4:0] one_job;
+    reg  [14:0] three_vertices;
+    reg  [14:0] four_records;
     
     // Sub module instances
     incircle_core_logic$engine$seeder$step step(
@@ -23145,8 +23238,35 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,lo
         .q(request$q),
         .clock(request$clock)
     );
+    incircle_core_logic$engine$seeder$vertex vertex(
+        .d(vertex$d),
+        .q(vertex$q),
+        .clock(vertex$clock)
+    );
+    incircle_core_logic$engine$seeder$record record(
+        .d(record$d),
+        .q(record$q),
+        .clock(record$clock)
+    );
+    incircle_core_logic$engine$seeder$triple triple(
+        .d(triple$d),
+        .q(triple$q),
+        .clock(triple$clock)
+    );
+    incircle_core_logic$engine$seeder$following following(
+        .d(following$d),
+        .q(following$q),
+        .clock(following$clock)
+    );
+    incircle_core_logic$engine$seeder$has_triple has_triple(
+        .d(has_triple$d),
+        .q(has_triple$q),
+        .clock(has_triple$clock)
+    );
     incircle_core_logic$engine$seeder$writes writes(
         .step(writes$step),
+        .first_vertex(writes$first_vertex),
+        .first_record(writes$first_record),
         .turns_left(writes$turns_left),
         .infinite(writes$infinite),
         .write(writes$write)
@@ -23164,27 +23284,52 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,lo
         is_collinear$d = is_collinear$q;
         turns_left$d = turns_left$q;
         request$d = request$q;
+        vertex$clock = clock;
+        record$clock = clock;
+        triple$clock = clock;
+        following$clock = clock;
+        has_triple$clock = clock;
+        vertex$d = vertex$q;
+        record$d = record$q;
+        triple$d = triple$q;
+        following$d = following$q;
+        has_triple$d = has_triple$q;
         look_step = 32'h0;
         last_step = 32'h4;
         one = 32'h1;
+        one_job = 32'h1;
+        three_vertices = 32'h3;
+        four_records = 32'h4;
         is_writing = step$q != look_step;
         is_last = step$q == last_step;
         seeded = is_seeded$q;
         collinear = is_collinear$q;
         seeds = is_last;
-        is_at_work = is_writing;
+        start_is_open = has_triple$q & (~is_seeded$q) & (~is_collinear$q);
+        has_no_start = ((~has_triple$q) | is_collinear$q) & (~is_writing);
+        prepares = came & (came_id == vertex$q);
         writes$step = step$q;
+        writes$first_vertex = vertex$q;
+        writes$first_record = record$q;
         writes$turns_left = turns_left$q;
         writes$infinite = infinite;
         request$d = writes$write;
         request$d[(64'h0)+:(1)] = is_writing | prepares;
         write = request$q;
+        has_triple$d = arrived >= triple$q;
+        is_last_job = (~deal[(64'h5)+:(1)]) | (following$q == deal[(64'h0)+:(5)]);
         if (is_writing) begin
             step$d = step$q + one;
         end
         if (is_last) begin
-            is_seeded$d = 1'b1;
             step$d = 32'h0;
+            is_seeded$d = is_last_job;
+            if (~is_last_job) begin
+                vertex$d = vertex$q + three_vertices;
+                record$d = record$q + four_records;
+                triple$d = triple$q + three_vertices;
+                following$d = following$q + one_job;
+            end
         end
         if (looks) begin
             turns_left$d = verdict[(64'h3)+:(1)];
@@ -23196,6 +23341,11 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,lo
         if (clears | reset) begin
             is_seeded$d = 1'b0;
             is_collinear$d = 1'b0;
+            has_triple$d = 1'b0;
+            vertex$d = 32'h0;
+            record$d = 32'h0;
+            triple$d = 32'h3;
+            following$d = 32'h1;
         end
         if (reset) begin
             step$d = 32'h0;
@@ -23204,6 +23354,44 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,prepares,lo
     end
     
 endmodule // incircle_core_logic$engine$seeder
+
+
+module incircle_core_logic$engine$seeder$following(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$seeder$following
+
+
+module incircle_core_logic$engine$seeder$has_triple(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$seeder$has_triple
 
 
 module incircle_core_logic$engine$seeder$is_collinear(d,q,clock);
@@ -23244,6 +23432,25 @@ module incircle_core_logic$engine$seeder$is_seeded(d,q,clock);
 endmodule // incircle_core_logic$engine$seeder$is_seeded
 
 
+module incircle_core_logic$engine$seeder$record(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$seeder$record
+
+
 module incircle_core_logic$engine$seeder$request(d,q,clock);
     
     // Module arguments
@@ -23282,6 +23489,25 @@ module incircle_core_logic$engine$seeder$step(d,q,clock);
 endmodule // incircle_core_logic$engine$seeder$step
 
 
+module incircle_core_logic$engine$seeder$triple(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$seeder$triple
+
+
 module incircle_core_logic$engine$seeder$turns_left(d,q,clock);
     
     // Module arguments
@@ -23301,10 +23527,31 @@ module incircle_core_logic$engine$seeder$turns_left(d,q,clock);
 endmodule // incircle_core_logic$engine$seeder$turns_left
 
 
-module incircle_core_logic$engine$seeder$writes(step,turns_left,infinite,write);
+module incircle_core_logic$engine$seeder$vertex(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$seeder$vertex
+
+
+module incircle_core_logic$engine$seeder$writes(step,first_vertex,first_record,turns_left,infinite,write);
     
     // Module arguments
     input wire  [2:0] step;
+    input wire  [14:0] first_vertex;
+    input wire  [14:0] first_record;
     input wire  turns_left;
     input wire  [14:0] infinite;
     output reg  [109:0] write;
@@ -23320,8 +23567,15 @@ module incircle_core_logic$engine$seeder$writes(step,turns_left,infinite,write);
     wire  [109:0] record$write;
     
     // Local signals
+    reg  [14:0] a;
     reg  [14:0] b;
     reg  [14:0] c;
+    reg  [14:0] second;
+    reg  [14:0] third;
+    reg  [14:0] id0;
+    reg  [14:0] id1;
+    reg  [14:0] id2;
+    reg  [14:0] id3;
     reg  is_look;
     reg  is_triangle;
     reg  is_ghost1;
@@ -23330,6 +23584,9 @@ module incircle_core_logic$engine$seeder$writes(step,turns_left,infinite,write);
     reg  [2:0] triangle_step;
     reg  [2:0] ghost1_step;
     reg  [2:0] ghost2_step;
+    reg  [14:0] one;
+    reg  [14:0] two;
+    reg  [14:0] three;
     
     // Sub module instances
     incircle_core_logic$engine$seeder$writes$record record(
@@ -23349,50 +23606,60 @@ module incircle_core_logic$engine$seeder$writes(step,turns_left,infinite,write);
         triangle_step = 32'h1;
         ghost1_step = 32'h2;
         ghost2_step = 32'h3;
+        one = 32'h1;
+        two = 32'h2;
+        three = 32'h3;
         is_look = step == look_step;
         is_triangle = step == triangle_step;
         is_ghost1 = step == ghost1_step;
         is_ghost2 = step == ghost2_step;
-        b = 32'h2;
-        c = 32'h1;
+        a = first_vertex;
+        second = first_vertex + one;
+        third = first_vertex + two;
+        b = third;
+        c = second;
         if (turns_left | is_look) begin
-            b = 32'h1;
-            c = 32'h2;
+            b = second;
+            c = third;
         end
-        record$id = 32'h3;
+        id0 = first_record;
+        id1 = first_record | one;
+        id2 = first_record | two;
+        id3 = first_record | three;
+        record$id = id3;
         record$v0 = b;
-        record$v1 = 32'h0;
+        record$v1 = a;
         record$v2 = infinite;
-        record$n0 = 32'h2;
-        record$n1 = 32'h1;
-        record$n2 = 32'h0;
+        record$n0 = id2;
+        record$n1 = id1;
+        record$n2 = id0;
         if (is_ghost2) begin
-            record$id = 32'h2;
-            record$v0 = 32'h0;
+            record$id = id2;
+            record$v0 = a;
             record$v1 = c;
-            record$n0 = 32'h1;
-            record$n1 = 32'h3;
+            record$n0 = id1;
+            record$n1 = id3;
         end
         if (is_ghost1) begin
-            record$id = 32'h1;
+            record$id = id1;
             record$v0 = c;
             record$v1 = b;
-            record$n0 = 32'h3;
-            record$n1 = 32'h2;
+            record$n0 = id3;
+            record$n1 = id2;
         end
         if (is_triangle | is_look) begin
-            record$id = 32'h0;
-            record$v0 = 32'h0;
+            record$id = id0;
+            record$v0 = a;
             record$v1 = b;
             record$v2 = c;
-            record$n0 = 32'h1;
-            record$n1 = 32'h2;
-            record$n2 = 32'h3;
+            record$n0 = id1;
+            record$n1 = id2;
+            record$n2 = id3;
         end
         if (is_look) begin
-            record$n0 = 32'h0;
-            record$n1 = 32'h0;
-            record$n2 = 32'h0;
+            record$n0 = id0;
+            record$n1 = id0;
+            record$n2 = id0;
         end
         write = record$write;
     end

@@ -52,14 +52,7 @@ impl<'a> Assembly<'a> {
     /// Takes the words of whole records, the first of which has the number `first`.
     pub(crate) fn take(&mut self, first: usize, words: &[u32]) -> Result<(), DeviceFault> {
         for (record, words) in (first..).zip(words.chunks_exact(self.layout.record_words)) {
-            if self.layout.record_words == 3 {
-                check_spare_bits(record, words)?;
-            }
-            let ([a, b, c], [x, y, z]) = self.layout.record_from_words(words);
-            let neighbor = x.max(y).max(z);
-            if neighbor as usize >= self.records {
-                return Err(DeviceFault::NeighborOutOfRange { record, neighbor, records: self.records });
-            }
+            let [a, b, c] = checked_record(self.layout, record, words, self.records)?;
             self.take_vertices(record, a, b, c)?;
         }
         Ok(())
@@ -71,16 +64,11 @@ impl<'a> Assembly<'a> {
             let [a, b, c] = self.layout.vertices_from_words(words, place);
             self.take_vertices(first + place, a, b, c)?;
         }
-        let ends_in_half = self.layout.record_words == 3 && count % 2 == 1;
-        match words.last() {
-            Some(&word) if ends_in_half && word >> 16 != 0 => {
-                Err(DeviceFault::SpareHalf { record: first + count - 1, word })
-            }
-            _ => Ok(()),
-        }
+        check_last_half(self.layout, first, count, words)
     }
 
-    fn take_vertices(&mut self, record: usize, a: u32, b: u32, c: u32) -> Result<(), DeviceFault> {
+    /// Takes a record with these vertices, as this mesh counts them.
+    pub(crate) fn take_vertices(&mut self, record: usize, a: u32, b: u32, c: u32) -> Result<(), DeviceFault> {
         if (a == b) | (b == c) | (c == a) {
             return Err(DeviceFault::RepeatedVertex { record });
         }
@@ -133,6 +121,35 @@ impl<'a> Assembly<'a> {
             Some(pair) => Err(DeviceFault::TriangleTwice { triangle: pair[0] }),
             None => Ok((triangles, hull)),
         }
+    }
+}
+
+/// The vertices of a whole record, of so many, whose links and spare bits are as they must be.
+pub(crate) fn checked_record(
+    layout: Layout,
+    record: usize,
+    words: &[u32],
+    records: usize,
+) -> Result<[u32; 3], DeviceFault> {
+    if layout.record_words == 3 {
+        check_spare_bits(record, words)?;
+    }
+    let (v, [x, y, z]) = layout.record_from_words(words);
+    let neighbor = x.max(y).max(z);
+    if neighbor as usize >= records {
+        return Err(DeviceFault::NeighborOutOfRange { record, neighbor, records });
+    }
+    Ok(v)
+}
+
+/// The half word behind the last of these packed records, if there is one, must be 0.
+pub(crate) fn check_last_half(layout: Layout, first: usize, count: usize, words: &[u32]) -> Result<(), DeviceFault> {
+    let ends_in_half = layout.record_words == 3 && count % 2 == 1;
+    match words.last() {
+        Some(&word) if ends_in_half && word >> 16 != 0 => {
+            Err(DeviceFault::SpareHalf { record: first + count - 1, word })
+        }
+        _ => Ok(()),
     }
 }
 

@@ -24,6 +24,7 @@ pub struct ClockTransport {
     model: ClockModel,
     config: Config,
     answers: VecDeque<u32>,
+    clocks: u64,
 }
 
 impl ClockTransport {
@@ -33,7 +34,7 @@ impl ClockTransport {
     /// [`Error::Model`] for a configuration that no core can be built with.
     pub fn new(config: Config) -> Result<Self, Error> {
         let model = ClockModel::new(config).map_err(|refusal| Error::Model(refusal.to_string()))?;
-        Ok(Self { model, config, answers: VecDeque::new() })
+        Ok(Self { model, config, answers: VecDeque::new(), clocks: 0 })
     }
 
     /// One clock in which the core is offered this word, or none. True if it takes the word.
@@ -46,6 +47,7 @@ impl ClockTransport {
             command_data: command.unwrap_or(0),
             response_ready: true,
         });
+        self.clocks += 1;
         command.is_some() && outputs.command_ready
     }
 }
@@ -72,6 +74,10 @@ impl Transport for ClockTransport {
         // There are enough, so every place is filled.
         words.fill_with(|| self.answers.pop_front().unwrap_or(0));
         Ok(())
+    }
+
+    fn clocks(&self) -> Option<u64> {
+        Some(self.clocks)
     }
 
     fn name(&self) -> String {

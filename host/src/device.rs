@@ -10,12 +10,14 @@ use crate::cpu::{self, CPU_NAME};
 use crate::error::Error;
 use crate::link::{Limit, Link};
 use crate::model::{ModelTransport, MODEL_NAME};
-use crate::serial::{Address, SerialTransport};
+use crate::serial::{Address, SerialTransport, LONGEST};
 use crate::session::Session;
 use crate::transport::Transport;
 
 /// Time for the greeting unless chosen otherwise.
-const GREETING_TIMEOUT: Duration = Duration::from_secs(10);
+const GREETING_TIMEOUT: Duration = Duration::from_secs(15);
+const _: () =
+    assert!(GREETING_TIMEOUT.as_millis() > LONGEST.as_millis(), "a board on a bad line is found in this time");
 
 /// Most threads of the engine in this process.
 const MAX_THREADS: u32 = 256;
@@ -95,7 +97,7 @@ impl Device {
         Self { engine: Engine::Link(Box::new(Link::new(transport))) }
     }
 
-    /// Greets the device and checks what it says of itself; gives it ten seconds, stretched for a simulation by its
+    /// Greets the device and checks what it says of itself; gives it fifteen seconds, stretched for a simulation by its
     /// [`Pace`](crate::Pace).
     ///
     /// # Errors

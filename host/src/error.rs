@@ -207,6 +207,14 @@ pub enum Error {
         /// Name of the device.
         device: String,
     },
+    /// A job of a batch cannot be done.
+    #[error("job {job} of the batch: {source}")]
+    InJob {
+        /// Its place in the batch, from 0.
+        job: usize,
+        /// Why.
+        source: Box<Error>,
+    },
     /// The progress listener ended the job.
     #[error("the job was cancelled after {done} of {total} in the stage \"{stage}\"")]
     Cancelled {
@@ -245,6 +253,7 @@ impl Error {
             Self::Timeout { .. } => ErrorKind::Timeout,
             Self::Device { .. } => ErrorKind::Device,
             Self::Cancelled { .. } => ErrorKind::Cancelled,
+            Self::InJob { source, .. } => source.kind(),
         }
     }
 }

@@ -114,6 +114,14 @@ pub enum DeviceFault {
         /// The word received.
         word: u32,
     },
+    /// A record of a batch has vertices of several jobs.
+    #[error("record {record} of a batch has the vertices {}, {}, {}, which belong to several jobs", vertices[0], vertices[1], vertices[2])]
+    MixedJobs {
+        /// Number of the record.
+        record: usize,
+        /// Vertex ids received.
+        vertices: [u32; 3],
+    },
     /// A record has one vertex twice.
     #[error("record {record} has a vertex twice")]
     RepeatedVertex {

@@ -32,6 +32,7 @@
 #![warn(missing_docs)]
 
 mod assemble;
+mod batch;
 mod clock;
 mod counters;
 mod cpu;

@@ -29,6 +29,16 @@ impl Limit {
         Self { deadline: Instant::now() + timeout, timeout }
     }
 
+    /// Until when.
+    pub(crate) fn deadline(self) -> Instant {
+        self.deadline
+    }
+
+    /// How long that was at the start.
+    pub(crate) fn timeout(self) -> Duration {
+        self.timeout
+    }
+
     /// An error once the deadline has passed.
     pub(crate) fn check(&self, device: &str, during: &'static str) -> Result<(), Error> {
         if Instant::now() <= self.deadline {
@@ -59,6 +69,14 @@ impl Link {
 
     pub(crate) fn packs_records(&self) -> bool {
         self.transport.packs_records()
+    }
+
+    pub(crate) fn takes_ahead(&self) -> bool {
+        self.transport.takes_ahead()
+    }
+
+    pub(crate) fn clocks(&self) -> Option<u64> {
+        self.transport.clocks()
     }
 
     /// Asks who the device is, and believes only what a sound device can be.
@@ -113,6 +131,26 @@ impl Link {
         Error::Device { device: self.name(), during: opcode_name(opcode), fault }
     }
 
+    /// Sends whole commands whose answers are received later, in their order. After any error the streams count as out of step.
+    pub(crate) fn send_ahead(&mut self, opcode: Opcode, words: &[u32], limit: Limit) -> Result<(), Error> {
+        if self.out_of_step {
+            return Err(Error::OutOfStep { device: self.name() });
+        }
+        let sent = self.transport.send(words, limit.deadline).map_err(|source| self.failed(opcode, source, limit));
+        self.out_of_step = sent.is_err();
+        sent
+    }
+
+    /// The whole answer to the first command sent whose answer has not been received. After any error the streams count as out of step.
+    pub(crate) fn receive_answer(&mut self, opcode: Opcode, payload: &mut [u32], limit: Limit) -> Result<(), Error> {
+        if self.out_of_step {
+            return Err(Error::OutOfStep { device: self.name() });
+        }
+        let result = self.take_answer(opcode, payload, limit);
+        self.out_of_step = result.is_err();
+        result
+    }
+
     /// One command with its whole answer. After any error the streams count as out of step.
     fn ask(&mut self, opcode: Opcode, command: &[u32], payload: &mut [u32], limit: Limit) -> Result<(), Error> {
         if self.out_of_step {
@@ -126,6 +164,11 @@ impl Link {
     fn exchange(&mut self, opcode: Opcode, command: &[u32], payload: &mut [u32], limit: Limit) -> Result<(), Error> {
         let Limit { deadline, .. } = limit;
         self.transport.send(command, deadline).map_err(|source| self.failed(opcode, source, limit))?;
+        self.take_answer(opcode, payload, limit)
+    }
+
+    fn take_answer(&mut self, opcode: Opcode, payload: &mut [u32], limit: Limit) -> Result<(), Error> {
+        let Limit { deadline, .. } = limit;
         let mut header = [0; 2];
         self.transport.receive(&mut header, deadline).map_err(|source| self.failed(opcode, source, limit))?;
         check_header(header, opcode, payload.len()).map_err(|fault| self.distrust(opcode, fault))?;

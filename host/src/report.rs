@@ -24,11 +24,11 @@ pub struct Report {
     pub backend: String,
     /// Name of the insertion order.
     pub order: &'static str,
-    /// Time per stage, in the order in which they ran.
+    /// Time per stage, in the order in which they ran; none where the job was one of a batch on a device.
     pub stages: Vec<(&'static str, Duration)>,
-    /// The device's counters; `None` if the host answered alone.
+    /// The device's counters; `None` if the host answered alone, or the job was one of a batch.
     pub counters: Option<Counters>,
-    /// How long insertions took; `None` where there is no clock, or where the host answered alone.
+    /// How long insertions took; `None` where there is no clock, or where there are no counters.
     pub latencies: Option<Latencies>,
     /// Bits of a coordinate of the device.
     pub coord_bits: u32,

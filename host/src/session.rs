@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use incircle_protocol::{command_word, Identity, InsertReport, Layout, Opcode};
 
 use crate::assemble::Assembly;
+use crate::batch::{on_threads, Batch, Done};
 use crate::counters::Latencies;
 use crate::cpu::{CpuJob, CPU_NAME};
 use crate::error::Error;
@@ -72,6 +73,58 @@ impl<'d> Session<'d> {
         self.triangulate_owned(own, options)
     }
 
+    /// Triangulates many small sets in one call: the mesh of each is that of [`Session::triangulate_with`], byte for byte but for its
+    /// report, which has no counters and no times.
+    ///
+    /// A device works on as many jobs side by side as it has contexts, each in its share of the memory; [`Options::contexts`] says how
+    /// many at most. Jobs too large for a share are done one by one. The engine in this process works on a job with each thread.
+    /// [`Options::insert_chunk`] is not used, and the time of [`Options::timeout`] is for all jobs that share the memory together, and for each
+    /// of the others.
+    ///
+    /// ```
+    /// use incircle::{Device, Options, Point};
+    ///
+    /// let job = |seed: u32| (0..50).map(|k| Point::new(k * (seed + 7) % 83, k * k % 89)).collect::<Vec<_>>();
+    /// let jobs = [job(1), job(2), job(3)];
+    /// let mut device = Device::open("clock?config=small")?;
+    /// let mut session = device.session()?;
+    /// let meshes = session.triangulate_batch(&jobs, &Options::default())?;
+    /// assert_eq!(meshes[2].triangles, session.triangulate(&jobs[2])?.triangles);
+    /// # Ok::<(), incircle::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Session::triangulate_with`], with the number of the job where one is at fault. There are no meshes then.
+    pub fn triangulate_batch(&mut self, jobs: &[Vec<Point>], options: &Options<'_>) -> Result<Vec<Mesh>, Error> {
+        let slow = self.link.as_ref().map_or(1, |link| link.pace().slow);
+        let points: usize = jobs.iter().map(Vec::len).sum();
+        let default = || Options::default_timeout(points).saturating_mul(slow);
+        let limit = Limit::of(options.timeout.unwrap_or_else(default));
+        let identity = self.identity;
+        let contexts = options.contexts.unwrap_or(identity.contexts);
+        let name = self.link.as_ref().map_or_else(|| CPU_NAME.to_owned(), |link| link.name());
+        let in_job = |job: usize| move |source| Error::InJob { job, source: Box::new(source) };
+        check_input(&[], contexts, &identity, name.clone())?;
+        for (job, points) in jobs.iter().enumerate() {
+            check_input(points, contexts, &identity, name.clone()).map_err(in_job(job))?;
+        }
+        let Done { mut meshes, singles } = match &mut self.link {
+            None => on_threads(jobs, contexts, options, limit)?,
+            Some(link) => Batch { identity, contexts, limit, link, options, jobs }.run()?,
+        };
+        for job in singles {
+            meshes[job] = Some(self.triangulate_with(&jobs[job], options).map_err(in_job(job))?);
+        }
+        let whole =
+            |(mesh, points): (Option<Mesh>, &Vec<Point>)| mesh.map(|mesh| Mesh { points: points.clone(), ..mesh });
+        Ok(meshes.into_iter().zip(jobs).filter_map(whole).collect())
+    }
+
+    /// Clocks of the device since it was opened: of a core in simulation, of which every clock is counted; `None` elsewhere.
+    pub fn clocks(&self) -> Option<u64> {
+        self.link.as_ref().and_then(|link| link.clocks())
+    }
+
     pub(crate) fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Mesh, Error> {
         let slow = self.link.as_ref().map_or(1, |link| link.pace().slow);
         let default = || Options::default_timeout(points.len()).saturating_mul(slow);
@@ -126,7 +179,7 @@ pub(crate) struct Stopwatch {
 }
 
 impl Stopwatch {
-    fn start() -> Self {
+    pub(crate) fn start() -> Self {
         Self { since: Instant::now(), stages: Vec::with_capacity(4) }
     }
 

@@ -116,6 +116,16 @@ fn a_greeting_opens_nothing() {
     assert_eq!(host.board.lock().expect("no panic").session, 0);
 }
 
+/// A caller that wants to wait for ever may say so.
+#[test]
+fn a_timeout_may_be_longer_than_any_clock_runs() {
+    let host = Virtual::new();
+    let address = Address::of_port(&*host.port);
+    greet(&address, Duration::MAX).expect("a board");
+    let mut transport = SerialTransport::open(&address).expect("a port");
+    transport.connect(Duration::MAX).expect("a board");
+}
+
 #[test]
 fn only_one_program_has_a_port() {
     let host = Virtual::new();

@@ -7,7 +7,8 @@ pub enum Opcode {
     /// Who are you? No arguments; answered with an [`Identity`](crate::Identity).
     Hello = 1,
     /// Forget all points, triangles and counters. The low byte of the command word is the number of contexts that work from now on,
-    /// 0 for all; see [`clear_word`]. No arguments, no payload. O(1).
+    /// 0 for all; see [`clear_word`]. With [`CLEAR_BATCH`] each of them works on a mesh of its own; see [`batch_word`]. No arguments, no
+    /// payload. O(1).
     Clear = 2,
     /// Insert points: a word with their number, then the points. Answered, when the last point is in, with
     /// an [`InsertReport`](crate::InsertReport).
@@ -53,6 +54,19 @@ pub const fn command_word(opcode: Opcode) -> u32 {
 /// At most 255 contexts can be named; more are named as 255, which every device refuses.
 pub const fn clear_word(contexts: u32) -> u32 {
     command_word(Opcode::Clear) | if contexts > 255 { 255 } else { contexts }
+}
+
+/// The bit of a [`Clear`](Opcode::Clear) that starts a batch.
+pub const CLEAR_BATCH: u32 = 1 << 8;
+
+/// The word of a [`Clear`](Opcode::Clear) for a batch: from then on each of this many contexts works alone on a mesh of its own.
+pub const fn batch_word(contexts: u32) -> u32 {
+    clear_word(contexts) | CLEAR_BATCH
+}
+
+/// A `Clear` starts a batch.
+pub const fn command_starts_batch(word: u32) -> bool {
+    word & CLEAR_BATCH != 0
 }
 
 /// The contexts that a `Clear` names.

@@ -206,8 +206,8 @@ pub const MAX_LINK_CLOCK_HZ: u32 = 500_000_000;
 pub const MIN_FIFO_BYTES: u32 = 2_048;
 /// Most bytes of a receive FIFO.
 pub const MAX_FIFO_BYTES: u32 = 32_768;
-/// Most milliseconds of silence.
-pub const MAX_SILENCE_MS: u32 = 8_000;
+/// Most milliseconds of silence: a host that finds a device at another rate greets for so long and a second more.
+pub const MAX_SILENCE_MS: u32 = SILENCE_MS;
 
 /// A parameter that no link can be built with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,10 +13,11 @@ mod counters;
 mod frame;
 mod layout;
 mod status;
+mod stream;
 
 pub use command::{
-    answer_header, answer_opcode, answer_status, clear_word, command_contexts, command_opcode, command_word, Opcode,
-    PADDING,
+    answer_header, answer_opcode, answer_status, batch_word, clear_word, command_contexts, command_opcode,
+    command_starts_batch, command_word, Opcode, CLEAR_BATCH, PADDING,
 };
 pub use config::{
     patience, Config, ConfigError, FIRST_ROUND, FULL, LARGE, MAX_CONTEXTS, MAX_MODEL_POINTS, MAX_POINTS, MAX_RING,
@@ -31,6 +32,11 @@ pub use frame::{
 };
 pub use layout::{Identity, InsertReport, Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS};
 pub use status::Status;
+pub use stream::{
+    StreamRegister, BEAT_BITS, CONTROL_RESET, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, REGISTER_SPACE,
+    STREAM_FIFO_BEATS, STREAM_STATUS_BUSY, STREAM_STATUS_ERROR, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS,
+    STREAM_VERSION,
+};
 
 /// First word of the identity: the letters `inCi`.
 pub const MAGIC: u32 = 0x696e_4369;

@@ -13,7 +13,7 @@ use stepper::{named_ports, Stepper};
 named_ports!(SoloVisit, [owner, is_locate, is_mend, is_second, is_fetch, root_id, root, id, outer, back], [bundle]);
 named_ports!(
     CommandGate,
-    [is_command, is_argument, is_points, sweeps, none_is_left, came, has_three, seeded, collinear, stuck],
+    [is_command, is_argument, is_points, sweeps, none_is_left, came, start_is_open, stuck],
     [ready, takes_command, takes_point, awaits_point]
 );
 named_ports!(RecordWords, [v0, v1, v2, n0, n1, n2, was_set], [word0, word1, word2]);
@@ -56,7 +56,7 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
     let mut block = Stepper::new("command_gate", CommandGate::default(), 1);
     for _ in 0..ROUNDS {
         let meaning = random.below(4);
-        let [sweeps, none_is_left, came, has_three, seeded, collinear, stuck] = [(); 7].map(|()| flip(&mut random));
+        let [sweeps, none_is_left, came, start_is_open, stuck] = [(); 5].map(|()| flip(&mut random));
         for (port, value) in [
             ("is_command", meaning == 0),
             ("is_argument", meaning == 1),
@@ -64,14 +64,12 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
             ("sweeps", sweeps),
             ("none_is_left", none_is_left),
             ("came", came),
-            ("has_three", has_three),
-            ("seeded", seeded),
-            ("collinear", collinear),
+            ("start_is_open", start_is_open),
             ("stuck", stuck),
         ] {
             block.set(port, value);
         }
-        let is_undecided = has_three && !(seeded || collinear || stuck);
+        let is_undecided = start_is_open && !stuck;
         let ready = match meaning {
             0 => !sweeps,
             1 => true,

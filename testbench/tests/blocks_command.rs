@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 use command_reference::{Meaning, Pins, Reference, Shape, Surroundings};
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::CommandPort;
-use incircle_protocol::{clear_word, command_word, Opcode, PADDING};
+use incircle_protocol::{batch_word, clear_word, command_word, Opcode, PADDING};
 use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
@@ -22,7 +22,7 @@ named_ports!(
         command_valid,
         command_data,
         sweeps,
-        seeded,
+        start_is_open,
         collinear,
         stuck,
         is_quiet,
@@ -36,7 +36,7 @@ named_ports!(
         came_id,
         point,
         clears,
-        contexts,
+        deal,
         is_refused,
         answers,
         opcode,
@@ -58,7 +58,10 @@ fn command(random: &mut SplitMix64) -> Vec<u32> {
         12 => vec![PADDING; 1 + random.below(3) as usize],
         13 => vec![command_word(Opcode::Triangles), random.next_u64() as u32, random.next_u64() as u32],
         0 => vec![command_word(Opcode::Hello)],
-        1 | 2 => vec![clear_word([0, random.below(6) as u32, random.below(300) as u32][random.below(3) as usize])],
+        1 | 2 => {
+            let contexts = [0, random.below(6) as u32, random.below(300) as u32][random.below(3) as usize];
+            vec![if random.below(2) == 0 { clear_word(contexts) } else { batch_word(contexts) }]
+        }
         3 => vec![command_word(Opcode::Counters)],
         4 => vec![(random.below(256) as u32 | 8) << 24],
         5 | 6 => vec![command_word(Opcode::Read), random.next_u64() as u32, random.next_u64() as u32],
@@ -162,7 +165,7 @@ impl Rig {
     fn set_pins(&mut self, pins: Pins, data: u32) {
         for (port, value) in [
             ("sweeps", self.around.sweeping > 0),
-            ("seeded", self.around.seeded),
+            ("start_is_open", self.reference.start_is_open(&self.around)),
             ("collinear", self.around.collinear),
             ("is_quiet", pins.is_quiet),
             ("stuck", self.around.stuck),
@@ -191,13 +194,13 @@ impl Rig {
             block.expect(port, expected);
         }
         let (id, point) = (reference.came.map(|point| point.0), reference.came.map(|point| point.1));
+        block.expect("deal", reference.deal().bits());
         for (port, expected) in [
             ("came_id", id),
             ("point", point),
             ("opcode", reference.opcode.map(u32::from)),
             ("first", reference.first),
             ("count", reference.count),
-            ("contexts", Some(reference.contexts)),
             ("is_refused", reference.is_refused.map(u32::from)),
             ("arrived", Some(reference.arrived)),
             ("refused", Some(reference.refused)),

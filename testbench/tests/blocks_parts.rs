@@ -10,24 +10,25 @@ use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::{Seeder, Watchdog};
 use incircle_hdl::link::{ClearCommand, PointSlot, RecordBuffer};
 use incircle_protocol::{
-    clear_word, command_word, patience, Layout, Opcode, CORE_COORD_BITS, MAX_CONTEXTS, MAX_POINTS,
+    clear_word, command_starts_batch, command_word, patience, Layout, Opcode, CORE_COORD_BITS, FIRST_ROUND,
+    MAX_CONTEXTS, MAX_POINTS,
 };
-use stepper::bundles::{record_write, Finding};
+use stepper::bundles::{record_write, Deal, Finding};
 use stepper::{named_ports, Cell, Stepper, Wave};
 
 named_ports!(
     Seeder,
-    [reset, clears, infinite, prepares, looks, verdict],
-    [seeded, collinear, seeds, is_at_work, write],
+    [reset, clears, infinite, deal, came, came_id, arrived, looks, verdict],
+    [seeded, start_is_open, collinear, has_no_start, seeds, write],
     clock
 );
 named_ports!(
     PointSlot,
     [reset, clears, capacity, collinear, stuck, accepts, word],
-    [came, came_id, point, arrived, refused, has_three, some_refused],
+    [came, came_id, point, arrived, refused, some_refused],
     clock
 );
-named_ports!(ClearCommand, [reset, built, accepts, word], [clears, contexts, is_refused], clock);
+named_ports!(ClearCommand, [reset, built, accepts, word], [clears, deal, is_refused], clock);
 named_ports!(
     RecordBuffer,
     [reset, read_done, v0, v1, v2, n0, n1, n2, was_set, takes, takes_whole],
@@ -39,9 +40,15 @@ named_ports!(Watchdog, [reset, finishes, is_quiet, patience], [stuck], clock);
 const CLOCKS: usize = 8000;
 const INFINITE: u64 = 0x7fff;
 
-/// The first triangle as writes that are still to be made.
+/// The first triangles as writes that are still to be made.
 #[derive(Default)]
 struct SeedReference {
+    /// Jobs of a batch; 0: there is none.
+    jobs: u64,
+    /// The job whose triangle is due.
+    job: u64,
+    /// Its three points had come a clock ago.
+    had_triple: bool,
     /// Writes to come.
     due: VecDeque<u128>,
     /// The write that the clock shows.
@@ -51,40 +58,53 @@ struct SeedReference {
 }
 
 /// Inputs of a clock of the seeder.
+#[derive(Clone, Copy, Default)]
 struct SeedInputs {
     reset: bool,
     clears: bool,
-    prepares: bool,
+    /// The point that is being stored.
+    came: Option<u64>,
+    arrived: u64,
     looks: bool,
     finding: Finding,
 }
 
 impl SeedReference {
+    fn is_open(&self) -> bool {
+        self.had_triple && !self.seeded && !self.collinear
+    }
+
     fn edge(&mut self, inputs: &SeedInputs) {
-        self.seeded |= self.due.len() == 1;
+        let job = self.job;
+        if self.due.len() == 1 {
+            self.seeded = job + 1 == self.jobs.max(1);
+            self.job += u64::from(!self.seeded);
+        }
+        self.had_triple = inputs.arrived >= 3 * job + 3;
         self.made = self.due.pop_front();
-        if inputs.prepares {
-            self.made = Some(record_write(0, [0, 1, 2], [0; 3]));
+        if inputs.came == Some(3 * job) {
+            self.made = Some(record_write(4 * job, [0, 1, 2].map(|k| 3 * job + k), [4 * job; 3]));
         }
         if inputs.looks {
             self.collinear = inputs.finding.is_straight;
             if !self.collinear {
-                self.due = first_records(inputs.finding.is_left);
+                self.due = first_records(job, inputs.finding.is_left);
             }
         }
-        if inputs.clears {
-            (self.seeded, self.collinear) = (false, false);
+        if inputs.clears || inputs.reset {
+            (self.seeded, self.collinear, self.had_triple, self.job) = (false, false, false, 0);
         }
         if inputs.reset {
-            *self = Self::default();
+            *self = Self { jobs: self.jobs, ..Self::default() };
         }
     }
 
     fn expect(&self, block: &Stepper<Seeder>) {
         block.expect("seeded", self.seeded);
         block.expect("collinear", self.collinear);
+        block.expect("start_is_open", self.is_open());
+        block.expect("has_no_start", (!self.had_triple || self.collinear) && self.due.is_empty());
         block.expect("seeds", self.due.len() == 1);
-        block.expect("is_at_work", !self.due.is_empty());
         match self.made {
             Some(write) => block.expect("write", write),
             None => block.expect_masked("write", 1, 0u128),
@@ -92,59 +112,74 @@ impl SeedReference {
     }
 }
 
-/// The triangle of vertices 0, 1, 2 and its ghosts.
-fn first_records(turns_left: bool) -> VecDeque<u128> {
-    let (b, c) = if turns_left { (1, 2) } else { (2, 1) };
+/// The first triangle of a job and its ghosts.
+fn first_records(job: u64, turns_left: bool) -> VecDeque<u128> {
+    let a = 3 * job;
+    let (b, c) = if turns_left { (a + 1, a + 2) } else { (a + 2, a + 1) };
     let inf = INFINITE;
+    let record = |k: u64, v, n: [u64; 3]| record_write(4 * job + k, v, n.map(|k| 4 * job + k));
     [
-        record_write(0, [0, b, c], [1, 2, 3]),
-        record_write(1, [c, b, inf], [3, 2, 0]),
-        record_write(2, [0, c, inf], [1, 3, 0]),
-        record_write(3, [b, 0, inf], [2, 1, 0]),
+        record(0, [a, b, c], [1, 2, 3]),
+        record(1, [c, b, inf], [3, 2, 0]),
+        record(2, [a, c, inf], [1, 3, 0]),
+        record(3, [b, a, inf], [2, 1, 0]),
     ]
     .into()
 }
 
-fn seed_inputs(random: &mut SplitMix64, reference: &SeedReference) -> SeedInputs {
+fn seed_inputs(random: &mut SplitMix64, reference: &SeedReference, arrived: u64) -> SeedInputs {
     let rests = reference.due.is_empty();
-    let is_open = rests && !reference.seeded && !reference.collinear;
+    let is_due = !reference.seeded && !reference.collinear && arrived >= 3 * reference.job + 3;
+    let came = (rests && !is_due && random.below(2) == 0).then_some(arrived);
     let bits = random.next_u64();
+    let looks = rests && reference.is_open() && random.below(4) == 0;
+    let often = if reference.seeded || reference.collinear { 10 } else { 200 };
     SeedInputs {
-        reset: random.below(150) == 0,
-        clears: rests && random.below(10) == 0,
-        prepares: is_open && random.below(4) == 0,
-        looks: is_open && random.below(8) == 0,
+        reset: random.below(600) == 0,
+        clears: rests && came.is_none() && !looks && random.below(often) == 0,
+        came,
+        arrived: came.map_or(arrived, |id| id + 1),
+        looks,
         finding: Finding {
             conflict: bits & 1 == 1,
             located: bits & 2 == 2,
             falls_onto_corner: bits & 4 == 4,
             is_left: bits & 8 == 8,
-            is_straight: bits & 48 == 48,
+            is_straight: bits & 0x70 == 0x70,
             walk_next: bits >> 49,
         },
     }
 }
 
-fn set_seed_inputs(block: &mut Stepper<Seeder>, inputs: &SeedInputs) {
+fn set_seed_inputs(block: &mut Stepper<Seeder>, reference: &SeedReference, inputs: &SeedInputs) {
+    let is_batch = reference.jobs > 0;
+    block.set("deal", Deal { contexts: if is_batch { reference.jobs } else { 7 }, is_batch, dealt_from: 0 }.bits());
     block.set("reset", inputs.reset);
     block.set("clears", inputs.clears);
-    block.set("prepares", inputs.prepares);
+    block.set("came", inputs.came.is_some());
+    // Without `came` it is anything.
+    block.set("came_id", inputs.came.unwrap_or(3 * reference.job));
+    block.set("arrived", inputs.arrived);
     block.set("looks", inputs.looks);
     block.set("verdict", inputs.finding.verdict());
     block.settle();
 }
 
 #[test]
-fn seeder_writes_the_first_triangle() {
+fn seeder_writes_the_first_triangle_of_every_job() {
     let mut random = SplitMix64::new(31);
     let mut block = Stepper::new("seeder", Seeder::default(), 1);
     let mut reference = SeedReference::default();
-    let mut kinds = [0; 3];
+    let (mut kinds, mut arrived, mut batches) = ([0; 3], 0, 0);
     block.set("infinite", INFINITE);
-    for clock in 0..CLOCKS {
-        let mut inputs = seed_inputs(&mut random, &reference);
+    for clock in 0..2 * CLOCKS {
+        let mut inputs = seed_inputs(&mut random, &reference, arrived);
         inputs.reset |= clock == 0;
-        set_seed_inputs(&mut block, &inputs);
+        if inputs.clears || inputs.reset {
+            batches += usize::from(reference.seeded && reference.jobs > 1);
+            reference.jobs = if inputs.reset { 0 } else { random.below(25) };
+        }
+        set_seed_inputs(&mut block, &reference, &inputs);
         if clock > 0 {
             reference.expect(&block);
         }
@@ -154,26 +189,32 @@ fn seeder_writes_the_first_triangle() {
             kinds[usize::from(finding.is_straight) * 2 + usize::from(finding.is_left && !finding.is_straight)] += 1;
         }
         reference.edge(&inputs);
+        arrived = if inputs.clears || inputs.reset { 0 } else { inputs.arrived };
     }
-    assert!(kinds.iter().all(|times| *times > 20), "{kinds:?}");
+    assert!(kinds.iter().all(|times| *times > 20) && batches > 20, "{kinds:?} {batches}");
 }
 
 #[test]
 fn seeder_shows_the_wave_of_its_header() {
     let mut block = Stepper::new("seeder", Seeder::default(), 1);
+    let reference = SeedReference { jobs: 2, ..SeedReference::default() };
     block.set("infinite", INFINITE);
     let mut wave = Wave::default();
     for clock in 0..17 {
-        let (reset, prepares, looks) = (clock == 0, clock == 1, clock == 4);
+        let came = [(1, 0), (3, 1), (5, 2), (14, 3)].into_iter().find(|came| came.0 == clock).map(|came| came.1);
+        let arrived = [1, 3, 5, 14].into_iter().filter(|&came| came <= clock).count() as u64;
+        let looks = clock == 8;
         let finding = Finding { is_left: true, ..Finding::default() };
-        set_seed_inputs(&mut block, &SeedInputs { reset, clears: false, prepares, looks, finding });
+        let inputs = SeedInputs { reset: clock == 0, clears: false, came, arrived, looks, finding };
+        set_seed_inputs(&mut block, &reference, &inputs);
         if clock > 0 {
             let writes = block.get_masked("write", 1) == 1;
             let id = if writes { Cell::Number(block.get_masked("write", 0xfffe) >> 1) } else { Cell::Open };
             wave.take(&[
-                ("prepares", Cell::Bit(prepares)),
+                ("came", Cell::Bit(came.is_some())),
                 ("looks", Cell::Bit(looks)),
-                ("is_at_work", Cell::Bit(block.is("is_at_work"))),
+                ("start_is_open", Cell::Bit(block.is("start_is_open"))),
+                ("has_no_start", Cell::Bit(block.is("has_no_start"))),
                 ("write.valid", Cell::Bit(writes)),
                 ("write.id", id),
                 ("seeds", Cell::Bit(block.is("seeds"))),
@@ -201,9 +242,6 @@ impl SlotReference {
         block.expect("arrived", self.stored.len() as u64);
         block.expect("refused", self.refused);
         block.expect("some_refused", self.refused > 0);
-        if !self.came {
-            block.expect("has_three", self.stored.len() == 3);
-        }
         if let (true, Some(point)) = (self.came, self.stored.last()) {
             block.expect("came_id", self.stored.len() as u64 - 1);
             block.expect("point", *point);
@@ -263,7 +301,9 @@ fn point_slot_hands_on_a_point_and_counts_it() {
 fn clear_command_is_granted_or_refused() {
     let mut random = SplitMix64::new(33);
     let mut block = Stepper::new("clear_command", ClearCommand::default(), 1);
-    let (mut clears, mut contexts, mut is_refused) = (false, 0, None);
+    let (mut clears, mut contexts, mut is_batch, mut is_refused) = (false, 0, false, None);
+    // The first vertex that is dealt follows a clock later.
+    let mut dealt_from = 0;
     let mut kinds = [0; 3];
     let mut built = 1;
     for clock in 0..CLOCKS {
@@ -275,7 +315,7 @@ fn clear_command_is_granted_or_refused() {
         let word = match random.below(3) {
             0 => command_word(Opcode::Insert) | wanted,
             1 => random.next_u64() as u32,
-            // Bits between the opcode and the low byte do not count.
+            // Of the bits between the opcode and the low byte only the lowest counts.
             _ => clear_word(wanted) | (random.below(1 << 16) as u32) << 8,
         };
         let accepts = random.below(2) == 0;
@@ -284,19 +324,22 @@ fn clear_command_is_granted_or_refused() {
         block.set("accepts", accepts);
         block.set("word", word);
         block.settle();
-        if clock > 0 {
+        if clock > 1 {
             block.expect("clears", clears);
-            block.expect("contexts", contexts);
+            let deal = Deal { contexts: contexts.into(), is_batch, dealt_from };
+            block.expect("deal", deal.bits());
         }
         if let Some(is_refused) = is_refused {
             block.expect("is_refused", u32::from(is_refused));
         }
         block.edge();
+        dealt_from = if is_batch { 3 * u64::from(contexts) } else { FIRST_ROUND.into() };
         let asks = accepts && word >> 24 == Opcode::Clear as u32;
         let number = word & 0xff;
         clears = asks && number <= built && !reset;
         if clears {
             contexts = if number == 0 { built } else { number };
+            is_batch = command_starts_batch(word);
         }
         if accepts {
             is_refused = Some(asks && number > built);
@@ -305,7 +348,7 @@ fn clear_command_is_granted_or_refused() {
             kinds[if number > built { 2 } else { usize::from(number > 0) }] += 1;
         }
         if reset {
-            contexts = built;
+            (contexts, is_batch, dealt_from) = (built, false, FIRST_ROUND.into());
         }
     }
     assert!(kinds.iter().all(|times| *times > 100), "{kinds:?}");

@@ -124,6 +124,45 @@ fn silence_and_a_break_end_the_session_and_the_rate() {
     }
 }
 
+/// A `Rate` whose end falls around the clock in which silence ends the session: it is heard in the session; or it finds none; or it is
+/// lost with the session, as on a bad line.
+#[test]
+fn a_frame_at_the_very_end_of_a_session_is_taken_whole_or_not_at_all() {
+    let step = ((1u32 << 24) / 16).to_le_bytes();
+    // What comes back, if the `Rate` begins so many clocks after the last frame, and then to a `Poll`.
+    let replies = |wait: usize| {
+        let mut rig = opened(13);
+        rig.wait(wait);
+        rig.say(SESSION, HostFrame::Rate, 0, &step);
+        let first = rig.hear_within(9000).map(|frame| frame.kind);
+        rig.wait(60);
+        // At the first rate, or at the one that was asked for.
+        let clocks_per_bit = if first == Some(DeviceFrame::Ack as u8) { 16.0 } else { CLOCKS_PER_BIT };
+        (rig.talker.clocks_per_bit, rig.listener) = (clocks_per_bit, Listener::new(clocks_per_bit));
+        rig.say(SESSION, HostFrame::Poll, 0, &[]);
+        (first, rig.hear_within(9000).map(|frame| frame.kind))
+    };
+    let [ack, no_session] = [DeviceFrame::Ack, DeviceFrame::NoSession].map(|kind| Some(kind as u8));
+    let silence = (QUICK_LINK.silence_ms * QUICK_LINK.clock_hz / 1000) as usize;
+    let (mut low, mut high) = (silence - 3000, silence + 1000);
+    assert_eq!((replies(low), replies(high)), ((ack, ack), (no_session, no_session)));
+    while high - low > 1 {
+        let middle = (low + high) / 2;
+        *(if replies(middle).0 == ack { &mut low } else { &mut high }) = middle;
+    }
+    let around: Vec<_> = (low - 2..low + 8).map(replies).collect();
+    println!("around the last clock: {around:?}");
+    for (clock, found) in around.into_iter().enumerate() {
+        let is_sound = if clock <= 2 {
+            found == (ack, ack)
+        } else {
+            [(no_session, no_session), (None, no_session)].contains(&found)
+        };
+        assert!(is_sound, "clock {clock}: {found:?}");
+        assert!(clock < 5 || found.0 == no_session, "clock {clock}: lost long after the end");
+    }
+}
+
 #[test]
 fn noise_costs_frames_and_changes_no_word() {
     let mut rig = opened(10);

@@ -211,12 +211,17 @@ fn judge_says_what_a_frame_asks_for() {
     let mut random = SplitMix64::new(4);
     let mut block = Stepper::new("serial_frame_judge", FrameJudge::default(), 1);
     let mut counts = [0; 11];
-    for run in 0..8000 {
+    for run in 0..12_000 {
         let mut case = Case::random(&mut random);
         let is_sound = random.below(5) > 0;
         // Room that comes after the first byte of the payload comes too late.
-        let takes = case.takes();
+        let was_open = case.is_open;
+        // In every other run the session ends, in each of the clocks in turn.
+        let ends_at = (run % 2 == 1).then_some(run / 2 % 24);
+        let is_open = |clock: i32| was_open && ends_at.is_none_or(|end| clock < end);
+        let takes = Case { is_open: is_open(5), ..case }.takes();
         for clock in 0..24 {
+            case.is_open = is_open(clock);
             if clock == 8 && random.below(3) == 0 {
                 case.free = 32768;
             }
@@ -239,7 +244,8 @@ fn judge_says_what_a_frame_asks_for() {
             block.settle();
             if run > 0 {
                 block.expect("takes_payload", takes && (7..=20).contains(&clock));
-                let asked = if clock == 21 { case.asked(is_sound, takes) } else { 0 };
+                let at_end = Case { is_open: is_open(20), ..case };
+                let asked = if clock == 21 { at_end.asked(is_sound, takes) } else { 0 };
                 block.expect("asked", asked);
                 (0..11).for_each(|field| counts[field] += asked >> field & 1);
             }

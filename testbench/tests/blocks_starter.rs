@@ -6,17 +6,17 @@ mod stepper;
 use std::collections::VecDeque;
 
 use incircle_cli::generate::SplitMix64;
-use incircle_hdl::engine::{NextPoint, Starter};
-use incircle_protocol::{Config, FIRST_ROUND, LARGE, MAX_CONTEXTS, SMALL};
+use incircle_hdl::engine::Starter;
+use incircle_protocol::{Config, FIRST_ROUND, LARGE, SMALL};
+use stepper::bundles::Deal;
 use stepper::{named_ports, Cell, Stepper, Wave};
 
-named_ports!(NextPoint, [turn, has_begun, planned, taken, contexts], [next_id, after_taken]);
 named_ports!(
     Starter,
     [
         reset,
         clears,
-        contexts,
+        deal,
         arrived,
         came,
         seeded,
@@ -43,45 +43,6 @@ named_ports!(
     [starts, owner, u, takes, taken_id, solo_starts, solo_p],
     clock
 );
-
-/// The vertices of a context in their order, without end.
-fn dealt(context: u64, contexts: u64) -> impl Iterator<Item = u64> {
-    let first = u64::from(FIRST_ROUND);
-    let alone = 2..if context == 0 { first } else { 2 };
-    alone.chain((first + context..).step_by(contexts as usize))
-}
-
-#[test]
-fn next_point_deals_every_vertex_to_one_context() {
-    let mut block = Stepper::new("next_point", NextPoint::default(), 1);
-    for contexts in 1..=u64::from(MAX_CONTEXTS) {
-        block.set("contexts", contexts);
-        let mut owners = vec![0; 400];
-        for turn in 0..contexts {
-            block.set("turn", turn);
-            let mut planned = None;
-            let vertices: Vec<u64> = dealt(turn, contexts).take_while(|vertex| *vertex < 450).collect();
-            for pair in vertices.windows(2).filter(|pair| pair[0] < 400) {
-                // Before the first point the plan is anything.
-                block.set("has_begun", planned.is_some());
-                block.set("planned", planned.unwrap_or(pair[0] * 77));
-                block.set("taken", pair[0]);
-                block.settle();
-                block.expect("next_id", pair[0]);
-                block.expect("after_taken", pair[1]);
-                owners[pair[0] as usize] += 1;
-                planned = Some(pair[1]);
-            }
-        }
-        assert_eq!(owners[..2], [0; 2]);
-        assert!(owners[2..].iter().all(|owners| *owners == 1), "{contexts} contexts: {owners:?}");
-        for id in (1 << 14) - 40..1 << 14 {
-            block.set("taken", id as u64);
-            block.settle();
-            block.expect("after_taken", id as u64 + contexts);
-        }
-    }
-}
 
 /// A context as the blocks around see it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -148,6 +109,7 @@ struct Inputs {
 struct Rig {
     block: Stepper<Starter>,
     contexts: u64,
+    is_batch: bool,
     arrived: u64,
     lives: Vec<Life>,
     /// Steps of the pointer since the last reset.
@@ -164,6 +126,7 @@ impl Rig {
         let mut rig = Self {
             block,
             contexts,
+            is_batch: false,
             arrived: 0,
             lives: Vec::new(),
             steps: 0,
@@ -171,18 +134,22 @@ impl Rig {
             candidate: None,
             all_work: false,
         };
-        rig.forget(contexts);
+        rig.forget();
         rig.clock(&Inputs { reset: true, ..Inputs::default() });
         rig
     }
 
     /// After a clock with reset or clear: nothing has come, everyone sleeps.
-    fn forget(&mut self, contexts: u64) {
-        self.contexts = contexts;
+    fn forget(&mut self) {
         self.arrived = 0;
-        self.lives = vec![Life::default(); contexts as usize];
-        (self.steps, self.all_work) = (0, false);
+        self.lives = vec![Life::default(); self.contexts as usize];
+        // In a batch there is no first round.
+        (self.steps, self.all_work) = (0, self.is_batch);
         (self.passed, self.candidate) = (None, None);
+    }
+
+    fn deal(&self) -> Deal {
+        Deal::both(self.contexts)[usize::from(self.is_batch)]
     }
 
     fn set(&self, flag: impl Fn(&Life) -> bool) -> u64 {
@@ -208,7 +175,11 @@ impl Rig {
             sight,
             is_due: is_due && !life.awake && !starts_now && !inputs.solo,
             keeps: life.keeps,
-            u: if life.keeps { life.root } else { life.hint.unwrap_or(0) },
+            u: if life.keeps {
+                life.root
+            } else {
+                life.hint.unwrap_or(if self.is_batch { 4 * sight.context } else { 0 })
+            },
             is_alone: inputs.special == sight.context,
         })
     }
@@ -241,9 +212,9 @@ impl Rig {
         ] {
             self.block.set(port, value);
         }
+        self.block.set("deal", self.deal().bits());
         let (root, hint) = (root.unwrap_or((1, 0x7fff)), hint.unwrap_or((0, 0x7fff)));
         for (port, value) in [
-            ("contexts", self.contexts),
             ("solo_owner", inputs.special),
             ("waiter", inputs.special),
             ("arrived", self.arrived),
@@ -309,7 +280,7 @@ impl Rig {
         if !seen.waits {
             let context = self.steps % self.contexts;
             let last = self.lives[context as usize].last.filter(|_| self.lives[context as usize].began);
-            let mut vertices = dealt(context, self.contexts);
+            let mut vertices = self.deal().dealt(context);
             let vertex = match last {
                 Some(last) => vertices.find(|vertex| *vertex > last),
                 None => vertices.next(),
@@ -335,7 +306,8 @@ impl Rig {
             }
         }
         if inputs.reset || inputs.clears {
-            self.forget(self.contexts);
+            self.is_batch &= !inputs.reset;
+            self.forget();
         }
     }
 }
@@ -353,7 +325,9 @@ struct Tally {
 fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
     let (mut came, mut solo, mut is_urgent, mut special) = (false, false, false, 0);
     for _ in 0..200_000 {
-        let all_are_taken = tally.taken.len() as u64 + 2 == points;
+        // Two points of each triple are taken with the third.
+        let triples = if rig.is_batch { rig.contexts } else { 1 };
+        let all_are_taken = tally.taken.len() as u64 + 2 * triples == points;
         if all_are_taken && rig.lives.iter().all(|life| !life.awake && !life.keeps && !life.busy) {
             return;
         }
@@ -387,7 +361,7 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
         came = comes;
         rig.arrived += u64::from(comes);
     }
-    panic!("{} of {points} points are taken: {:?}", tally.taken.len() + 2, rig.lives);
+    panic!("of {points} points {} are taken: {:?}", tally.taken.len(), rig.lives);
 }
 
 /// What becomes of a context at an edge.
@@ -410,14 +384,14 @@ fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
     sleeps.or(frees).map(|deed| (owner, deed))
 }
 
-/// Jobs of so many contexts and points each, one after the other.
-fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)]) {
+/// Jobs of so many contexts and points each, one after the other; batches or not.
+fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool) {
     let mut random = SplitMix64::new(80);
     let (mut again, mut waits) = (0, 0);
     let mut rig = Rig::new(name, config);
     for (contexts, points) in jobs.iter().copied() {
         // All contexts sleep when the mesh is forgotten.
-        rig.contexts = contexts;
+        (rig.contexts, rig.is_batch) = (contexts, is_batch);
         rig.lives = vec![Life::default(); contexts as usize];
         rig.clock(&Inputs { clears: true, came: true, ..Inputs::default() });
         let mut tally = Tally::default();
@@ -425,14 +399,15 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)]) {
         let mut vertices: Vec<u64> = tally.taken.iter().map(|(_, vertex)| *vertex).collect();
         for context in 0..contexts {
             let own = tally.taken.iter().filter(|(owner, _)| *owner == context).map(|(_, vertex)| *vertex);
-            let expected = dealt(context, contexts).take_while(|vertex| *vertex < points);
+            let expected = rig.deal().dealt(context).take_while(|vertex| *vertex < points);
             assert!(own.eq(expected), "{contexts} contexts, context {context}");
         }
         // Until vertex 16 is taken, context 0 is the only one.
         let first = tally.taken.len().min(FIRST_ROUND as usize - 1);
-        assert!(tally.taken[..first].iter().all(|(owner, _)| *owner == 0));
+        assert!(is_batch || tally.taken[..first].iter().all(|(owner, _)| *owner == 0));
         vertices.sort_unstable();
-        assert!(vertices.into_iter().eq(2..points));
+        let triples = if is_batch { contexts } else { 1 };
+        assert!(vertices.into_iter().eq((0..points).filter(|id| *id >= 3 * triples || id % 3 == 2)));
         // The pointer leaves nobody out; it is two contexts ahead.
         let stops: Vec<u64> = tally.stops.into_iter().skip(2).collect();
         assert!(stops.windows(2).all(|two| two[1] == (two[0] + 1) % contexts));
@@ -444,8 +419,15 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)]) {
 #[test]
 fn starter_gives_every_point_to_its_context_once() {
     let jobs_of_small = [(4, 300), (1, 60), (3, 250), (2, 3), (2, 16), (4, 17), (2, 18), (4, 200)];
-    jobs("starter_small", SMALL, &jobs_of_small);
-    jobs("starter_large", LARGE, &[(24, 600), (23, 400), (1, 20), (16, 400), (9, 17)]);
+    jobs("starter_small", SMALL, &jobs_of_small, false);
+    jobs("starter_large", LARGE, &[(24, 600), (23, 400), (1, 20), (16, 400), (9, 17)], false);
+}
+
+#[test]
+fn starter_gives_every_job_of_a_batch_its_points() {
+    let jobs_of_small = [(4, 300), (1, 60), (3, 250), (2, 6), (2, 16), (4, 17), (2, 18), (4, 200)];
+    jobs("starter_small", SMALL, &jobs_of_small, true);
+    jobs("starter_large", LARGE, &[(24, 600), (23, 400), (1, 20), (16, 400), (9, 27)], true);
 }
 
 #[test]

@@ -1,30 +1,15 @@
 //! The exchange in `protocol/SERIAL.md` is what the Verilated device says at its pins.
 
+#[path = "../../sim/model/tests/serial_exchange/mod.rs"]
+mod serial_exchange;
+
 use incircle_model::serial::FromDevice;
 use incircle_protocol::{rate_step, SMALL, STATUS_BUSY};
 use incircle_sim::serial::{Board, PinBoard, Symbol};
-
-const PAGE: &str = include_str!("../../protocol/SERIAL.md");
+use serial_exchange::steps;
 
 /// The rate that the page shows.
 const RATE: u32 = 3_000_000;
-
-/// Bytes to the device, and the frames that come back.
-fn steps() -> Vec<(Vec<u8>, Vec<FromDevice>)> {
-    let (_, block) = PAGE.split_once("```line\n").expect("an exchange");
-    let block = block.split("```").next().expect("its body");
-    let mut steps: Vec<(Vec<u8>, Vec<u8>)> = Vec::new();
-    for line in block.lines().filter(|line| !line.is_empty()) {
-        let said = line[1..].split(';').next().expect("a first part");
-        let bytes = said.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).expect(line));
-        match steps.last_mut() {
-            Some((_, answer)) if line.starts_with('<') => answer.extend(bytes),
-            Some((sent, answer)) if answer.is_empty() => sent.extend(bytes),
-            _ => steps.push((bytes.collect(), Vec::new())),
-        }
-    }
-    steps.into_iter().map(|(sent, answer)| (sent, frames(&answer))).collect()
-}
 
 /// The frames in these bytes, without what depends on how far the core has come when they begin: the room in the FIFO and whether a
 /// command is under way.
@@ -52,7 +37,7 @@ fn the_device_says_what_the_page_shows() {
                 silent = 0;
             }
         }
-        assert_eq!(frames(&said), expected, "step {number}");
+        assert_eq!(frames(&said), frames(&expected), "step {number}");
         // The host follows the rate it has asked for.
         if sent.windows(3).any(|bytes| *bytes == step[..3]) {
             board.set_rate(RATE);

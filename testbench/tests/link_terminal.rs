@@ -3,6 +3,7 @@
 
 use std::time::{Duration, Instant};
 
+use incircle::serial::{greet, Address};
 use incircle::{Device, Error, ErrorKind, Mesh, Options, Point};
 use incircle_protocol::SMALL;
 use incircle_testbench::link::{is_one_mesh, random_points, Detail, Served};
@@ -36,18 +37,18 @@ fn must_be_right(address: &str, points: usize, seed: u64, what: &str) {
 
 /// Faults of every class, so frequent that a job of this size meets some.
 const CLASSES: [&str; 12] = [
-    "ber=2e-5",
-    "drop=3e-4",
-    "double=3e-4",
-    "swap=3e-4",
-    "drop-frame=0.05",
+    "ber=2e-4",
+    "drop=2e-3",
+    "double=2e-3",
+    "swap=2e-3",
+    "drop-frame=0.1",
     "double-frame=0.1",
-    "swap-frame=0.05",
-    "truncate=0.05",
-    "babble=0.1",
-    "stall=0.05,stall-ms=20",
-    "silence-after=2000,silence-ms=30",
-    "ber=1e-5,drop-frame=0.02,babble=0.02,direction=to-host,seed=7",
+    "swap-frame=0.1",
+    "truncate=0.1",
+    "babble=0.2",
+    "stall=0.2,stall-ms=20",
+    "silence-after=1000,silence-ms=30",
+    "ber=1e-4,drop-frame=0.05,babble=0.05,direction=to-host,seed=7",
 ];
 
 /// Every class in turn, `count` jobs each.
@@ -57,6 +58,7 @@ fn survive(detail: Detail, classes: &[&str], points: usize) {
         must_be_right(&board.address(RATE), points, seed, faults);
         let figures = board.stop().unwrap();
         println!("{faults}: {figures:?}");
+        assert!(figures.faults > 0, "the line did nothing of {faults}: {figures:?}");
     }
 }
 
@@ -118,6 +120,17 @@ fn bit_errors_at_the_pins() {
             must_be_right(&board.address(RATE), 60, seed, ber);
         }
     }
+}
+
+/// The board is at rest, as no session is open, while its greeting is held up on the line.
+#[test]
+fn time_goes_on_while_a_reply_is_on_the_line() {
+    const SLOW: u32 = 10;
+    let mut board = Served::new(Detail::Bytes, SMALL, "stall=1,stall-ms=400,direction=to-host", SLOW).unwrap();
+    let address = Address { slow: SLOW, ..Address::of_port(board.path().display().to_string()) };
+    greet(&address, Duration::from_secs(12)).unwrap_or_else(|error| panic!("{error}"));
+    let figures = board.stop().unwrap();
+    assert!(figures.faults > 0, "{figures:?}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ mod lockstep_rig;
 
 use incircle_cli::generate::{Distribution, SplitMix64};
 use incircle_protocol::{Counter, SMALL};
-use incircle_testbench::lockstep::Stalls;
+use incircle_testbench::lockstep::{Job, Stalls};
 use lockstep_rig::{ordered, word, Rig};
 
 const NETLIST: &str = "netlist_small";
@@ -29,6 +29,12 @@ fn jobs_on_the_netlist() {
     }
     // To the brim, and one more.
     rig.run(&ordered(Distribution::Uniform, 1025, 16, 1, 4), 1025, 0, Stalls::NONE);
+    // Jobs side by side, a mesh for each context.
+    for (jobs, stalls) in [(4, Stalls::NONE), (3, Stalls::ALL[4])] {
+        let spans = [word(0, 0), word(300, 0), word(0, 300)].repeat(jobs as usize);
+        let points = [spans, ordered(Distribution::Uniform, 400, 8, 2, 1)].concat();
+        rig.run_commands(&Job::batch_of(&points, 150, jobs, SMALL).commands, stalls);
+    }
     for counter in [Counter::Insertions, Counter::Duplicates, Counter::Refused, Counter::Aborts] {
         assert!(rig.counted(counter) > 0, "{counter:?}");
     }

@@ -4,8 +4,8 @@
 //! |---|---|---|---|
 //! | `clock`, `reset`, `clears` | in | 1 | reset and clear put all contexts to sleep |
 //! | `all`, `patience` | in | 24, 22 | contexts that are built, clocks without a finished point: constants |
-//! | `contexts`, `arrived`, `came` | in | 5, 15, 1 | contexts that work; points that have come; one is being stored |
-//! | `seeded`, `collinear`, `is_seeding`, `seeds` | in | 1 | the first triangle |
+//! | `deal`, `arrived`, `came` | in | Deal, 15, 1 | contexts that work, and which points are theirs; points that have come; one is being stored |
+//! | `seeded`, `has_no_start`, `seeds` | in | 1 | the first triangle, see `Seeder` |
 //! | `owner`, `sleeps` ... `overflows`, `root_enable`, `root` | in | | what became of the context whose visit completes |
 //! | `is_done`, `may_ask` | in | 1 | a visit completes; it may ask for others: the queue is not free for a start |
 //! | `commit_ends`, `commit_owner`, `hint` | in | 1, 5, 15 | a commit is finished |
@@ -23,7 +23,7 @@
 //!
 //! Latency: see the blocks.
 
-use super::{ContextFlags, Progress, Starter, Watchdog};
+use super::{ContextFlags, Deal, Progress, Starter, Watchdog};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -41,19 +41,17 @@ pub struct Dispatcher {
     pub all: Signal<In, Bits<24>>,
     /// Clocks without a finished point.
     pub patience: Signal<In, Bits<22>>,
-    /// Contexts that work.
-    pub contexts: Signal<In, Bits<5>>,
+    /// Contexts that work, and which points are theirs.
+    pub deal: Signal<In, Deal>,
     /// Points that have come.
     pub arrived: Signal<In, Bits<15>>,
     /// One is being stored.
     pub came: Signal<In, Bit>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
-    /// It never will.
-    pub collinear: Signal<In, Bit>,
-    /// Its records are being written.
-    pub is_seeding: Signal<In, Bit>,
-    /// The last of them is.
+    /// There is none and none is due.
+    pub has_no_start: Signal<In, Bit>,
+    /// The last record of one is written.
     pub seeds: Signal<In, Bit>,
     /// The context whose visit completes.
     pub owner: Signal<In, Bits<5>>,
@@ -207,7 +205,7 @@ impl Logic for Dispatcher {
         self.takes_token.next = self.flags.takes_token.val();
 
         // Who starts.
-        self.start.contexts.next = self.contexts.val();
+        self.start.deal.next = self.deal.val();
         self.start.arrived.next = self.arrived.val();
         self.start.came.next = self.came.val();
         self.start.seeded.next = self.seeded.val();
@@ -252,8 +250,7 @@ impl Logic for Dispatcher {
         self.progress.commit_ends.next = self.commit_ends.val();
         self.progress.solo_ends.next = self.solo_ends.val();
         self.progress.duplicate.next = self.found_duplicate.q.val();
-        self.progress.collinear.next = self.collinear.val();
-        self.progress.is_seeding.next = self.is_seeding.val();
+        self.progress.has_no_start.next = self.has_no_start.val();
         self.progress.all_rest.next = self.flags.all_rest.val();
         self.is_quiet.next = self.progress.is_quiet.val();
         self.watchdog.patience.next = self.patience.val();

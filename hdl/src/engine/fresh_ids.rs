@@ -6,7 +6,7 @@
 //! | `takes` | in | 1 | a ring takes the next new id |
 //! | `ends` | in | 1 | the last record of a ring is written |
 //! | `solo_inserts` | in | 1 | an insertion alone has written two new records |
-//! | `seeds` | in | 1 | the first four records are written |
+//! | `seeds` | in | 1 | a first triangle and its ghosts are written, four records |
 //! | `clears` | in | 1 | forgets all records |
 //! | `fresh` | out | 15 | the next new id |
 //! | `records` | out | 15 | ids from here on are not written yet |
@@ -43,7 +43,7 @@ pub struct FreshIds {
     pub ends: Signal<In, Bit>,
     /// Two records of an insertion alone are written.
     pub solo_inserts: Signal<In, Bit>,
-    /// The first four records are written.
+    /// Four records of a first triangle are written.
     pub seeds: Signal<In, Bit>,
     /// Forgets all records.
     pub clears: Signal<In, Bit>,
@@ -82,8 +82,11 @@ impl Logic for FreshIds {
         if self.solo_inserts.val() {
             self.step.next = self.two.val();
         }
+        if self.seeds.val() {
+            self.step.next = self.seed_records.val();
+        }
         self.raised.next = self.taken.q.val() + self.step.val();
-        if self.takes.val() | self.solo_inserts.val() {
+        if self.takes.val() | self.solo_inserts.val() | self.seeds.val() {
             self.taken.d.next = self.raised.val();
         }
 
@@ -96,12 +99,8 @@ impl Logic for FreshIds {
         if self.ended_before_2.q.val() {
             self.written.d.next = self.ended.q.val();
         }
-        if self.solo_inserts.val() {
+        if self.solo_inserts.val() | self.seeds.val() {
             self.written.d.next = self.raised.val();
-        }
-        if self.seeds.val() {
-            self.taken.d.next = self.seed_records.val();
-            self.written.d.next = self.seed_records.val();
         }
         if self.clears.val() | self.reset.val() {
             self.taken.d.next = self.none.val();

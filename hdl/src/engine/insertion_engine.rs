@@ -4,11 +4,11 @@
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | reset forgets everything but the memories, and sweeps the locks |
 //! | `infinite`, `ring`, `last_id`, `all`, `patience` | in | 15, 7, 15, 24, 22 | parameters, constants |
-//! | `contexts` | in | 5 | contexts that work; changes only with `clears` |
+//! | `deal` | in | Deal | contexts that work, and which points are theirs; changes only with `clears` |
 //! | `clears` | in | 1 | forget the mesh at this edge; only while quiet |
 //! | `came`, `came_id`, `point`, `arrived` | in | 1, 15, 32, 15 | a point is stored at this edge; points that have come |
 //! | `read`, `read_id`, `read_done`, `v0..n2`, `was_set` | in, out | | read-out of a record; only while quiet |
-//! | `seeded`, `collinear`, `records` | out | 1, 1, 15 | state of the mesh |
+//! | `start_is_open`, `collinear`, `records` | out | 1, 1, 15 | state of the mesh, see `Seeder` |
 //! | `is_quiet`, `stuck`, `sweeps` | out | 1 | every point is finished; nothing is finished any more; locks are being swept |
 //! | `write` | out | Write | the write port of the triangle memory |
 //! | `events` | out | Events | what happens at this edge, for the counters |
@@ -23,7 +23,7 @@
 //! ```
 //! Latency: see the blocks.
 
-use super::{Events, Insertions, PushPort, Seeder, Solo, VisitPipeline, Write, WritePort};
+use super::{Deal, Events, Insertions, PushPort, Seeder, Solo, VisitPipeline, Write, WritePort};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
@@ -44,8 +44,8 @@ pub struct InsertionEngine {
     pub all: Signal<In, Bits<24>>,
     /// Clocks without a finished point.
     pub patience: Signal<In, Bits<22>>,
-    /// Contexts that work.
-    pub contexts: Signal<In, Bits<5>>,
+    /// Contexts that work, and which points are theirs.
+    pub deal: Signal<In, Deal>,
     /// Forget the mesh.
     pub clears: Signal<In, Bit>,
     /// A point is stored.
@@ -62,9 +62,9 @@ pub struct InsertionEngine {
     pub read_id: Signal<In, Bits<15>>,
     /// The time.
     pub now: Signal<In, Bits<22>>,
-    /// The first triangle stands.
-    pub seeded: Signal<Out, Bit>,
-    /// The first three points are collinear.
+    /// Three points are being looked at for a first triangle.
+    pub start_is_open: Signal<Out, Bit>,
+    /// Such three are collinear.
     pub collinear: Signal<Out, Bit>,
     /// Records of the mesh.
     pub records: Signal<Out, Bits<15>>,
@@ -100,7 +100,6 @@ pub struct InsertionEngine {
     seeder: Seeder,
     push_port: PushPort,
     write_port: WritePort,
-    first_vertex: Signal<Local, Bits<15>>,
 }
 
 impl InsertionEngine {
@@ -114,7 +113,6 @@ impl Logic for InsertionEngine {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, insertions, pipeline, solo, seeder, push_port, write_port);
-        self.first_vertex.next = 0.into();
         self.insertions.reset.next = self.reset.val();
         self.pipeline.reset.next = self.reset.val();
         self.solo.reset.next = self.reset.val();
@@ -125,7 +123,7 @@ impl Logic for InsertionEngine {
         self.seeder.clears.next = self.clears.val();
 
         // What the link sees.
-        self.seeded.next = self.seeder.seeded.val();
+        self.start_is_open.next = self.seeder.start_is_open.val();
         self.collinear.next = self.seeder.collinear.val();
         self.records.next = self.insertions.records.val();
         self.is_quiet.next = self.insertions.is_quiet.val();
@@ -165,7 +163,7 @@ impl Logic for InsertionEngine {
         self.insertions.last_id.next = self.last_id.val();
         self.insertions.all.next = self.all.val();
         self.insertions.patience.next = self.patience.val();
-        self.insertions.contexts.next = self.contexts.val();
+        self.insertions.deal.next = self.deal.val();
         self.insertions.arrived.next = self.arrived.val();
         self.insertions.came.next = self.came.val();
         self.insertions.now.next = self.now.val();
@@ -177,16 +175,18 @@ impl Logic for InsertionEngine {
         self.insertions.turned.next = self.pipeline.turned.val();
         self.insertions.verdict.next = self.pipeline.verdict.val();
         self.insertions.seeded.next = self.seeder.seeded.val();
-        self.insertions.collinear.next = self.seeder.collinear.val();
         self.insertions.seeds.next = self.seeder.seeds.val();
-        self.insertions.is_seeding.next = self.seeder.is_at_work.val();
+        self.insertions.has_no_start.next = self.seeder.has_no_start.val();
         self.insertions.solo_is_at_work.next = self.solo.is_at_work.val();
         self.insertions.solo_ends.next = self.solo.ends.val();
         self.insertions.solo_inserts.next = self.solo.inserts.val();
 
         // The first triangle, and an insertion alone.
         self.seeder.infinite.next = self.infinite.val();
-        self.seeder.prepares.next = self.came.val() & (self.came_id.val() == self.first_vertex.val());
+        self.seeder.deal.next = self.deal.val();
+        self.seeder.came.next = self.came.val();
+        self.seeder.came_id.next = self.came_id.val();
+        self.seeder.arrived.next = self.arrived.val();
         self.seeder.looks.next = self.insertions.looks.val();
         self.seeder.verdict.next = self.pipeline.verdict.val();
         self.solo.starts.next = self.insertions.solo_starts.val();

@@ -4,10 +4,10 @@
 //! |---|---|---|---|
 //! | `clock`, `reset`, `clears` | in | 1 | reset drops everything at work; clear forgets the mesh |
 //! | `ring`, `last_id`, `all`, `patience` | in | 7, 15, 24, 22 | parameters, constants |
-//! | `contexts`, `arrived`, `came`, `now` | in | 5, 15, 1, 22 | contexts that work; points that have come; one is being stored; the time |
+//! | `deal`, `arrived`, `came`, `now` | in | Deal, 15, 1, 22 | contexts that work, and which points are theirs; points that have come; one is being stored; the time |
 //! | `early_done`, `early_token`, `early_turned` | in | | the visit that completes in the next clock; none while an insertion alone is at work |
 //! | `token`, `turned`, `verdict` | in | | the visit that completes |
-//! | `seeded`, `collinear`, `is_seeding`, `seeds` | in | 1 | the first triangle |
+//! | `seeded`, `has_no_start`, `seeds` | in | 1 | the first triangle, see `Seeder` |
 //! | `solo_is_at_work`, `solo_ends`, `solo_inserts` | in | 1 | the insertion alone |
 //! | `asks`, `may_ask`, `follows` | out | 1, 1, Bundle | the visit that completes asks for others; it may; they |
 //! | `starts`, `starter`, `u` | out | 1, 5, 15 | a context starts to walk at this record, while nobody may ask |
@@ -21,7 +21,7 @@
 //!
 //! Latency: see the blocks.
 
-use super::{Attempts, Bundle, CommitPath, Dispatcher, Events, Token, Turned, Verdict, Write};
+use super::{Attempts, Bundle, CommitPath, Deal, Dispatcher, Events, Token, Turned, Verdict, Write};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
@@ -42,8 +42,8 @@ pub struct Insertions {
     pub all: Signal<In, Bits<24>>,
     /// Clocks without a finished point.
     pub patience: Signal<In, Bits<22>>,
-    /// Contexts that work.
-    pub contexts: Signal<In, Bits<5>>,
+    /// Contexts that work, and which points are theirs.
+    pub deal: Signal<In, Deal>,
     /// Points that have come.
     pub arrived: Signal<In, Bits<15>>,
     /// A point is being stored.
@@ -64,11 +64,9 @@ pub struct Insertions {
     pub verdict: Signal<In, Verdict>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
-    /// It never will.
-    pub collinear: Signal<In, Bit>,
-    /// Its records are being written.
-    pub is_seeding: Signal<In, Bit>,
-    /// The last of them is.
+    /// There is none and none is due.
+    pub has_no_start: Signal<In, Bit>,
+    /// The last record of one is written.
     pub seeds: Signal<In, Bit>,
     /// An insertion alone is under way.
     pub solo_is_at_work: Signal<In, Bit>,
@@ -170,12 +168,11 @@ impl Logic for Insertions {
         // Who starts, and what is finished.
         self.dispatcher.all.next = self.all.val();
         self.dispatcher.patience.next = self.patience.val();
-        self.dispatcher.contexts.next = self.contexts.val();
+        self.dispatcher.deal.next = self.deal.val();
         self.dispatcher.arrived.next = self.arrived.val();
         self.dispatcher.came.next = self.came.val();
         self.dispatcher.seeded.next = self.seeded.val();
-        self.dispatcher.collinear.next = self.collinear.val();
-        self.dispatcher.is_seeding.next = self.is_seeding.val();
+        self.dispatcher.has_no_start.next = self.has_no_start.val();
         self.dispatcher.seeds.next = self.seeds.val();
         self.dispatcher.solo_is_at_work.next = self.solo_is_at_work.val();
         self.dispatcher.solo_ends.next = self.solo_ends.val();

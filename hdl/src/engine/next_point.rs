@@ -2,24 +2,33 @@
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
+//! | `deal` | in | Deal | contexts that work, and whether each has a mesh of its own |
 //! | `turn` | in | 5 | the context |
 //! | `has_begun`, `planned` | in | 1, 15 | it has had a point; what then stood on `after_taken` |
 //! | `next_id` | out | 15 | the vertex it takes next |
-//! | `taken` | in | 15 | a vertex that some context takes |
-//! | `contexts` | in | 5 | contexts that work |
-//! | `after_taken` | out | 15 | the vertex that this context takes after it |
+//! | `is_seed`, `first_dealt` | out | 1, 7 | that is the third of its own first triangle, in a batch; the vertex it takes after that |
+//! | `taker`, `taken` | in | 5, 15 | another context, and a vertex that it takes |
+//! | `took_seed`, `taken_dealt` | in | 1, 7 | what stood on `is_seed` and `first_dealt` with that vertex |
+//! | `after_taken` | out | 15 | the vertex that it takes after that |
+//! | `first_record` | out | 15 | the first record of its mesh |
 //!
 //! 1. Context 0 takes vertex 2, whose arrival completes the first triangle, and then those below 16 one by one.
 //! 2. From there on points are dealt: vertex `j` belongs to context `(j - 16) mod contexts`.
+//! 3. In a batch context `c` takes vertex `3c + 2`, the third of its own first triangle, whose first record is `4c`. From
+//!    `dealt_from = 3 contexts` on vertex `j` belongs to context `(j - dealt_from) mod contexts`. That a vertex is such a third is known when
+//!    it is chosen, a clock ahead of what follows it: a comparison with `dealt_from` before the sum would set the clock of the core.
 //!
 //! Latency: none (combinational).
 
+use super::Deal;
 use incircle_protocol::FIRST_ROUND;
 use rust_hdl_core::prelude::*;
 
 /// The next vertex of a context; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct NextPoint {
+    /// How points are dealt.
+    pub deal: Signal<In, Deal>,
     /// The context.
     pub turn: Signal<In, Bits<5>>,
     /// It has had a point.
@@ -28,16 +37,36 @@ pub struct NextPoint {
     pub planned: Signal<In, Bits<15>>,
     /// The vertex it takes next.
     pub next_id: Signal<Out, Bits<15>>,
-    /// A vertex that is taken.
+    /// That is the third of its first triangle.
+    pub is_seed: Signal<Out, Bit>,
+    /// The one after such a third.
+    pub first_dealt: Signal<Out, Bits<7>>,
+    /// Another context.
+    pub taker: Signal<In, Bits<5>>,
+    /// A vertex that it takes.
     pub taken: Signal<In, Bits<15>>,
-    /// Contexts that work.
-    pub contexts: Signal<In, Bits<5>>,
+    /// That is the third of its first triangle.
+    pub took_seed: Signal<In, Bit>,
+    /// The one after such a third.
+    pub taken_dealt: Signal<In, Bits<7>>,
     /// The one after it.
     pub after_taken: Signal<Out, Bits<15>>,
+    /// The first record of its mesh.
+    pub first_record: Signal<Out, Bits<15>>,
+    is_batch: Signal<Local, Bit>,
+    is_early: Signal<Local, Bit>,
+    from: Signal<Local, Bits<15>>,
     step: Signal<Local, Bits<15>>,
     wide_turn: Signal<Local, Bits<15>>,
+    twice_turn: Signal<Local, Bits<15>>,
+    thrice_turn: Signal<Local, Bits<15>>,
+    wide_taker: Signal<Local, Bits<15>>,
+    narrow_turn: Signal<Local, Bits<7>>,
+    dealt_from: Signal<Local, Bits<7>>,
     first_round: Signal<Local, Bits<15>>,
     first_context: Signal<Local, Bits<5>>,
+    one: Signal<Local, Bits<15>>,
+    two: Signal<Local, Bits<15>>,
 }
 
 // The kernel writes it as a literal, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
@@ -48,17 +77,38 @@ impl Logic for NextPoint {
     fn update(&mut self) {
         self.first_round.next = 16.into();
         self.first_context.next = 0.into();
+        self.one.next = 1.into();
+        self.two.next = 2.into();
+        self.is_batch.next = self.deal.val().is_batch;
         self.wide_turn.next = bit_cast::<15, 5>(self.turn.val());
-        self.step.next = bit_cast::<15, 5>(self.contexts.val());
-        if self.taken.val() < self.first_round.val() {
-            self.step.next = 1.into();
+        self.wide_taker.next = bit_cast::<15, 5>(self.taker.val());
+        self.narrow_turn.next = bit_cast::<7, 5>(self.turn.val());
+        self.dealt_from.next = self.deal.val().dealt_from;
+        self.is_seed.next = self.is_batch.val() & (!self.has_begun.val());
+        self.first_dealt.next = self.dealt_from.val() + self.narrow_turn.val();
+        self.is_early.next = (self.taken.val() < self.first_round.val()) & (!self.is_batch.val());
+        self.from.next = self.taken.val();
+        self.step.next = bit_cast::<15, 5>(self.deal.val().contexts);
+        if self.is_early.val() {
+            self.step.next = self.one.val();
         }
-        self.after_taken.next = self.taken.val() + self.step.val();
+        if self.took_seed.val() {
+            self.from.next = bit_cast::<15, 7>(self.taken_dealt.val());
+            self.step.next = 0.into();
+        }
+        self.after_taken.next = self.from.val() + self.step.val();
+        self.first_record.next = 0.into();
+        if self.is_batch.val() {
+            self.first_record.next = self.wide_taker.val() << self.two.val();
+        }
+        self.twice_turn.next = self.wide_turn.val() << self.one.val();
+        self.thrice_turn.next = self.wide_turn.val() + self.twice_turn.val();
         self.next_id.next = self.planned.val();
         if !self.has_begun.val() {
             self.next_id.next = self.wide_turn.val() + self.first_round.val();
-            if self.turn.val() == self.first_context.val() {
-                self.next_id.next = 2.into();
+            // That of context 0 is 2 either way.
+            if self.is_batch.val() | (self.turn.val() == self.first_context.val()) {
+                self.next_id.next = self.thrice_turn.val() + self.two.val();
             }
         }
     }

@@ -4,16 +4,16 @@
 //! |---|---|---|---|
 //! | `clock`, `reset`, `clears` | in | 1 | reset and clear set the count to zero |
 //! | `arrived` | in | 15 | points that have come |
-//! | `seeds` | in | 1 | the first triangle stands: three points are finished |
+//! | `seeds` | in | 1 | a first triangle stands: three points are finished |
 //! | `commit_ends`, `solo_ends`, `duplicate` | in | 1 | a point is finished each |
-//! | `collinear`, `is_seeding` | in | 1 | the first three points are collinear; their records are being written |
+//! | `has_no_start` | in | 1 | no first triangle is being made, and none can be from the points that have come |
 //! | `all_rest` | in | 1 | no visit is out and no lock held |
 //! | `is_quiet` | out | 1 | every point is finished or will never be, and nothing is at work |
 //! | `finishes` | out | 1 | a point is finished at this edge |
 //!
 //! 1. Two points may be finished in one clock: one by a commit or alone, and a duplicate.
 //! 2. Fewer than three points, or three collinear ones, are never finished: then there is nothing left to do as soon as no visit is
-//!    out, unless the first records are being written.
+//!    out.
 //!
 //! 3. What is finished is noted at its edge, counted at the next one and compared at the third; `arrived` is compared at once. In
 //!    the clock after a point has come `is_quiet` may still say what held before; nobody settles in it.
@@ -24,7 +24,7 @@
 //! ```text
 //! arrived           0  1  2  3  3  3  3  3  3  4  5  5  5  5  5  5
 //! all_rest        /^^^^^^^^^^^\_____/^^^^^^^^^^^^^^\________/^^^^^
-//! is_seeding      __________________/^^^^^\_______________________
+//! has_no_start    /^^^^^^^^^^^\___________________________________
 //! seeds           _____________________/^^\_______________________
 //! commit_ends     ____________________________________/^^\________
 //! duplicate       ____________________________________/^^\________
@@ -54,10 +54,8 @@ pub struct Progress {
     pub solo_ends: Signal<In, Bit>,
     /// A point is finished.
     pub duplicate: Signal<In, Bit>,
-    /// There will be no triangle.
-    pub collinear: Signal<In, Bit>,
-    /// The first records are being written.
-    pub is_seeding: Signal<In, Bit>,
+    /// There is no triangle and none is due.
+    pub has_no_start: Signal<In, Bit>,
     /// No visit is out, no lock held.
     pub all_rest: Signal<In, Bit>,
     /// Nothing is left to do.
@@ -67,30 +65,22 @@ pub struct Progress {
     finished: DFF<Bits<15>>,
     /// Points that were finished at the last edge.
     more: DFF<Bits<2>>,
-    starts: DFF<Bit>,
     is_behind: DFF<Bit>,
-    has_triple: DFF<Bit>,
     inserts: Signal<Local, Bit>,
-    has_no_start: Signal<Local, Bit>,
     wide_more: Signal<Local, Bits<15>>,
-    three: Signal<Local, Bits<15>>,
 }
 
 impl Logic for Progress {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, finished, more, starts, is_behind, has_triple);
-        self.three.next = 3.into();
+        dff_setup!(self, clock, finished, more, is_behind);
         self.inserts.next = self.commit_ends.val() | self.solo_ends.val();
         self.finishes.next = self.inserts.val() | self.duplicate.val() | self.seeds.val();
 
         self.is_behind.d.next = self.finished.q.val() != self.arrived.val();
-        self.has_triple.d.next = self.arrived.val() >= self.three.val();
-        self.has_no_start.next = ((!self.has_triple.q.val()) | self.collinear.val()) & (!self.is_seeding.val());
         self.is_quiet.next = ((!self.is_behind.q.val()) | self.has_no_start.val()) & self.all_rest.val();
 
         // A commit and a duplicate may end in one clock.
-        self.starts.d.next = self.seeds.val();
         self.more.d.next = 0.into();
         if self.inserts.val() | self.duplicate.val() {
             self.more.d.next = 1.into();
@@ -98,19 +88,17 @@ impl Logic for Progress {
         if self.inserts.val() & self.duplicate.val() {
             self.more.d.next = 2.into();
         }
+        if self.seeds.val() {
+            self.more.d.next = 3.into();
+        }
         self.wide_more.next = bit_cast::<15, 2>(self.more.q.val());
         self.finished.d.next = self.finished.q.val() + self.wide_more.val();
-        if self.starts.q.val() {
-            self.finished.d.next = 3.into();
-        }
         if self.reset.val() | self.clears.val() {
-            self.starts.d.next = false;
             self.more.d.next = 0.into();
             self.finished.d.next = 0.into();
         }
         if self.reset.val() {
             self.is_behind.d.next = false;
-            self.has_triple.d.next = false;
         }
     }
 }

@@ -3,7 +3,7 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `clock`, `reset`, `clears` | in | 1 | reset and clear start at context 0 |
-//! | `contexts` | in | 5 | contexts that work |
+//! | `deal` | in | Deal | contexts that work, and which points are theirs |
 //! | `arrived` | in | 15 | points that have come |
 //! | `came` | in | 1 | one is being stored: the vertex memory's port is taken |
 //! | `seeded` | in | 1 | the first triangle stands |
@@ -20,10 +20,10 @@
 //!
 //! 1. A context starts if it sleeps and has a point to try again, no commit or release is due, and it has rested: contexts that try again
 //!    start in every fourth round of the pointer only, which spreads them.
-//! 2. Or if it sleeps and its next point has come. Until context 0 has taken vertex 16, no other context works.
+//! 2. Or if it sleeps and its next point has come. Until context 0 has taken vertex 16, no other context works, but in a batch.
 //!    A start that may find the queue taken, or the vertex memory's port, is made in the next clock. The pointer waits, and does so
 //!    whenever a visit completes: what that asks for is known late.
-//! 3. The walk of a new point starts at the star of the context's last commit, record 0 if there is none.
+//! 3. The walk of a new point starts at the star of the context's last commit, at the first record of its mesh if there is none.
 //! 4. Who wants to be alone starts when everybody rests and the pointer has passed it.
 //! 5. The pointer is two contexts ahead. In the clock after it has stood at a context, that one's next vertex is there, and it is
 //!    decided whether it is due and where it would start; in the clock after that it starts, unless somebody else has the queue.
@@ -48,7 +48,7 @@
 //!
 //! Source: points dealt to contexts lie in the vertex memory, which is their queue.
 
-use super::{context_bits, NextPoint};
+use super::{context_bits, Deal, NextPoint};
 use crate::leaf::LutMemory;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -63,8 +63,8 @@ pub struct Starter {
     pub reset: Signal<In, Bit>,
     /// Starts at context 0.
     pub clears: Signal<In, Bit>,
-    /// Contexts that work.
-    pub contexts: Signal<In, Bits<5>>,
+    /// Contexts that work, and which points are theirs.
+    pub deal: Signal<In, Deal>,
     /// Points that have come.
     pub arrived: Signal<In, Bits<15>>,
     /// A point is being stored.
@@ -125,11 +125,14 @@ pub struct Starter {
     pub solo_p: Signal<Out, Bits<15>>,
     turn: DFF<Bits<5>>,
     round: DFF<Bits<2>>,
-    /// The context that the pointer has left last, the vertex that it would take, and the one it has.
+    /// The context that the pointer has left last, the vertex that it would take, and the one it has; whether it would take its first in a
+    /// batch, and what follows that.
     has_passed: DFF<Bit>,
     passed: DFF<Bits<5>>,
     passed_id: DFF<Bits<15>>,
     passed_point: DFF<Bits<15>>,
+    passed_is_seed: DFF<Bit>,
+    passed_dealt: DFF<Bits<7>>,
     /// The one before: the vertex that it would take and the one after that; whether it is due, with its point or a new one, where it would start, and whether it wants to be alone.
     candidate: DFF<Bits<5>>,
     candidate_id: DFF<Bits<15>>,
@@ -139,12 +142,14 @@ pub struct Starter {
     wants_new: DFF<Bit>,
     from: DFF<Bits<15>>,
     is_alone: DFF<Bit>,
+    /// The first round is over, or there is none.
     all_work: DFF<Bit>,
     points: LutMemory<5, 15>,
     plans: LutMemory<5, 15>,
     roots: LutMemory<5, 15>,
     hints: LutMemory<5, 15>,
     following: NextPoint,
+    contexts: Signal<Local, Bits<5>>,
     turn_index: Signal<Local, Bits<5>>,
     index: Signal<Local, Bits<5>>,
     is_asleep: Signal<Local, Bit>,
@@ -182,12 +187,14 @@ impl Logic for Starter {
     fn update(&mut self) {
         dff_setup!(self, clock, turn, round, has_passed, passed, passed_id, passed_point, candidate, candidate_id);
         dff_setup!(self, clock, candidate_plan, candidate_point, wants_again, wants_new, from, is_alone, all_work);
+        dff_setup!(self, clock, passed_is_seed, passed_dealt);
         clock!(self, clock, points, plans, roots, hints);
         self.one_turn.next = 1.into();
         self.one_round.next = 1.into();
         self.resting_round.next = 0.into();
         self.first_context.next = 0.into();
         self.first_round.next = 16.into();
+        self.contexts.next = self.deal.val().contexts;
 
         // The context under the pointer: which vertex it would take.
         self.turn_index.next = self.turn.q.val();
@@ -197,7 +204,10 @@ impl Logic for Starter {
         self.plans.read_address.next = self.turn.q.val();
         self.following.planned.next = self.plans.read_data.val();
         self.following.taken.next = self.passed_id.q.val();
-        self.following.contexts.next = self.contexts.val();
+        self.following.taker.next = self.passed.q.val();
+        self.following.took_seed.next = self.passed_is_seed.q.val();
+        self.following.taken_dealt.next = self.passed_dealt.q.val();
+        self.following.deal.next = self.deal.val();
 
         // The one before: is it due? If only one context works, it may be the one that starts at this edge; and a point that is inserted
         // alone is not to be tried again.
@@ -265,7 +275,7 @@ impl Logic for Starter {
             self.wants_new.d.next =
                 self.is_asleep.val() & (!self.tries_again.val()) & self.is_there.val() & self.may_work.val();
             self.is_alone.d.next = self.passed.q.val() == self.solo_owner.val();
-            self.from.d.next = 0.into();
+            self.from.d.next = self.following.first_record.val();
             if self.hinted.val().get_bit(self.index.val().index()) {
                 self.from.d.next = self.hints.read_data.val();
             }
@@ -276,6 +286,8 @@ impl Logic for Starter {
             self.passed.d.next = self.turn.q.val();
             self.passed_id.d.next = self.following.next_id.val();
             self.passed_point.d.next = self.points.read_data.val();
+            self.passed_is_seed.d.next = self.following.is_seed.val();
+            self.passed_dealt.d.next = self.following.first_dealt.val();
             self.turn.d.next = self.after_turn.val();
             if self.after_turn.val() == self.contexts.val() {
                 self.turn.d.next = 0.into();
@@ -289,7 +301,7 @@ impl Logic for Starter {
             self.wants_again.d.next = false;
             self.wants_new.d.next = false;
             self.is_alone.d.next = false;
-            self.all_work.d.next = false;
+            self.all_work.d.next = self.deal.val().is_batch & (!self.reset.val());
         }
     }
 }

@@ -57,6 +57,16 @@ fn bits_to_number(things: u32) -> usize {
 }
 
 crate::packed! {
+    /// How points are dealt to contexts.
+    pub struct Deal {
+        /// Contexts that work.
+        pub contexts: Bits<5>,
+        /// Each of them has a mesh of its own.
+        pub is_batch: bool,
+        /// The first vertex of those that are dealt in turn: 16, or three for each context in a batch.
+        pub dealt_from: Bits<7>,
+    }
+
     /// One visit of a record.
     pub struct Token {
         /// The context it belongs to.

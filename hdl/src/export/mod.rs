@@ -2,11 +2,12 @@
 
 mod control_blocks;
 mod serial_blocks;
+mod stream_blocks;
 mod visit_blocks;
 
 use std::fmt;
 
-use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
+use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError, BEAT_BITS};
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
@@ -18,7 +19,10 @@ use crate::predicate::{
     CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
 };
 use crate::serial::{SerialError, SerialLink};
-use crate::top::{serial_wrapper, wrapper, Core, SerialTop, CORE_NAME, SERIAL_TOP_NAME};
+use crate::stream::StreamLink;
+use crate::top::{
+    serial_wrapper, stream_wrapper, wrapper, Core, SerialTop, StreamTop, CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME,
+};
 
 pub use serial_blocks::{HASTY_LINK, QUICK_LINK};
 
@@ -35,6 +39,8 @@ pub enum ExportError {
     Config(ConfigError),
     /// A parameter that no serial link can be built with.
     Link(LinkConfigError),
+    /// A width of beats that no stream link can be built with.
+    BeatBits(u32),
 }
 
 impl fmt::Display for ExportError {
@@ -42,6 +48,10 @@ impl fmt::Display for ExportError {
         let (names, fault, remedy) = match self {
             Self::Config(error) => return error.fmt(f),
             Self::Link(error) => return error.fmt(f),
+            Self::BeatBits(given) => {
+                let [narrow, wide] = BEAT_BITS;
+                return write!(f, "a beat of a stream has {narrow} or {wide} bits, not {given}: choose one of them");
+            }
             Self::OpenSignals(names) => (names, "are driven by nothing", "assign or connect each of them"),
             Self::LogicLoops(names) => (names, "are read before they are assigned", "assign them first"),
             Self::DrivenInputs(names) => (names, "are inputs that their own block assigns", "assign them one level up"),
@@ -135,6 +145,25 @@ pub fn serial_top(config: Config, link: LinkConfig, with_probe: bool) -> Result<
     })
 }
 
+/// The whole Verilog of a core behind a stream link with beats of 64 or 128 bits: the device and the ANSI wrapper
+/// [`STREAM_TOP_NAME`](crate::top::STREAM_TOP_NAME) around it.
+///
+/// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn stream_top(config: Config, beat_bits: u32, with_probe: bool) -> Result<String, ExportError> {
+    on_large_stack(|| {
+        let inside = format!("{STREAM_TOP_NAME}_logic");
+        let device = match beat_bits {
+            64 => connected(StreamTop::<64, 8, 65>::new(config)?, &inside)?,
+            128 => connected(StreamTop::<128, 16, 129>::new(config)?, &inside)?,
+            _ => return Err(ExportError::BeatBits(beat_bits)),
+        };
+        Ok(format!("{device}{}", stream_wrapper(&inside, beat_bits as usize, with_probe)))
+    })
+}
+
 /// Runs this in a thread with room for a whole device, which is built by value: several copies of 300 kB, too much for the usual stack
 /// of a thread. Where no thread can be had, the caller's stack must do.
 fn on_large_stack<T: Send>(work: impl Fn() -> T + Sync) -> T {
@@ -151,6 +180,24 @@ fn on_large_stack<T: Send>(work: impl Fn() -> T + Sync) -> T {
 /// As [`serial_top`].
 pub fn serial_link(config: Config, link: LinkConfig, name: &str) -> Result<String, ExportError> {
     let mut uut = SerialLink::new(config, link)?;
+    uut.connect_all();
+    verilog(&uut, name)
+}
+
+/// The Verilog of a stream link alone, with beats of so many bits, as the root module `name`.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn stream_link(config: Config, beat_bits: u32, name: &str) -> Result<String, ExportError> {
+    match beat_bits {
+        64 => connected(StreamLink::<64, 8, 65>::new(config)?, name),
+        128 => connected(StreamLink::<128, 16, 129>::new(config)?, name),
+        _ => Err(ExportError::BeatBits(beat_bits)),
+    }
+}
+
+/// Connects a block and gives its Verilog.
+fn connected<U: Block>(mut uut: U, name: &str) -> Result<String, ExportError> {
     uut.connect_all();
     verilog(&uut, name)
 }
@@ -198,5 +245,6 @@ pub fn blocks() -> Vec<(String, String)> {
     blocks.extend(visit_blocks::visit_blocks());
     blocks.extend(control_blocks::control_blocks());
     blocks.extend(serial_blocks::serial_blocks());
+    blocks.extend(stream_blocks::stream_blocks());
     blocks
 }

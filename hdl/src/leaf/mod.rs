@@ -7,6 +7,7 @@ mod banked_memory;
 mod block_memory;
 mod deep_fifo;
 mod delay_line;
+mod dual_clock_memory;
 mod ecp5;
 mod fifo;
 mod flag_delay;
@@ -15,12 +16,14 @@ mod lut_memory;
 mod multiplier;
 mod paced_memory;
 mod shared_memory;
+mod synchroniser;
 mod unpack;
 
 pub use banked_memory::BankedMemory;
 pub use block_memory::BlockMemory;
 pub use deep_fifo::DeepFifo;
 pub use delay_line::DelayLine;
+pub use dual_clock_memory::DualClockMemory;
 pub use fifo::Fifo;
 pub use flag_delay::FlagDelay;
 pub use lock_memory::LockMemory;
@@ -28,6 +31,7 @@ pub use lut_memory::LutMemory;
 pub use multiplier::Multiplier;
 pub use paced_memory::PacedMemory;
 pub use shared_memory::SharedMemory;
+pub use synchroniser::Synchroniser;
 pub use unpack::{Field, Unpack, Unpacked};
 
 /// Widest address a memory leaf takes; keeps the number of words far from any overflow.

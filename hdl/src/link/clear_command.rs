@@ -1,4 +1,4 @@
-//! What a `Clear` asks for: that the mesh is forgotten, and how many contexts work from then on.
+//! What a `Clear` asks for: that the mesh is forgotten, how many contexts work from then on, and whether each has a mesh of its own.
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
@@ -6,15 +6,17 @@
 //! | `built` | in | 5 | contexts that the core has, a constant |
 //! | `accepts`, `word` | in | 1, 32 | a command word is taken |
 //! | `clears` | out | 1 | forget the mesh at this edge |
-//! | `contexts` | out | 5 | contexts that work |
+//! | `deal` | out | Deal | contexts that work, and which points are theirs |
 //! | `is_refused` | out | 1 | the last command is a `Clear` that asks for more contexts than there are |
 //!
 //! 1. The low byte of the word is the number of contexts; 0 is all.
-//! 2. A `Clear` that is refused changes nothing.
+//! 2. Bit 8 begins a batch: each of the contexts has a mesh of its own, and the first points are three for each.
+//! 3. A `Clear` that is refused changes nothing. After reset there is no batch.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock, 2 to `deal.dealt_from`.
 
-use incircle_protocol::Opcode;
+use crate::engine::Deal;
+use incircle_protocol::{Opcode, CLEAR_BATCH, FIRST_ROUND};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -33,12 +35,14 @@ pub struct ClearCommand {
     pub word: Signal<In, Bits<32>>,
     /// Forget the mesh.
     pub clears: Signal<Out, Bit>,
-    /// Contexts that work.
-    pub contexts: Signal<Out, Bits<5>>,
+    /// Contexts that work, and which points are theirs.
+    pub deal: Signal<Out, Deal>,
     /// The last command is a `Clear` for too many.
     pub is_refused: Signal<Out, Bit>,
     clearing: DFF<Bit>,
     working: DFF<Bits<5>>,
+    batch: DFF<Bit>,
+    dealt: DFF<Bits<7>>,
     refusing: DFF<Bit>,
     code: Signal<Local, Bits<8>>,
     asked: Signal<Local, Bits<8>>,
@@ -46,21 +50,28 @@ pub struct ClearCommand {
     is_clear: Signal<Local, Bit>,
     asks_too_much: Signal<Local, Bit>,
     is_granted: Signal<Local, Bit>,
+    wide_working: Signal<Local, Bits<7>>,
+    twice_working: Signal<Local, Bits<7>>,
     clear_code: Signal<Local, Bits<8>>,
     all_contexts: Signal<Local, Bits<8>>,
 }
 
-// The kernel names the opcode by number, because rust-hdl takes literals only; a change in the protocol must come here.
-const _: () = assert!(Opcode::Clear as u8 == 2, "the opcode of this block follows the protocol");
+// The kernel names these by number, because rust-hdl takes literals only; a change in the protocol must come here.
+const _: () = assert!(
+    Opcode::Clear as u8 == 2 && CLEAR_BATCH == 1 << 8 && FIRST_ROUND == 16,
+    "the numbers of this block follow the protocol"
+);
 
 impl Logic for ClearCommand {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, clearing, working, refusing);
+        dff_setup!(self, clock, clearing, working, batch, dealt, refusing);
         self.clear_code.next = 2.into();
         self.all_contexts.next = 0.into();
         self.clears.next = self.clearing.q.val();
-        self.contexts.next = self.working.q.val();
+        self.deal.next.contexts = self.working.q.val();
+        self.deal.next.is_batch = self.batch.q.val();
+        self.deal.next.dealt_from = self.dealt.q.val();
         self.is_refused.next = self.refusing.q.val();
 
         self.code.next = self.word.val().get_bits::<8>(24);
@@ -74,13 +85,22 @@ impl Logic for ClearCommand {
             self.refusing.d.next = self.is_clear.val() & self.asks_too_much.val();
         }
         if self.is_granted.val() {
+            self.batch.d.next = self.word.val().get_bit(8);
             self.working.d.next = self.word.val().get_bits::<5>(0);
             if self.asked.val() == self.all_contexts.val() {
                 self.working.d.next = self.built.val();
             }
         }
+        self.wide_working.next = bit_cast::<7, 5>(self.working.q.val());
+        self.twice_working.next = self.wide_working.val() + self.wide_working.val();
+        self.dealt.d.next = 16.into();
+        if self.batch.q.val() {
+            self.dealt.d.next = self.twice_working.val() + self.wide_working.val();
+        }
         if self.reset.val() {
             self.clearing.d.next = false;
+            self.batch.d.next = false;
+            self.dealt.d.next = 16.into();
             self.working.d.next = self.built.val();
         }
     }

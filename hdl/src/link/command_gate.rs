@@ -6,13 +6,13 @@
 //! | `sweeps` | in | 1 | the core is not ready for commands yet |
 //! | `none_is_left` | in | 1 | all points of the command have come |
 //! | `came` | in | 1 | the point before is being stored |
-//! | `has_three`, `seeded`, `collinear` | in | 1 | three points have come so far, and what became of them |
+//! | `start_is_open` | in | 1 | three points have come for a first triangle, and it is not known yet whether they span one |
 //! | `stuck` | in | 1 | the core is stuck: nothing is waited for |
 //! | `ready` | out | 1 | a word is taken |
 //! | `takes_command`, `takes_point` | out | 1 | it is a command; it is a point |
 //! | `awaits_point` | out | 1 | a point may come |
 //!
-//! 1. The fourth point waits until the first three are known to span a triangle.
+//! 1. The fourth point waits until the first three are known to span a triangle; in a batch so does the one behind the three of each job.
 //!
 //! Latency: none (combinational).
 
@@ -33,12 +33,8 @@ pub struct CommandGate {
     pub none_is_left: Signal<In, Bit>,
     /// The point before is being stored.
     pub came: Signal<In, Bit>,
-    /// Three points so far.
-    pub has_three: Signal<In, Bit>,
-    /// The first triangle stands.
-    pub seeded: Signal<In, Bit>,
-    /// The first three points are collinear.
-    pub collinear: Signal<In, Bit>,
+    /// Three points for a first triangle are being looked at.
+    pub start_is_open: Signal<In, Bit>,
     /// The core is stuck.
     pub stuck: Signal<In, Bit>,
     /// A word is taken.
@@ -49,17 +45,16 @@ pub struct CommandGate {
     pub takes_point: Signal<Out, Bit>,
     /// A point may come.
     pub awaits_point: Signal<Out, Bit>,
-    start_is_open: Signal<Local, Bit>,
+    is_held: Signal<Local, Bit>,
 }
 
 impl Logic for CommandGate {
     #[hdl_gen]
     fn update(&mut self) {
-        self.start_is_open.next =
-            self.has_three.val() & (!self.seeded.val()) & (!self.collinear.val()) & (!self.stuck.val());
+        self.is_held.next = self.start_is_open.val() & (!self.stuck.val());
         self.awaits_point.next = self.is_points.val() & (!self.none_is_left.val());
         self.takes_command.next = self.is_command.val() & (!self.sweeps.val());
-        self.takes_point.next = self.awaits_point.val() & (!self.came.val()) & (!self.start_is_open.val());
+        self.takes_point.next = self.awaits_point.val() & (!self.came.val()) & (!self.is_held.val());
         self.ready.next = self.is_argument.val() | self.takes_command.val() | self.takes_point.val();
     }
 }

@@ -6,13 +6,13 @@
 //! | `capacity`, `built` | in | 15, 5 | points the core holds, and contexts it has; constants |
 //! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
 //! | `sweeps` | in | 1 | memories are being cleared: the core is not ready for commands |
-//! | `seeded`, `collinear` | in | 1 | what became of the first three points |
+//! | `start_is_open`, `collinear` | in | 1 | three points are being looked at for a first triangle; such three are collinear |
 //! | `stuck` | in | 1 | nothing is finished any more: points are refused, and nothing is waited for |
 //! | `is_quiet` | in | 1 | every point that has come is finished, and no lock is held |
 //! | `came`, `came_id` | out | 1, 15 | a point has come, and is written into the vertex memory at this edge |
 //! | `point` | out | 32 | that point: x in the low half, y in the high |
 //! | `clears` | out | 1 | forget the mesh at this edge |
-//! | `contexts` | out | 5 | contexts that work |
+//! | `deal` | out | Deal | contexts that work, and which points are theirs |
 //! | `is_refused` | out | 1 | the last command is a `Clear` that asks for more contexts than there are |
 //! | `answers` | out | 1 | an answer is due, until `answer_ends` |
 //! | `opcode`, `first`, `count` | out | 8, 32, 32 | the command and its arguments |
@@ -42,6 +42,7 @@
 //! ```
 
 use super::{ClearCommand, CommandGate, PointSlot};
+use crate::engine::Deal;
 use incircle_protocol::{Opcode, PADDING};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -82,8 +83,8 @@ pub struct CommandPort {
     pub command_data: Signal<In, Bits<32>>,
     /// The core is not ready yet.
     pub sweeps: Signal<In, Bit>,
-    /// The first triangle stands.
-    pub seeded: Signal<In, Bit>,
+    /// Three points are being looked at for a first triangle.
+    pub start_is_open: Signal<In, Bit>,
     /// The first three points are collinear.
     pub collinear: Signal<In, Bit>,
     /// Nothing is finished any more.
@@ -98,8 +99,8 @@ pub struct CommandPort {
     pub point: Signal<Out, Bits<32>>,
     /// Forget the mesh.
     pub clears: Signal<Out, Bit>,
-    /// Contexts that work.
-    pub contexts: Signal<Out, Bits<5>>,
+    /// Contexts that work, and which points are theirs.
+    pub deal: Signal<Out, Deal>,
     /// The last command is a `Clear` for too many.
     pub is_refused: Signal<Out, Bit>,
     /// An answer is due.
@@ -171,7 +172,7 @@ impl Logic for CommandPort {
         self.came_id.next = self.slot.came_id.val();
         self.point.next = self.slot.point.val();
         self.clears.next = self.clear.clears.val();
-        self.contexts.next = self.clear.contexts.val();
+        self.deal.next = self.clear.deal.val();
         self.is_refused.next = self.clear.is_refused.val();
         self.answers.next = (self.state.q.val() == CommandState::Answer) & (!self.clear.clears.val());
         self.opcode.next = self.command.q.val();
@@ -191,9 +192,7 @@ impl Logic for CommandPort {
         self.gate.sweeps.next = self.sweeps.val();
         self.gate.none_is_left.next = self.none_is_left.q.val();
         self.gate.came.next = self.slot.came.val();
-        self.gate.has_three.next = self.slot.has_three.val();
-        self.gate.seeded.next = self.seeded.val();
-        self.gate.collinear.next = self.collinear.val();
+        self.gate.start_is_open.next = self.start_is_open.val();
         self.gate.stuck.next = self.stuck.val();
         self.awaits_point.next = self.gate.awaits_point.val();
         self.command_ready.next = self.gate.ready.val();

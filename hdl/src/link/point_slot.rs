@@ -8,12 +8,12 @@
 //! | `accepts`, `word` | in | 1, 32 | a point comes |
 //! | `came`, `came_id`, `point` | out | 1, 15, 32 | it came with the last edge and is not refused: it is to be stored at this edge |
 //! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
-//! | `has_three`, `some_refused` | out | 1 | there are exactly three of those; there is one of these |
+//! | `some_refused` | out | 1 | there is one of these |
 //!
 //! 1. `came_id` and `point` are good only with `came`: their registers take in whatever comes, so that nothing has to reach all of them.
 //! 2. No point comes in the clock of `came`: the counts are compared in it.
 //!
-//! Latency: 1 clock; 2 to `has_three`, `refused` and `some_refused`.
+//! Latency: 1 clock; 2 to `refused` and `some_refused`.
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -47,8 +47,6 @@ pub struct PointSlot {
     pub arrived: Signal<Out, Bits<15>>,
     /// Points refused.
     pub refused: Signal<Out, Bits<32>>,
-    /// Three points have an id.
-    pub has_three: Signal<Out, Bit>,
     /// Points are refused.
     pub some_refused: Signal<Out, Bit>,
     is_new: DFF<Bit>,
@@ -57,7 +55,6 @@ pub struct PointSlot {
     arrivals: DFF<Bits<15>>,
     /// As many as the core holds.
     is_full: DFF<Bit>,
-    is_triple: DFF<Bit>,
     /// The last point is refused, and counted now.
     is_surplus: DFF<Bit>,
     refusals: DFF<Bits<32>>,
@@ -65,7 +62,6 @@ pub struct PointSlot {
     stores: Signal<Local, Bit>,
     has_room: Signal<Local, Bit>,
     one_arrival: Signal<Local, Bits<15>>,
-    three: Signal<Local, Bits<15>>,
     one: Signal<Local, Bits<32>>,
 }
 
@@ -73,20 +69,17 @@ impl Logic for PointSlot {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, is_new, last_id, last_point, arrivals, refusals);
-        dff_setup!(self, clock, is_full, is_triple, is_surplus, has_refused);
+        dff_setup!(self, clock, is_full, is_surplus, has_refused);
         self.one_arrival.next = 1.into();
-        self.three.next = 3.into();
         self.one.next = 1.into();
         self.came.next = self.is_new.q.val();
         self.came_id.next = self.last_id.q.val();
         self.point.next = self.last_point.q.val();
         self.arrived.next = self.arrivals.q.val();
         self.refused.next = self.refusals.q.val();
-        self.has_three.next = self.is_triple.q.val();
         self.some_refused.next = self.has_refused.q.val();
 
         self.is_full.d.next = self.arrivals.q.val() == self.capacity.val();
-        self.is_triple.d.next = self.arrivals.q.val() == self.three.val();
         self.has_room.next = (!self.collinear.val()) & (!self.stuck.val()) & (!self.is_full.q.val());
         self.stores.next = self.accepts.val() & self.has_room.val();
         self.is_surplus.d.next = self.accepts.val() & (!self.has_room.val());
@@ -103,7 +96,6 @@ impl Logic for PointSlot {
         if self.clears.val() | self.reset.val() {
             self.arrivals.d.next = 0.into();
             self.is_full.d.next = false;
-            self.is_triple.d.next = false;
             self.is_surplus.d.next = false;
             self.refusals.d.next = 0.into();
             self.has_refused.d.next = false;

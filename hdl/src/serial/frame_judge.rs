@@ -14,6 +14,7 @@
 //! 1. Exactly one of the fields of `asked` but `hears` is high at the end of a frame, or none: for frames of another session.
 //! 2. `takes_payload` is decided 3 clocks after the header and stays until the end; `length` bytes fit the FIFO then.
 //! 3. Bytes of a frame come at least 16 clocks apart, so what the header says is compared in ranks of registers.
+//! 4. Whether a session is open is looked at once more in the clock of `comes`: it may end in any clock before.
 //!
 //! Latency: 1 clock.
 
@@ -106,6 +107,7 @@ pub struct FrameJudge {
     low_length: Signal<Local, Bits<2>>,
     wide_length: Signal<Local, Bits<16>>,
     four: Signal<Local, Bits<11>>,
+    is_ours: Signal<Local, Bit>,
     is_wanted: Signal<Local, Bit>,
 }
 
@@ -185,6 +187,8 @@ impl Logic for FrameJudge {
             self.taking.d.next =
                 self.is_data.q.val() & self.is_next.q.val() & self.has_room.q.val() & self.is_this_session.q.val();
         }
+        // A session that has ended since the header came is none.
+        self.is_ours.next = self.is_this_session.q.val() & self.is_open.val();
         self.is_wanted.next = self.comes.val() & self.is_sound.val() & self.is_fit.q.val();
         self.answer.d.next.hears = self.is_wanted.val();
         self.answer.d.next.drops = self.comes.val() & (!self.is_wanted.val());
@@ -206,22 +210,22 @@ impl Logic for FrameJudge {
                     self.answer.d.next.opens = true;
                 }
                 3 => {
-                    self.answer.d.next.rate = self.is_this_session.q.val();
+                    self.answer.d.next.rate = self.is_ours.val();
                     self.answer.d.next.no_session = !self.is_open.val();
                 }
                 4 => {
-                    self.answer.d.next.polls = self.is_this_session.q.val();
+                    self.answer.d.next.polls = self.is_ours.val();
                     self.answer.d.next.no_session = !self.is_open.val();
                 }
                 5 => {
-                    self.answer.d.next.takes = self.taking.q.val() & self.is_this_session.q.val();
-                    self.answer.d.next.repeats = self.is_this_session.q.val() & self.distance.q.val().get_bit(7);
+                    self.answer.d.next.takes = self.taking.q.val() & self.is_ours.val();
+                    self.answer.d.next.repeats = self.is_ours.val() & self.distance.q.val().get_bit(7);
                     self.answer.d.next.gap =
-                        self.is_this_session.q.val() & (!self.taking.q.val()) & (!self.distance.q.val().get_bit(7));
+                        self.is_ours.val() & (!self.taking.q.val()) & (!self.distance.q.val().get_bit(7));
                     self.answer.d.next.no_session = !self.is_open.val();
                 }
                 _ => {
-                    self.answer.d.next.closes = self.is_this_session.q.val();
+                    self.answer.d.next.closes = self.is_ours.val();
                     self.answer.d.next.no_session = !self.is_open.val();
                 }
             }

@@ -122,7 +122,7 @@ impl Logic for Core {
         self.command_port.command_data.next = self.command_data.val();
         self.command_ready.next = self.command_port.command_ready.val();
         self.command_port.sweeps.next = self.sweeps.val();
-        self.command_port.seeded.next = self.engine.seeded.val();
+        self.command_port.start_is_open.next = self.engine.start_is_open.val();
         self.command_port.collinear.next = self.engine.collinear.val();
         self.command_port.stuck.next = self.engine.stuck.val();
         self.command_port.is_quiet.next = self.engine.is_quiet.val();
@@ -182,7 +182,7 @@ impl Logic for Core {
         self.engine.last_id.next = self.last_id.val();
         self.engine.all.next = self.all_contexts.val();
         self.engine.patience.next = self.patience.val();
-        self.engine.contexts.next = self.command_port.contexts.val();
+        self.engine.deal.next = self.command_port.deal.val();
         self.engine.clears.next = self.command_port.clears.val();
         self.engine.came.next = self.command_port.came.val();
         self.engine.came_id.next = self.command_port.came_id.val();

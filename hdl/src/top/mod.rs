@@ -2,8 +2,10 @@
 
 mod core;
 mod serial_top;
+mod stream_top;
 mod wrapper;
 
 pub use self::core::Core;
 pub use serial_top::SerialTop;
-pub use wrapper::{serial_wrapper, wrapper, CORE_NAME, SERIAL_TOP_NAME};
+pub use stream_top::StreamTop;
+pub use wrapper::{serial_wrapper, stream_wrapper, wrapper, CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME};

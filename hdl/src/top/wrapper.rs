@@ -17,7 +17,17 @@
 //! | `rx`, `tx` | in, out | 1 | the line from and to the host |
 //! | `leds` | out | 3 | alive, busy, error, from bit 0 up |
 //!
-//! With the probe both have the write port of the triangle memory as well:
+//! The core behind a stream link, `incircle_stream_top`, with beats of W bits:
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `bus_clock`, `bus_reset_n` | in | 1 | clock and reset of the AXI ports; the reset is active low and synchronous |
+//! | `s_axis_tdata`, `_tkeep`, `_tvalid`, `_tready`, `_tlast` | in, in, in, out, in | W, W/8, 1, 1, 1 | commands; `s_axis_tlast` means nothing |
+//! | `m_axis_tdata`, `_tkeep`, `_tvalid`, `_tready`, `_tlast` | out, out, out, in, out | W, W/8, 1, 1, 1 | answers |
+//! | `s_axi_aw...`, `_w...`, `_b...`, `_ar...`, `_r...` | | | AXI4-Lite, addresses of 12 bits, data of 32 |
+//! | `core_clock` | in | 1 | clock of the core |
+//!
+//! With the probe all have the write port of the triangle memory as well:
 //!
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
@@ -28,6 +38,8 @@
 pub const CORE_NAME: &str = "incircle_core";
 /// Name of the module of a core behind a serial link.
 pub const SERIAL_TOP_NAME: &str = "incircle_serial_top";
+/// Name of the module of a core behind a stream link.
+pub const STREAM_TOP_NAME: &str = "incircle_stream_top";
 
 /// Ports of the core, and of a core behind a serial link, without the probe: direction, name, width.
 const CORE_PORTS: [(&str, &str, usize); 10] = [
@@ -45,6 +57,43 @@ const CORE_PORTS: [(&str, &str, usize); 10] = [
 const SERIAL_PORTS: [(&str, &str, usize); 5] =
     [("input", "clock", 1), ("input", "reset", 1), ("input", "rx", 1), ("output", "tx", 1), ("output", "leds", 3)];
 
+/// Ports of a core behind a stream link, with beats of so many bits.
+fn stream_ports(beat_bits: usize) -> [(&'static str, &'static str, usize); 29] {
+    [
+        ("input", "bus_clock", 1),
+        ("input", "bus_reset_n", 1),
+        ("input", "s_axis_tdata", beat_bits),
+        ("input", "s_axis_tkeep", beat_bits / 8),
+        ("input", "s_axis_tvalid", 1),
+        ("output", "s_axis_tready", 1),
+        ("output", "m_axis_tdata", beat_bits),
+        ("output", "m_axis_tkeep", beat_bits / 8),
+        ("output", "m_axis_tvalid", 1),
+        ("input", "m_axis_tready", 1),
+        ("output", "m_axis_tlast", 1),
+        ("input", "s_axi_awaddr", 12),
+        ("input", "s_axi_awvalid", 1),
+        ("output", "s_axi_awready", 1),
+        ("input", "s_axi_wdata", 32),
+        ("input", "s_axi_wstrb", 4),
+        ("input", "s_axi_wvalid", 1),
+        ("output", "s_axi_wready", 1),
+        ("output", "s_axi_bresp", 2),
+        ("output", "s_axi_bvalid", 1),
+        ("input", "s_axi_bready", 1),
+        ("input", "s_axi_araddr", 12),
+        ("input", "s_axi_arvalid", 1),
+        ("output", "s_axi_arready", 1),
+        ("output", "s_axi_rdata", 32),
+        ("output", "s_axi_rresp", 2),
+        ("output", "s_axi_rvalid", 1),
+        ("input", "s_axi_rready", 1),
+        ("input", "core_clock", 1),
+    ]
+}
+/// The one that a bus has and that nothing is connected to.
+const STREAM_UNUSED: [(&str, &str, usize); 1] = [("input", "s_axis_tlast", 1)];
+
 /// The fields of the write port, lowest bit first, with their widths; the order is that of [`Write`](crate::engine::Write).
 const PROBE: [(&str, usize); 10] = [
     ("write_valid", 1),
@@ -61,21 +110,29 @@ const PROBE: [(&str, usize); 10] = [
 
 /// The Verilog of the wrapper around the root module `core`.
 pub fn wrapper(core: &str, with_probe: bool) -> String {
-    around(CORE_NAME, &CORE_PORTS, ("core", core), with_probe)
+    around(CORE_NAME, [&CORE_PORTS, &[]], ("core", core), with_probe)
 }
 
 /// The Verilog of the wrapper around the root module `device` of a core behind a serial link.
 pub fn serial_wrapper(device: &str, with_probe: bool) -> String {
-    around(SERIAL_TOP_NAME, &SERIAL_PORTS, ("device", device), with_probe)
+    around(SERIAL_TOP_NAME, [&SERIAL_PORTS, &[]], ("device", device), with_probe)
 }
 
-/// The Verilog of a module with ANSI ports around `module` as `instance`.
-fn around(name: &str, ports: &[(&str, &str, usize)], (instance, module): (&str, &str), with_probe: bool) -> String {
+/// The Verilog of the wrapper around the root module `device` of a core behind a stream link with beats of so many bits.
+pub fn stream_wrapper(device: &str, beat_bits: usize, with_probe: bool) -> String {
+    around(STREAM_TOP_NAME, [&stream_ports(beat_bits), &STREAM_UNUSED], ("device", device), with_probe)
+}
+
+/// Direction, name and width of ports.
+type Ports<'a> = &'a [(&'a str, &'a str, usize)];
+
+/// The Verilog of a module with ANSI ports around `module` as `instance`. Ports of the second kind are connected to nothing.
+fn around(name: &str, [ports, unused]: [Ports; 2], (instance, module): (&str, &str), with_probe: bool) -> String {
     let declared = |(direction, name, width): (&str, &str, usize)| {
         let range = if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) };
         format!("{direction} wire {range}{name}")
     };
-    let mut declarations: Vec<_> = ports.iter().map(|port| declared(*port)).collect();
+    let mut declarations: Vec<_> = ports.iter().chain(unused).map(|port| declared(*port)).collect();
     // Without the probe the port ends in a wire that synthesis removes.
     let bits: usize = PROBE.iter().map(|(_, width)| width).sum();
     let mut inside = format!("    wire [{}:0] unused_write;\n", bits - 1);
@@ -86,6 +143,8 @@ fn around(name: &str, ports: &[(&str, &str, usize)], (instance, module): (&str, 
         write = format!("{{{}}}", fields.join(", "));
         inside = String::new();
     }
+    let sink = |name: &str| format!("    wire unused_{name} = &{{1'b0, {name}}};\n");
+    inside.extend(unused.iter().map(|(_, name, _)| sink(name)));
     let connections: String = ports.iter().map(|(_, name, _)| format!("        .{name}({name}),\n")).collect();
     let declarations = declarations.join(",\n    ");
     format!(

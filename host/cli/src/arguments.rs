@@ -248,6 +248,10 @@ pub struct BenchArguments {
     /// Points of a set; duplicates are removed before the device sees them
     #[arg(short, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
     pub n: u32,
+    /// Do so many jobs of such sets in one call, each with a seed of its own, and tell the time from the first word in to the last triangle
+    /// out; a core is taken in the configuration full unless chosen
+    #[arg(long, value_name = "JOBS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub batch: Option<u32>,
     /// Bits of a coordinate
     #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
     pub coord_bits: u32,

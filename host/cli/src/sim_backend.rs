@@ -30,6 +30,10 @@ struct SimTransport {
 }
 
 impl Transport for SimTransport {
+    fn clocks(&self) -> Option<u64> {
+        Some(self.device.clocks())
+    }
+
     fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
         let wanted = words.len();
         let mut sent = 0;

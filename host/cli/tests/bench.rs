@@ -117,6 +117,47 @@ fn sets_that_the_host_answers_alone_have_dashes() {
 }
 
 #[test]
+fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench --batch 40 -n 200 --backend clock --seed 5").ok();
+    let about = "clock full, 16 contexts; 40 jobs of 200 points each, 16 bits, seeds from 5, order brio-hilbert, ms at 125 MHz\n";
+    assert!(run.stdout.starts_with(about), "{run:?}");
+    let widths: Vec<usize> = run.stdout.lines().skip(1).map(str::len).collect();
+    assert!(widths.iter().all(|&width| width == widths[0]), "{widths:?}");
+    let rows = rows(&run, 2);
+    assert_eq!(rows.len(), 6);
+    for row in &rows {
+        let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
+        let (points, cycles, ms) = (value(1), value(3), value(4));
+        // Groups of 16, 16 and 8 jobs.
+        assert!(points > 7900.0 && cycles > 10.0 && cycles < 25.0, "{row:?}");
+        assert!((cycles * points / 125e3 - ms).abs() < 0.01, "{row:?}");
+        assert!((value(5) - 25.0 * ms).abs() < 0.1 && (value(6) - 8.0 * cycles).abs() < 0.1, "{row:?}");
+    }
+    let run = scratch.run("bench uniform --batch 20 -n 60 --backend clock --config small --contexts 3 --json").ok();
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    let numbers = ["jobs", "n", "contexts", "capacity"].map(|key| bench[key].as_u64());
+    assert_eq!((&bench["config"], numbers), (&Value::from("small"), [Some(20), Some(60), Some(3), Some(1024)]));
+    let set = &bench["sets"][0];
+    let cycles = set["cycles"].as_f64().expect("cycles are counted");
+    assert_eq!(set["cycles_per_point"], cycles / set["distinct"].as_f64().expect("a count"));
+    assert_eq!(set["seconds_at_mhz"], cycles / 125e6);
+    // Side by side they take a fraction of the time of one after the other.
+    let alone = scratch.run("bench uniform --batch 20 -n 60 --backend clock --config small --contexts 1 --json").ok();
+    let alone: Value = serde_json::from_str(&alone.stdout).expect("an object");
+    assert!(alone["sets"][0]["cycles"].as_f64().expect("cycles") > 2.0 * cycles);
+    for backend in ["cpu", "model"] {
+        let run = scratch.run(&format!("bench uniform --batch 20 -n 100 --backend {backend}")).ok();
+        let row = run.stdout.lines().last().expect("a row").split_whitespace().nth(3).map(str::to_owned);
+        assert_eq!(row.as_deref(), Some("-"), "{run:?}");
+        let run = scratch.run(&format!("bench uniform --batch 20 -n 100 --backend {backend} --json")).ok();
+        let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+        assert_eq!((bench.get("mhz"), bench["sets"][0].get("cycles")), (None, None));
+    }
+    scratch.run("bench --batch 2 -n 2000 --backend clock --config small").fails(7, &["2000", "--config full"]);
+}
+
+#[test]
 fn what_does_not_fit_is_told_before_any_row() {
     let scratch = Scratch::new();
     let run = scratch.run("bench --backend clock --config small");

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use incircle_protocol::{
-    rate_step, DeviceFrame, Greeting, HostFrame, FIRST_RATE, FRAME_END, LINK_MAGIC, LINK_VERSION, SILENCE_MS,
-    STATUS_BAD_RATE,
+    rate_step, DeviceFrame, Greeting, HostFrame, FIRST_RATE, FRAME_END, LINK_MAGIC, LINK_VERSION, MAX_SILENCE_MS,
+    SILENCE_MS, STATUS_BAD_RATE,
 };
 
 use super::codec::{encode, Message};
@@ -18,7 +18,7 @@ const fn ms(milliseconds: u64) -> Duration {
 }
 
 /// How long the host greets: a device that another host left at a high rate needs its silence first.
-const GREET_FOR: Duration = ms(SILENCE_MS as u64 + 1000);
+const GREET_FOR: Duration = ms(MAX_SILENCE_MS as u64 + 1000);
 /// Time from one greeting to the next.
 const GREET_EVERY: Duration = ms(200);
 /// Time from one opening to the next, and how many there are.
@@ -42,9 +42,20 @@ const LADDER: [u32; 3] = [3_000_000, 1_000_000, 230_400];
 /// Least FIFO of a device: a frame and some.
 const LEAST_FIFO: u32 = 2_048;
 /// Least and most silence that is believed, in milliseconds.
-const SILENCES: (u32, u32) = (20, 10_000);
+const SILENCES: (u32, u32) = (20, MAX_SILENCE_MS);
 /// Beyond the device's silence, for clocks that differ.
 const SILENCE_SLACK: Duration = ms(200);
+
+/// Longest way to an open session where bytes pass: a device that was left at a high rate, then all rates of the ladder, of which none works.
+/// Each costs its question, its trial, the way back, the silence, and a greeting and an opening, which are asked for once more if need be.
+pub(crate) const LONGEST: Duration = {
+    let trial = RATE_WAIT.as_millis() as u64
+        + 2 * SETTLE.as_millis() as u64
+        + PROBE_EVERY.as_millis() as u64 * (PROBES + RETURNS) as u64;
+    let silence = MAX_SILENCE_MS as u64 + SILENCE_SLACK.as_millis() as u64;
+    let again = 2 * (GREET_EVERY.as_millis() + OPEN_EVERY.as_millis()) as u64;
+    ms(silence + again + LADDER.len() as u64 * (trial + silence + again))
+};
 
 /// What the host does now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,6 +157,11 @@ impl Connect {
         self.session
     }
 
+    /// True if the device has opened the session.
+    pub fn has_session(&self) -> bool {
+        matches!(self.step, Step::Rate | Step::Probe { .. } | Step::Return)
+    }
+
     /// True if the device may have opened the session.
     pub fn may_be_open(&self) -> bool {
         !matches!(self.step, Step::Greet | Step::Wait)
@@ -160,10 +176,20 @@ impl Connect {
         (self.step, self.due, self.tries) = (step, due, 0);
     }
 
-    /// The rate under trial failed, and where the device is nobody knows: it comes back by itself.
-    fn wait(&mut self, now: Duration, line: &mut Line) {
+    /// The next lower rate is tried from now on.
+    fn give_up_rate(&mut self) {
         self.rates.pop_front();
         self.asked = 0;
+    }
+
+    fn greet(&mut self, now: Duration) {
+        self.since = now;
+        self.enter(Step::Greet, now);
+    }
+
+    /// The rate under trial failed, and where the device is nobody knows: it comes back by itself.
+    fn wait(&mut self, now: Duration, line: &mut Line) {
+        self.give_up_rate();
         line.set_rate(FIRST_RATE, now);
         self.enter(Step::Wait, now + self.silence() + SILENCE_SLACK);
     }
@@ -188,10 +214,7 @@ impl Connect {
             }
             Step::Return if tries < RETURNS => self.say(HostFrame::Poll, &[], now + PROBE_EVERY, out),
             Step::Probe { .. } | Step::Return => self.wait(now, line),
-            Step::Wait => {
-                self.since = now;
-                self.enter(Step::Greet, now);
-            }
+            Step::Wait => self.greet(now),
         }
         Ok(())
     }
@@ -239,8 +262,7 @@ impl Connect {
             }
             (Step::Rate, DeviceFrame::Ack) if is_ours && self.tries > 0 => {
                 if message.status & STATUS_BAD_RATE != 0 {
-                    self.rates.pop_front();
-                    self.asked = 0;
+                    self.give_up_rate();
                     self.next_rate(now);
                 } else {
                     let rate = self.rates.front().copied().unwrap_or(FIRST_RATE);
@@ -251,15 +273,17 @@ impl Connect {
             (Step::Probe { .. }, DeviceFrame::Hello) if self.echoes > 0 && self.is_echo(message) => self.echo(now),
             (Step::Return, DeviceFrame::Ack) if is_ours => {
                 if self.asked >= RATE_TRIES {
-                    self.rates.pop_front();
-                    self.asked = 0;
+                    self.give_up_rate();
                 }
                 self.next_rate(now);
             }
-            // The silence was over before we were done.
+            // The silence was over before we were done: the device is at the first rate, and the one asked for does not work.
             (Step::Rate | Step::Probe { .. } | Step::Return, DeviceFrame::NoSession) => {
-                self.since = now;
-                self.enter(Step::Greet, now);
+                if self.asked > 0 {
+                    self.give_up_rate();
+                }
+                line.set_rate(FIRST_RATE, now);
+                self.greet(now);
             }
             _ => {}
         }

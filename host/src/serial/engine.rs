@@ -5,7 +5,7 @@ mod transmit;
 
 use std::time::Duration;
 
-use incircle_protocol::{command_opcode, Greeting, Layout, Opcode, FIRST_RATE};
+use incircle_protocol::{answer_header, command_opcode, Greeting, Layout, Opcode, Status, FIRST_RATE, IDENTITY_WORDS};
 
 use super::codec::Decoder;
 use super::connect::Connect;
@@ -13,6 +13,9 @@ use super::fault::SerialFault;
 use super::reader::Reader;
 use super::sender::Sender;
 use super::timing::{Line, RoundTrip};
+
+/// Words of an answer before its payload.
+const ANSWER_HEADER_WORDS: usize = 2;
 
 /// Rate that is wished for unless chosen otherwise: what every newer USB adapter does.
 pub const DEFAULT_RATE: u32 = 3_000_000;
@@ -22,7 +25,7 @@ pub const DEFAULT_RATE: u32 = 3_000_000;
 pub struct Params {
     /// Rates to try after the first one, the best first: see [`Params::with_rate`]. Empty: the first rate stays.
     pub rates: Vec<u32>,
-    /// The session's number comes after this one; it need not be right, but differ from one host to the next.
+    /// The number of the first session comes after this one; it need not be right, but differ from one host to the next.
     pub session: u8,
 }
 
@@ -102,6 +105,7 @@ pub struct Engine {
     reader: Reader,
     greeting: Option<Greeting>,
     silence: Duration,
+    /// Number of the session, or of the last one: the next has another.
     session: u8,
     /// A command that waits for the session.
     queued: Option<Vec<u32>>,
@@ -121,6 +125,7 @@ impl Engine {
     /// Without a session; nothing is sent until something is asked.
     pub fn new(params: Params) -> Self {
         Self {
+            session: params.session,
             params,
             stage: Stage::Idle,
             fault: None,
@@ -131,7 +136,6 @@ impl Engine {
             reader: Reader::new(Layout { point_words: 1, record_words: 3 }),
             greeting: None,
             silence: Duration::ZERO,
-            session: 0,
             queued: None,
             last_heard: Duration::ZERO,
             last_said: Duration::ZERO,
@@ -171,7 +175,7 @@ impl Engine {
                 self.last_heard = now;
                 return self.reader.begin(command, &mut self.sender);
             }
-            Stage::Connecting(_) => {}
+            Stage::Connecting(ref connect) if !connect.only_greets() => {}
             _ => self.connect(now, false),
         }
         self.queued = Some(command.to_vec());
@@ -180,13 +184,18 @@ impl Engine {
 
     fn connect(&mut self, now: Duration, only_greet: bool) {
         self.set_rate(FIRST_RATE, now);
-        let connect = Connect::new(now, self.session.max(self.params.session), &self.params.rates, only_greet);
+        let connect = Connect::new(now, self.session, &self.params.rates, only_greet);
         self.stage = Stage::Connecting(connect);
     }
 
     /// Opens a session, unless one is open or being opened; commands do so by themselves.
     pub fn open(&mut self, now: Duration) {
-        if matches!(self.stage, Stage::Idle) {
+        let is_wanted = match &self.stage {
+            Stage::Idle => true,
+            Stage::Connecting(connect) => connect.only_greets(),
+            Stage::Open | Stage::Searching { .. } | Stage::Closing { .. } => false,
+        };
+        if is_wanted {
             self.connect(now, false);
         }
     }
@@ -210,12 +219,16 @@ impl Engine {
         if self.fault.is_some() || !self.sender.is_proved() {
             return None;
         }
-        self.reader.take_answer()
+        let answer = self.reader.take_answer()?;
+        self.fault = self.greeting.and_then(|greeting| contradiction(&answer, &greeting));
+        self.fault.is_none().then_some(answer)
     }
 
-    /// Ends the session, so that the next host finds the device at the first rate; [`Engine::is_closed`] tells when it is done,
-    /// a few tries and at most a fifth of a second later.
+    /// Ends the session, so that the next host finds the device at the first rate, and gives up a command under way. [`Engine::is_closed`]
+    /// tells when it is done: after three tries at most, each of which waits for twice the mean round trip, and for 60 ms at least.
     pub fn close(&mut self, now: Duration) {
+        self.queued = None;
+        self.reader.abandon();
         self.stage = match &self.stage {
             Stage::Open => Stage::Closing { said: 0, due: now },
             Stage::Connecting(connect) if connect.may_be_open() && connect.greeting().is_some() => {
@@ -257,4 +270,13 @@ impl Engine {
             self.decoder.clear();
         }
     }
+}
+
+/// What the core says of itself must be what the greeting said: by that the link knows how long points and records are.
+fn contradiction(answer: &[u32], greeting: &Greeting) -> Option<SerialFault> {
+    let (&[header, _], identity) = answer.split_first_chunk::<ANSWER_HEADER_WORDS>()?;
+    let is_identity = header == answer_header(Opcode::Hello as u8, Status::Ok) && identity.len() == IDENTITY_WORDS;
+    let mut words = identity.iter().copied().zip(greeting.identity.to_words()).zip(0..);
+    let ((found, expected), word) = words.find(|((found, expected), _)| is_identity && found != expected)?;
+    Some(SerialFault::Contradiction { word, found, expected })
 }

@@ -3,7 +3,8 @@
 use crate::error::ErrorKind;
 use crate::fault::DeviceFault;
 
-/// Why the link gave up. Noise alone never ends in one of these: it is repaired, or the deadline passes.
+/// Why the link gave up. Noise is repaired, or ends in [`Silent`](Self::Silent), [`Noise`](Self::Noise), [`Lost`](Self::Lost),
+/// [`Reset`](Self::Reset), or the deadline.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SerialFault {
@@ -111,6 +112,30 @@ pub enum SerialFault {
         /// Bytes of the FIFO.
         fifo: u32,
     },
+    /// The device answers what it has not taken.
+    #[error(
+        "the device answers a question that ends at byte {awaited} of what it was sent, but has taken {taken}: reset it, and if it \
+         persists distrust it"
+    )]
+    Unasked {
+        /// Bytes of the session up to the end of the question.
+        awaited: u64,
+        /// Bytes that the device has acknowledged.
+        taken: u64,
+    },
+    /// The core's identity is not the one in the greeting.
+    #[error(
+        "the core says {found:#010x} in word {word} of its identity, but the greeting said {expected:#010x}: reset the device, and \
+         if it persists distrust it"
+    )]
+    Contradiction {
+        /// Word of the identity, from 0.
+        word: usize,
+        /// What the core says.
+        found: u32,
+        /// What the greeting said.
+        expected: u32,
+    },
     /// An answer is longer than any answer to its command.
     #[error("the device's answer has more than the {due} words it may have: reset it, and if it persists distrust it")]
     Endless {
@@ -146,6 +171,8 @@ impl SerialFault {
             | Self::PayloadDigest { .. }
             | Self::AnswerDigest { .. }
             | Self::Credit { .. }
+            | Self::Unasked { .. }
+            | Self::Contradiction { .. }
             | Self::Endless { .. }
             | Self::AnswerLength { .. } => ErrorKind::Device,
         }

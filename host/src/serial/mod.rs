@@ -22,6 +22,7 @@ mod timing;
 mod transport;
 
 pub use address::Address;
+pub(crate) use connect::LONGEST;
 pub use engine::{Engine, Params, Statistics, DEFAULT_RATE};
 pub use fault::SerialFault;
 pub use port::{ports, PortFault, PortInfo};

@@ -34,6 +34,8 @@ struct Asked {
     /// A part was lost: the rest is of no use.
     is_damaged: bool,
     digest: crc32fast::Hasher,
+    /// Bytes of the session up to its end.
+    end: u64,
 }
 
 /// What was asked.
@@ -120,8 +122,8 @@ impl Reader {
     pub fn begin(&mut self, command: &[u32], sender: &mut Sender) -> Result<(), SerialFault> {
         let exchange = Exchange::of(command, self.layout)?;
         if exchange.todo.is_empty() {
-            sender.push(command);
-            self.asked.push_back(Asked::new(Question::Whole));
+            let end = sender.push(command);
+            self.asked.push_back(Asked::new(Question::Whole, end));
         }
         self.exchange = Some(exchange);
         self.ask_more(sender);
@@ -138,8 +140,8 @@ impl Reader {
             if count > now {
                 exchange.todo.push_front((first + now, count - now));
             }
-            sender.push(&[command_word(Opcode::Read), first, now]);
-            self.asked.push_back(Asked::new(Question::Range { first, count: now }));
+            let end = sender.push(&[command_word(Opcode::Read), first, now]);
+            self.asked.push_back(Asked::new(Question::Range { first, count: now }, end));
         }
     }
 
@@ -150,6 +152,7 @@ impl Reader {
             // An answer that ended, or that nobody asked for.
             return Ok(false);
         }
+        self.check_taken(passed + 1, sender)?;
         // Answers come in order: those before this one are lost.
         for _ in 0..passed {
             self.end_first(sender);
@@ -163,13 +166,30 @@ impl Reader {
     }
 
     /// The device has sent so many answers to their end, modulo 256: those of them that have not come are lost.
-    pub fn passed(&mut self, answers: u8, sender: &mut Sender) {
+    pub fn passed(&mut self, answers: u8, sender: &mut Sender) -> Result<(), SerialFault> {
         let passed = usize::from(answers.wrapping_sub(self.number));
         if passed <= self.asked.len() {
+            self.check_taken(passed, sender)?;
             for _ in 0..passed {
                 self.end_first(sender);
             }
         }
+        Ok(())
+    }
+
+    /// So many questions can only have been answered if the device has taken them. Without this rule each answer that it makes up would be
+    /// asked for again, and what waits to be sent would grow without end.
+    fn check_taken(&self, count: usize, sender: &Sender) -> Result<(), SerialFault> {
+        let last = count.checked_sub(1).and_then(|last| self.asked.get(last));
+        match last.filter(|asked| asked.end > sender.taken_bytes()) {
+            Some(asked) => Err(SerialFault::Unasked { awaited: asked.end, taken: sender.taken_bytes() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Gives up the command under way, or its answer that nobody took.
+    pub fn abandon(&mut self) {
+        self.exchange = None;
     }
 
     /// The first question is over: its answer is whole, or it is asked again.
@@ -195,8 +215,8 @@ impl Reader {
         match asked.what {
             Question::Nothing => return,
             Question::Whole => {
-                sender.push(&exchange.again[..exchange.again_words]);
-                self.asked.push_back(Asked::new(Question::Whole));
+                let end = sender.push(&exchange.again[..exchange.again_words]);
+                self.asked.push_back(Asked::new(Question::Whole, end));
             }
             Question::Range { first, count } => exchange.todo.push_front((first, count)),
         }
@@ -206,8 +226,8 @@ impl Reader {
 }
 
 impl Asked {
-    fn new(what: Question) -> Self {
-        Self { what, header: [0; HEADER], came: 0, is_damaged: false, digest: crc32fast::Hasher::new() }
+    fn new(what: Question, end: u64) -> Self {
+        Self { what, header: [0; HEADER], came: 0, is_damaged: false, digest: crc32fast::Hasher::new(), end }
     }
 
     /// True if all words of the answer have come.
@@ -236,7 +256,9 @@ impl Asked {
         }
         let most = match self.what {
             Question::Range { count, .. } => HEADER + count as usize * width,
-            Question::Whole | Question::Nothing => HEADER + LONGEST_WHOLE.max(RANGE_WORDS),
+            Question::Whole => HEADER + LONGEST_WHOLE,
+            // It was a range, of any length.
+            Question::Nothing => HEADER + RANGE_WORDS,
         };
         if index + count > most {
             return Err(SerialFault::Endless { due: most });

@@ -49,6 +49,9 @@ pub(super) struct Sender {
     out: usize,
     /// Free bytes of the FIFO before the first frame under way.
     free: usize,
+    /// Bytes of this session, and those of them that are acknowledged.
+    pushed_bytes: u64,
+    taken_bytes: u64,
     /// Over all payload cut in this session.
     digest: crc32fast::Hasher,
     /// Of all payload acknowledged.
@@ -71,6 +74,8 @@ impl Sender {
             base: 0,
             out: 0,
             free: 0,
+            pushed_bytes: 0,
+            taken_bytes: 0,
             digest: crc32fast::Hasher::new(),
             taken_digest: 0,
             proved: 0,
@@ -80,9 +85,16 @@ impl Sender {
         }
     }
 
-    /// Takes words to be sent.
-    pub fn push(&mut self, words: &[u32]) {
+    /// Takes words to be sent: the bytes of the session up to their end.
+    pub fn push(&mut self, words: &[u32]) -> u64 {
         self.stream.extend(words.iter().flat_map(|word| word.to_le_bytes()));
+        self.pushed_bytes += 4 * words.len() as u64;
+        self.pushed_bytes
+    }
+
+    /// Bytes of the session that the device has taken.
+    pub fn taken_bytes(&self) -> u64 {
+        self.taken_bytes
     }
 
     /// True if the device has taken all.
@@ -167,6 +179,7 @@ impl Sender {
         for _ in 0..taken {
             let Some(frame) = self.sent.pop_front() else { break };
             self.taken_digest = frame.digest;
+            self.taken_bytes += frame.payload.len() as u64;
             news.left_at = (frame.times == 1).then_some(frame.left_at);
             self.base += 1;
             self.out = self.out.saturating_sub(1);

@@ -9,6 +9,7 @@ use super::engine::{Engine, Params, Statistics};
 use super::fault::SerialFault;
 use super::port::Port;
 use crate::error::Error;
+use crate::link::Limit;
 use crate::transport::{Pace, Transport, TransportError};
 
 /// Bytes read at once.
@@ -87,10 +88,12 @@ impl SerialTransport {
 
     fn drive_for<T>(&mut self, timeout: Duration, ready: impl FnMut(&mut Engine) -> Option<T>) -> Result<T, Error> {
         const DURING: &str = "the greeting";
-        let timeout = timeout.saturating_mul(self.slow);
-        let result = self.drive(Instant::now() + timeout, 0, ready);
+        let limit = Limit::of(timeout.saturating_mul(self.slow));
+        let result = self.drive(limit.deadline(), 0, ready);
         result.map_err(|source| match source {
-            TransportError::Timeout { .. } => Error::Timeout { device: self.name(), during: DURING, timeout },
+            TransportError::Timeout { .. } => {
+                Error::Timeout { device: self.name(), during: DURING, timeout: limit.timeout() }
+            }
             source => Error::Link { device: self.name(), during: DURING, source },
         })
     }
@@ -190,6 +193,10 @@ impl Transport for SerialTransport {
         words.copy_from_slice(next);
         self.taken += words.len();
         Ok(())
+    }
+
+    fn takes_ahead(&self) -> bool {
+        false
     }
 
     fn name(&self) -> String {

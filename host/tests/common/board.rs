@@ -16,7 +16,8 @@ pub fn crc32(bytes: &[u8]) -> u32 {
     crc32_more(0, bytes)
 }
 
-fn crc32_more(crc: u32, bytes: &[u8]) -> u32 {
+/// The check sum with more bytes behind those it has.
+pub fn crc32_more(crc: u32, bytes: &[u8]) -> u32 {
     let mut crc = !crc;
     for &byte in bytes {
         crc ^= u32::from(byte);
@@ -27,7 +28,8 @@ fn crc32_more(crc: u32, bytes: &[u8]) -> u32 {
     !crc
 }
 
-fn cobs_decode(bytes: &[u8]) -> Option<Vec<u8>> {
+/// The bytes of a frame towards the device; nothing if its last piece is cut.
+pub fn cobs_decode(bytes: &[u8]) -> Option<Vec<u8>> {
     let mut plain = Vec::new();
     let mut left = 0;
     let mut was_full = true;

@@ -1,4 +1,5 @@
 //! The engine and a board on a line with a delay and faults, in virtual time; a transport of the two for whole jobs.
+#![allow(dead_code)] // each test file uses a part
 
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -203,9 +204,19 @@ impl Rig {
         }
     }
 
+    /// Frames and zeros on the line.
+    pub fn under_way(&self, to_host: bool) -> usize {
+        self.wires[usize::from(to_host)].under_way.len()
+    }
+
     /// A command and its answer.
     pub fn ask(&mut self, command: &[u32]) -> Result<Vec<u32>, TransportError> {
         self.engine.ask(command, self.now)?;
+        self.finish()
+    }
+
+    /// The answer to the command that was asked.
+    pub fn finish(&mut self) -> Result<Vec<u32>, TransportError> {
         let mut answer = None;
         let until = self.now + self.patience;
         let is_done = self.run(until, |engine| {
@@ -218,6 +229,10 @@ impl Rig {
 }
 
 impl Transport for Rig {
+    fn takes_ahead(&self) -> bool {
+        false
+    }
+
     fn send(&mut self, words: &[u32], _: Instant) -> Result<(), TransportError> {
         let result = self.ask(words);
         if let Err(TransportError::Serial(fault)) = &result {

@@ -109,6 +109,14 @@ impl CommandModel {
         })
     }
 
+    /// The same as if it had so many contexts, 1 to 255: it then takes as many jobs side by side in a batch. Its points come one after the
+    /// other all the same.
+    #[must_use]
+    pub fn with_contexts(mut self, contexts: u32) -> Self {
+        self.identity.contexts = contexts.clamp(1, 255);
+        self
+    }
+
     /// The mesh as it stands.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
@@ -209,7 +217,12 @@ impl CommandModel {
                 self.answer(opcode, Status::BadContexts, &[]);
             }
             Some(Opcode::Clear) => {
-                self.mesh.clear();
+                let jobs = match protocol::command_contexts(word) {
+                    _ if !protocol::command_starts_batch(word) => 1,
+                    0 => self.identity.contexts,
+                    asked => asked,
+                };
+                self.mesh.clear_for(jobs);
                 self.answer(opcode, Status::Ok, &[]);
             }
             Some(Opcode::Insert) => self.awaited = Awaited::InsertCount,

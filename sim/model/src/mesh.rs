@@ -37,10 +37,13 @@ impl Record {
     }
 }
 
+/// Records of a first triangle and its ghosts.
+const SEED_RECORDS: u32 = 4;
+
 /// What became of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Insertion {
-    /// It is a vertex of the mesh now, or one of the first three, which wait for each other.
+    /// It is a vertex of the mesh now, or one of the first three of a job, which wait for each other.
     Inserted,
     /// It fell onto a vertex.
     Duplicate,
@@ -72,8 +75,8 @@ pub struct Mesh {
     infinite: u32,
     points: Vec<Point>,
     records: Vec<Record>,
-    /// Where the next walk starts: a record at the point inserted or found last.
-    start: u32,
+    /// Where the next walk of each job starts: a record at its point inserted or found last. One job but in a batch.
+    starts: Vec<u32>,
     collinear: bool,
     counts: Counts,
     cavity: Cavity,
@@ -87,7 +90,7 @@ impl Mesh {
             infinite: infinite_vertex(capacity),
             points: Vec::new(),
             records: Vec::new(),
-            start: 0,
+            starts: vec![0],
             collinear: false,
             counts: Counts::default(),
             cavity: Cavity::new(ring_capacity),
@@ -96,9 +99,16 @@ impl Mesh {
 
     /// Forgets everything but its parameters. Keeps its memory.
     pub fn clear(&mut self) {
+        self.clear_for(1);
+    }
+
+    /// The same; what comes from then on is a batch of so many jobs, at least one, each with a mesh of its own. The first points are three
+    /// for each job, the others are dealt to them in turn.
+    pub fn clear_for(&mut self, jobs: u32) {
         self.points.clear();
         self.records.clear();
-        self.start = 0;
+        // The first records of each job, as soon as they are written.
+        self.starts = (0..jobs.max(1)).map(|job| SEED_RECORDS * job).collect();
         self.collinear = false;
         self.counts = Counts::default();
     }
@@ -113,7 +123,7 @@ impl Mesh {
         &self.counts
     }
 
-    /// Whether the first three points were collinear.
+    /// Whether the first three points were collinear, in a batch those of any job.
     pub fn is_collinear(&self) -> bool {
         self.collinear
     }
@@ -135,35 +145,38 @@ impl Mesh {
         let id = self.counts.arrived;
         self.counts.arrived += 1;
         self.points.push(p);
-        match id {
-            0 | 1 => Insertion::Inserted,
-            2 => self.seed(),
-            _ => self.insert_vertex(id, p),
+        let jobs = self.starts.len() as u32;
+        match id.checked_sub(3 * jobs) {
+            None if id % 3 != 2 => Insertion::Inserted,
+            None => self.seed(id - 2),
+            Some(place) => self.insert_vertex(id, p, (place % jobs) as usize),
         }
     }
 
-    /// The first finite triangle and its three ghosts.
-    fn seed(&mut self) -> Insertion {
-        let turn = orient2d(self.points[0], self.points[1], self.points[2]);
+    /// The first finite triangle of a job and its three ghosts, from its first three vertices.
+    fn seed(&mut self, first: u32) -> Insertion {
+        let corner = |k: u32| self.points[(first + k) as usize];
+        let turn = orient2d(corner(0), corner(1), corner(2));
         if turn == 0 {
             self.collinear = true;
             return Insertion::Collinear;
         }
-        let (b, c) = if turn > 0 { (1, 2) } else { (2, 1) };
-        let inf = self.infinite;
+        let (b, c) = if turn > 0 { (first + 1, first + 2) } else { (first + 2, first + 1) };
+        let (a, inf) = (first, self.infinite);
+        let id = |k: u32| self.records.len() as u32 + k;
         self.records.extend([
-            Record { v: [0, b, c], n: [1, 2, 3] },
-            Record { v: [c, b, inf], n: [3, 2, 0] },
-            Record { v: [0, c, inf], n: [1, 3, 0] },
-            Record { v: [b, 0, inf], n: [2, 1, 0] },
+            Record { v: [a, b, c], n: [id(1), id(2), id(3)] },
+            Record { v: [c, b, inf], n: [id(3), id(2), id(0)] },
+            Record { v: [a, c, inf], n: [id(1), id(3), id(0)] },
+            Record { v: [b, a, inf], n: [id(2), id(1), id(0)] },
         ]);
-        self.counts.insertions = 3;
+        self.counts.insertions += 3;
         Insertion::Inserted
     }
 
-    fn insert_vertex(&mut self, id: u32, p: Point) -> Insertion {
-        let root = self.locate(p);
-        self.start = root;
+    fn insert_vertex(&mut self, id: u32, p: Point, job: usize) -> Insertion {
+        let root = self.locate(p, self.starts[job]);
+        self.starts[job] = root;
         let record = self.records[root as usize];
         let falls_onto = |&v: &u32| v != self.infinite && self.points[v as usize] == p;
         if record.v.iter().any(falls_onto) {

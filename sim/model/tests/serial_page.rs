@@ -1,42 +1,21 @@
 //! The exchange in `protocol/SERIAL.md` is what the model of the link says, byte by byte, and its tables have the numbers of the crate.
 
+mod serial_exchange;
+
 use incircle_model::serial::{core_identity, FrameReceiver, FromDevice, FromHost, Received, SerialModel};
 use incircle_model::ClockModel;
 use incircle_protocol::{
     DeviceFrame, HostFrame, LinkConfig, BREAK_MS, FIRST_RATE, FRAME_END, LINK_MAGIC, LINK_VERSION, MAX_PAYLOAD,
     SILENCE_MS, SMALL, WINDOW,
 };
+use serial_exchange::{steps, PAGE};
 use std::collections::BTreeSet;
-
-const PAGE: &str = include_str!("../../../protocol/SERIAL.md");
 
 /// Clocks of a byte while the exchange is replayed.
 const BYTE: u64 = 10_850;
 
 /// The link of the board that the page shows.
 const LINK: LinkConfig = LinkConfig { clock_hz: 125_000_000, fifo_bytes: 4096, silence_ms: 200 };
-
-/// The bytes of a line without its direction and its comment.
-fn bytes(line: &str) -> Vec<u8> {
-    let said = line[1..].split(';').next().expect("a first part");
-    said.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).expect(line)).collect()
-}
-
-/// Bytes to the device, then those that come back.
-fn steps() -> Vec<(Vec<u8>, Vec<u8>)> {
-    let (_, block) = PAGE.split_once("```line\n").expect("an exchange");
-    let block = block.split("```").next().expect("its body");
-    let mut steps: Vec<(Vec<u8>, Vec<u8>)> = Vec::new();
-    for line in block.lines().filter(|line| !line.trim().is_empty()) {
-        match (line.as_bytes()[0], steps.last_mut()) {
-            (b'<', Some((_, answer))) => answer.extend(bytes(line)),
-            (b'>', Some((sent, answer))) if answer.is_empty() => sent.extend(bytes(line)),
-            (b'>', _) => steps.push((bytes(line), Vec::new())),
-            _ => panic!("neither > nor <: {line}"),
-        }
-    }
-    steps
-}
 
 fn hex(bytes: &[u8]) -> String {
     let bytes: Vec<_> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
@@ -47,9 +26,7 @@ fn hex(bytes: &[u8]) -> String {
 fn the_model_says_what_the_page_shows() {
     let core = ClockModel::new(SMALL).expect("a named configuration");
     let mut board = SerialModel::new(LINK, core_identity(SMALL), core);
-    let steps = steps();
-    assert!(steps.len() >= 8, "only {} steps", steps.len());
-    for (sent, expected) in steps {
+    for (sent, expected) in steps() {
         let (mut said, mut silent) = (Vec::new(), 0);
         let mut sending = sent.iter();
         while silent < 10 {

@@ -74,6 +74,11 @@ impl Proxy {
         self.to_device.is_empty()
     }
 
+    /// Nothing waits in either direction.
+    pub fn is_empty(&self) -> bool {
+        self.to_device.is_empty() && self.to_host.is_empty()
+    }
+
     /// The cable is to be pulled now, for so long. It is said once.
     pub fn take_unplug(&mut self) -> Option<Duration> {
         self.unplug.take_if(|(left, _)| *left == 0).map(|(_, length)| length)
@@ -110,5 +115,15 @@ mod tests {
         assert_eq!(proxy.faults(), 1);
         proxy.clear();
         assert!(proxy.is_empty_to_device());
+    }
+
+    #[test]
+    fn what_waits_for_the_host_waits() {
+        let mut proxy = Proxy::new(&"stall=1,stall-ms=2,direction=to-host".parse().unwrap());
+        [1, 0].into_iter().for_each(|byte| proxy.from_device(Symbol::of(byte), 0));
+        assert!(proxy.is_empty_to_device() && !proxy.is_empty());
+        assert_eq!((proxy.next_to_host(0), proxy.is_empty()), (None, false));
+        assert_eq!([2_000_000; 3].map(|now| proxy.next_to_host(now)), [Some(1), Some(0), None]);
+        assert!(proxy.is_empty());
     }
 }

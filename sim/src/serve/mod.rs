@@ -109,7 +109,7 @@ impl Server<'_> {
                 None => break,
             }
         }
-        if self.board.is_at_rest() && self.proxy.is_empty_to_device() && self.unread.is_empty() {
+        if self.board.is_at_rest() && self.proxy.is_empty() && self.unread.is_empty() {
             self.pace.rest();
             return self.terminal.wait(NAP);
         }

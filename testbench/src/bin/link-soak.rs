@@ -1,5 +1,6 @@
 //! Two hundred jobs and more for each bit error rate, in both directions: through the pins with up to 100 points at 12 Mbaud, and
-//! larger ones without the bits. A number as argument is that of the jobs.
+//! larger ones without the bits. A number as argument is that of the jobs. No mesh may be wrong. Up to one bit error in 100,000 bits every job
+//! must be right; at one in 10,000, where frames are lost by the dozen, nineteen of twenty, and the others end with an error.
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -10,13 +11,16 @@ use incircle_testbench::link::{soak, Detail, Soak};
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let jobs = std::env::args().nth(1).map_or(Ok(200), |text| text.parse())?;
+    if jobs == 0 {
+        return Err("no job proves nothing: give a number from 1 on".into());
+    }
     let mut is_good = true;
     for (detail, config, points) in [(Detail::Pins, SMALL, 100), (Detail::Bytes, FULL, 1500)] {
-        for ber in [1e-6, 1e-5, 1e-4] {
+        for (ber, least) in [(1e-6, 1.0), (1e-5, 1.0), (1e-4, 0.95)] {
             let faults = FaultSpec { ber, seed: 1000, ..FaultSpec::default() };
             let report = soak(&Soak { detail, config, faults, rate: 12_000_000, jobs, points })?;
             println!("{}, up to {points} points, bit errors {ber:e}: {report}", detail.name());
-            is_good &= report.jobs() == jobs && report.wrong == 0 && (ber > 1e-6 || report.right == jobs);
+            is_good &= report.is_good(jobs, least);
         }
     }
     println!("{}", if is_good { "as it must be" } else { "NOT as it must be" });

@@ -8,7 +8,7 @@ mod synthesis;
 mod tool;
 
 use scratch::Scratch;
-pub use synthesis::{cell_count, synthesise, Cells};
+pub use synthesis::{artix_cell_count, cell_count, netlist, prove, synthesise, ArtixCells, Cells};
 use tool::run;
 
 /// Why Verilog does not pass.

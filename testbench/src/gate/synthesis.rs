@@ -76,22 +76,91 @@ pub fn cell_count(verilog: &str, top: &str) -> Result<Cells, GateError> {
     })
 }
 
+/// Cells of an Artix-7 that a block takes after mapping, without placement.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ArtixCells {
+    /// Tables of two to six inputs.
+    pub luts: u64,
+    /// Carry cells of four bits.
+    pub carry: u64,
+    /// Flip-flops.
+    pub flip_flops: u64,
+    /// Block memories of 18 kbit; one of 36 counts as two.
+    pub block_ram: u64,
+}
+
+/// What a block takes in an Artix-7, by `synth_xilinx`.
+///
+/// # Errors
+/// As [`cell_count`].
+pub fn artix_cell_count(verilog: &str, top: &str) -> Result<ArtixCells, GateError> {
+    let scratch = Scratch::new(top)?;
+    let passes = format!("synth_xilinx -family xc7 -flatten -noiopad -top {top}; tee -q -o cells.json stat -json");
+    yosys(verilog, top, &passes, &scratch)?;
+    let report = |reason| GateError::Report { tool: YOSYS, top: top.to_string(), reason };
+    let count = counts(&scratch.read("cells.json")?).map_err(report)?;
+    let all = |cells: &[&str]| cells.iter().map(|cell| count(cell)).sum::<u64>();
+    Ok(ArtixCells {
+        luts: all(&["LUT1", "LUT2", "LUT3", "LUT4", "LUT5", "LUT6"]),
+        carry: count("CARRY4"),
+        flip_flops: all(&["FDRE", "FDSE", "FDCE", "FDPE"]),
+        block_ram: count("RAMB18E1") + 2 * count("RAMB36E1"),
+    })
+}
+
+/// The flat netlist of a design as JSON: registers, memories and the logic between them, before any mapping.
+///
+/// # Errors
+/// As [`synthesise`].
+pub fn netlist(verilog: &str, top: &str) -> Result<String, GateError> {
+    let scratch = Scratch::new(top)?;
+    let passes = format!(
+        "hierarchy -check -top {top}; proc; flatten; opt_expr; opt_clean; memory_collect; opt_clean; write_json netlist.json"
+    );
+    yosys(verilog, top, &passes, &scratch)?;
+    Ok(scratch.read("netlist.json")?)
+}
+
+/// Proves every assertion in a design, by induction over its clocks, from its initial state. With several clocks their edges may come in any order and
+/// together.
+///
+/// # Errors
+/// As [`synthesise`]; [`GateError::Refused`] too if an assertion can fail, or if no more than `steps` steps do not prove that it cannot.
+pub fn prove(verilog: &str, top: &str, has_several_clocks: bool, steps: u32) -> Result<(), GateError> {
+    let clocks = if has_several_clocks { "clk2fflogic; opt -full; " } else { "" };
+    let passes = format!(
+        "hierarchy -check -top {top}; proc; flatten; opt -full; memory -nordff; opt -full; {clocks}\
+         sat -tempinduct -prove-asserts -set-assumes -maxsteps {steps} -verify"
+    );
+    yosys_on("read_verilog -formal", verilog, top, &passes, &Scratch::new(top)?)
+}
+
 fn yosys(verilog: &str, top: &str, passes: &str, scratch: &Scratch) -> Result<(), GateError> {
+    yosys_on("read_verilog", verilog, top, passes, scratch)
+}
+
+fn yosys_on(reader: &str, verilog: &str, top: &str, passes: &str, scratch: &Scratch) -> Result<(), GateError> {
     scratch.write("design.v", verilog)?;
-    let script = format!("read_verilog design.v; {passes}");
+    let script = format!("{reader} design.v; {passes}");
     let printed = run(YOSYS, &["-p", &script], top, scratch)?;
     let complaints: Vec<_> =
         printed.lines().filter(|line| COMPLAINTS.iter().any(|complaint| line.contains(complaint))).collect();
     complain(YOSYS, top, &complaints)
 }
 
-fn cells(report: &str) -> Result<Cells, String> {
+/// How many cells of each type a report tells of.
+fn counts(report: &str) -> Result<impl Fn(&str) -> u64, String> {
     let report: serde_json::Value = serde_json::from_str(report).map_err(|error| error.to_string())?;
     let counts = report
         .pointer("/design/num_cells_by_type")
         .and_then(serde_json::Value::as_object)
+        .cloned()
         .ok_or("it has no table design/num_cells_by_type")?;
-    let count = |cell: &str| counts.get(cell).and_then(serde_json::Value::as_u64).unwrap_or(0);
+    Ok(move |cell: &str| counts.get(cell).and_then(serde_json::Value::as_u64).unwrap_or(0))
+}
+
+fn cells(report: &str) -> Result<Cells, String> {
+    let count = counts(report)?;
     Ok(Cells {
         lut4: count("LUT4"),
         carry: count("CCU2C"),

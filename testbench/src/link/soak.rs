@@ -61,6 +61,11 @@ impl SoakReport {
     pub fn jobs(&self) -> u64 {
         self.right + self.wrong + self.errors.values().sum::<u64>()
     }
+
+    /// All of so many jobs ended, none with a wrong mesh, and this share of them at least with the right one.
+    pub fn is_good(&self, jobs: u64, least: f64) -> bool {
+        jobs > 0 && self.jobs() == jobs && self.wrong == 0 && self.right as f64 >= least * jobs as f64
+    }
 }
 
 impl fmt::Display for SoakReport {
@@ -137,4 +142,26 @@ fn run_job(
 fn mesh_of(device: &mut Device, points: &[incircle::Point]) -> Result<incircle::Mesh, Error> {
     let options = Options { timeout: Some(Duration::from_secs(3600)), ..Options::default() };
     device.session_within(Duration::from_secs(3600))?.triangulate_with(points, &options)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_soak_is_good_if_enough_is_right_and_nothing_wrong() {
+        let report = |right, wrong, failed| SoakReport {
+            right,
+            wrong,
+            errors: BTreeMap::from([("a sentence".to_owned(), failed)]),
+            ..SoakReport::default()
+        };
+        assert!(report(200, 0, 0).is_good(200, 1.0));
+        assert!(report(190, 0, 10).is_good(200, 0.95));
+        for (bad, least) in [(report(199, 0, 1), 1.0), (report(189, 0, 11), 0.95), (report(199, 1, 0), 0.95)] {
+            assert!(!bad.is_good(200, least), "{bad}");
+        }
+        assert!(!report(0, 0, 200).is_good(200, 0.95) && !report(0, 0, 0).is_good(0, 0.95));
+        assert!(!report(150, 0, 0).is_good(200, 0.5), "jobs are missing");
+    }
 }

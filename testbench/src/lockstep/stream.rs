@@ -2,7 +2,7 @@
 
 use super::{Lockstep, Mismatch};
 use incircle_model::Inputs;
-use incircle_protocol::{clear_word, command_word, Config, Opcode, PADDING};
+use incircle_protocol::{batch_word, clear_word, command_word, Config, Opcode, PADDING};
 
 /// How often each side of the core stalls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,10 +56,23 @@ impl Job {
     /// counters, with padding between the commands;
     /// the number of answer words comes from the model by commands.
     pub fn of(points: &[u32], piece: usize, contexts: u32, config: Config) -> Self {
+        let mut job = Self::beginning_with(command_word(Opcode::Clear), points, piece, config);
+        // The model by commands works on one point after the other, however many contexts the core has.
+        job.commands[1] = clear_word(contexts);
+        job
+    }
+
+    /// The same for a batch of so many jobs (0: as many as the core has contexts).
+    pub fn batch_of(points: &[u32], piece: usize, jobs: u32, config: Config) -> Self {
+        Self::beginning_with(batch_word(jobs), points, piece, config)
+    }
+
+    fn beginning_with(clear: u32, points: &[u32], piece: usize, config: Config) -> Self {
         let mut model =
             incircle_model::CommandModel::new(incircle_protocol::CORE_COORD_BITS, config.points, config.ring)
-                .unwrap_or_else(|error| panic!("{error}"));
-        let mut commands = vec![command_word(Opcode::Hello), command_word(Opcode::Clear)];
+                .unwrap_or_else(|error| panic!("{error}"))
+                .with_contexts(config.contexts);
+        let mut commands = vec![command_word(Opcode::Hello), clear];
         for piece in points.chunks(piece.max(1)) {
             commands.extend([command_word(Opcode::Insert), piece.len() as u32]);
             commands.extend(piece);
@@ -79,8 +92,6 @@ impl Job {
                 some => answers += some,
             }
         }
-        // The model by commands has one context, whatever the core has.
-        commands[1] = clear_word(contexts);
         Self { commands, answers }
     }
 }

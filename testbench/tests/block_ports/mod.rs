@@ -4,7 +4,7 @@
 #![allow(dead_code)] // Every test that includes this uses a part of it.
 
 use incircle_hdl::engine::{
-    Attempt, Bundle, CommitJob, Entry, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
+    Attempt, Bundle, CommitJob, Deal, Entry, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::link::AnswerBeat;
@@ -27,6 +27,16 @@ impl PortValue for bool {
     }
     fn to_number(self) -> u128 {
         self.into()
+    }
+}
+
+/// For blocks with several clocks: they are inputs like others there.
+impl PortValue for Clock {
+    fn from_number(number: u128) -> Self {
+        (number != 0).into()
+    }
+    fn to_number(self) -> u128 {
+        self.clk.into()
     }
 }
 
@@ -70,7 +80,8 @@ packed_values!(
     Write,
     WriteEnables,
     Asked,
-    AnswerBeat
+    AnswerBeat,
+    Deal
 );
 
 /// A block whose ports are reached by name.
@@ -82,6 +93,7 @@ pub trait NamedPorts: Block {
 
 /// Gives a block [`NamedPorts`]: its type, its inputs, its outputs, and `clock` if it has one. Before the type may stand generic
 /// parameters in brackets, or none: `[]`.
+#[allow(unused_macros)] // As above.
 macro_rules! named_ports {
     ([$($generics:tt)*] $block:ty, [$($input:ident),*], [$($output:ident),*] $(, $clock:ident)?) => {
         impl<$($generics)*> $crate::block_ports::NamedPorts for $block {

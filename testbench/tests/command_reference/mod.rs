@@ -2,7 +2,8 @@
 
 use std::collections::VecDeque;
 
-use incircle_protocol::{Opcode, PADDING};
+use crate::stepper::bundles::Deal;
+use incircle_protocol::{command_starts_batch, Opcode, FIRST_ROUND, PADDING};
 
 /// Points that the core holds, and contexts that it has.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +54,8 @@ pub struct Reference {
     pub clears: bool,
     /// Contexts that work.
     pub contexts: u32,
+    pub is_batch: bool,
+    pub dealt_from: u64,
     pub is_refused: Option<bool>,
     /// All words of the command have come; an insert settles first.
     pub is_complete: bool,
@@ -64,17 +67,27 @@ pub struct Reference {
 
 impl Reference {
     pub fn new(shape: Shape) -> Self {
-        Self { wants: [Meaning::Command].into(), contexts: shape.contexts, ..Self::default() }
+        let dealt_from = FIRST_ROUND.into();
+        Self { wants: [Meaning::Command].into(), contexts: shape.contexts, dealt_from, ..Self::default() }
     }
 
     pub fn is_ready(&self, around: &Surroundings) -> bool {
-        let start_is_open = self.arrived == 3 && !around.seeded && !around.collinear;
         match self.wants.front() {
             None => false,
             Some(Meaning::Command) => around.sweeping == 0,
             Some(Meaning::First | Meaning::Count) => true,
-            Some(Meaning::Point) => self.came.is_none() && (around.stuck || !start_is_open),
+            Some(Meaning::Point) => self.came.is_none() && (around.stuck || !self.start_is_open(around)),
         }
+    }
+
+    /// The engine looks at the first three points.
+    pub fn start_is_open(&self, around: &Surroundings) -> bool {
+        self.arrived == 3 && !around.seeded && !around.collinear
+    }
+
+    /// The first vertex that is dealt follows a clock after the rest.
+    pub fn deal(&self) -> Deal {
+        Deal { contexts: self.contexts.into(), is_batch: self.is_batch, dealt_from: self.dealt_from }
     }
 
     /// An answer is due, and no memory is about to be cleared.
@@ -94,6 +107,7 @@ impl Reference {
                 self.clears = is_clear && asked <= shape.contexts;
                 if self.clears {
                     self.contexts = if asked == 0 { shape.contexts } else { asked };
+                    self.is_batch = command_starts_batch(word);
                 }
                 match Opcode::from_u8(opcode) {
                     Some(Opcode::Insert) => self.wants.push_back(Meaning::Count),
@@ -129,6 +143,7 @@ impl Reference {
     /// A rising edge, at which `word` is taken if there is one.
     pub fn edge(&mut self, word: Option<u32>, pins: Pins, around: &Surroundings, shape: Shape) {
         let was = self.clone();
+        self.dealt_from = if was.is_batch { 3 * u64::from(was.contexts) } else { FIRST_ROUND.into() };
         (self.came, self.clears, self.is_complete, self.is_surplus) = (None, false, false, false);
         self.refused += u32::from(was.is_surplus);
         if !was.answers && pins.responder_is_idle && around.answer_is_taken {

@@ -41,7 +41,7 @@ impl Count {
                 Some(0)
             }
             Event { clears: true, .. } => Some(0),
-            Event { seeds: true, .. } => Some(4),
+            Event { seeds: true, .. } => Some(self.fresh + 4),
             Event { solo_inserts: true, .. } => Some(self.fresh + 2),
             _ => None,
         };

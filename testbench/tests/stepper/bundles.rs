@@ -190,3 +190,43 @@ impl Edge {
         pack(&[(self.a, ID_BITS), (self.u, ID_BITS), (self.slot, 2), (self.f, ID_BITS), (self.after, 6)])
     }
 }
+
+/// How points are dealt to contexts.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Deal {
+    pub contexts: u64,
+    pub is_batch: bool,
+    pub dealt_from: u64,
+}
+
+impl Deal {
+    /// Both ways of dealing points to so many contexts.
+    pub fn both(contexts: u64) -> [Self; 2] {
+        [Self::one_mesh(contexts), Self::batch(contexts)]
+    }
+
+    /// The vertices of a context in their order, without end.
+    pub fn dealt(self, context: u64) -> impl Iterator<Item = u64> {
+        let Self { contexts, is_batch, dealt_from } = self;
+        let alone = match context {
+            _ if is_batch => 3 * context + 2..3 * context + 3,
+            0 => 2..dealt_from,
+            _ => 0..0,
+        };
+        alone.chain((dealt_from + context..).step_by(contexts as usize))
+    }
+
+    /// So many contexts that work on one mesh.
+    pub fn one_mesh(contexts: u64) -> Self {
+        Self { contexts, is_batch: false, dealt_from: incircle_protocol::FIRST_ROUND.into() }
+    }
+
+    /// So many jobs side by side.
+    pub fn batch(contexts: u64) -> Self {
+        Self { contexts, is_batch: true, dealt_from: 3 * contexts }
+    }
+
+    pub fn bits(self) -> u128 {
+        u128::from(self.contexts | u64::from(self.is_batch) << 5 | self.dealt_from << 6)
+    }
+}

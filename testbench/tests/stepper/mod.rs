@@ -14,8 +14,9 @@ use std::collections::BTreeMap;
 use incircle_testbench::blocks;
 use verilated::{Model, PortId};
 
-pub(crate) use crate::block_ports::named_ports;
-use crate::block_ports::{number, set_number, settle, NamedPorts};
+#[allow(unused_imports)] // As below.
+pub(crate) use crate::block_ports::{named_ports, NamedPorts};
+use crate::block_ports::{number, set_number, settle};
 #[allow(unused_imports)] // As above.
 pub use wave::{Cell, Wave};
 

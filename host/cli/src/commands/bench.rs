@@ -7,8 +7,8 @@ use incircle::{Options, Point, Report, Session};
 use crate::arguments::{BackendChoice, BenchArguments, BenchCommand};
 use crate::backend::{self, Backend};
 use crate::bench_report::{Bench, Measured};
-use crate::commands::bench_orders;
 use crate::commands::generate::{check_count, make};
+use crate::commands::{bench_batch, bench_orders};
 use crate::failure::Failure;
 use crate::fit::Fit;
 use crate::generate::Distribution;
@@ -17,13 +17,13 @@ use crate::progress::Meter;
 use crate::{interrupt, output};
 
 /// Runs of a set in software, of which the fastest counts. Cycles are the same in every run, so one is enough for a core.
-const SOFTWARE_RUNS: usize = 3;
+pub(super) const SOFTWARE_RUNS: usize = 3;
 
 /// Parts of a set that a board does too, for the line over the points.
 const PARTS: [u32; 3] = [8, 4, 2];
 
 /// Clock frequency for which times are told unless chosen or known.
-const DEFAULT_MHZ: f64 = 125.0;
+pub(super) const DEFAULT_MHZ: f64 = 125.0;
 
 /// Runs the subcommand: a row as soon as its set is done, or one JSON object at the end.
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
@@ -31,6 +31,9 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
         return bench_orders::run(orders);
     }
     check_count(arguments.n)?;
+    if let Some(jobs) = arguments.batch {
+        return bench_batch::run(arguments, jobs);
+    }
     let sets = sets_of(arguments);
     let room = room_for(&sets, arguments)?;
     let mut backend = backend::open_with_room(&arguments.backend, arguments.coord_bits, Some(room), None)?;
@@ -73,11 +76,11 @@ fn clock_of(board: backend::Board) -> Option<f64> {
 }
 
 /// It is timed, not counted in cycles.
-fn is_software(arguments: &BenchArguments) -> bool {
+pub(super) fn is_software(arguments: &BenchArguments) -> bool {
     matches!(arguments.backend.choice(), BackendChoice::Cpu | BackendChoice::Model)
 }
 
-fn sets_of(arguments: &BenchArguments) -> Vec<Distribution> {
+pub(super) fn sets_of(arguments: &BenchArguments) -> Vec<Distribution> {
     if arguments.sets.is_empty() {
         Distribution::LITERATURE.into_iter().chain([Distribution::Lattice]).collect()
     } else {
@@ -93,13 +96,18 @@ fn room_for(sets: &[Distribution], arguments: &BenchArguments) -> Result<usize, 
     }
     let mut most = 0;
     for &set in sets {
-        most = most.max(backend::count_distinct(&points_of(set, arguments.n, arguments)?));
+        most = most.max(backend::count_distinct(&points_of(set, arguments.n, arguments.seed, arguments)?));
     }
     Ok(most)
 }
 
-fn points_of(set: Distribution, n: u32, arguments: &BenchArguments) -> Result<Vec<Point>, Failure> {
-    let points = make(set, n, arguments.coord_bits, arguments.seed)?;
+pub(super) fn points_of(
+    set: Distribution,
+    n: u32,
+    seed: u64,
+    arguments: &BenchArguments,
+) -> Result<Vec<Point>, Failure> {
+    let points = make(set, n, arguments.coord_bits, seed)?;
     Ok(points.into_iter().map(Point::from).collect())
 }
 
@@ -109,7 +117,7 @@ fn measure(
     insert_chunk: usize,
     arguments: &BenchArguments,
 ) -> Result<Measured, Failure> {
-    let points = points_of(set, arguments.n, arguments)?;
+    let points = points_of(set, arguments.n, arguments.seed, arguments)?;
     let runs = if is_software(arguments) { SOFTWARE_RUNS } else { 1 };
     let mut best = run_once(session, set, &points, insert_chunk, arguments)?;
     for _ in 1..runs {
@@ -130,7 +138,7 @@ fn fit(
 ) -> Result<Option<Fit>, Failure> {
     let mut jobs = Vec::with_capacity(PARTS.len() + 1);
     for part in PARTS.map(|part| arguments.n / part).into_iter().filter(|&n| n > 0) {
-        let points = points_of(whole.set, part, arguments)?;
+        let points = points_of(whole.set, part, arguments.seed, arguments)?;
         let measured = run_once(session, whole.set, &points, insert_chunk, arguments)?;
         jobs.push((measured.report.distinct, measured.seconds));
     }

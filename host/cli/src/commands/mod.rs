@@ -1,6 +1,7 @@
 //! The subcommands.
 
 pub mod bench;
+pub mod bench_batch;
 pub mod bench_orders;
 pub mod completions;
 pub mod devices;

@@ -72,11 +72,12 @@ impl Engine {
         self.greeting = connect.greeting().copied();
         self.silence = connect.silence();
         self.session = connect.session();
-        let (is_done, is_greeted) = (connect.is_done(), connect.only_greets());
+        let (is_done, is_greeted, has_session) = (connect.is_done(), connect.only_greets(), connect.has_session());
         if is_opened {
             self.begin_session();
         }
-        if message.session == self.session && message.kind != DeviceFrame::Hello {
+        // Before that it is of a session from before: what is late of one tells nothing of this one.
+        if has_session && message.session == self.session && message.kind != DeviceFrame::Hello {
             self.take_header(message, now)?;
         }
         if is_done {
@@ -117,7 +118,7 @@ impl Engine {
             }
         }
         if is_current {
-            self.reader.passed(message.answers, &mut self.sender);
+            self.reader.passed(message.answers, &mut self.sender)?;
             match message.kind {
                 DeviceFrame::Nak => self.go_back_once(now),
                 DeviceFrame::Ack => self.hear_polled(now),

@@ -46,10 +46,10 @@ impl Engine {
             Stage::Connecting(connect) => Some(connect.due()),
             Stage::Searching { due, until, .. } => Some(*due.min(until)),
             Stage::Open => {
-                let silent_at = self.silent_at();
-                let next =
-                    if self.sender.has_due() { self.line.free_at().saturating_sub(AHEAD) } else { self.poll_at() };
-                Some(next.min(self.poll_at()).min(silent_at))
+                // Nothing is handed out, be it ever so due, before the line has taken what it has.
+                let has_room_at = self.line.free_at().saturating_sub(AHEAD);
+                let due = if self.sender.has_due() { has_room_at } else { self.poll_at() };
+                Some(due.min(self.poll_at()).max(has_room_at).min(self.silent_at()))
             }
         }
     }

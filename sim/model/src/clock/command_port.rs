@@ -2,7 +2,7 @@
 
 use super::wires::Wires;
 use super::Registers;
-use incircle_protocol::{command_contexts, command_opcode, Config, Opcode, PADDING};
+use incircle_protocol::{command_contexts, command_opcode, command_starts_batch, Config, Opcode, FIRST_ROUND, PADDING};
 
 /// What the next word means, or what is awaited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -31,6 +31,8 @@ pub(super) struct CommandPort {
     pub came_id: u32,
     /// Contexts that work.
     pub contexts: u32,
+    /// Each of them has a mesh of its own.
+    pub batch: bool,
     /// A `Clear` asks for more contexts than there are.
     pub is_refused: bool,
     /// The mesh is forgotten at the next edge.
@@ -43,8 +45,8 @@ pub(super) struct CommandPort {
 
 impl CommandPort {
     pub(super) fn is_ready(&self, was: &Registers, sweeps: bool) -> bool {
-        // The fourth point waits until the first three are known to span a triangle.
-        let start_is_open = self.arrived == 3 && !was.seeder.seeded && !was.seeder.collinear;
+        // The fourth point waits until the first three are known to span a triangle, in a batch that behind the three of each job.
+        let start_is_open = was.seeder.has_triple && !was.seeder.seeded && !was.seeder.collinear;
         match self.state {
             State::Command => !sweeps,
             State::First | State::Count => true,
@@ -56,6 +58,15 @@ impl CommandPort {
     /// Points are taken in, not refused.
     pub(super) fn stores_points(&self, was: &Registers, config: Config) -> bool {
         !was.seeder.collinear && !was.watchdog.stuck && self.arrived < config.points
+    }
+
+    /// The first vertex of those that are dealt to the contexts in turn.
+    pub(super) fn dealt_from(&self) -> u32 {
+        if self.batch {
+            3 * self.contexts
+        } else {
+            FIRST_ROUND
+        }
     }
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, config: Config) {
@@ -101,6 +112,7 @@ impl CommandPort {
         self.clears = opcode == Opcode::Clear as u8 && !self.is_refused;
         if self.clears {
             self.contexts = if contexts == 0 { config.contexts } else { contexts };
+            self.batch = command_starts_batch(word);
         }
         self.state = match Opcode::from_u8(opcode) {
             Some(Opcode::Insert) => State::Count,

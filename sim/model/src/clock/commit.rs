@@ -119,17 +119,11 @@ impl Commit {
                 self.load(head);
             }
         }
-        if solo_ends {
-            self.records += 2;
-            self.fresh += 2;
-        }
-        if seeds {
-            self.records = 4;
-            self.fresh = 4;
-        }
+        let others = 2 * u32::from(solo_ends) + 4 * u32::from(seeds);
+        self.records += others;
+        self.fresh += others;
         if was.command.clears {
-            self.records = 0;
-            self.fresh = 0;
+            (self.records, self.fresh) = (0, 0);
         }
     }
 

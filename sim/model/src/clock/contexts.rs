@@ -79,7 +79,7 @@ impl Contexts {
             self.finished += 1;
         }
         if wires.seeds {
-            self.finished = 3;
+            self.finished += 3;
         }
         self.rest = was.contexts.all_rest(built) && wires.start.is_none();
         if was.command.clears {

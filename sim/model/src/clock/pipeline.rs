@@ -8,7 +8,7 @@ use crate::predicate::{finite_conflict, ghost_conflict, orient2d};
 use std::collections::VecDeque;
 
 /// Clocks from the issue register, which addresses the triangle memory, to the completion register:
-/// record 2, slot and rotation 2, vertices in between, corner registers 1, predicates 9, verdict 1.
+/// record 2, vertices 2, with slot and rotation beside and behind them, corner registers 1, predicates 10, completion register 1.
 const STAGES: usize = 16;
 
 /// Clocks from the issue register to the record.

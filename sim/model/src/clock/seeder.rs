@@ -1,4 +1,4 @@
-//! The first triangle and its three ghosts.
+//! The first triangle and its three ghosts; in a batch one after the other for each job.
 
 use super::memory::Write;
 use super::wires::Wires;
@@ -6,8 +6,13 @@ use super::Registers;
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Seeder {
+    /// Every job has its first triangle.
     pub seeded: bool,
+    /// The job whose first triangle is made next, or was made last.
+    job: u32,
     pub collinear: bool,
+    /// The points of that job's first triangle have come, as it was known a clock ago.
+    pub has_triple: bool,
     /// 0: the look at the triple; 1 to 4: the records.
     pub step: u32,
     turns_left: bool,
@@ -15,6 +20,11 @@ pub(super) struct Seeder {
 }
 
 impl Seeder {
+    /// No first triangle is being made, and none can be from the points that have come.
+    pub(super) fn has_no_start(&self) -> bool {
+        (!self.has_triple || self.collinear) && self.step == 0
+    }
+
     /// The last ghost is written at this edge.
     pub(super) fn seeds(&self) -> bool {
         self.step == 4
@@ -22,16 +32,21 @@ impl Seeder {
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires) {
         let inf = wires.infinite;
-        let (b, c) = if was.seeder.turns_left { (1, 2) } else { (2, 1) };
+        self.has_triple = was.command.arrived >= 3 * was.seeder.job + 3;
+        let (a, first) = (3 * was.seeder.job, 4 * was.seeder.job);
+        let (b, c) = if was.seeder.turns_left { (a + 1, a + 2) } else { (a + 2, a + 1) };
+        let record = |k: u32, v, n: [u32; 3]| Write::record(first + k, v, n.map(|k| first + k));
         self.write.valid = false;
         match was.seeder.step {
             0 => self.look(was, wires),
-            1 => self.write = Write::record(0, [0, b, c], [1, 2, 3]),
-            2 => self.write = Write::record(1, [c, b, inf], [3, 2, 0]),
-            3 => self.write = Write::record(2, [0, c, inf], [1, 3, 0]),
+            1 => self.write = record(0, [a, b, c], [1, 2, 3]),
+            2 => self.write = record(1, [c, b, inf], [3, 2, 0]),
+            3 => self.write = record(2, [a, c, inf], [1, 3, 0]),
             _ => {
-                self.write = Write::record(3, [b, 0, inf], [2, 1, 0]);
-                self.seeded = true;
+                self.write = record(3, [b, a, inf], [2, 1, 0]);
+                let is_last = !was.command.batch || was.seeder.job + 1 == was.command.contexts;
+                self.seeded = is_last;
+                self.job += u32::from(!is_last);
                 self.step = 0;
             }
         }
@@ -40,14 +55,17 @@ impl Seeder {
         }
         if was.command.clears {
             self.seeded = false;
+            self.job = 0;
+            self.has_triple = false;
             self.collinear = false;
         }
     }
 
     fn look(&mut self, was: &Registers, wires: &Wires) {
-        if was.command.came && was.command.came_id == 0 {
-            // The look at the triple needs a record with the first three vertices.
-            self.write = Write::record(0, [0, 1, 2], [0; 3]);
+        let (a, first) = (3 * self.job, 4 * self.job);
+        if was.command.came && was.command.came_id == a {
+            // The look at the triple needs a record with its vertices.
+            self.write = Write::record(first, [a, a + 1, a + 2], [first; 3]);
         }
         let looks = wires.outcome.is_some_and(|outcome| outcome.looks);
         if let Some(done) = wires.done.filter(|_| looks) {

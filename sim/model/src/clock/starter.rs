@@ -48,7 +48,7 @@ pub(super) struct Starter {
     round: u32,
     passed: Passed,
     candidate: Candidate,
-    /// The first round is over: all contexts work.
+    /// The first round is over, or there is none: all contexts work.
     pub all_work: bool,
 }
 
@@ -83,7 +83,12 @@ impl Starter {
             _ => self.all_work || (defect == Some(Defect::AllFromTheStart) && was.seeder.seeded),
         };
         let ready = id < was.command.arrived && works;
-        let start = if flags.hinted & bit != 0 { memory.hint[context] } else { 0 };
+        let start = match flags.hinted & bit {
+            // The first record of its job.
+            0 if was.command.batch => 4 * context as u32,
+            0 => 0,
+            _ => memory.hint[context],
+        };
         ready.then(|| Start { context, id: Some(id), push: Bundle::look(context, start) })
     }
 
@@ -117,19 +122,23 @@ impl Starter {
             self.all_work |= context == 0 && id >= FIRST_ROUND;
         }
         if was.command.clears {
-            *self = Self::default();
+            *self = Self { all_work: was.command.batch, ..Self::default() };
         }
     }
 }
 
-/// The vertex a context takes next: of the first round all go to context 0, then they are dealt out in turn.
+/// The vertex a context takes next: of the first round all go to context 0, then they are dealt out in turn. In a batch there is no first
+/// round, but each context begins with the third of the three that are its own.
 fn next_id(was: &Registers, context: usize, memory: &Memory) -> u32 {
     let began = was.contexts.began & 1 << context != 0;
     let id = memory.point_id[context];
-    match (began, context) {
+    let dealt_from = was.command.dealt_from();
+    match (began, context as u32) {
+        (false, context) if was.command.batch => 3 * context + 2,
         (false, 0) => 2,
-        (false, _) => FIRST_ROUND + context as u32,
-        (true, _) if id < FIRST_ROUND => id + 1,
+        (false, context) => dealt_from + context,
+        (true, context) if id < dealt_from && was.command.batch => dealt_from + context,
+        (true, _) if id < dealt_from => id + 1,
         (true, _) => id + was.command.contexts,
     }
 }

@@ -34,20 +34,16 @@ pub(super) struct Progress {
     finished: u32,
     /// Some point is not finished.
     is_behind: bool,
-    /// Three points have come.
-    has_triple: bool,
 }
 
 impl Progress {
     /// Every point is finished, or never will be.
     pub(super) fn is_done(&self, was: &Registers) -> bool {
-        let has_no_start = (!self.has_triple || was.seeder.collinear) && was.seeder.step == 0;
-        !self.is_behind || has_no_start
+        !self.is_behind || was.seeder.has_no_start()
     }
 
     pub(super) fn clock(&mut self, was: &Registers) {
         self.finished = if was.command.clears { 0 } else { was.contexts.finished };
         self.is_behind = was.progress.finished != was.command.arrived;
-        self.has_triple = was.command.arrived >= 3;
     }
 }

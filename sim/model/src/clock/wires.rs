@@ -60,18 +60,7 @@ impl ClockModel {
         let ready = was.command.is_ready(was, self.sweeps());
         let word = (inputs.command_valid && ready).then_some(inputs.command_data);
         let done = self.pipeline.completion();
-        let outcome = done.filter(|_| !was.solo.is_at_work()).map(|done| {
-            let context = done.token.context;
-            let around = Around {
-                was,
-                attempt: self.tables.attempts[context],
-                p: self.memory.point_id[context],
-                since: self.memory.since[context],
-                config,
-                defect: self.defect,
-            };
-            Outcome::of(&done, &around)
-        });
+        let outcome = done.filter(|_| !was.solo.is_at_work()).map(|done| self.outcome(&done));
         let solo_push = was.solo.push_request(was);
         let wanted = was.starter.wants(was);
         // The queue takes one bundle, and the vertex memory has one port for points that arrive and points that are taken. Whether a
@@ -107,6 +96,20 @@ impl ClockModel {
             solo_ends: solo_inserts || was.solo.finds_duplicate(),
             solo_inserts,
         }
+    }
+
+    /// What becomes of the context whose visit completes.
+    fn outcome(&self, done: &Completion) -> Outcome {
+        let context = done.token.context;
+        let around = Around {
+            was: &self.registers,
+            attempt: self.tables.attempts[context],
+            p: self.memory.point_id[context],
+            since: self.memory.since[context],
+            config: self.config,
+            defect: self.defect,
+        };
+        Outcome::of(done, &around)
     }
 }
 

@@ -5,9 +5,9 @@ use crate::predicate::{orient2d, Point};
 
 impl Mesh {
     /// The record that holds `p`: a finite triangle with `p` inside or on its border, or a ghost with `p` strictly
-    /// beyond its hull edge. Leaves each triangle over its most negative edge.
-    pub(super) fn locate(&mut self, p: Point) -> u32 {
-        let mut id = self.start;
+    /// beyond its hull edge. Leaves each triangle over its most negative edge, from `start` on.
+    pub(super) fn locate(&mut self, p: Point, start: u32) -> u32 {
+        let mut id = start;
         loop {
             self.counts.walk_visits += 1;
             match self.step(id, p) {

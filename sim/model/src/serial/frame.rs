@@ -87,10 +87,9 @@ impl FrameReceiver {
         Self { is_empty: true, ..Self::default() }
     }
 
-    /// What was begun is no frame, whatever follows: the line had a fault.
+    /// A byte of the line was lost: what was begun is no frame, whatever follows. Between frames that is nothing.
     pub fn spoil(&mut self) {
-        self.is_spoilt = true;
-        self.is_empty = false;
+        self.is_spoilt |= !self.is_empty;
     }
 
     /// One byte; something if it ends a frame.
@@ -196,10 +195,22 @@ mod tests {
             let cut = [&line[..place], &[0], &line[..]].concat();
             assert_eq!(received(&cut).last(), Some(&Received::Frame(good.clone())), "{place}");
         }
-        let mut receiver = FrameReceiver::new();
-        receiver.spoil();
-        let said: Vec<_> = line.iter().filter_map(|&byte| receiver.take(byte)).collect();
-        assert_eq!(said, [Received::Broken]);
+    }
+
+    #[test]
+    fn noise_spoils_the_frame_that_it_falls_into_and_no_other() {
+        let good = data(8);
+        let line = good.to_line();
+        for place in 0..=line.len() {
+            let mut receiver = FrameReceiver::new();
+            let (before, behind) = line.split_at(place);
+            let mut said: Vec<_> = before.iter().filter_map(|&byte| receiver.take(byte)).collect();
+            receiver.spoil();
+            said.extend(behind.iter().chain(&line).filter_map(|&byte| receiver.take(byte)));
+            let is_hit = (1..line.len()).contains(&place);
+            let first = if is_hit { Received::Broken } else { Received::Frame(good.clone()) };
+            assert_eq!(said, [first, Received::Frame(good.clone())], "{place}");
+        }
     }
 
     #[test]

@@ -157,7 +157,7 @@ impl<D: WordDevice> SerialModel<D> {
         self.forget_all();
     }
 
-    /// What came was no byte: its stop bit was low.
+    /// What came was no byte: its stop bit was low. The frame that it fell into is none.
     pub fn spoil(&mut self) {
         self.receiver.spoil();
     }

@@ -179,8 +179,15 @@ fn a_broken_frame_is_told_once() {
     let poll = ask(&mut board, HostFrame::Poll, 0, &[]);
     assert_eq!(poll[0].status, STATUS_OPEN | STATUS_DROPPED);
     assert_eq!(ask(&mut board, HostFrame::Poll, 0, &[])[0].status, STATUS_OPEN);
+    // Between frames noise is nothing.
     board.spoil();
-    assert_eq!(ask(&mut board, HostFrame::Poll, 0, &[]), []);
+    assert_eq!(ask(&mut board, HostFrame::Poll, 0, &[])[0].status, STATUS_OPEN);
+    let line = frame(HostFrame::Poll, 0, &[]).to_line();
+    let (first, rest) = line.split_at(3);
+    first.iter().for_each(|&byte| board.take(byte));
+    board.spoil();
+    rest.iter().for_each(|&byte| board.take(byte));
+    assert_eq!(listen(&mut board), []);
     assert_eq!(ask(&mut board, HostFrame::Poll, 0, &[])[0].status, STATUS_OPEN | STATUS_DROPPED);
 }
 

@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // Every test that includes this uses a part of it.
 
+pub mod batches;
 pub mod bench;
 pub mod mesh_check;
 pub mod sets;

@@ -1,0 +1,136 @@
+//! A memory in block RAM that is written by one clock and read by another.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `write_clock` | in | 1 | writes happen at its rising edge |
+//! | `write_address` | in | A | word to write |
+//! | `write_data` | in | D | its new value |
+//! | `write_enable` | in | 1 | write at this edge |
+//! | `read_clock` | in | 1 | reads happen at its rising edge |
+//! | `read_address` | in | A | word to read |
+//! | `read_enable` | in | 1 | the read port moves at this edge |
+//! | `read_data` | out | D | its value, zero above the stored bits |
+//!
+//! 1. Without `read_enable` both ranks of the read port, array and output register, hold. Writes go on.
+//! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
+//! 3. A word that is written less than a clock of either side before it is read, or at the same time, is undefined in silicon. The design
+//!    never uses such a read; simulation in Rust answers one at the same time with a fixed pattern of alternating bits.
+//! 4. Contents are arbitrary until written.
+//!
+//! Latency: an address that stands before an edge of `read_clock` with `read_enable` is data after the next such edge.
+//!
+//! Source: block RAM with two clocks, which every family has. The Verilog is plain on all of them: no board with primitives of its own
+//! has two clocks.
+
+use rust_hdl_core::prelude::*;
+
+use super::{assert_shape, low_part, unused_part, zero_extended};
+
+/// A memory between two clocks; see the top of this file.
+#[derive(LogicBlock)]
+pub struct DualClockMemory<const A: usize, const D: usize> {
+    /// Clock of the write port.
+    pub write_clock: Signal<In, Clock>,
+    /// Word to write.
+    pub write_address: Signal<In, Bits<A>>,
+    /// Its new value.
+    pub write_data: Signal<In, Bits<D>>,
+    /// Write at this edge.
+    pub write_enable: Signal<In, Bit>,
+    /// Clock of the read port.
+    pub read_clock: Signal<In, Clock>,
+    /// Word to read.
+    pub read_address: Signal<In, Bits<A>>,
+    /// The read port moves at this edge.
+    pub read_enable: Signal<In, Bit>,
+    /// Its value, [`LATENCY`](DualClockMemory::LATENCY) enabled edges later.
+    pub read_data: Signal<Out, Bits<D>>,
+    _address_bits: usize,
+    _stored_bits: usize,
+    _stored_mask: Bits<D>,
+    _memory: Vec<Bits<D>>,
+    _array_read: Bits<D>,
+}
+
+impl<const A: usize, const D: usize> DualClockMemory<A, D> {
+    /// Edges with `read_enable` from address to data.
+    pub const LATENCY: usize = 2;
+
+    /// A memory of `2^address_bits` words of `stored_bits` bits.
+    ///
+    /// # Panics
+    /// If `address_bits` is not in `1..=A` (and at most 20) or `stored_bits` not in `1..=D`.
+    pub fn new(address_bits: usize, stored_bits: usize) -> Self {
+        assert_shape(address_bits, A, stored_bits, D);
+        Self {
+            write_clock: Signal::default(),
+            write_address: Signal::default(),
+            write_data: Signal::default(),
+            write_enable: Signal::default(),
+            read_clock: Signal::default(),
+            read_address: Signal::default(),
+            read_enable: Signal::default(),
+            read_data: Signal::default(),
+            _address_bits: address_bits,
+            _stored_bits: stored_bits,
+            _stored_mask: Bits::<D>::mask() >> (D - stored_bits) as u64,
+            _memory: vec![Bits::default(); 1 << address_bits],
+            _array_read: Bits::default(),
+        }
+    }
+
+    /// What a read that meets a write of the same word gives in simulation.
+    fn poison(&self) -> Bits<D> {
+        (0..D).step_by(2).fold(Bits::default(), |word: Bits<D>, bit| word.replace_bit(bit, true)) & self._stored_mask
+    }
+}
+
+impl<const A: usize, const D: usize> Logic for DualClockMemory<A, D> {
+    fn update(&mut self) {
+        let last = self._memory.len() - 1;
+        let written =
+            (self.write_clock.pos_edge() && self.write_enable.val()).then(|| self.write_address.val().index() & last);
+        if self.read_clock.pos_edge() && self.read_enable.val() {
+            self.read_data.next = self._array_read;
+            let read = self.read_address.val().index() & last;
+            self._array_read = if written == Some(read) { self.poison() } else { self._memory[read] };
+        }
+        if let Some(written) = written {
+            self._memory[written] = self.write_data.val() & self._stored_mask;
+        }
+    }
+
+    fn connect(&mut self) {
+        self.read_data.connect();
+    }
+
+    fn hdl(&self) -> Verilog {
+        let (address_bits, stored_bits) = (self._address_bits, self._stored_bits);
+        let mut code = unused_part("write_address", A, address_bits);
+        code += &unused_part("read_address", A, address_bits);
+        code += &unused_part("write_data", D, stored_bits);
+        code += &format!(
+            "\
+(* ram_style = \"block\", no_rw_check *)
+reg [{top}:0] memory [0:{last}];
+reg [{top}:0] word;
+always @(posedge write_clock) begin
+    if (write_enable) memory[{write}] <= {data};
+end
+always @(posedge read_clock) begin
+    if (read_enable) begin
+        word <= memory[{read}];
+        read_data <= {result};
+    end
+end
+",
+            top = stored_bits - 1,
+            last = (1 << address_bits) - 1,
+            write = low_part("write_address", A, address_bits),
+            data = low_part("write_data", D, stored_bits),
+            read = low_part("read_address", A, address_bits),
+            result = zero_extended("word", D, stored_bits),
+        );
+        Verilog::Custom(code)
+    }
+}

@@ -1,0 +1,91 @@
+//! Watches the answer beats that are taken, and finds the headers with a status other than `Ok`.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | the bus's clock and reset |
+//! | `resets` | in | 1 | the FIFOs are in reset: the next beat is the first of an answer |
+//! | `m_axis_tvalid`, `m_axis_tready`, `m_axis_tdata`, `m_axis_tlast` | in | 1, 1, W, 1 | the answers |
+//! | `took`, `waited`, `ended` | out | 1 | in the clock before a beat was taken; waited; was taken and was the last of its answer |
+//! | `failed`, `header` | out | 1, 32 | in the clock before the first beat of an answer with another status was taken; its header word |
+//!
+//! Latency: 1 clock.
+
+use incircle_protocol::{answer_header, Status};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The watch on answers; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct AnswerWatch<const W: usize> {
+    /// Clock of the bus.
+    pub clock: Signal<In, Clock>,
+    /// Its reset.
+    pub reset: Signal<In, Bit>,
+    /// The FIFOs are in reset.
+    pub resets: Signal<In, Bit>,
+    /// A beat is offered.
+    pub m_axis_tvalid: Signal<In, Bit>,
+    /// It is taken.
+    pub m_axis_tready: Signal<In, Bit>,
+    /// It.
+    pub m_axis_tdata: Signal<In, Bits<W>>,
+    /// It is the last of its answer.
+    pub m_axis_tlast: Signal<In, Bit>,
+    /// A beat was taken.
+    pub took: Signal<Out, Bit>,
+    /// A beat waited.
+    pub waited: Signal<Out, Bit>,
+    /// An answer ended.
+    pub ended: Signal<Out, Bit>,
+    /// An answer had another status.
+    pub failed: Signal<Out, Bit>,
+    /// Its header.
+    pub header: Signal<Out, Bits<32>>,
+    /// A beat of an answer was taken, and not its last one.
+    is_inside: DFF<Bit>,
+    takes: DFF<Bit>,
+    waits: DFF<Bit>,
+    ends: DFF<Bit>,
+    begins: DFF<Bit>,
+    word: DFF<Bits<32>>,
+    is_taken: Signal<Local, Bit>,
+    status: Signal<Local, Bits<8>>,
+}
+
+// The kernel knows where the status stands, and that `Ok` is 0.
+const _: () = assert!(
+    answer_header(0, Status::Ok) == 0 && answer_header(0, Status::UnknownOpcode) == 1 << 16,
+    "the status of an answer is in bits 23 to 16 of its header"
+);
+
+impl<const W: usize> Logic for AnswerWatch<W> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, is_inside, takes, waits, ends, begins, word);
+        self.is_taken.next = self.m_axis_tvalid.val() & self.m_axis_tready.val();
+        self.takes.d.next = self.is_taken.val();
+        self.waits.d.next = self.m_axis_tvalid.val() & (!self.m_axis_tready.val());
+        self.ends.d.next = self.is_taken.val() & self.m_axis_tlast.val();
+        self.begins.d.next = self.is_taken.val() & (!self.is_inside.q.val());
+        self.word.d.next = self.m_axis_tdata.val().get_bits::<32>(0);
+        if self.is_taken.val() {
+            self.is_inside.d.next = !self.m_axis_tlast.val();
+        }
+        if self.resets.val() {
+            self.is_inside.d.next = false;
+        }
+        if self.reset.val() {
+            self.is_inside.d.next = false;
+            self.takes.d.next = false;
+            self.waits.d.next = false;
+            self.ends.d.next = false;
+            self.begins.d.next = false;
+        }
+        self.took.next = self.takes.q.val();
+        self.waited.next = self.waits.q.val();
+        self.ended.next = self.ends.q.val();
+        self.header.next = self.word.q.val();
+        self.status.next = self.word.q.val().get_bits::<8>(16);
+        self.failed.next = self.begins.q.val() & self.status.val().any();
+    }
+}

@@ -1,0 +1,265 @@
+//! The bus's side of the stream link.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `bus_reset_n` | in | 1 | the bus's clock; its reset, active low |
+//! | `s_axis_tvalid`, `s_axis_tkeep` | in | 1, K | a command beat is offered; its bytes |
+//! | `m_axis_tvalid`, `m_axis_tready`, `m_axis_tdata`, `m_axis_tkeep`, `m_axis_tlast` | out, in, out, out, out | 1, 1, W, K, 1 | answer beats |
+//! | `s_axi_...` | | | the registers, as in `RegisterPort` |
+//! | `push`, `is_full`, `is_fetched` | out, in, in | 1 | writer's side of the command FIFO |
+//! | `entry_valid`, `entry`, `pop`, `is_empty` | in, in, out, in | 1, E, 1, 1 | reader's side of the answer FIFO; the highest bit of an entry marks the last beat of an answer |
+//! | `request` | out | 1 | to the core's clock: reset. A register |
+//! | `reply`, `core_beat`, `core_busy` | in | 1 | from the core's clock, each a register: it is in reset; changes while it runs; something is held or under way |
+//! | `resets` | out | 1 | the bus's side of both FIFOs is in reset |
+//!
+//! 1. All is in the bus's clock. What comes from the core's clock goes into a `Synchroniser` and nowhere else.
+//!
+//! Latency: see the blocks.
+
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+use super::{AnswerWatch, BeatGate, RegisterBlock, ResetRequest};
+use crate::leaf::Synchroniser;
+
+/// The bus's side; see the top of this file.
+#[derive(LogicBlock)]
+pub struct BusSide<const W: usize, const K: usize, const E: usize> {
+    /// Clock of the bus.
+    pub clock: Signal<In, Clock>,
+    /// Its reset, active low.
+    pub bus_reset_n: Signal<In, Bit>,
+    /// A command beat is offered.
+    pub s_axis_tvalid: Signal<In, Bit>,
+    /// Its bytes.
+    pub s_axis_tkeep: Signal<In, Bits<K>>,
+    /// An answer beat is offered.
+    pub m_axis_tvalid: Signal<Out, Bit>,
+    /// It is taken.
+    pub m_axis_tready: Signal<In, Bit>,
+    /// It.
+    pub m_axis_tdata: Signal<Out, Bits<W>>,
+    /// Its bytes: all.
+    pub m_axis_tkeep: Signal<Out, Bits<K>>,
+    /// It is the last one of its answer.
+    pub m_axis_tlast: Signal<Out, Bit>,
+    /// An address to write is offered.
+    pub s_axi_awvalid: Signal<In, Bit>,
+    /// It is taken.
+    pub s_axi_awready: Signal<Out, Bit>,
+    /// It.
+    pub s_axi_awaddr: Signal<In, Bits<12>>,
+    /// Data to write is offered.
+    pub s_axi_wvalid: Signal<In, Bit>,
+    /// It is taken.
+    pub s_axi_wready: Signal<Out, Bit>,
+    /// It.
+    pub s_axi_wdata: Signal<In, Bits<32>>,
+    /// Its bytes that count.
+    pub s_axi_wstrb: Signal<In, Bits<4>>,
+    /// A write is answered.
+    pub s_axi_bvalid: Signal<Out, Bit>,
+    /// That is taken.
+    pub s_axi_bready: Signal<In, Bit>,
+    /// Whether it was done.
+    pub s_axi_bresp: Signal<Out, Bits<2>>,
+    /// An address to read is offered.
+    pub s_axi_arvalid: Signal<In, Bit>,
+    /// It is taken.
+    pub s_axi_arready: Signal<Out, Bit>,
+    /// It.
+    pub s_axi_araddr: Signal<In, Bits<12>>,
+    /// A read is answered.
+    pub s_axi_rvalid: Signal<Out, Bit>,
+    /// That is taken.
+    pub s_axi_rready: Signal<In, Bit>,
+    /// The value.
+    pub s_axi_rdata: Signal<Out, Bits<32>>,
+    /// Whether it is one.
+    pub s_axi_rresp: Signal<Out, Bits<2>>,
+    /// A whole command beat is offered.
+    pub push: Signal<Out, Bit>,
+    /// The command FIFO takes none.
+    pub is_full: Signal<In, Bit>,
+    /// All command beats have been fetched.
+    pub is_fetched: Signal<In, Bit>,
+    /// An answer beat is there.
+    pub entry_valid: Signal<In, Bit>,
+    /// It, and whether it is the last of its answer.
+    pub entry: Signal<In, Bits<E>>,
+    /// It is taken.
+    pub pop: Signal<Out, Bit>,
+    /// No answer beat is there or on its way.
+    pub is_empty: Signal<In, Bit>,
+    /// To the core's clock: reset.
+    pub request: Signal<Out, Bit>,
+    /// From the core's clock: it is in reset.
+    pub reply: Signal<In, Bit>,
+    /// From the core's clock: changes while it runs.
+    pub core_beat: Signal<In, Bit>,
+    /// From the core's clock: something is held or under way.
+    pub core_busy: Signal<In, Bit>,
+    /// The bus's side of the FIFOs is in reset.
+    pub resets: Signal<Out, Bit>,
+    gate: BeatGate<K>,
+    watch: AnswerWatch<W>,
+    registers: RegisterBlock,
+    resetting: ResetRequest,
+    reply_seen: Synchroniser<Bit>,
+    beat_seen: Synchroniser<Bit>,
+    busy_seen: Synchroniser<Bit>,
+    /// What leaves one side may be seen late by the other, so that something is under way counts for two clocks more.
+    busy_before: DFF<Bit>,
+    busy_earlier: DFF<Bit>,
+    reset: Signal<Local, Bit>,
+    is_busy: Signal<Local, Bit>,
+    last_mark: Signal<Local, Bits<E>>,
+    is_last: Signal<Local, Bit>,
+    all_bytes: Constant<Bits<K>>,
+    mark: Constant<Bits<E>>,
+}
+
+impl<const W: usize, const K: usize, const E: usize> BusSide<W, K, E> {
+    /// The bus's side of a core of this configuration.
+    ///
+    /// # Panics
+    /// If K is not W / 8, or E not W + 1.
+    pub fn new(config: Config) -> Self {
+        assert!(K == W / 8 && E == W + 1, "a beat of {W} bits has {} bytes and makes entries of {} bits", W / 8, W + 1);
+        let one: Bits<E> = Bits::from(1);
+        Self {
+            clock: Signal::default(),
+            bus_reset_n: Signal::default(),
+            s_axis_tvalid: Signal::default(),
+            s_axis_tkeep: Signal::default(),
+            m_axis_tvalid: Signal::default(),
+            m_axis_tready: Signal::default(),
+            m_axis_tdata: Signal::default(),
+            m_axis_tkeep: Signal::default(),
+            m_axis_tlast: Signal::default(),
+            s_axi_awvalid: Signal::default(),
+            s_axi_awready: Signal::default(),
+            s_axi_awaddr: Signal::default(),
+            s_axi_wvalid: Signal::default(),
+            s_axi_wready: Signal::default(),
+            s_axi_wdata: Signal::default(),
+            s_axi_wstrb: Signal::default(),
+            s_axi_bvalid: Signal::default(),
+            s_axi_bready: Signal::default(),
+            s_axi_bresp: Signal::default(),
+            s_axi_arvalid: Signal::default(),
+            s_axi_arready: Signal::default(),
+            s_axi_araddr: Signal::default(),
+            s_axi_rvalid: Signal::default(),
+            s_axi_rready: Signal::default(),
+            s_axi_rdata: Signal::default(),
+            s_axi_rresp: Signal::default(),
+            push: Signal::default(),
+            is_full: Signal::default(),
+            is_fetched: Signal::default(),
+            entry_valid: Signal::default(),
+            entry: Signal::default(),
+            pop: Signal::default(),
+            is_empty: Signal::default(),
+            request: Signal::default(),
+            reply: Signal::default(),
+            core_beat: Signal::default(),
+            core_busy: Signal::default(),
+            resets: Signal::default(),
+            gate: BeatGate::default(),
+            watch: AnswerWatch::default(),
+            registers: RegisterBlock::new(config, W),
+            resetting: ResetRequest::default(),
+            reply_seen: Synchroniser::default(),
+            beat_seen: Synchroniser::default(),
+            busy_seen: Synchroniser::default(),
+            busy_before: DFF::default(),
+            busy_earlier: DFF::default(),
+            reset: Signal::default(),
+            is_busy: Signal::default(),
+            last_mark: Signal::default(),
+            is_last: Signal::default(),
+            all_bytes: Constant::new(Bits::<K>::mask()),
+            mark: Constant::new(one << W as u64),
+        }
+    }
+}
+
+impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, busy_before, busy_earlier);
+        clock!(self, clock, gate, watch, registers, resetting, reply_seen, beat_seen, busy_seen);
+
+        // Resets.
+        self.reset.next = !self.bus_reset_n.val();
+        self.gate.reset.next = self.reset.val();
+        self.watch.reset.next = self.reset.val();
+        self.registers.reset.next = self.reset.val();
+        self.resetting.reset.next = self.reset.val();
+        self.resetting.asks.next = self.registers.asks_reset.val();
+        self.request.next = self.resetting.request.val();
+        self.reply_seen.sent.next = self.reply.val();
+        self.resetting.reply.next = self.reply_seen.received.val();
+        self.beat_seen.sent.next = self.core_beat.val();
+        self.resetting.core_beat.next = self.beat_seen.received.val();
+        self.resets.next = self.reset.val() | self.resetting.resets.val();
+        self.watch.resets.next = self.resetting.resets.val();
+        self.registers.resets.next = self.resetting.resets.val();
+        self.registers.core_runs.next = self.resetting.core_runs.val();
+
+        // Commands.
+        self.gate.s_axis_tvalid.next = self.s_axis_tvalid.val();
+        self.gate.s_axis_tkeep.next = self.s_axis_tkeep.val();
+        self.gate.is_full.next = self.is_full.val();
+        self.push.next = self.gate.push.val();
+        self.registers.took_command.next = self.gate.took.val();
+        self.registers.command_waited.next = self.gate.waited.val();
+        self.registers.dropped.next = self.gate.dropped.val();
+
+        // Answers.
+        self.last_mark.next = self.entry.val() & self.mark.val();
+        self.is_last.next = self.last_mark.val().any();
+        self.m_axis_tvalid.next = self.entry_valid.val();
+        self.m_axis_tdata.next = bit_cast::<W, E>(self.entry.val());
+        self.m_axis_tkeep.next = self.all_bytes.val();
+        self.m_axis_tlast.next = self.is_last.val();
+        self.pop.next = self.entry_valid.val() & self.m_axis_tready.val();
+        self.watch.m_axis_tvalid.next = self.entry_valid.val();
+        self.watch.m_axis_tready.next = self.m_axis_tready.val();
+        self.watch.m_axis_tdata.next = bit_cast::<W, E>(self.entry.val());
+        self.watch.m_axis_tlast.next = self.is_last.val();
+        self.registers.took_answer.next = self.watch.took.val();
+        self.registers.answer_waited.next = self.watch.waited.val();
+        self.registers.answer_ended.next = self.watch.ended.val();
+        self.registers.failed.next = self.watch.failed.val();
+        self.registers.header.next = self.watch.header.val();
+
+        // What is under way.
+        self.busy_seen.sent.next = self.core_busy.val();
+        self.is_busy.next = (!self.is_fetched.val()) | self.busy_seen.received.val() | (!self.is_empty.val());
+        self.busy_before.d.next = self.is_busy.val();
+        self.busy_earlier.d.next = self.busy_before.q.val();
+        self.registers.is_busy.next = self.is_busy.val() | self.busy_before.q.val() | self.busy_earlier.q.val();
+
+        // Registers.
+        self.registers.s_axi_awvalid.next = self.s_axi_awvalid.val();
+        self.s_axi_awready.next = self.registers.s_axi_awready.val();
+        self.registers.s_axi_awaddr.next = self.s_axi_awaddr.val();
+        self.registers.s_axi_wvalid.next = self.s_axi_wvalid.val();
+        self.s_axi_wready.next = self.registers.s_axi_wready.val();
+        self.registers.s_axi_wdata.next = self.s_axi_wdata.val();
+        self.registers.s_axi_wstrb.next = self.s_axi_wstrb.val();
+        self.s_axi_bvalid.next = self.registers.s_axi_bvalid.val();
+        self.registers.s_axi_bready.next = self.s_axi_bready.val();
+        self.s_axi_bresp.next = self.registers.s_axi_bresp.val();
+        self.registers.s_axi_arvalid.next = self.s_axi_arvalid.val();
+        self.s_axi_arready.next = self.registers.s_axi_arready.val();
+        self.registers.s_axi_araddr.next = self.s_axi_araddr.val();
+        self.s_axi_rvalid.next = self.registers.s_axi_rvalid.val();
+        self.registers.s_axi_rready.next = self.s_axi_rready.val();
+        self.s_axi_rdata.next = self.registers.s_axi_rdata.val();
+        self.s_axi_rresp.next = self.registers.s_axi_rresp.val();
+    }
+}

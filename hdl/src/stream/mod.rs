@@ -1,0 +1,37 @@
+//! The stream link: beats and registers of an AXI bus around the core's two streams of words, with a clock of its own.
+
+mod answer_beats;
+mod answer_pairs;
+mod answer_watch;
+mod async_fifo;
+mod beat_gate;
+mod beat_words;
+mod bus_side;
+mod core_side;
+mod faults;
+mod progress;
+mod register_block;
+mod register_port;
+mod registers;
+mod reset_reply;
+mod reset_request;
+mod stream_link;
+mod traffic;
+
+pub use answer_beats::AnswerBeats;
+pub use answer_pairs::AnswerPairs;
+pub use answer_watch::AnswerWatch;
+pub use async_fifo::AsyncFifo;
+pub use beat_gate::BeatGate;
+pub use beat_words::BeatWords;
+pub use bus_side::BusSide;
+pub use core_side::CoreSide;
+pub use faults::Faults;
+pub use progress::Progress;
+pub use register_block::RegisterBlock;
+pub use register_port::RegisterPort;
+pub use registers::Registers;
+pub use reset_reply::ResetReply;
+pub use reset_request::{ResetRequest, ResetState};
+pub use stream_link::StreamLink;
+pub use traffic::Traffic;

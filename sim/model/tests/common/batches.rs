@@ -1,0 +1,94 @@
+//! Batches: jobs side by side in one memory, as points in the order in which they are sent, and the mesh of each job taken out again.
+
+use super::{sets, Random};
+use incircle_protocol::{infinite_vertex, Config, Layout};
+
+/// The points of a batch of so many jobs.
+#[derive(Clone, Debug)]
+pub struct Batch {
+    /// The points of each job, its first three in front.
+    pub jobs: Vec<Vec<u32>>,
+}
+
+impl Batch {
+    /// Jobs of about `most` points each and of any kind; the first three of each span a triangle if `spans`, or may not.
+    pub fn random(random: &mut Random, jobs: u32, most: u32, spans: bool) -> Self {
+        let mut made = Vec::new();
+        for _ in 0..jobs {
+            let count = 3 + random.below(most.max(1));
+            let side = random.pick(&[3, 5, 8, 40, 300, 1 << 16]);
+            let mut points = match random.below(6) {
+                0 => sets::stuttering(random, count, side),
+                1 => sets::parabola(random, count.min(255)),
+                2 => sets::wheel(random, count),
+                _ => sets::boxed(random, count, side),
+            };
+            if spans {
+                points = sets::started(points);
+            }
+            made.push(points);
+        }
+        Self { jobs: made }
+    }
+
+    /// All points in the order in which they are sent: three of each job, then one of each in turn. A job that is over repeats its first
+    /// point until the last job is.
+    pub fn points(&self) -> Vec<u32> {
+        let mut points: Vec<u32> = self.jobs.iter().flat_map(|job| job[..3].to_vec()).collect();
+        let longest = self.jobs.iter().map(Vec::len).max().unwrap_or(0);
+        for place in 3..longest {
+            points.extend(self.jobs.iter().map(|job| job.get(place).copied().unwrap_or(job[0])));
+        }
+        points
+    }
+}
+
+/// The job that a vertex belongs to.
+fn job_of(vertex: u32, jobs: u32) -> u32 {
+    match vertex.checked_sub(3 * jobs) {
+        None => vertex / 3,
+        Some(place) => place % jobs,
+    }
+}
+
+/// Its number within the job.
+fn place_of(vertex: u32, jobs: u32) -> u32 {
+    match vertex.checked_sub(3 * jobs) {
+        None => vertex % 3,
+        Some(place) => 3 + place / jobs,
+    }
+}
+
+/// The records of each job as if it had been alone on a device of this configuration: its own ids, in the order of the shared ones.
+///
+/// # Errors
+/// A record with vertices of two jobs, or a link from one job to another.
+pub fn taken_apart(records: &[[u32; 3]], jobs: u32, config: Config) -> Result<Vec<Vec<[u32; 3]>>, String> {
+    let layout = Layout::of(16, config.points);
+    let infinite = infinite_vertex(config.points);
+    let mut apart = vec![Vec::new(); jobs as usize];
+    let mut places = Vec::with_capacity(records.len());
+    for (id, words) in records.iter().enumerate() {
+        let (v, _) = layout.record_from_words(words);
+        let owners: Vec<u32> = v.iter().filter(|&&v| v != infinite).map(|&v| job_of(v, jobs)).collect();
+        if owners.windows(2).any(|pair| pair[0] != pair[1]) || owners.len() < 2 {
+            return Err(format!("record {id} has vertices of the jobs {owners:?}"));
+        }
+        let job: &mut Vec<_> = &mut apart[owners[0] as usize];
+        places.push((owners[0], job.len() as u32));
+        job.push(*words);
+    }
+    for (job, records) in (0..).zip(&mut apart) {
+        for words in records {
+            let locked = words[0] >> 31 != 0;
+            let (v, n) = layout.record_from_words(words);
+            if n.iter().any(|&n| places.get(n as usize).is_none_or(|place| place.0 != job)) {
+                return Err(format!("a record of job {job} leads to {n:?}"));
+            }
+            let v = v.map(|v| if v == infinite { v } else { place_of(v, jobs) });
+            let [a, b, c, ..] = layout.record_to_words(v, n.map(|n| places[n as usize].1), locked);
+            *words = [a, b, c];
+        }
+    }
+    Ok(apart)
+}

@@ -1,0 +1,18 @@
+//! Cores behind stream links, with one context: what they answer is then what the software model answers.
+
+use incircle_hdl::export;
+use incircle_protocol::{Config, SMALL, TINY};
+
+const TOPS: [(&str, Config, u32); 2] = [
+    ("stream_tiny_64", Config { contexts: 1, ..TINY }, 64),
+    ("stream_small_128", Config { contexts: 1, ..SMALL }, 128),
+];
+
+/// Every device.
+pub fn all() -> Vec<(&'static str, String)> {
+    TOPS.map(|(name, config, beat_bits)| {
+        let verilog = export::stream_top(config, beat_bits, false);
+        (name, verilog.unwrap_or_else(|error| panic!("device {name}: {error}")))
+    })
+    .into()
+}

@@ -1,0 +1,70 @@
+// What the FIFO between two clocks promises, and why it keeps it: put into its module, `stream_fifo_4x2`, by tests/blocks_stream_proof.rs.
+//
+// Pointers are taken as numbers of 3 bits, and compared by how far one is behind another, round the clock of eight. The writer is at w; the
+// reader's two cells hold older values of it, w1 and w2; the reader is behind those, at r; the writer's cells hold older values of that, r1 and r2.
+// Numbers of Gray codes.
+function [2:0] number(input [2:0] code);
+    number = {code[2], code[2] ^ code[1], code[2] ^ code[1] ^ code[0]};
+endfunction
+// Resets at the start only, until either side has seen four edges with both in reset.
+reg write_began = 0, read_began = 0;
+reg [1:0] write_edges = 0, read_edges = 0;
+wire both_began = write_began && read_began;
+wire is_reset = !(write_edges == 3 && read_edges == 3);
+always @(posedge write_clock) begin
+    write_began <= 1;
+    if (both_began && write_edges != 3) write_edges <= write_edges + 1;
+end
+always @(posedge read_clock) begin
+    read_began <= 1;
+    if (both_began && read_edges != 3) read_edges <= read_edges + 1;
+end
+always @(*) begin
+    assume (write_reset == is_reset);
+    assume (read_reset == is_reset);
+    assume (!pop || valid);
+end
+// The entry of some number, as it was pushed.
+reg [2:0] chosen_before;
+always @($global_clock) chosen_before <= chosen;
+always @(*) assume (chosen == chosen_before);
+reg [1:0] entry;
+always @(posedge write_clock) if (push && !is_full && write_count$q == chosen) entry <= push_data;
+// Entries that were popped.
+reg [2:0] popped = 0;
+always @(posedge read_clock) popped <= read_reset ? 0 : popped + pop;
+
+wire [2:0] w = write_count$q, r = read_count$q;
+wire [2:0] w1 = number(write_seen_first), w2 = number(write_seen$received);
+wire [2:0] r1 = number(read_seen_first), r2 = number(read_seen$received);
+wire [2:0] w_w1 = w - w1, w1_w2 = w1 - w2, w2_r = w2 - r;
+wire [2:0] w_r = w - r, r_r1 = r - r1, r1_r2 = r1 - r2, w_r2 = w - r2;
+wire [2:0] ahead = chosen - r;
+wire [2:0] in_array = r - 1, in_output = r - 1 - fetched$q;
+always @(*) begin
+    // What the user relies on.
+    if (!is_reset) begin
+        assert (in_output + 3'd1 - shown$q == popped);
+        if (valid && in_output == chosen) assert (data == entry);
+        assert (w_r <= 4);
+    end
+    // Why it is so.
+    if (is_reset) begin
+        if (write_began) assert (w == 0 && write_gray$q == 0 && full$q);
+        if (read_began) assert (r == 0 && read_gray$q == 0 && empty$q && !fetched$q && !shown$q && popped == 0);
+        if (!both_began) assert (write_edges == 0 && read_edges == 0);
+        if (write_edges >= 1) assert (read_seen_first == 0);
+        if (write_edges >= 2) assert (read_seen$received == 0);
+        if (read_edges >= 1) assert (write_seen_first == 0);
+        if (read_edges >= 2) assert (write_seen$received == 0);
+    end else begin
+        assert (write_began && read_began);
+        assert (number(write_gray$q) == w && number(read_gray$q) == r);
+        assert ({2'b0, w_w1} + w1_w2 + w2_r <= 4);
+        assert ({2'b0, w_r} + r_r1 + r1_r2 <= 4);
+        if (!full$q) assert (w_r2 != 4);
+        if (!empty$q) assert (w2_r != 0);
+        if (ahead < w_r) assert (chosen_word == entry);
+        if (fetched$q && in_array == chosen) assert (array_word == entry);
+    end
+end
