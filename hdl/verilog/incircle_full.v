@@ -26841,6 +26841,9 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
     input wire  takes;
     
     // Stub signals
+    reg  vertices_alone$d;
+    wire  vertices_alone$q;
+    reg  vertices_alone$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -26892,6 +26895,11 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
     reg  [14:0] one;
     
     // Sub module instances
+    incircle_core_logic$responder$records$vertices_alone vertices_alone(
+        .d(vertices_alone$d),
+        .q(vertices_alone$q),
+        .clock(vertices_alone$clock)
+    );
     incircle_core_logic$responder$records$record_id record_id(
         .d(record_id$d),
         .q(record_id$q),
@@ -26949,10 +26957,12 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
     
     // Update code
     always @(*) begin
+        vertices_alone$clock = clock;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
         fetching$clock = clock;
+        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -26961,8 +26971,9 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
         vertices$clock = clock;
         no_word = 32'h0;
         one = 32'h1;
+        vertices_alone$d = is_packed;
         may_ask = (~fetching$q) & (~record$holds);
-        if (is_packed) begin
+        if (vertices_alone$q) begin
             may_ask = vertices$has_room;
         end
         asks = runs & some_are_left$q & may_ask;
@@ -26991,7 +27002,7 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
         record$n1 = n1;
         record$n2 = n2;
         record$was_set = was_set;
-        packs = is_packed & record$holds;
+        packs = vertices_alone$q & record$holds;
         record$takes_whole = packs;
         vertices$reset = reset;
         vertices$starts = starts;
@@ -27000,14 +27011,14 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
         vertices$v0 = record$vertex0;
         vertices$v1 = record$vertex1;
         vertices$v2 = record$vertex2;
-        record$takes = takes & (~is_packed);
-        vertices$takes = takes & is_packed;
+        record$takes = takes & (~vertices_alone$q);
+        vertices$takes = takes & vertices_alone$q;
         valid = record$holds;
         beat[(64'h0)+:(32)] = record$word;
         beat[(64'h20)+:(32)] = no_word;
         beat[(64'h40)+:(1)] = 1'b0;
         beat[(64'h41)+:(1)] = record$is_at_last & (~some_are_left$q);
-        if (is_packed) begin
+        if (vertices_alone$q) begin
             valid = vertices$valid;
             beat = vertices$beat;
         end
@@ -28163,6 +28174,25 @@ module incircle_core_logic$responder$records$vertices$waiting(d,q,clock);
     end
           
 endmodule // incircle_core_logic$responder$records$vertices$waiting
+
+
+module incircle_core_logic$responder$records$vertices_alone(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$vertices_alone
 
 
 module incircle_core_logic$responder$state(d,q,clock);

@@ -11,7 +11,7 @@ pub enum Counter {
     InsertCycles = 0,
     /// Those of them in which the engine had no work because no point had come (2 words).
     WaitCycles = 2,
-    /// Clock cycles from a `Read` accepted to its last word taken (2 words).
+    /// Clock cycles from a `Read` or `Triangles` accepted to its last word taken (2 words).
     ReadCycles = 4,
     /// Points inserted into the mesh (the first three included).
     Insertions = 6,

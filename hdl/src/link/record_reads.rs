@@ -4,14 +4,15 @@
 //! |---|---|---|---|
 //! | `clock`, `reset` | in | 1 | reset drops everything |
 //! | `starts`, `first`, `count` | in | 1, 15, 15 | the payload is of so many records from this one on; only when nothing of another one is left |
-//! | `is_packed` | in | 1 | it has their vertices alone; stands still while `runs` |
+//! | `is_packed` | in | 1 | it has their vertices alone; stands still from the clock before `runs` on |
 //! | `runs` | in | 1 | the payload is being sent |
 //! | `read`, `read_id` | out | 1, 15 | a record is wanted |
 //! | `read_done`, `v0..v2`, `n0..n2`, `was_set` | in | 1, 15, 1 | it has come; records come in the order in which they were wanted |
 //! | `valid`, `beat` | out | 1, AnswerBeat | the first beat of the payload that is left; the payload ends with the one that says `last` |
 //! | `takes` | in | 1 | it is taken at this edge; only while `valid` |
 //!
-//! 1. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
+//! 1. `read` goes on to the addresses of the triangle memory, so `is_packed` passes a register before it.
+//! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
 //!
 //! Latency: 1 clock from `read_done` to the first word of the record, 2 to the beat that its vertices fill.
 
@@ -62,6 +63,7 @@ pub struct RecordReads {
     pub beat: Signal<Out, AnswerBeat>,
     /// It is taken.
     pub takes: Signal<In, Bit>,
+    vertices_alone: DFF<Bit>,
     record_id: DFF<Bits<15>>,
     /// Records still to be read.
     left: DFF<Bits<15>>,
@@ -79,14 +81,15 @@ pub struct RecordReads {
 impl Logic for RecordReads {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, record_id, left, some_are_left, fetching);
+        dff_setup!(self, clock, vertices_alone, record_id, left, some_are_left, fetching);
         clock!(self, clock, record, vertices);
         self.no_word.next = 0.into();
         self.one.next = 1.into();
+        self.vertices_alone.d.next = self.is_packed.val();
 
         // A whole record is fetched when the one before has been taken.
         self.may_ask.next = (!self.fetching.q.val()) & (!self.record.holds.val());
-        if self.is_packed.val() {
+        if self.vertices_alone.q.val() {
             self.may_ask.next = self.vertices.has_room.val();
         }
         self.asks.next = self.runs.val() & self.some_are_left.q.val() & self.may_ask.val();
@@ -117,7 +120,7 @@ impl Logic for RecordReads {
         self.record.n1.next = self.n1.val();
         self.record.n2.next = self.n2.val();
         self.record.was_set.next = self.was_set.val();
-        self.packs.next = self.is_packed.val() & self.record.holds.val();
+        self.packs.next = self.vertices_alone.q.val() & self.record.holds.val();
         self.record.takes_whole.next = self.packs.val();
         self.vertices.reset.next = self.reset.val();
         self.vertices.starts.next = self.starts.val();
@@ -128,14 +131,14 @@ impl Logic for RecordReads {
         self.vertices.v2.next = self.record.vertex2.val();
 
         // What is sent of it.
-        self.record.takes.next = self.takes.val() & (!self.is_packed.val());
-        self.vertices.takes.next = self.takes.val() & self.is_packed.val();
+        self.record.takes.next = self.takes.val() & (!self.vertices_alone.q.val());
+        self.vertices.takes.next = self.takes.val() & self.vertices_alone.q.val();
         self.valid.next = self.record.holds.val();
         self.beat.next.low = self.record.word.val();
         self.beat.next.high = self.no_word.val();
         self.beat.next.both = false;
         self.beat.next.last = self.record.is_at_last.val() & (!self.some_are_left.q.val());
-        if self.is_packed.val() {
+        if self.vertices_alone.q.val() {
             self.valid.next = self.vertices.valid.val();
             self.beat.next = self.vertices.beat.val();
         }
