@@ -1,36 +1,54 @@
-//! Exports each named configuration of the core afresh, and the boards that are simulated, and verilates them.
+//! Exports each named configuration of the core afresh, and the boards and cards that are simulated, and verilates them.
 
 #[path = "src/serial/board.rs"]
 mod board;
 
 use incircle_hdl::export;
-use incircle_protocol::{FULL, SMALL};
+use incircle_protocol::{Config, FULL, SMALL};
 use verilated::build::{Builder, ModelSource, Optimisation};
 
-/// Root modules of the exported core and of the core behind its serial link.
+/// Root modules of the exported core, of the core behind its serial link, and behind its stream link.
 const TOP: &str = "incircle_core";
 const SERIAL_TOP: &str = "incircle_serial_top";
+const STREAM_TOP: &str = "incircle_stream_top";
+/// The cards that are simulated, with the bits of their beats.
+const CARDS: [(Config, u32); 3] = [(SMALL, 64), (SMALL, 128), (FULL, 64)];
 
 fn main() {
+    println!("cargo:rerun-if-env-changed=INCIRCLE_ONLY");
+    // For work on a few of them: only models whose name begins with one of these prefixes, separated by commas, are built.
+    let only = std::env::var("INCIRCLE_ONLY").unwrap_or_default();
+    let is_wanted = |name: &str| only.is_empty() || only.split(',').any(|prefix| name.starts_with(prefix));
     let mut builder = Builder::new();
     for config in incircle_protocol::NAMED {
-        let verilog =
-            export::core(config, false).unwrap_or_else(|error| panic!("configuration {}: {error}", config.name));
-        builder = builder.model(
-            ModelSource::new(&format!("core_{}", config.name), TOP, verilog)
-                .trace(true)
-                .optimisation(Optimisation::Fast),
-        );
+        let name = format!("core_{}", config.name);
+        if is_wanted(&name) {
+            let verilog = exported(&name, export::core(config, false));
+            let source = ModelSource::new(&name, TOP, verilog).trace(true);
+            builder = builder.model(source.optimisation(Optimisation::Fast));
+        }
     }
     for config in [SMALL, FULL] {
-        let verilog = export::serial_top(config, board::board_link(config), false)
-            .unwrap_or_else(|error| panic!("board {}: {error}", config.name));
         let name = format!("serial_{}", config.name);
-        builder = builder.model(ModelSource::new(&name, SERIAL_TOP, verilog).optimisation(Optimisation::Fast));
+        if is_wanted(&name) {
+            let verilog = exported(&name, export::serial_top(config, board::board_link(config), false));
+            builder = builder.model(ModelSource::new(&name, SERIAL_TOP, verilog).optimisation(Optimisation::Fast));
+        }
+    }
+    for (config, beat_bits) in CARDS {
+        let name = format!("stream_{}_{beat_bits}", config.name);
+        if is_wanted(&name) {
+            let verilog = exported(&name, export::stream_top(config, beat_bits, false));
+            builder = builder.model(ModelSource::new(&name, STREAM_TOP, verilog).optimisation(Optimisation::Fast));
+        }
     }
     // For the tests of the device's streams, without a core behind them.
     match ModelSource::file("echo", "echo", "tests/echo.v") {
         Ok(echo) => builder.model(echo.trace(true)).compile(),
         Err(error) => panic!("{error}"),
     }
+}
+
+fn exported(name: &str, verilog: Result<String, export::ExportError>) -> String {
+    verilog.unwrap_or_else(|error| panic!("{name}: {error}"))
 }

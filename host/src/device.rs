@@ -10,6 +10,7 @@ use crate::cpu::{self, CPU_NAME};
 use crate::error::Error;
 use crate::link::{Limit, Link};
 use crate::model::{ModelTransport, MODEL_NAME};
+use crate::pcie::{CardAddress, PcieTransport};
 use crate::serial::{Address, SerialTransport, LONGEST};
 use crate::session::Session;
 use crate::transport::Transport;
@@ -50,17 +51,21 @@ impl Device {
     /// - `serial:PORT?baud=B&slow=S`: the same at `B` bits per second (3,000,000 unless given), or less where that cannot be had, and with
     ///   all times of the link, and those that the library chooses, stretched `S` times for a simulated board.
     ///
+    /// - `pcie:N`: the card `N` in a PCIe slot, at the driver XDMA. It is locked and reset.
+    /// - `pcie:DIR`: the card whose three files are in a directory: `xdma0_h2c_0`, `xdma0_c2h_0` and `xdma0_user`.
+    ///
     /// Other devices come through [`Device::from_transport`].
     ///
     /// # Errors
-    /// [`Error::Address`] for an unknown address, [`Error::Port`] for a port that cannot be opened, and the errors of
-    /// [`Device::model`].
+    /// [`Error::Address`] for an unknown address, [`Error::Port`] and [`Error::Card`] for a port or a card that cannot be opened,
+    /// [`Error::Link`] for a card whose registers are not those of a sound one, and the errors of [`Device::model`].
     pub fn open(address: &str) -> Result<Self, Error> {
         match Choice::parse(address).map_err(|reason| Error::Address { address: address.to_owned(), reason })? {
             Choice::Cpu(threads) => Ok(Self::cpu(threads)),
             Choice::Model { coord_bits, capacity } => Self::model(coord_bits, capacity),
             Choice::Clock(config) => Self::clock_model(config),
             Choice::Serial(address) => Ok(Self::from_transport(Box::new(SerialTransport::open(&address)?))),
+            Choice::Pcie(address) => Ok(Self::from_transport(Box::new(PcieTransport::open(&address)?))),
         }
     }
 
@@ -119,7 +124,11 @@ impl Device {
         match &mut self.engine {
             Engine::Cpu(threads) => Ok(Session::of_cpu(cpu::identity(*threads))),
             Engine::Link(link) => {
-                let identity = link.hello(Limit::of(timeout))?;
+                let limit = Limit::of(timeout);
+                let identity = match link.hello(limit) {
+                    Err(error) if link.recover(&error, limit)? => link.hello(limit)?,
+                    result => result?,
+                };
                 Ok(Session::new(link, identity))
             }
         }
@@ -142,6 +151,7 @@ enum Choice {
     Model { coord_bits: u32, capacity: u32 },
     Clock(Config),
     Serial(Address),
+    Pcie(CardAddress),
 }
 
 impl Choice {
@@ -149,6 +159,9 @@ impl Choice {
     fn parse(address: &str) -> Result<Self, String> {
         if let Some(serial) = Address::parse(address) {
             return serial.map(Self::Serial);
+        }
+        if let Some(card) = CardAddress::parse(address) {
+            return card.map(Self::Pcie);
         }
         let (name, choices) = address.split_once('?').unwrap_or((address, ""));
         let items = choices.split('&').filter(|item| !item.is_empty());
@@ -158,8 +171,8 @@ impl Choice {
             MODEL_NAME => Self::parse_model(items),
             CLOCK_NAME => Self::parse_clock(items),
             _ => Err(
-                "this library opens \"cpu\", \"model\", \"clock\" and \"serial:PORT\" by name, other devices from a \
-                      transport"
+                "this library opens \"cpu\", \"model\", \"clock\", \"serial:PORT\" and \"pcie:N\" by name, other devices from a \
+                 transport"
                     .to_owned(),
             ),
         }
@@ -235,6 +248,9 @@ mod tests {
             "modem",
             "serial:",
             "serial:/dev/x?baud=1",
+            "pcie:",
+            "pcie:1000",
+            "pcie:/nowhere",
             "model?bits=3",
             "model?capacity=many",
             "model?capacity",

@@ -4,6 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use crate::fault::DeviceFault;
+use crate::pcie::CardFault;
 use crate::serial::PortFault;
 use crate::transport::TransportError;
 
@@ -171,6 +172,14 @@ pub enum Error {
         /// Why, and what to do.
         fault: PortFault,
     },
+    /// A card cannot be opened.
+    #[error("{card} cannot be opened: {fault}")]
+    Card {
+        /// Address of the card.
+        card: String,
+        /// Why, and what to do.
+        fault: CardFault,
+    },
     /// Words did not get through.
     #[error("the link to {device} failed during {during}: {source}")]
     Link {
@@ -246,8 +255,9 @@ impl Error {
             | Self::OutOfGrid { .. }
             | Self::Extent { .. } => ErrorKind::BadInput,
             Self::Scale { .. } | Self::CoordBits(_) | Self::Contexts { .. } | Self::Model(_) => ErrorKind::BadChoice,
-            Self::Address { .. } | Self::Port { .. } => ErrorKind::DeviceNotFound,
+            Self::Address { .. } | Self::Port { .. } | Self::Card { .. } => ErrorKind::DeviceNotFound,
             Self::Link { source: TransportError::Serial(fault), .. } => fault.kind(),
+            Self::Link { source: TransportError::Pcie(fault), .. } => fault.kind(),
             Self::TooManyPoints { .. } | Self::Capacity { .. } => ErrorKind::Capacity,
             Self::Link { .. } | Self::OutOfStep { .. } => ErrorKind::Link,
             Self::Timeout { .. } => ErrorKind::Timeout,

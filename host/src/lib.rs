@@ -47,6 +47,7 @@ mod model;
 mod options;
 pub mod order;
 mod pages;
+pub mod pcie;
 mod point;
 mod prepare;
 pub mod quantize;

@@ -125,6 +125,20 @@ impl Link {
         Ok(buckets)
     }
 
+    /// Whether the device is back after this error, as after its reset: then the job may be tried once more.
+    pub(crate) fn recover(&mut self, error: &Error, limit: Limit) -> Result<bool, Error> {
+        if !matches!(error, Error::Link { .. }) {
+            return Ok(false);
+        }
+        let during = "a new start";
+        let is_back = self.transport.recover(limit.deadline).map_err(|source| match source {
+            TransportError::Timeout { .. } => Error::Timeout { device: self.name(), during, timeout: limit.timeout },
+            source => Error::Link { device: self.name(), during, source },
+        })?;
+        self.out_of_step &= !is_back;
+        Ok(is_back)
+    }
+
     /// The error for a fault; the device is not asked again.
     pub(crate) fn distrust(&mut self, opcode: Opcode, fault: DeviceFault) -> Error {
         self.out_of_step = true;

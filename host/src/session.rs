@@ -137,7 +137,18 @@ impl<'d> Session<'d> {
             None => CpuJob { points: &points, contexts, options, limit, watch }.run()?,
             Some(link) => {
                 let layout = Layout::of(identity.coord_bits, identity.capacity);
-                Job { identity, contexts, layout, limit, link, options, watch, points: &points }.run()?
+                let (mut watch, mut is_first) = (watch, true);
+                loop {
+                    let points = &points;
+                    let job = Job { identity, contexts, layout, limit, link, options, watch, points };
+                    match job.run() {
+                        // A fault that a reset mends costs time, and not the job.
+                        Err(error) if is_first && link.recover(&error, limit)? => {
+                            (watch, is_first) = (Stopwatch::start(), false);
+                        }
+                        result => break result?,
+                    }
+                }
             }
         };
         Ok(Mesh { points, ..answer })

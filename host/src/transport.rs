@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use crate::pcie::PcieFault;
 use crate::serial::SerialFault;
 
 /// A way to a device: commands go out as words, answers come back as words.
@@ -39,6 +40,16 @@ pub trait Transport {
     /// How fast this way is, as far as that matters to whoever uses it.
     fn pace(&self) -> Pace {
         Pace::default()
+    }
+
+    /// After an error: brings the device back to where it was after its reset, if that may help, and says whether it did. Then the
+    /// job is tried once more, from its `Clear` on.
+    ///
+    /// # Errors
+    /// A newer fault, which tells more than the one before.
+    fn recover(&mut self, deadline: Instant) -> Result<bool, TransportError> {
+        let _ = deadline;
+        Ok(false)
     }
 }
 
@@ -95,6 +106,9 @@ pub enum TransportError {
     /// The serial link gave up.
     #[error("{0}")]
     Serial(#[from] SerialFault),
+    /// The card failed.
+    #[error("{0}")]
+    Pcie(#[from] PcieFault),
     /// Anything else, in one sentence.
     #[error("{0}")]
     Other(String),

@@ -48,6 +48,14 @@ pub enum SimError {
         /// The names there are.
         built: String,
     },
+    /// No card of this configuration was built, or it does not start.
+    #[error("there is no simulated card {name:?} that starts: choose one of {built}, or the software model (--fast)")]
+    NoCard {
+        /// Configuration and bits of a beat.
+        name: String,
+        /// The names there are.
+        built: String,
+    },
     /// The clocks allowed have passed.
     #[error("the simulated core {awaited} {done} of {wanted} words in {clocks} clocks, {total} since its start: allow more clocks, or look at a waveform if it stands still")]
     Timeout {

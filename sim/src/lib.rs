@@ -3,7 +3,7 @@
 //! The Verilog of every named configuration ([`incircle_protocol::NAMED`]) is exported and translated when this crate is built.
 //! [`SimDevice`] drives the two streams at its root: `command_{valid,ready,data}` and `response_{valid,ready,data,both}`.
 //! [`serial`] has whole boards with such a core, behind their serial line; [`faults`] spoils that line, and [`serve`] puts a board behind a
-//! pseudo-terminal. The program `incircle-sim` does that.
+//! pseudo-terminal. [`pcie`] has cards behind the files of their driver, in a directory. The program `incircle-sim` does both.
 //!
 //! ```no_run
 //! use incircle_protocol::{command_word, Opcode, SMALL};
@@ -18,6 +18,7 @@
 mod device;
 mod error;
 pub mod faults;
+pub mod pcie;
 pub mod serial;
 pub mod serve;
 #[cfg(test)]

@@ -1,16 +1,18 @@
-//! `incircle-sim`: a simulated board for programs that open serial ports.
+//! `incircle-sim`: a simulated board for programs that open serial ports, and a simulated card for those that open PCIe cards.
 
 use std::error::Error;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand, ValueEnum};
+use incircle_model::stream::{ModelCore, StreamModel};
 use incircle_protocol::{Config, FULL, SMALL};
 use incircle_sim::faults::FaultSpec;
+use incircle_sim::pcie::{Beats, Card, CardDirectory, CardFaultSpec, CardFigures, NullDevice, PinCard};
 use incircle_sim::serial::{board_link, Board, PinBoard, QuickBoard};
 use incircle_sim::serve::{serve, Figures, Service};
 
@@ -18,10 +20,12 @@ use incircle_sim::serve::{serve, Figures, Service};
 const TRIAL: u64 = 200_000;
 /// How much slower than at its trial the simulation may become, for other programs run as well: in halves.
 const MARGIN_HALVES: f64 = 3.0;
+/// Between two looks whether a card is to end.
+const LOOK: Duration = Duration::from_millis(50);
 /// How slow a board without bits is run.
 const QUICK_SLOW: u32 = 50;
 
-/// The incircle core on a simulated board.
+/// The incircle core on a simulated board or card.
 #[derive(Parser)]
 #[command(version)]
 struct Arguments {
@@ -49,6 +53,27 @@ enum Task {
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
         slow: Option<u32>,
     },
+    /// Puts the files of a PCIe card into a directory, until the program is ended by SIGTERM or SIGINT.
+    ServePcie {
+        /// The directory, which is made if there is none.
+        #[arg(long, value_name = "DIR")]
+        dir: PathBuf,
+        /// The core on the card.
+        #[arg(long, value_enum, default_value = "small")]
+        config: Core,
+        /// Faults of the card, separated by commas, such as `short-read=0.1,eio=4096,seed=3`; `help=` tells all.
+        #[arg(long, value_name = "SPEC", default_value = "")]
+        fault: CardFaultSpec,
+        /// Bits of a beat.
+        #[arg(long, value_name = "BITS", default_value = "64", value_parser = clap::builder::PossibleValuesParser::new(["64", "128"]))]
+        width: String,
+        /// Skips the pins: the software model, which has one context and no clock.
+        #[arg(long)]
+        fast: bool,
+        /// A device that does nothing, to measure drivers: its read-outs are zeros.
+        #[arg(long, conflicts_with = "fast")]
+        null: bool,
+    },
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -57,19 +82,87 @@ enum Core {
     Full,
 }
 
+/// What is behind the files of a card.
+#[derive(Clone, Copy)]
+enum CardKind {
+    Pins,
+    Model,
+    Null,
+}
+
+impl Core {
+    fn config(self) -> Config {
+        match self {
+            Self::Small => SMALL,
+            Self::Full => FULL,
+        }
+    }
+}
+
 fn main() -> ExitCode {
-    let Task::Serve { link, config, fault, fast, slow } = Arguments::parse().command;
-    let config = match config {
-        Core::Small => SMALL,
-        Core::Full => FULL,
+    let result = match Arguments::parse().command {
+        Task::Serve { link, config, fault, fast, slow } => run(config.config(), link, fault, fast, slow),
+        Task::ServePcie { dir, config, fault, width, fast, null } => {
+            let kind = if null {
+                CardKind::Null
+            } else if fast {
+                CardKind::Model
+            } else {
+                CardKind::Pins
+            };
+            run_card(config.config(), &dir, &fault, if width == "128" { 128 } else { 64 }, kind)
+        }
     };
-    match run(config, link, fault, fast, slow) {
+    match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("incircle-sim: {error}");
             ExitCode::FAILURE
         }
     }
+}
+
+/// Set by SIGTERM and SIGINT.
+fn stops() -> Result<Arc<AtomicBool>, ctrlc::Error> {
+    let stops = Arc::new(AtomicBool::new(false));
+    let raised = Arc::clone(&stops);
+    ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed))?;
+    Ok(stops)
+}
+
+/// Says that all is ready. Whoever waits for the line reads it through a pipe; if nobody does any more, that is no reason to end.
+fn say_ready(line: &str) {
+    let mut out = std::io::stdout();
+    let _ = writeln!(out, "ready: {line}").and_then(|()| out.flush());
+}
+
+fn run_card(
+    config: Config,
+    directory: &Path,
+    faults: &CardFaultSpec,
+    beat_bits: u32,
+    kind: CardKind,
+) -> Result<(), Box<dyn Error>> {
+    let stops = stops()?;
+    let (device, what): (Box<dyn Beats>, _) = match kind {
+        CardKind::Pins => (Box::new(PinCard::new(config, beat_bits)?), "simulated at its pins"),
+        CardKind::Model => (Box::new(StreamModel::new(ModelCore::of(config)?, beat_bits)), "the software model"),
+        CardKind::Null => (Box::new(NullDevice::new(config, beat_bits)), "a device that does nothing"),
+    };
+    let card = Arc::new(Card::new(device, faults));
+    let mounted = CardDirectory::mount(directory, Arc::clone(&card))?;
+    let path = directory.display();
+    say_ready(&format!(
+        "{path} has an incircle card, {}, beats of {beat_bits} bits, {what}: open pcie:{path}",
+        config.name
+    ));
+    while !stops.load(Ordering::Relaxed) {
+        std::thread::sleep(LOOK);
+    }
+    drop(mounted);
+    let CardFigures { to_card, to_host, faults } = card.figures();
+    eprintln!("incircle-sim: {to_card} bytes to the card, {to_host} to the host, {faults} faults");
+    Ok(())
 }
 
 fn run(
@@ -79,9 +172,7 @@ fn run(
     is_quick: bool,
     slow: Option<u32>,
 ) -> Result<(), Box<dyn Error>> {
-    let stops = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&stops);
-    ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed))?;
+    let stops = stops()?;
     let (mut board, what): (Box<dyn Board>, _) = if is_quick {
         (Box::new(QuickBoard::new(config, board_link(config))?), "without the bits of its line")
     } else {
@@ -91,15 +182,12 @@ fn run(
     let service = Service { link, faults, slow };
     let ready = || {
         let path = service.link.display();
-        let said = writeln!(
-            std::io::stdout(),
-            "ready: {path} is an incircle board, {}, {} MHz, simulated {what}, {slow} times slower than real: open \
+        say_ready(&format!(
+            "{path} is an incircle board, {}, {} MHz, simulated {what}, {slow} times slower than real: open \
              serial:{path}?slow={slow}",
             config.name,
             board_link(config).clock_hz / 1_000_000,
-        );
-        // Whoever waits for the line reads it through a pipe. If nobody does any more, that is no reason to end.
-        let _ = said.and_then(|()| std::io::stdout().flush());
+        ));
     };
     let figures = serve(board.as_mut(), &service, &stops, ready)?;
     report(&figures);

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use incircle::pcie::CardAddress;
 use incircle::serial::Address;
 use incircle::{Order, Quantize};
 
@@ -48,7 +49,7 @@ pub enum Command {
     Bench(BenchArguments),
     /// Say what a back end is
     Info(InfoArguments),
-    /// List the serial ports, and say who is there
+    /// List the serial ports and the PCIe cards, and say who is there
     Devices(DevicesArguments),
     /// Print a completion script for a shell
     Completions(CompletionsArguments),
@@ -71,7 +72,7 @@ pub struct GridArguments {
 pub struct BackendArguments {
     /// Who triangulates: 'cpu', the fast engine on the processor; 'model', the software model of the core; 'clock', its model clock by
     /// clock; 'sim', the core's Verilog in Verilator (needs a build with `--features sim`); 'serial:PORT', a board, such as
-    /// serial:/dev/ttyUSB0 or serial:/dev/ttyUSB0?baud=12000000 (default: 'triangulate' takes 'cpu', or 'model' if --order or
+    /// serial:/dev/ttyUSB0 or serial:/dev/ttyUSB0?baud=12000000; 'pcie:N', the card N in a PCIe slot, or pcie:DIR (default: 'triangulate' takes 'cpu', or 'model' if --order or
     /// --contexts is given; others take 'model')
     #[arg(long, value_parser = backend_parser())]
     pub backend: Option<BackendChoice>,
@@ -283,7 +284,8 @@ pub struct InfoArguments {
 /// Arguments of `devices`.
 #[derive(Debug, Args)]
 pub struct DevicesArguments {
-    /// Ask at every port who is there. That sends a few bytes to whatever is connected, for up to three seconds each
+    /// Ask at every port and card who is there. That sends a few bytes to whatever is connected to a port, for up to three seconds each,
+    /// and resets a card that nobody uses
     #[arg(short, long)]
     pub greet: bool,
 }
@@ -309,6 +311,8 @@ pub enum BackendChoice {
     Sim,
     /// A board at a serial port.
     Serial(Address),
+    /// A card in a PCIe slot.
+    Pcie(CardAddress),
 }
 
 /// The named configurations of the core.

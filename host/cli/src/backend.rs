@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
+use incircle::pcie::{CardAddress, CardRegisters, PcieTransport};
 use incircle::serial::{Address, SerialTransport};
 use incircle::{Device, Point, MAX_POINTS};
 use incircle_protocol::{Config, Greeting, CORE_COORD_BITS, NAMED};
@@ -44,12 +45,14 @@ impl Board {
 pub struct Backend {
     /// The device.
     pub device: Device,
-    /// Its name in reports: `cpu`, `model`, `clock`, `sim` or `serial`.
+    /// Its name in reports: `cpu`, `model`, `clock`, `sim`, `serial` or `pcie`.
     pub name: &'static str,
     /// The configuration of a core, where it is our choice.
     pub config: Option<Config>,
     /// The board, if it is one.
     pub board: Option<Board>,
+    /// What the registers of a card say, if it is one.
+    pub card: Option<CardRegisters>,
     /// Points of one `Insert` command.
     pub insert_chunk: usize,
 }
@@ -57,7 +60,7 @@ pub struct Backend {
 impl Backend {
     /// True if it counts cycles.
     pub fn has_clock(&self) -> bool {
-        self.config.is_some() || self.board.is_some()
+        self.config.is_some() || self.board.is_some() || self.card.is_some_and(|card| card.clocks > 0)
     }
 
     /// Holds that a job is such as the back end can do: a core has as many contexts as are asked for, and the engine on the processor
@@ -99,7 +102,7 @@ pub fn open(
     trace: Option<&Path>,
 ) -> Result<Backend, Failure> {
     let room = points.map(|points| match choice.choice() {
-        BackendChoice::Cpu | BackendChoice::Model | BackendChoice::Serial(_) => points.len(),
+        BackendChoice::Cpu | BackendChoice::Model | BackendChoice::Serial(_) | BackendChoice::Pcie(_) => points.len(),
         BackendChoice::Clock | BackendChoice::Sim => count_distinct(points),
     });
     open_with_room(choice, coord_bits, room, trace)
@@ -117,6 +120,7 @@ pub fn open_with_room(
     }
     let (device, name, config) = match choice.choice() {
         BackendChoice::Serial(address) => return open_serial(choice, address),
+        BackendChoice::Pcie(address) => return open_card(choice, address),
         BackendChoice::Cpu => {
             check_no_config(choice)?;
             (Device::cpu(choice.threads), "cpu", None)
@@ -133,7 +137,7 @@ pub fn open_with_room(
         }
     };
     let insert_chunk = if config.is_some() { CORE_INSERT_CHUNK } else { incircle::INSERT_CHUNK };
-    Ok(Backend { device, name, config, board: None, insert_chunk })
+    Ok(Backend { device, name, config, board: None, card: None, insert_chunk })
 }
 
 fn check_no_config(choice: &BackendArguments) -> Result<(), Failure> {
@@ -152,7 +156,15 @@ fn open_serial(choice: &BackendArguments, address: &Address) -> Result<Backend, 
     let rate = transport.rate();
     let board = transport.greeting().map(|&greeting| Board { greeting, rate, slow: address.slow });
     let device = Device::from_transport(Box::new(transport));
-    Ok(Backend { device, name: "serial", config: None, board, insert_chunk: incircle::INSERT_CHUNK })
+    Ok(Backend { device, name: "serial", config: None, board, card: None, insert_chunk: incircle::INSERT_CHUNK })
+}
+
+fn open_card(choice: &BackendArguments, address: &CardAddress) -> Result<Backend, Failure> {
+    check_no_config(choice)?;
+    let mut transport = PcieTransport::open(address).map_err(|error| failure_of(&error))?;
+    let card = Some(transport.registers().map_err(|error| failure_of(&error))?);
+    let device = Device::from_transport(Box::new(transport));
+    Ok(Backend { device, name: "pcie", config: None, board: None, card, insert_chunk: CORE_INSERT_CHUNK })
 }
 
 fn open_model(choice: &BackendArguments, coord_bits: u32, points: usize) -> Result<Device, Failure> {

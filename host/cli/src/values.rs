@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use clap::ValueEnum;
+use incircle::pcie::CardAddress;
 use incircle::serial::Address;
 use incircle::{Order, Quantize};
 
@@ -39,7 +40,9 @@ impl clap::builder::TypedValueParser for BackendParser {
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = clap::builder::PossibleValue> + '_>> {
         Some(Box::new(
-            ["cpu", "model", "clock", "sim", "serial:PORT"].into_iter().map(clap::builder::PossibleValue::new),
+            ["cpu", "model", "clock", "sim", "serial:PORT", "pcie:N"]
+                .into_iter()
+                .map(clap::builder::PossibleValue::new),
         ))
     }
 }
@@ -51,11 +54,12 @@ fn backend_from(text: &str) -> Result<BackendChoice, String> {
         "clock" => Ok(BackendChoice::Clock),
         "sim" => Ok(BackendChoice::Sim),
         _ => {
-            match Address::parse(text) {
-                Some(address) => address.map(BackendChoice::Serial),
-                None => Err("there are 'cpu', 'model', 'clock', 'sim' and 'serial:PORT', such as serial:/dev/ttyUSB0"
-                    .to_owned()),
-            }
+            let serial = Address::parse(text).map(|address| address.map(BackendChoice::Serial));
+            let card = || CardAddress::parse(text).map(|address| address.map(BackendChoice::Pcie));
+            serial.or_else(card).unwrap_or_else(|| {
+                Err("there are 'cpu', 'model', 'clock', 'sim', 'serial:PORT', such as serial:/dev/ttyUSB0, and 'pcie:N', such as pcie:0"
+                    .to_owned())
+            })
         }
     }
 }
@@ -129,7 +133,8 @@ mod tests {
         assert_eq!(backend_from("serial:/dev/x?baud=115200&slow=9"), Ok(BackendChoice::Serial(serial.clone())));
         assert_eq!(port_from("/dev/x?baud=115200&slow=9"), Ok(serial.clone()));
         assert_eq!(port_from("serial:/dev/x?baud=115200&slow=9"), Ok(serial));
-        for bad in ["", "serial:", "serial", "/dev/x", "serial:/dev/x?baud=fast"] {
+        assert_eq!(backend_from("pcie:1"), Ok(BackendChoice::Pcie(CardAddress::of_number(1))));
+        for bad in ["", "serial:", "serial", "/dev/x", "serial:/dev/x?baud=fast", "pcie", "pcie:", "pcie:999"] {
             assert!(backend_from(bad).is_err(), "{bad}");
         }
     }

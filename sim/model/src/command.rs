@@ -122,6 +122,12 @@ impl CommandModel {
         &self.mesh
     }
 
+    /// True if a command has begun whose answer has not been handed out.
+    pub fn is_busy(&self) -> bool {
+        let is_between = matches!(self.awaited, Awaited::Command);
+        !is_between || !self.answers.is_empty() || self.reading.1 != self.reading.2
+    }
+
     /// Takes any piece of the command stream.
     pub fn send(&mut self, words: &[u32]) {
         let mut rest = words;

@@ -12,6 +12,7 @@ mod command;
 mod mesh;
 pub mod predicate;
 pub mod serial;
+pub mod stream;
 
 pub use clock::{ClockModel, Defect, Inputs, Outputs, Write};
 pub use command::{CommandModel, ModelError};

@@ -12,6 +12,7 @@ mod spec;
 pub use liar::Lie;
 pub use line::FaultyLine;
 pub use proxy::Proxy;
+pub(crate) use random::Random;
 pub use spec::{FaultSpec, SpecError};
 
 /// A way along the line.

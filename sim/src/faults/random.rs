@@ -2,11 +2,11 @@
 
 /// A generator of pseudo-random numbers: xorshift with a multiplier.
 #[derive(Clone, Debug)]
-pub(super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
     /// The generator of this seed; neighbouring seeds have nothing in common.
-    pub(super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         let mut mixed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
         mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -14,7 +14,7 @@ impl Random {
     }
 
     /// A number of 32 bits.
-    pub(super) fn bits(&mut self) -> u32 {
+    pub(crate) fn bits(&mut self) -> u32 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
@@ -22,12 +22,12 @@ impl Random {
     }
 
     /// A number below `limit`, or 0.
-    pub(super) fn below(&mut self, limit: u32) -> u32 {
+    pub(crate) fn below(&mut self, limit: u32) -> u32 {
         ((u64::from(self.bits()) * u64::from(limit)) >> 32) as u32
     }
 
     /// True with this probability, in steps of 2^-53.
-    pub(super) fn happens(&mut self, probability: f64) -> bool {
+    pub(crate) fn happens(&mut self, probability: f64) -> bool {
         if probability <= 0.0 {
             return false;
         }
@@ -37,7 +37,7 @@ impl Random {
     }
 
     /// How many trials fail before the next one that happens with this probability.
-    pub(super) fn wait(&mut self, probability: f64) -> u64 {
+    pub(crate) fn wait(&mut self, probability: f64) -> u64 {
         if probability <= 0.0 {
             return u64::MAX;
         }

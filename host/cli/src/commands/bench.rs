@@ -91,7 +91,8 @@ pub(super) fn sets_of(arguments: &BenchArguments) -> Vec<Distribution> {
 /// Points that the back end must hold for every set: distinct ones for a core, which is small, all of them for software.
 fn room_for(sets: &[Distribution], arguments: &BenchArguments) -> Result<usize, Failure> {
     // A board is what it is.
-    if is_software(arguments) || matches!(arguments.backend.choice(), BackendChoice::Serial(_)) {
+    if is_software(arguments) || matches!(arguments.backend.choice(), BackendChoice::Serial(_) | BackendChoice::Pcie(_))
+    {
         return Ok(arguments.n as usize);
     }
     let mut most = 0;

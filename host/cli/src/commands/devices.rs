@@ -1,7 +1,8 @@
-//! `incircle devices`: the serial ports of this machine, and who is there.
+//! `incircle devices`: the serial ports and the PCIe cards of this machine, and who is there.
 
 use std::time::Duration;
 
+use incircle::pcie::{self, CardInfo, PcieTransport};
 use incircle::serial::{self, Address, PortInfo};
 
 use crate::arguments::DevicesArguments;
@@ -11,11 +12,17 @@ use crate::output;
 /// Time for a port: a device that a killed program left at a high rate answers after two seconds.
 const GREET_TIMEOUT: Duration = Duration::from_secs(4);
 
-/// Runs the subcommand: a line per port, with what the system knows of it, and with what is there if it is greeted.
+/// Runs the subcommand: a line per port and card, with what the system knows of it, and with what is there if it is greeted.
 pub fn run(arguments: &DevicesArguments) -> Result<(), Failure> {
     let ports = serial::ports().map_err(|fault| Failure::new(Exit::NoDevice, format!("no ports: {fault}")))?;
-    if ports.is_empty() {
-        output::note("the system knows of no serial port; pseudo-terminals are not listed");
+    let cards = pcie::cards();
+    if ports.is_empty() && cards.is_empty() {
+        output::note("the system knows of no serial port and of no PCIe card; pseudo-terminals are not listed");
+    }
+    for card in cards {
+        let there = if arguments.greet { format!(": {}", greet_card(&card)) } else { String::new() };
+        output::print(&printable(&format!("{} ({}){there}", card.address, card.what)))?;
+        output::print("\n")?;
     }
     for port in ports {
         let there = if arguments.greet { format!(": {}", greet(&port)) } else { String::new() };
@@ -23,6 +30,20 @@ pub fn run(arguments: &DevicesArguments) -> Result<(), Failure> {
         output::print("\n")?;
     }
     Ok(())
+}
+
+/// What a card is, or why nobody knows.
+fn greet_card(card: &CardInfo) -> String {
+    match PcieTransport::open(&card.address).and_then(|mut card| card.registers()) {
+        Ok(registers) => {
+            let identity = registers.identity;
+            format!(
+                "incircle, {} points of {} bits, {} insertions at once, beats of {} bits",
+                identity.capacity, identity.coord_bits, identity.contexts, registers.beat_bits
+            )
+        }
+        Err(error) => error.to_string(),
+    }
 }
 
 /// Who is at a port, or why nobody is known to be.

@@ -1,0 +1,159 @@
+//! Addresses of cards: `pcie:N`, the card with this number, or `pcie:DIR`, the first one in a directory.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Before the number or the directory.
+const PREFIX: &str = "pcie:";
+/// Where the driver puts its files.
+const DEVICES: &str = "/dev";
+/// Most cards of the driver.
+const MAX_CARDS: u32 = 256;
+/// Around the number in the name of the file with the registers.
+const USER_FILE: (&str, &str) = ("xdma", "_user");
+
+/// Where a card is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CardAddress {
+    /// The directory of the three files.
+    pub directory: PathBuf,
+    /// The number in their names.
+    pub number: u32,
+}
+
+impl CardAddress {
+    /// The card of this number, in the directory of the system's devices.
+    pub fn of_number(number: u32) -> Self {
+        Self { directory: DEVICES.into(), number }
+    }
+
+    /// The card 0 of a directory.
+    pub fn in_directory(directory: impl Into<PathBuf>) -> Self {
+        Self { directory: directory.into(), number: 0 }
+    }
+
+    /// Parses an address; `None` if it is of another kind.
+    ///
+    /// # Errors
+    /// A sentence without the address.
+    pub fn parse(address: &str) -> Option<Result<Self, String>> {
+        address.strip_prefix(PREFIX).map(Self::parse_card)
+    }
+
+    /// Parses what is behind `pcie:`.
+    fn parse_card(text: &str) -> Result<Self, String> {
+        if text.is_empty() {
+            return Err("it names no card; \"pcie:0\" or \"pcie:/some/directory\" would".to_owned());
+        }
+        if text.bytes().all(|byte| byte.is_ascii_digit()) {
+            let number = text.parse::<u32>().ok().filter(|&number| number < MAX_CARDS);
+            let number = number.ok_or_else(|| format!("cards have numbers from 0 to {}", MAX_CARDS - 1))?;
+            return Ok(Self::of_number(number));
+        }
+        Ok(Self::in_directory(text))
+    }
+
+    fn file(&self, name: &str) -> PathBuf {
+        self.directory.join(format!("xdma{}_{name}", self.number))
+    }
+
+    /// The file that takes commands.
+    pub fn commands(&self) -> PathBuf {
+        self.file("h2c_0")
+    }
+
+    /// The file that gives answers.
+    pub fn answers(&self) -> PathBuf {
+        self.file("c2h_0")
+    }
+
+    /// The file with the registers.
+    pub fn registers(&self) -> PathBuf {
+        self.file("user")
+    }
+}
+
+impl fmt::Display for CardAddress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.directory == Path::new(DEVICES) {
+            write!(f, "{PREFIX}{}", self.number)
+        } else {
+            write!(f, "{PREFIX}{}", self.directory.display())
+        }
+    }
+}
+
+/// A card that the system knows of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CardInfo {
+    /// Its address, as [`Device::open`](crate::Device::open) takes it.
+    pub address: CardAddress,
+    /// What it is, as far as the system knows: `PCI 10ee:7024`.
+    pub what: String,
+}
+
+/// The cards that the driver XDMA has found, by number. Which of them are incircle cards, their registers say.
+pub fn cards() -> Vec<CardInfo> {
+    cards_in(Path::new(DEVICES))
+}
+
+fn cards_in(directory: &Path) -> Vec<CardInfo> {
+    let entries = std::fs::read_dir(directory).into_iter().flatten().flatten();
+    let mut numbers: Vec<u32> = entries.filter_map(|entry| number_of(entry.file_name().to_str()?)).collect();
+    numbers.sort_unstable();
+    let info = |number| CardInfo {
+        address: CardAddress { directory: directory.to_owned(), number },
+        what: describe(number).unwrap_or_else(|| "XDMA".to_owned()),
+    };
+    numbers.into_iter().map(info).collect()
+}
+
+/// The number in the name of a file with registers.
+fn number_of(name: &str) -> Option<u32> {
+    let number = name.strip_prefix(USER_FILE.0)?.strip_suffix(USER_FILE.1)?;
+    number.parse().ok().filter(|&number| number < MAX_CARDS)
+}
+
+/// What the bus says of it.
+fn describe(number: u32) -> Option<String> {
+    let folder = format!("/sys/class/xdma/xdma{number}_user/device");
+    let id = |name: &str| {
+        let text = std::fs::read_to_string(Path::new(&folder).join(name)).ok()?;
+        Some(text.trim().trim_start_matches("0x").to_owned())
+    };
+    Some(format!("PCI {}:{}", id("vendor")?, id("device")?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn addresses_are_parsed() {
+        assert_eq!(CardAddress::parse("serial:/dev/x"), None);
+        let card = CardAddress::parse("pcie:3").unwrap().unwrap();
+        assert_eq!((card.commands(), card.answers()), ("/dev/xdma3_h2c_0".into(), "/dev/xdma3_c2h_0".into()));
+        assert_eq!((card.registers(), card.to_string()), ("/dev/xdma3_user".into(), "pcie:3".to_owned()));
+        for directory in ["/tmp/card", "card", "./0"] {
+            let card = CardAddress::parse(&format!("pcie:{directory}")).unwrap().unwrap();
+            assert_eq!(card.registers(), Path::new(directory).join("xdma0_user"));
+            assert_eq!(card.to_string(), format!("pcie:{directory}"));
+        }
+        for bad in ["pcie:", "pcie:256", "pcie:99999999999"] {
+            assert!(!CardAddress::parse(bad).unwrap().unwrap_err().is_empty());
+        }
+    }
+
+    #[test]
+    fn cards_are_found_by_their_registers() {
+        let folder = std::env::temp_dir().join(format!("incircle-cards-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        for name in ["xdma1_user", "xdma0_user", "xdma0_h2c_0", "xdma_user", "xdma999_user", "tty"] {
+            std::fs::write(folder.join(name), "").unwrap();
+        }
+        let found: Vec<_> = cards_in(&folder).into_iter().map(|card| card.address.number).collect();
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert_eq!(found, [0, 1]);
+        assert_eq!(cards_in(&folder), []);
+    }
+}

@@ -1,0 +1,323 @@
+//! What the files of a card do: streams that block, as XDMA's, registers, and faults.
+
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use incircle_protocol::{StreamRegister, CONTROL_RESET};
+
+use super::faults::{CardFaultSpec, Strike};
+use super::liar::Liar;
+use super::Beats;
+use crate::faults::Random;
+
+/// What a register of a card reads as that is gone.
+const ALL_ONES: u32 = u32::MAX;
+/// Longest sleep of a call that waits.
+const NAP: Duration = Duration::from_millis(100);
+/// Beats behind an answer that does not end.
+const EXTRA_BEATS: usize = 4;
+const EXTRA_BYTE: u8 = 0x5a;
+
+/// A number of the system's, as its driver returns it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Errno(pub i32);
+
+impl Errno {
+    /// Input or output failed.
+    pub const IO: Self = Self(5);
+    /// There is no such device.
+    pub const NO_DEVICE: Self = Self(19);
+    /// Nothing is written to a register that can only be read.
+    pub const INVALID: Self = Self(22);
+    /// A code of the kernel's own, which XDMA returns when its time is over.
+    pub const RESTART: Self = Self(512);
+}
+
+/// What a card did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CardFigures {
+    /// Bytes of commands.
+    pub to_card: u64,
+    /// Bytes of answers.
+    pub to_host: u64,
+    /// Faults.
+    pub faults: u64,
+}
+
+/// A card behind its driver.
+pub struct Card {
+    inside: Mutex<Inside>,
+    changed: Condvar,
+    timeout: Duration,
+}
+
+struct Inside {
+    device: Box<dyn Beats>,
+    spec: CardFaultSpec,
+    random: Random,
+    liar: Liar,
+    /// Bytes behind an answer that are none.
+    extra: usize,
+    /// The next fault that comes after so many bytes, and how often it comes after that.
+    strike: Option<(Strike, u64)>,
+    times: u64,
+    figures: CardFigures,
+    is_gone: bool,
+    is_closed: bool,
+}
+
+impl Inside {
+    fn moved(&self) -> u64 {
+        self.figures.to_card + self.figures.to_host
+    }
+
+    /// Bytes of whole beats until the next fault, none if it is due.
+    fn until_strike(&self) -> usize {
+        let Some((_, after)) = self.strike else {
+            return usize::MAX;
+        };
+        let left = after.saturating_sub(self.moved());
+        usize::try_from(left).unwrap_or(usize::MAX / 2).next_multiple_of(self.device.beat_bytes())
+    }
+
+    /// Does the fault that is due, if one is. `stands` is set if the transfer goes on no more.
+    fn strike(&mut self, stands: &mut Option<Strike>) -> Result<(), Errno> {
+        let Some((strike, after)) = self.strike.filter(|strike| self.moved() >= strike.1) else {
+            return Ok(());
+        };
+        self.times = self.times.saturating_sub(1);
+        let again = self.spec.strike.filter(|_| self.times > 0);
+        self.strike = again.map(|(strike, every)| (strike, after + every.max(1)));
+        self.figures.faults += 1;
+        match strike {
+            Strike::Eio => return Err(Errno::IO),
+            Strike::Errno512 => return Err(Errno::RESTART),
+            Strike::Timeout | Strike::Hang => *stands = Some(strike),
+            Strike::Vanish => {
+                self.is_gone = true;
+                return Err(Errno::NO_DEVICE);
+            }
+            Strike::Reset => self.reset(),
+        }
+        Ok(())
+    }
+
+    /// A transfer of at most so many bytes: by chance, only a part of them.
+    fn shorten(&mut self, bytes: usize, chance: f64) -> usize {
+        let beat = self.device.beat_bytes();
+        let beats = u32::try_from(bytes / beat).unwrap_or(u32::MAX);
+        if beats < 2 || !self.random.happens(chance) {
+            return bytes;
+        }
+        self.figures.faults += 1;
+        (1 + self.random.below(beats - 1) as usize) * beat
+    }
+
+    fn reset(&mut self) {
+        // Every device has this register.
+        let _ = self.device.write(StreamRegister::Control.offset(), CONTROL_RESET);
+        self.liar.reset();
+        self.extra = 0;
+    }
+
+    fn take(&mut self, bytes: &[u8]) -> usize {
+        let bytes = &bytes[..bytes.len().min(self.until_strike())];
+        let taken = self.device.take(bytes);
+        self.figures.to_card += taken as u64;
+        taken
+    }
+
+    /// Gives beats; true if an answer ends with them.
+    fn give(&mut self, bytes: &mut [u8]) -> (usize, bool) {
+        let room = bytes.len().min(self.until_strike());
+        let bytes = &mut bytes[..room];
+        if self.extra > 0 {
+            let extra = self.extra.min(bytes.len());
+            bytes[..extra].fill(EXTRA_BYTE);
+            self.extra -= extra;
+            return (extra, false);
+        }
+        let given = self.device.give(bytes);
+        self.liar.change(&mut bytes[..given.bytes], given.is_end);
+        if given.is_end && self.spec.lie.is_some_and(|lie| lie.hides_the_end(self.liar.opcode)) {
+            self.extra = EXTRA_BEATS * self.device.beat_bytes();
+        }
+        self.figures.to_host += given.bytes as u64;
+        (given.bytes, given.is_end)
+    }
+}
+
+/// How far a transfer is.
+enum Step {
+    Done,
+    Moved,
+    Waits,
+}
+
+impl Card {
+    /// A card around this device.
+    pub fn new(device: Box<dyn Beats>, spec: &CardFaultSpec) -> Self {
+        let inside = Inside {
+            device,
+            random: Random::new(spec.seed),
+            liar: Liar::new(spec.lie),
+            extra: 0,
+            strike: spec.strike.filter(|_| spec.times > 0),
+            times: spec.times,
+            figures: CardFigures::default(),
+            is_gone: false,
+            is_closed: false,
+            spec: spec.clone(),
+        };
+        Self { inside: Mutex::new(inside), changed: Condvar::new(), timeout: Duration::from_millis(spec.timeout_ms) }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Inside> {
+        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Writes commands. Returns when the card has all of them.
+    ///
+    /// # Errors
+    /// The number that the driver would return.
+    pub fn write(&self, bytes: &[u8]) -> Result<usize, Errno> {
+        let mut inside = self.lock();
+        let chance = inside.spec.short_write;
+        let wanted = inside.shorten(bytes.len(), chance);
+        let mut done = 0;
+        self.transfer(inside, |inside| {
+            let taken = inside.take(&bytes[done..wanted]);
+            done += taken;
+            match (done == wanted, taken) {
+                (true, _) => Step::Done,
+                (_, 0) => Step::Waits,
+                _ => Step::Moved,
+            }
+        })?;
+        Ok(done)
+    }
+
+    /// Reads answers. Returns when all that is asked for has come, or the end of an answer.
+    ///
+    /// # Errors
+    /// The number that the driver would return.
+    pub fn read(&self, bytes: &mut [u8]) -> Result<usize, Errno> {
+        let mut inside = self.lock();
+        let chance = inside.spec.short_read;
+        // Parts of beats do not come.
+        let whole = bytes.len() / inside.device.beat_bytes() * inside.device.beat_bytes();
+        let wanted = inside.shorten(whole, chance);
+        let mut done = 0;
+        self.transfer(inside, |inside| {
+            let (given, is_end) = inside.give(&mut bytes[done..wanted]);
+            done += given;
+            match (done == wanted || is_end, given) {
+                (true, _) => Step::Done,
+                (_, 0) => Step::Waits,
+                _ => Step::Moved,
+            }
+        })?;
+        Ok(done)
+    }
+
+    /// Repeats a step until it is done, the driver's time is over, or a fault ends it.
+    fn transfer<'c>(
+        &'c self,
+        mut inside: MutexGuard<'c, Inside>,
+        mut step: impl FnMut(&mut Inside) -> Step,
+    ) -> Result<(), Errno> {
+        inside = self.stall(inside);
+        let deadline = Instant::now() + self.timeout;
+        let mut stands = None;
+        loop {
+            if inside.is_gone || inside.is_closed {
+                return Err(Errno::NO_DEVICE);
+            }
+            inside.strike(&mut stands)?;
+            let left = deadline.saturating_duration_since(Instant::now());
+            if left.is_zero() && stands != Some(Strike::Hang) {
+                return Err(Errno::RESTART);
+            }
+            let goes_on = stands.is_none()
+                && match step(&mut inside) {
+                    Step::Done => {
+                        self.changed.notify_all();
+                        return Ok(());
+                    }
+                    Step::Moved => true,
+                    Step::Waits => inside.device.run(),
+                };
+            if goes_on {
+                // Somebody else may want to give or take.
+                self.changed.notify_all();
+                drop(inside);
+                std::thread::yield_now();
+                inside = self.lock();
+            } else {
+                let nap = if left.is_zero() { NAP } else { left.min(NAP) };
+                inside = self.changed.wait_timeout(inside, nap).unwrap_or_else(PoisonError::into_inner).0;
+            }
+        }
+    }
+
+    /// By chance, waits.
+    fn stall<'c>(&'c self, mut inside: MutexGuard<'c, Inside>) -> MutexGuard<'c, Inside> {
+        let (chance, milliseconds) = inside.spec.stall;
+        if !inside.random.happens(chance) {
+            return inside;
+        }
+        inside.figures.faults += 1;
+        drop(inside);
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        self.lock()
+    }
+
+    /// Reads a register.
+    ///
+    /// # Errors
+    /// The number that the driver would return.
+    pub fn read_register(&self, offset: u32) -> Result<u32, Errno> {
+        let mut inside = self.lock();
+        if inside.is_closed {
+            return Err(Errno::NO_DEVICE);
+        }
+        if inside.is_gone {
+            return Ok(ALL_ONES);
+        }
+        let value = inside.device.read(offset).map_err(|_| Errno::IO)?;
+        Ok(inside.spec.lie.map_or(value, |lie| lie.register(offset, value)))
+    }
+
+    /// Writes a register.
+    ///
+    /// # Errors
+    /// The number that the driver would return.
+    pub fn write_register(&self, offset: u32, value: u32) -> Result<(), Errno> {
+        let mut inside = self.lock();
+        if inside.is_closed {
+            return Err(Errno::NO_DEVICE);
+        }
+        if inside.is_gone {
+            // Writes to a card that is gone are lost without a word.
+            return Ok(());
+        }
+        if offset == StreamRegister::Control.offset() && value & CONTROL_RESET != 0 {
+            inside.reset();
+        } else {
+            inside.device.write(offset, value).map_err(|_| Errno::INVALID)?;
+        }
+        self.changed.notify_all();
+        Ok(())
+    }
+
+    /// Ends every call that waits, and every one to come.
+    pub fn close(&self) {
+        self.lock().is_closed = true;
+        self.changed.notify_all();
+    }
+
+    /// What it did so far.
+    pub fn figures(&self) -> CardFigures {
+        self.lock().figures
+    }
+}

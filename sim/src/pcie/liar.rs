@@ -1,0 +1,136 @@
+//! A card that lies: in its registers, and in the words of its answers.
+
+use incircle_protocol::{answer_header, answer_opcode, Opcode, Status, StreamRegister};
+
+/// What a card lies about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CardLie {
+    /// Its registers begin with other letters.
+    Magic,
+    /// It is of another version of the stream device.
+    Stream,
+    /// Its core speaks another version of the protocol.
+    Protocol,
+    /// It holds more points than can be.
+    Capacity,
+    /// It has beats that there are not.
+    Beat,
+    /// Its registers are not those of its core.
+    Identity,
+    /// More points arrived than were sent.
+    Report,
+    /// A record names a vertex that does not exist.
+    Index,
+    /// An answer announces a word less than it has.
+    Length,
+    /// A read-out goes on behind its end.
+    Endless,
+    /// Every read-out is refused.
+    Status,
+}
+
+/// A vertex that no core has, and not the infinite one of any.
+const NO_VERTEX: u32 = 0x5a5a_5a5a;
+
+impl CardLie {
+    /// All names.
+    pub const NAMES: &'static str =
+        "magic, stream, protocol, capacity, beat, identity, report, index, length, endless or status";
+
+    /// All lies, with their names.
+    pub const ALL: [(Self, &'static str); 11] = [
+        (Self::Magic, "magic"),
+        (Self::Stream, "stream"),
+        (Self::Protocol, "protocol"),
+        (Self::Capacity, "capacity"),
+        (Self::Beat, "beat"),
+        (Self::Identity, "identity"),
+        (Self::Report, "report"),
+        (Self::Index, "index"),
+        (Self::Length, "length"),
+        (Self::Endless, "endless"),
+        (Self::Status, "status"),
+    ];
+
+    /// The lie of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|lie| lie.1 == name).map(|lie| lie.0)
+    }
+
+    /// What a register says instead.
+    pub(super) fn register(self, offset: u32, value: u32) -> u32 {
+        let (register, lie) = match self {
+            Self::Magic => (StreamRegister::Magic, 0x6e6f_7065),
+            Self::Stream => (StreamRegister::StreamVersion, 2 << 16),
+            Self::Protocol => (StreamRegister::ProtocolVersion, 9 << 16),
+            Self::Capacity => (StreamRegister::Capacity, u32::MAX),
+            Self::Beat => (StreamRegister::BeatBits, 96),
+            Self::Identity => (StreamRegister::Capacity, 100_000),
+            _ => return value,
+        };
+        if register.offset() == offset {
+            lie
+        } else {
+            value
+        }
+    }
+
+    /// True if an answer to this opcode has no end.
+    pub(super) fn hides_the_end(self, opcode: u8) -> bool {
+        self == Self::Endless && is_read_out(opcode)
+    }
+}
+
+fn is_read_out(opcode: u8) -> bool {
+    matches!(Opcode::from_u8(opcode), Some(Opcode::Read | Opcode::Triangles))
+}
+
+/// Follows the answers, and changes their words.
+#[derive(Debug)]
+pub(super) struct Liar {
+    lie: Option<CardLie>,
+    /// Words of the present answer that have passed.
+    place: usize,
+    /// Its opcode.
+    pub opcode: u8,
+}
+
+impl Liar {
+    pub fn new(lie: Option<CardLie>) -> Self {
+        Self { lie, place: 0, opcode: 0 }
+    }
+
+    /// Changes beats of an answer; `is_end`: they are its last.
+    pub fn change(&mut self, bytes: &mut [u8], is_end: bool) {
+        let (begins, ends) = (self.place == 0, is_end);
+        let first = bytes.first_chunk().map(|&word| u32::from_le_bytes(word));
+        if let (true, Some(header)) = (begins, first) {
+            self.opcode = answer_opcode(header);
+        }
+        if let Some(lie) = self.lie {
+            for (place, word) in (self.place..).zip(bytes.chunks_exact_mut(4)) {
+                let value = u32::from_le_bytes([word[0], word[1], word[2], word[3]]);
+                word.copy_from_slice(&self.word(lie, place, value).to_le_bytes());
+            }
+        }
+        self.place = if ends { 0 } else { self.place + bytes.len() / 4 };
+    }
+
+    /// What stands at this place of an answer instead.
+    fn word(&self, lie: CardLie, place: usize, value: u32) -> u32 {
+        let is_read_out = is_read_out(self.opcode);
+        match (lie, place) {
+            (CardLie::Report, 2) if self.opcode == Opcode::Insert as u8 => 1_000_000,
+            (CardLie::Index, 2..5) if is_read_out => NO_VERTEX,
+            (CardLie::Length, 1) if is_read_out => value.saturating_sub(1),
+            (CardLie::Status, 0) if is_read_out => answer_header(self.opcode, Status::BadRange),
+            (CardLie::Status, 1) if is_read_out => 0,
+            _ => value,
+        }
+    }
+
+    /// A reset begins a new answer.
+    pub fn reset(&mut self) {
+        self.place = 0;
+    }
+}
