@@ -33,10 +33,10 @@ impl WordDevice for Answering {
 
     fn step(&mut self, command: Option<u32>, takes_answer: bool) -> Passed {
         if !self.0.is_empty() {
-            return Passed { is_taken: false, answer: self.0.pop_front_if(|_| takes_answer) };
+            return Passed { is_taken: false, answer: [self.0.pop_front_if(|_| takes_answer), None] };
         }
         self.0.extend(command.into_iter().flat_map(answer_of));
-        Passed { is_taken: command.is_some(), answer: None }
+        Passed { is_taken: command.is_some(), ..Passed::default() }
     }
 }
 
