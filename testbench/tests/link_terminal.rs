@@ -46,7 +46,7 @@ const CLASSES: [&str; 12] = [
     "swap-frame=0.1",
     "truncate=0.1",
     "babble=0.2",
-    "stall=0.2,stall-ms=20",
+    "stall=0.1,stall-ms=20",
     "silence-after=1000,silence-ms=30",
     "ber=1e-4,drop-frame=0.05,babble=0.05,direction=to-host,seed=7",
 ];
