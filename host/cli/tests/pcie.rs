@@ -34,6 +34,6 @@ fn cards_that_cannot_be_had_end_with_exit_code_4() {
         scratch.write(name, "");
     }
     scratch.run("info --backend pcie:.").fails(5, &["the reading of a register failed"]);
-    scratch.write("xdma0_user", &"none".repeat(64));
+    scratch.write("xdma0_user", "none".repeat(64));
     scratch.run("info --backend pcie:.").fails(4, &["begin with 0x656e6f6e", "choose another card"]);
 }
