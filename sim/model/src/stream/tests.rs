@@ -16,7 +16,7 @@ fn beats(words: &[u32], beat_bits: u32) -> Vec<u8> {
 fn answer(device: &mut StreamModel<ModelCore>) -> Vec<u32> {
     let mut bytes = vec![0; 1 << 16];
     let given = device.give(&mut bytes);
-    assert!(given.is_end && given.bytes % device.beat_bytes() == 0, "{given:?}");
+    assert!(given.is_end && given.bytes.is_multiple_of(device.beat_bytes()), "{given:?}");
     let mut words: Vec<u32> =
         bytes[..given.bytes].chunks(4).map(|word| u32::from_le_bytes(word.try_into().unwrap())).collect();
     let length = HEAD_WORDS + words[1] as usize;
