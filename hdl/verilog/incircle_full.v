@@ -13948,9 +13948,9 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  [1:0] round$d;
     wire  [1:0] round$q;
     reg  round$clock;
-    reg  has_passed$d;
-    wire  has_passed$q;
-    reg  has_passed$clock;
+    reg  is_planned$d;
+    wire  is_planned$q;
+    reg  is_planned$clock;
     reg  [4:0] passed$d;
     wire  [4:0] passed$q;
     reg  passed$clock;
@@ -13972,6 +13972,9 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  [14:0] candidate_id$d;
     wire  [14:0] candidate_id$q;
     reg  candidate_id$clock;
+    reg  candidate_is_dealt$d;
+    wire  candidate_is_dealt$q;
+    reg  candidate_is_dealt$clock;
     reg  [14:0] candidate_plan$d;
     wire  [14:0] candidate_plan$q;
     reg  candidate_plan$clock;
@@ -13999,12 +14002,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  points$write_enable;
     reg  [4:0] points$read_address;
     wire  [14:0] points$read_data;
-    reg  plans$clock;
-    reg  [4:0] plans$write_address;
-    reg  [14:0] plans$write_data;
-    reg  plans$write_enable;
-    reg  [4:0] plans$read_address;
-    wire  [14:0] plans$read_data;
     reg  roots$clock;
     reg  [4:0] roots$write_address;
     reg  [14:0] roots$write_data;
@@ -14017,23 +14014,24 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  hints$write_enable;
     reg  [4:0] hints$read_address;
     wire  [14:0] hints$read_data;
-    reg  [12:0] following$deal;
-    reg  [4:0] following$turn;
-    reg  following$has_begun;
-    reg  [14:0] following$planned;
-    wire  [14:0] following$next_id;
-    wire  following$is_seed;
-    wire  [6:0] following$first_dealt;
-    reg  [4:0] following$taker;
-    reg  [14:0] following$taken;
-    reg  following$took_seed;
-    reg  [6:0] following$taken_dealt;
-    wire  [14:0] following$after_taken;
-    wire  [14:0] following$first_record;
+    reg  plans$clock;
+    reg  [12:0] plans$deal;
+    reg  [4:0] plans$turn;
+    reg  plans$is_planned;
+    wire  [15:0] plans$due;
+    wire  [6:0] plans$first_dealt;
+    reg  [4:0] plans$taker;
+    reg  [14:0] plans$taken;
+    reg  plans$took_seed;
+    reg  [6:0] plans$taken_dealt;
+    wire  [14:0] plans$after_taken;
+    wire  [14:0] plans$first_record;
+    reg  plans$takes;
+    reg  [4:0] plans$owner;
+    reg  [14:0] plans$planned;
     
     // Local signals
     reg  [4:0] contexts;
-    reg  [4:0] turn_index;
     reg  [4:0] index;
     reg  is_asleep;
     reg  tries_again;
@@ -14041,7 +14039,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  may_try;
     reg  may_work;
     reg  is_there;
-    reg  is_first;
     reg  is_barred;
     reg  wants;
     reg  lacks_port;
@@ -14066,10 +14063,10 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .q(round$q),
         .clock(round$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$has_passed has_passed(
-        .d(has_passed$d),
-        .q(has_passed$q),
-        .clock(has_passed$clock)
+    incircle_core_logic$engine$insertions$dispatcher$start$is_planned is_planned(
+        .d(is_planned$d),
+        .q(is_planned$q),
+        .clock(is_planned$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$start$passed passed(
         .d(passed$d),
@@ -14105,6 +14102,11 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .d(candidate_id$d),
         .q(candidate_id$q),
         .clock(candidate_id$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$candidate_is_dealt candidate_is_dealt(
+        .d(candidate_is_dealt$d),
+        .q(candidate_is_dealt$q),
+        .clock(candidate_is_dealt$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$start$candidate_plan candidate_plan(
         .d(candidate_plan$d),
@@ -14149,14 +14151,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .read_address(points$read_address),
         .read_data(points$read_data)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$plans plans(
-        .clock(plans$clock),
-        .write_address(plans$write_address),
-        .write_data(plans$write_data),
-        .write_enable(plans$write_enable),
-        .read_address(plans$read_address),
-        .read_data(plans$read_data)
-    );
     incircle_core_logic$engine$insertions$dispatcher$start$roots roots(
         .clock(roots$clock),
         .write_address(roots$write_address),
@@ -14173,27 +14167,29 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .read_address(hints$read_address),
         .read_data(hints$read_data)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$following following(
-        .deal(following$deal),
-        .turn(following$turn),
-        .has_begun(following$has_begun),
-        .planned(following$planned),
-        .next_id(following$next_id),
-        .is_seed(following$is_seed),
-        .first_dealt(following$first_dealt),
-        .taker(following$taker),
-        .taken(following$taken),
-        .took_seed(following$took_seed),
-        .taken_dealt(following$taken_dealt),
-        .after_taken(following$after_taken),
-        .first_record(following$first_record)
+    incircle_core_logic$engine$insertions$dispatcher$start$plans plans(
+        .clock(plans$clock),
+        .deal(plans$deal),
+        .turn(plans$turn),
+        .is_planned(plans$is_planned),
+        .due(plans$due),
+        .first_dealt(plans$first_dealt),
+        .taker(plans$taker),
+        .taken(plans$taken),
+        .took_seed(plans$took_seed),
+        .taken_dealt(plans$taken_dealt),
+        .after_taken(plans$after_taken),
+        .first_record(plans$first_record),
+        .takes(plans$takes),
+        .owner(plans$owner),
+        .planned(plans$planned)
     );
     
     // Update code
     always @(*) begin
         turn$clock = clock;
         round$clock = clock;
-        has_passed$clock = clock;
+        is_planned$clock = clock;
         passed$clock = clock;
         passed_id$clock = clock;
         passed_point$clock = clock;
@@ -14201,7 +14197,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         candidate_id$clock = clock;
         turn$d = turn$q;
         round$d = round$q;
-        has_passed$d = has_passed$q;
+        is_planned$d = is_planned$q;
         passed$d = passed$q;
         passed_id$d = passed_id$q;
         passed_point$d = passed_point$q;
@@ -14223,8 +14219,10 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         all_work$d = all_work$q;
         passed_is_seed$clock = clock;
         passed_dealt$clock = clock;
+        candidate_is_dealt$clock = clock;
         passed_is_seed$d = passed_is_seed$q;
         passed_dealt$d = passed_dealt$q;
+        candidate_is_dealt$d = candidate_is_dealt$q;
         points$clock = clock;
         plans$clock = clock;
         roots$clock = clock;
@@ -14235,17 +14233,14 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         first_context = 32'h0;
         first_round = 32'h10;
         contexts = deal[(64'h0)+:(5)];
-        turn_index = turn$q;
         points$read_address = turn$q;
-        following$turn = turn$q;
-        following$has_begun = began[turn_index];
-        plans$read_address = turn$q;
-        following$planned = plans$read_data;
-        following$taken = passed_id$q;
-        following$taker = passed$q;
-        following$took_seed = passed_is_seed$q;
-        following$taken_dealt = passed_dealt$q;
-        following$deal = deal;
+        plans$turn = turn$q;
+        plans$is_planned = is_planned$q;
+        plans$taken = passed_id$q;
+        plans$taker = passed$q;
+        plans$took_seed = passed_is_seed$q;
+        plans$taken_dealt = passed_dealt$q;
+        plans$deal = deal;
         index = passed$q;
         is_barred = solo_valid | ((wants_again$q | wants_new$q) & (contexts == one_turn));
         is_asleep = asleep[index] & (~is_barred);
@@ -14256,7 +14251,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         if (passed$q == first_context) begin
             may_work = seeded | (~began[32'h0]);
         end
-        is_there = has_passed$q & (passed_id$q < arrived);
+        is_there = is_planned$q & (passed_id$q < arrived);
         roots$read_address = passed$q;
         hints$read_address = passed$q;
         wants = (wants_again$q | wants_new$q) & (~solo_valid);
@@ -14274,17 +14269,16 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         points$write_address = candidate$q;
         points$write_data = candidate_id$q;
         points$write_enable = is_taken;
-        plans$write_address = candidate$q;
-        plans$write_data = candidate_plan$q;
-        plans$write_enable = is_taken;
+        plans$takes = is_taken;
+        plans$owner = candidate$q;
+        plans$planned = candidate_plan$q;
         roots$write_address = root_owner;
         roots$write_data = root;
         roots$write_enable = root_enable;
         hints$write_address = hint_owner;
         hints$write_data = hint;
         hints$write_enable = hint_enable;
-        is_first = candidate$q == first_context;
-        if (is_taken & is_first & (candidate_id$q >= first_round)) begin
+        if (is_taken & candidate_is_dealt$q) begin
             all_work$d = 1'b1;
         end
         after_turn = turn$q + one_turn;
@@ -14295,34 +14289,35 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         if (moves) begin
             candidate$d = passed$q;
             candidate_id$d = passed_id$q;
-            candidate_plan$d = following$after_taken;
+            candidate_is_dealt$d = passed_id$q >= first_round;
+            candidate_plan$d = plans$after_taken;
             candidate_point$d = passed_point$q;
             wants_again$d = is_asleep & tries_again & is_rested & may_try;
             wants_new$d = is_asleep & (~tries_again) & is_there & may_work;
             is_alone$d = passed$q == solo_owner;
-            from$d = following$first_record;
+            from$d = plans$first_record;
             if (hinted[index]) begin
                 from$d = hints$read_data;
             end
             if (tries_again) begin
                 from$d = roots$read_data;
             end
-            has_passed$d = 1'b1;
             passed$d = turn$q;
-            passed_id$d = following$next_id;
+            passed_id$d = plans$due[(64'h0)+:(15)];
             passed_point$d = points$read_data;
-            passed_is_seed$d = following$is_seed;
-            passed_dealt$d = following$first_dealt;
+            passed_is_seed$d = plans$due[(64'hf)+:(1)];
+            passed_dealt$d = plans$first_dealt;
             turn$d = after_turn;
             if (after_turn == contexts) begin
                 turn$d = 32'h0;
+                is_planned$d = 1'b1;
                 round$d = round$q + one_round;
             end
         end
         if (reset | clears) begin
             turn$d = 32'h0;
             round$d = 32'h0;
-            has_passed$d = 1'b0;
+            is_planned$d = 1'b0;
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
             is_alone$d = 1'b0;
@@ -14390,6 +14385,25 @@ module incircle_core_logic$engine$insertions$dispatcher$start$candidate_id(d,q,c
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_id
 
 
+module incircle_core_logic$engine$insertions$dispatcher$start$candidate_is_dealt(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_is_dealt
+
+
 module incircle_core_logic$engine$insertions$dispatcher$start$candidate_plan(d,q,clock);
     
     // Module arguments
@@ -14428,81 +14442,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start$candidate_point(d,
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$following(deal,turn,has_begun,planned,next_id,is_seed,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record);
-    
-    // Module arguments
-    input wire  [12:0] deal;
-    input wire  [4:0] turn;
-    input wire  has_begun;
-    input wire  [14:0] planned;
-    output reg  [14:0] next_id;
-    output reg  is_seed;
-    output reg  [6:0] first_dealt;
-    input wire  [4:0] taker;
-    input wire  [14:0] taken;
-    input wire  took_seed;
-    input wire  [6:0] taken_dealt;
-    output reg  [14:0] after_taken;
-    output reg  [14:0] first_record;
-    
-    // Local signals
-    reg  is_batch;
-    reg  is_early;
-    reg  [14:0] from;
-    reg  [14:0] step;
-    reg  [14:0] wide_turn;
-    reg  [14:0] twice_turn;
-    reg  [14:0] thrice_turn;
-    reg  [14:0] wide_taker;
-    reg  [6:0] narrow_turn;
-    reg  [6:0] dealt_from;
-    reg  [14:0] first_round;
-    reg  [4:0] first_context;
-    reg  [14:0] one;
-    reg  [14:0] two;
-    
-    // Update code
-    always @(*) begin
-        first_round = 32'h10;
-        first_context = 32'h0;
-        one = 32'h1;
-        two = 32'h2;
-        is_batch = deal[(64'h5)+:(1)];
-        wide_turn = ((turn) & 15'h7fff);
-        wide_taker = ((taker) & 15'h7fff);
-        narrow_turn = ((turn) & 7'h7f);
-        dealt_from = deal[(64'h6)+:(7)];
-        is_seed = is_batch & (~has_begun);
-        first_dealt = dealt_from + narrow_turn;
-        is_early = (taken < first_round) & (~is_batch);
-        from = taken;
-        step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
-        if (is_early) begin
-            step = one;
-        end
-        if (took_seed) begin
-            from = ((taken_dealt) & 15'h7fff);
-            step = 32'h0;
-        end
-        after_taken = from + step;
-        first_record = 32'h0;
-        if (is_batch) begin
-            first_record = wide_taker << two;
-        end
-        twice_turn = wide_turn << one;
-        thrice_turn = wide_turn + twice_turn;
-        next_id = planned;
-        if (~has_begun) begin
-            next_id = wide_turn + first_round;
-            if (is_batch | (turn == first_context)) begin
-                next_id = thrice_turn + two;
-            end
-        end
-    end
-    
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$following
-
-
 module incircle_core_logic$engine$insertions$dispatcher$start$from(d,q,clock);
     
     // Module arguments
@@ -14520,25 +14459,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start$from(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$from
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$has_passed(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$has_passed
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$hints(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -14581,6 +14501,25 @@ module incircle_core_logic$engine$insertions$dispatcher$start$is_alone(d,q,clock
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$is_alone
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$is_planned(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$is_planned
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$passed(d,q,clock);
@@ -14678,27 +14617,207 @@ module incircle_core_logic$engine$insertions$dispatcher$start$passed_point(d,q,c
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,turn,is_planned,due,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record,takes,owner,planned);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [12:0] deal;
+    input wire  [4:0] turn;
+    input wire  is_planned;
+    output reg  [15:0] due;
+    output reg  [6:0] first_dealt;
+    input wire  [4:0] taker;
+    input wire  [14:0] taken;
+    input wire  took_seed;
+    input wire  [6:0] taken_dealt;
+    output reg  [14:0] after_taken;
+    output reg  [14:0] first_record;
+    input wire  takes;
+    input wire  [4:0] owner;
+    input wire  [14:0] planned;
+    
+    // Stub signals
+    reg  [12:0] following$deal;
+    reg  [4:0] following$turn;
+    wire  [15:0] following$first;
+    wire  [6:0] following$first_dealt;
+    reg  [4:0] following$taker;
+    reg  [14:0] following$taken;
+    reg  following$took_seed;
+    reg  [6:0] following$taken_dealt;
+    wire  [14:0] following$after_taken;
+    wire  [14:0] following$first_record;
+    reg  plans$clock;
+    reg  [4:0] plans$write_address;
+    reg  [15:0] plans$write_data;
+    reg  plans$write_enable;
+    reg  [4:0] plans$read_address;
+    wire  [15:0] plans$read_data;
+    reg  [15:0] plan$bits;
+    wire  [15:0] plan$value;
+    
+    // Local signals
+    reg  [15:0] written;
+    reg  [15:0] written_bits;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$dispatcher$start$plans$following following(
+        .deal(following$deal),
+        .turn(following$turn),
+        .first(following$first),
+        .first_dealt(following$first_dealt),
+        .taker(following$taker),
+        .taken(following$taken),
+        .took_seed(following$took_seed),
+        .taken_dealt(following$taken_dealt),
+        .after_taken(following$after_taken),
+        .first_record(following$first_record)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$plans$plans plans(
+        .clock(plans$clock),
+        .write_address(plans$write_address),
+        .write_data(plans$write_data),
+        .write_enable(plans$write_enable),
+        .read_address(plans$read_address),
+        .read_data(plans$read_data)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$plans$plan plan(
+        .bits(plan$bits),
+        .value(plan$value)
+    );
+    
+    // Update code
+    always @(*) begin
+        plans$clock = clock;
+        following$deal = deal;
+        following$turn = turn;
+        following$taker = taker;
+        following$taken = taken;
+        following$took_seed = took_seed;
+        following$taken_dealt = taken_dealt;
+        first_dealt = following$first_dealt;
+        after_taken = following$after_taken;
+        first_record = following$first_record;
+        plans$read_address = turn;
+        plan$bits = plans$read_data;
+        plans$write_address = turn;
+        due = following$first;
+        written = following$first;
+        if (is_planned) begin
+            plans$write_address = owner;
+            due = plan$value;
+            written[(64'h0)+:(15)] = planned;
+            written[(64'hf)+:(1)] = 1'b0;
+        end
+        written_bits = written;
+        plans$write_data = written_bits;
+        plans$write_enable = takes | (~is_planned);
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(deal,turn,first,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record);
+    
+    // Module arguments
+    input wire  [12:0] deal;
+    input wire  [4:0] turn;
+    output reg  [15:0] first;
+    output reg  [6:0] first_dealt;
+    input wire  [4:0] taker;
+    input wire  [14:0] taken;
+    input wire  took_seed;
+    input wire  [6:0] taken_dealt;
+    output reg  [14:0] after_taken;
+    output reg  [14:0] first_record;
+    
+    // Local signals
+    reg  is_batch;
+    reg  is_early;
+    reg  [14:0] from;
+    reg  [14:0] step;
+    reg  [14:0] wide_turn;
+    reg  [14:0] twice_turn;
+    reg  [14:0] thrice_turn;
+    reg  [14:0] wide_taker;
+    reg  [6:0] narrow_turn;
+    reg  [6:0] dealt_from;
+    reg  [14:0] first_round;
+    reg  [4:0] first_context;
+    reg  [14:0] one;
+    reg  [14:0] two;
+    
+    // Update code
+    always @(*) begin
+        first_round = 32'h10;
+        first_context = 32'h0;
+        one = 32'h1;
+        two = 32'h2;
+        is_batch = deal[(64'h5)+:(1)];
+        wide_turn = ((turn) & 15'h7fff);
+        wide_taker = ((taker) & 15'h7fff);
+        narrow_turn = ((turn) & 7'h7f);
+        dealt_from = deal[(64'h6)+:(7)];
+        first_dealt = dealt_from + narrow_turn;
+        is_early = (taken < first_round) & (~is_batch);
+        from = taken;
+        step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
+        if (is_early) begin
+            step = one;
+        end
+        if (took_seed) begin
+            from = ((taken_dealt) & 15'h7fff);
+            step = 32'h0;
+        end
+        after_taken = from + step;
+        first_record = 32'h0;
+        if (is_batch) begin
+            first_record = wide_taker << two;
+        end
+        twice_turn = wide_turn << one;
+        thrice_turn = wide_turn + twice_turn;
+        first[(64'h0)+:(15)] = wide_turn + first_round;
+        if (is_batch | (turn == first_context)) begin
+            first[(64'h0)+:(15)] = thrice_turn + two;
+        end
+        first[(64'hf)+:(1)] = is_batch;
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans$following
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$plans$plan(bits,value);
+    
+    // Module arguments
+    input wire  [15:0] bits;
+    output reg  [15:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans$plan
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$plans$plans(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
     input wire  [4:0] write_address;
-    input wire  [14:0] write_data;
+    input wire  [15:0] write_data;
     input wire  write_enable;
     input wire  [4:0] read_address;
-    output reg  [14:0] read_data;
+    output reg  [15:0] read_data;
     
     // Update code (custom)
     wire unused_write_address = &{1'b0, write_address[4:4]};
     wire unused_read_address = &{1'b0, read_address[4:4]};
     (* ram_style = "distributed" *)
-    reg [14:0] memory [0:15];
-    wire [14:0] word = memory[read_address[3:0]];
+    reg [15:0] memory [0:15];
+    wire [15:0] word = memory[read_address[3:0]];
     always @(posedge clock) begin
         if (write_enable) memory[write_address[3:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans$plans
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$points(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -26886,8 +27005,15 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
     wire  vertices$valid;
     wire  [65:0] vertices$beat;
     reg  vertices$takes;
+    reg  is_there$d;
+    wire  is_there$q;
+    reg  is_there$clock;
+    reg  [65:0] head$d;
+    wire  [65:0] head$q;
+    reg  head$clock;
     
     // Local signals
+    reg  moves;
     reg  may_ask;
     reg  asks;
     reg  packs;
@@ -26954,6 +27080,16 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
         .beat(vertices$beat),
         .takes(vertices$takes)
     );
+    incircle_core_logic$responder$records$is_there is_there(
+        .d(is_there$d),
+        .q(is_there$q),
+        .clock(is_there$clock)
+    );
+    incircle_core_logic$responder$records$head head(
+        .d(head$d),
+        .q(head$q),
+        .clock(head$clock)
+    );
     
     // Update code
     always @(*) begin
@@ -26962,11 +27098,15 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
         left$clock = clock;
         some_are_left$clock = clock;
         fetching$clock = clock;
+        is_there$clock = clock;
+        head$clock = clock;
         vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
         fetching$d = fetching$q;
+        is_there$d = is_there$q;
+        head$d = head$q;
         record$clock = clock;
         vertices$clock = clock;
         no_word = 32'h0;
@@ -27011,20 +27151,26 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
         vertices$v0 = record$vertex0;
         vertices$v1 = record$vertex1;
         vertices$v2 = record$vertex2;
-        record$takes = takes & (~vertices_alone$q);
-        vertices$takes = takes & vertices_alone$q;
-        valid = record$holds;
-        beat[(64'h0)+:(32)] = record$word;
-        beat[(64'h20)+:(32)] = no_word;
-        beat[(64'h40)+:(1)] = 1'b0;
-        beat[(64'h41)+:(1)] = record$is_at_last & (~some_are_left$q);
-        if (vertices_alone$q) begin
-            valid = vertices$valid;
-            beat = vertices$beat;
+        valid = is_there$q;
+        beat = head$q;
+        moves = (~is_there$q) | takes;
+        record$takes = moves & record$holds & (~vertices_alone$q);
+        vertices$takes = moves & vertices$valid & vertices_alone$q;
+        if (moves) begin
+            is_there$d = record$holds;
+            head$d[(64'h0)+:(32)] = record$word;
+            head$d[(64'h20)+:(32)] = no_word;
+            head$d[(64'h40)+:(1)] = 1'b0;
+            head$d[(64'h41)+:(1)] = record$is_at_last & (~some_are_left$q);
+            if (vertices_alone$q) begin
+                is_there$d = vertices$valid;
+                head$d = vertices$beat;
+            end
         end
         if (reset) begin
             some_are_left$d = 1'b0;
             fetching$d = 1'b0;
+            is_there$d = 1'b0;
         end
     end
     
@@ -27048,6 +27194,44 @@ module incircle_core_logic$responder$records$fetching(d,q,clock);
     end
           
 endmodule // incircle_core_logic$responder$records$fetching
+
+
+module incircle_core_logic$responder$records$head(d,q,clock);
+    
+    // Module arguments
+    input wire  [65:0] d;
+    output reg  [65:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 66'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$head
+
+
+module incircle_core_logic$responder$records$is_there(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$is_there
 
 
 module incircle_core_logic$responder$records$left(d,q,clock);

@@ -80,6 +80,10 @@ impl Transport for ClockTransport {
         Some(self.clocks)
     }
 
+    fn takes_ahead(&self) -> bool {
+        true
+    }
+
     fn name(&self) -> String {
         format!("{CLOCK_NAME}:{}", self.config.name)
     }

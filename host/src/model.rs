@@ -47,6 +47,10 @@ impl Transport for ModelTransport {
         Ok(())
     }
 
+    fn takes_ahead(&self) -> bool {
+        true
+    }
+
     fn name(&self) -> String {
         MODEL_NAME.to_owned()
     }

@@ -17,10 +17,10 @@ pub trait Transport {
     /// Fills the whole of `words` with the next words of the device, or fails by `deadline`.
     fn receive(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError>;
 
-    /// Words of commands may be sent before the answers to earlier ones are received. False where each call of `send` is one command, whose
-    /// answer must be received before the next.
+    /// Words of commands may be sent before the answers to earlier ones are received. False, unless a way says otherwise: each call of
+    /// `send` is one command, whose answer is received before the next.
     fn takes_ahead(&self) -> bool {
-        true
+        false
     }
 
     /// Clocks of the device since it was made, where they are counted.

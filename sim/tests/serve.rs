@@ -1,14 +1,17 @@
 //! The program `incircle-sim`: a terminal behind a link, a line when it is ready, an end without a trace.
 
+mod service;
+
 use std::fs;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, Write};
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
 use incircle_model::serial::{FromDevice, FromHost};
 use incircle_protocol::{DeviceFrame, HostFrame};
+use service::end;
 
 /// A folder of a test's own.
 fn folder(name: &str) -> PathBuf {
@@ -18,26 +21,13 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn program(link: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_incircle-sim"));
-    command.arg("serve").arg("--link").arg(link).args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut command = service::program(&["serve", "--link"]);
+    command.arg(link).args(arguments);
     command
 }
 
-/// A service that is ready, and what it said.
 fn start(link: &Path, arguments: &[&str]) -> (Child, String) {
-    let mut child = program(link, arguments).spawn().unwrap();
-    let mut line = String::new();
-    BufReader::new(child.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
-    (child, line)
-}
-
-/// Ends it with this signal, and waits for the end.
-fn end(mut child: Child, signal: &str) -> (ExitStatus, String) {
-    let killed = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
-    assert!(killed.success());
-    let mut said = String::new();
-    child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
-    (child.wait().unwrap(), said)
+    service::start(program(link, arguments))
 }
 
 /// What answers a `Hello` without a driver: any program may open the terminal.

@@ -1,12 +1,15 @@
 //! `incircle-sim serve-pcie`: three files in a directory, a line when they are ready, an end without a trace.
 
+mod service;
+
 use std::fs::{self, File};
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{Read, Write};
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, Command};
 
 use incircle_protocol::{command_word, Opcode, StreamRegister, MAGIC, PROTOCOL_VERSION};
+use service::end;
 
 /// A folder of a test's own, which is not there.
 fn folder(name: &str) -> PathBuf {
@@ -14,26 +17,13 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn program(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_incircle-sim"));
-    command.arg("serve-pcie").arg("--dir").arg(folder).args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut command = service::program(&["serve-pcie", "--dir"]);
+    command.arg(folder).args(arguments);
     command
 }
 
-/// A service that is ready, and what it said.
 fn start(folder: &Path, arguments: &[&str]) -> (Child, String) {
-    let mut child = program(folder, arguments).spawn().unwrap();
-    let mut line = String::new();
-    BufReader::new(child.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
-    (child, line)
-}
-
-/// Ends it with this signal, and waits for the end.
-fn end(mut child: Child, signal: &str) -> (ExitStatus, String) {
-    let killed = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
-    assert!(killed.success());
-    let mut said = String::new();
-    child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
-    (child.wait().unwrap(), said)
+    service::start(program(folder, arguments))
 }
 
 fn register(folder: &Path, register: StreamRegister) -> u32 {
@@ -78,6 +68,11 @@ fn serves(name: &str, signal: &str, arguments: &[&str], beat_bytes: usize) {
 #[test]
 fn a_card_greets_and_ends_on_sigterm() {
     serves("term", "-TERM", &["--fast"], 8);
+}
+
+#[test]
+fn a_card_at_its_pins_greets_and_ends_on_sigterm() {
+    serves("pins", "-TERM", &[], 8);
 }
 
 #[test]

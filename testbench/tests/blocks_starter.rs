@@ -167,7 +167,8 @@ impl Rig {
                 let may_try = !inputs.is_urgent || inputs.special == sight.context;
                 has_rested && may_try && !life.busy
             }
-            false => sight.vertex < self.arrived && works,
+            // In the first round of the pointer nobody starts.
+            false => self.steps >= self.contexts && sight.vertex < self.arrived && works,
         };
         // One that works alone may start just now.
         let starts_now = self.contexts == 1 && self.candidate.is_some_and(|candidate| candidate.is_due);
@@ -454,8 +455,8 @@ fn starter_shows_the_wave_of_its_header() {
     for clock in 0..16 {
         let inputs = Inputs {
             came: clock == 1,
-            is_done: matches!(clock, 2 | 3),
-            is_blocked: clock == 2,
+            is_done: matches!(clock, 4 | 5),
+            is_blocked: clock == 4,
             deed: (clock == 7).then_some((0, Deed::Sleeps { root: 9, keeps: true, busy: false })),
             ..Inputs::default()
         };

@@ -4,13 +4,12 @@
 //! |---|---|---|---|
 //! | `deal` | in | Deal | contexts that work, and whether each has a mesh of its own |
 //! | `turn` | in | 5 | the context |
-//! | `has_begun`, `planned` | in | 1, 15 | it has had a point; what then stood on `after_taken` |
-//! | `next_id` | out | 15 | the vertex it takes next |
-//! | `is_seed`, `first_dealt` | out | 1, 7 | that is the third of its own first triangle, in a batch; the vertex it takes after that |
+//! | `first` | out | Plan | the vertex it takes first |
+//! | `first_dealt` | out | 7 | the one that it takes after that, in a batch |
 //! | `taker`, `taken` | in | 5, 15 | another context, and a vertex that it takes |
-//! | `took_seed`, `taken_dealt` | in | 1, 7 | what stood on `is_seed` and `first_dealt` with that vertex |
+//! | `took_seed`, `taken_dealt` | in | 1, 7 | that is the third of its first triangle, in a batch; what then stood on `first_dealt` |
 //! | `after_taken` | out | 15 | the vertex that it takes after that |
-//! | `first_record` | out | 15 | the first record of its mesh |
+//! | `first_record` | out | 15 | the first record of that context's mesh |
 //!
 //! 1. Context 0 takes vertex 2, whose arrival completes the first triangle, and then those below 16 one by one.
 //! 2. From there on points are dealt: vertex `j` belongs to context `(j - 16) mod contexts`.
@@ -20,7 +19,7 @@
 //!
 //! Latency: none (combinational).
 
-use super::Deal;
+use super::{Deal, Plan};
 use incircle_protocol::FIRST_ROUND;
 use rust_hdl_core::prelude::*;
 
@@ -31,14 +30,8 @@ pub struct NextPoint {
     pub deal: Signal<In, Deal>,
     /// The context.
     pub turn: Signal<In, Bits<5>>,
-    /// It has had a point.
-    pub has_begun: Signal<In, Bit>,
-    /// The one after that.
-    pub planned: Signal<In, Bits<15>>,
-    /// The vertex it takes next.
-    pub next_id: Signal<Out, Bits<15>>,
-    /// That is the third of its first triangle.
-    pub is_seed: Signal<Out, Bit>,
+    /// The vertex it takes first.
+    pub first: Signal<Out, Plan>,
     /// The one after such a third.
     pub first_dealt: Signal<Out, Bits<7>>,
     /// Another context.
@@ -84,7 +77,6 @@ impl Logic for NextPoint {
         self.wide_taker.next = bit_cast::<15, 5>(self.taker.val());
         self.narrow_turn.next = bit_cast::<7, 5>(self.turn.val());
         self.dealt_from.next = self.deal.val().dealt_from;
-        self.is_seed.next = self.is_batch.val() & (!self.has_begun.val());
         self.first_dealt.next = self.dealt_from.val() + self.narrow_turn.val();
         self.is_early.next = (self.taken.val() < self.first_round.val()) & (!self.is_batch.val());
         self.from.next = self.taken.val();
@@ -103,13 +95,11 @@ impl Logic for NextPoint {
         }
         self.twice_turn.next = self.wide_turn.val() << self.one.val();
         self.thrice_turn.next = self.wide_turn.val() + self.twice_turn.val();
-        self.next_id.next = self.planned.val();
-        if !self.has_begun.val() {
-            self.next_id.next = self.wide_turn.val() + self.first_round.val();
-            // That of context 0 is 2 either way.
-            if self.is_batch.val() | (self.turn.val() == self.first_context.val()) {
-                self.next_id.next = self.thrice_turn.val() + self.two.val();
-            }
+        self.first.next.id = self.wide_turn.val() + self.first_round.val();
+        // That of context 0 is 2 either way.
+        if self.is_batch.val() | (self.turn.val() == self.first_context.val()) {
+            self.first.next.id = self.thrice_turn.val() + self.two.val();
         }
+        self.first.next.is_seed = self.is_batch.val();
     }
 }

@@ -25,30 +25,31 @@
 //!    whenever a visit completes: what that asks for is known late.
 //! 3. The walk of a new point starts at the star of the context's last commit, at the first record of its mesh if there is none.
 //! 4. Who wants to be alone starts when everybody rests and the pointer has passed it.
-//! 5. The pointer is two contexts ahead. In the clock after it has stood at a context, that one's next vertex is there, and it is
+//! 5. In the first round of the pointer nobody starts: `PlanTable` writes down what each context takes first.
+//! 6. The pointer is two contexts ahead. In the clock after it has stood at a context, that one's next vertex is there, and it is
 //!    decided whether it is due and where it would start; in the clock after that it starts, unless somebody else has the queue.
 //!
 //! Latency: 2 clocks from the pointer to `starts`.
 //!
-//! Of two contexts, 0 takes vertex 2 when that has come and the queue is free. It falls asleep, keeps its point, and tries it again from
-//! record 9 in the next round that is a fourth one:
+//! Of two contexts, 0 takes vertex 2 when that has come, the first round is over and the queue is free. It falls asleep, keeps its point,
+//! and tries it again from record 9 in the next round that is a fourth one:
 //! ```text
 //! arrived           2  3  3  3  3  3  3  3  3  3  3  3  3  3  3  3
 //! came            ___/^^\_________________________________________
-//! is_done         ______/^^^^^\___________________________________
-//! is_blocked      ______/^^\______________________________________
-//! asleep            3  3  3  3  2  2  2  2  3  3  3  3  3  2  2  2
+//! is_done         ____________/^^^^^\_____________________________
+//! is_blocked      ____________/^^\________________________________
+//! asleep            3  3  3  3  3  3  2  2  3  3  3  3  3  2  2  2
 //! keeping           0  0  0  0  0  0  0  0  1  1  1  1  1  0  0  0
-//! owner             .  .  0  0  0  1  0  1  0  1  0  1  0  1  0  1
-//! starts          _________/^^\_______________________/^^\________
-//! takes           _________/^^\___________________________________
-//! taken_id          .  .  .  2  .  .  .  .  .  .  .  .  .  .  .  .
-//! u                 .  .  .  0  .  .  .  .  .  .  .  .  9  .  .  .
+//! owner             .  .  0  1  0  0  0  1  0  1  0  1  0  1  0  1
+//! starts          _______________/^^\_________________/^^\________
+//! takes           _______________/^^\_____________________________
+//! taken_id          .  .  .  .  .  2  .  .  .  .  .  .  .  .  .  .
+//! u                 .  .  .  .  .  0  .  .  .  .  .  .  9  .  .  .
 //! ```
 //!
 //! Source: points dealt to contexts lie in the vertex memory, which is their queue.
 
-use super::{context_bits, Deal, NextPoint};
+use super::{context_bits, Deal, PlanTable};
 use crate::leaf::LutMemory;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -125,17 +126,20 @@ pub struct Starter {
     pub solo_p: Signal<Out, Bits<15>>,
     turn: DFF<Bits<5>>,
     round: DFF<Bits<2>>,
+    /// The pointer has gone round once.
+    is_planned: DFF<Bit>,
     /// The context that the pointer has left last, the vertex that it would take, and the one it has; whether it would take its first in a
     /// batch, and what follows that.
-    has_passed: DFF<Bit>,
     passed: DFF<Bits<5>>,
     passed_id: DFF<Bits<15>>,
     passed_point: DFF<Bits<15>>,
     passed_is_seed: DFF<Bit>,
     passed_dealt: DFF<Bits<7>>,
-    /// The one before: the vertex that it would take and the one after that; whether it is due, with its point or a new one, where it would start, and whether it wants to be alone.
+    /// The one before: the vertex that it would take, whether that is behind the first round, and the one after it; whether it is due, with its
+    /// point or a new one, where it would start, and whether it wants to be alone.
     candidate: DFF<Bits<5>>,
     candidate_id: DFF<Bits<15>>,
+    candidate_is_dealt: DFF<Bit>,
     candidate_plan: DFF<Bits<15>>,
     candidate_point: DFF<Bits<15>>,
     wants_again: DFF<Bit>,
@@ -145,12 +149,10 @@ pub struct Starter {
     /// The first round is over, or there is none.
     all_work: DFF<Bit>,
     points: LutMemory<5, 15>,
-    plans: LutMemory<5, 15>,
     roots: LutMemory<5, 15>,
     hints: LutMemory<5, 15>,
-    following: NextPoint,
+    plans: PlanTable,
     contexts: Signal<Local, Bits<5>>,
-    turn_index: Signal<Local, Bits<5>>,
     index: Signal<Local, Bits<5>>,
     is_asleep: Signal<Local, Bit>,
     tries_again: Signal<Local, Bit>,
@@ -158,7 +160,6 @@ pub struct Starter {
     may_try: Signal<Local, Bit>,
     may_work: Signal<Local, Bit>,
     is_there: Signal<Local, Bit>,
-    is_first: Signal<Local, Bit>,
     is_barred: Signal<Local, Bit>,
     wants: Signal<Local, Bit>,
     lacks_port: Signal<Local, Bit>,
@@ -178,16 +179,16 @@ impl Starter {
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         let table = || LutMemory::new(bits, 15);
-        Self { points: table(), plans: table(), roots: table(), hints: table(), ..Self::default() }
+        Self { points: table(), plans: PlanTable::new(config), roots: table(), hints: table(), ..Self::default() }
     }
 }
 
 impl Logic for Starter {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, turn, round, has_passed, passed, passed_id, passed_point, candidate, candidate_id);
+        dff_setup!(self, clock, turn, round, is_planned, passed, passed_id, passed_point, candidate, candidate_id);
         dff_setup!(self, clock, candidate_plan, candidate_point, wants_again, wants_new, from, is_alone, all_work);
-        dff_setup!(self, clock, passed_is_seed, passed_dealt);
+        dff_setup!(self, clock, passed_is_seed, passed_dealt, candidate_is_dealt);
         clock!(self, clock, points, plans, roots, hints);
         self.one_turn.next = 1.into();
         self.one_round.next = 1.into();
@@ -197,17 +198,14 @@ impl Logic for Starter {
         self.contexts.next = self.deal.val().contexts;
 
         // The context under the pointer: which vertex it would take.
-        self.turn_index.next = self.turn.q.val();
         self.points.read_address.next = self.turn.q.val();
-        self.following.turn.next = self.turn.q.val();
-        self.following.has_begun.next = self.began.val().get_bit(self.turn_index.val().index());
-        self.plans.read_address.next = self.turn.q.val();
-        self.following.planned.next = self.plans.read_data.val();
-        self.following.taken.next = self.passed_id.q.val();
-        self.following.taker.next = self.passed.q.val();
-        self.following.took_seed.next = self.passed_is_seed.q.val();
-        self.following.taken_dealt.next = self.passed_dealt.q.val();
-        self.following.deal.next = self.deal.val();
+        self.plans.turn.next = self.turn.q.val();
+        self.plans.is_planned.next = self.is_planned.q.val();
+        self.plans.taken.next = self.passed_id.q.val();
+        self.plans.taker.next = self.passed.q.val();
+        self.plans.took_seed.next = self.passed_is_seed.q.val();
+        self.plans.taken_dealt.next = self.passed_dealt.q.val();
+        self.plans.deal.next = self.deal.val();
 
         // The one before: is it due? If only one context works, it may be the one that starts at this edge; and a point that is inserted
         // alone is not to be tried again.
@@ -223,7 +221,7 @@ impl Logic for Starter {
         if self.passed.q.val() == self.first_context.val() {
             self.may_work.next = self.seeded.val() | (!self.began.val().get_bit(0));
         }
-        self.is_there.next = self.has_passed.q.val() & (self.passed_id.q.val() < self.arrived.val());
+        self.is_there.next = self.is_planned.q.val() & (self.passed_id.q.val() < self.arrived.val());
         self.roots.read_address.next = self.passed.q.val();
         self.hints.read_address.next = self.passed.q.val();
 
@@ -246,9 +244,9 @@ impl Logic for Starter {
         self.points.write_address.next = self.candidate.q.val();
         self.points.write_data.next = self.candidate_id.q.val();
         self.points.write_enable.next = self.is_taken.val();
-        self.plans.write_address.next = self.candidate.q.val();
-        self.plans.write_data.next = self.candidate_plan.q.val();
-        self.plans.write_enable.next = self.is_taken.val();
+        self.plans.takes.next = self.is_taken.val();
+        self.plans.owner.next = self.candidate.q.val();
+        self.plans.planned.next = self.candidate_plan.q.val();
         self.roots.write_address.next = self.root_owner.val();
         self.roots.write_data.next = self.root.val();
         self.roots.write_enable.next = self.root_enable.val();
@@ -256,8 +254,8 @@ impl Logic for Starter {
         self.hints.write_data.next = self.hint.val();
         self.hints.write_enable.next = self.hint_enable.val();
 
-        self.is_first.next = self.candidate.q.val() == self.first_context.val();
-        if self.is_taken.val() & self.is_first.val() & (self.candidate_id.q.val() >= self.first_round.val()) {
+        // Before all work, nobody but context 0 takes anything.
+        if self.is_taken.val() & self.candidate_is_dealt.q.val() {
             self.all_work.d.next = true;
         }
         self.after_turn.next = self.turn.q.val() + self.one_turn.val();
@@ -268,36 +266,37 @@ impl Logic for Starter {
         if self.moves.val() {
             self.candidate.d.next = self.passed.q.val();
             self.candidate_id.d.next = self.passed_id.q.val();
-            self.candidate_plan.d.next = self.following.after_taken.val();
+            self.candidate_is_dealt.d.next = self.passed_id.q.val() >= self.first_round.val();
+            self.candidate_plan.d.next = self.plans.after_taken.val();
             self.candidate_point.d.next = self.passed_point.q.val();
             self.wants_again.d.next =
                 self.is_asleep.val() & self.tries_again.val() & self.is_rested.val() & self.may_try.val();
             self.wants_new.d.next =
                 self.is_asleep.val() & (!self.tries_again.val()) & self.is_there.val() & self.may_work.val();
             self.is_alone.d.next = self.passed.q.val() == self.solo_owner.val();
-            self.from.d.next = self.following.first_record.val();
+            self.from.d.next = self.plans.first_record.val();
             if self.hinted.val().get_bit(self.index.val().index()) {
                 self.from.d.next = self.hints.read_data.val();
             }
             if self.tries_again.val() {
                 self.from.d.next = self.roots.read_data.val();
             }
-            self.has_passed.d.next = true;
             self.passed.d.next = self.turn.q.val();
-            self.passed_id.d.next = self.following.next_id.val();
+            self.passed_id.d.next = self.plans.due.val().id;
             self.passed_point.d.next = self.points.read_data.val();
-            self.passed_is_seed.d.next = self.following.is_seed.val();
-            self.passed_dealt.d.next = self.following.first_dealt.val();
+            self.passed_is_seed.d.next = self.plans.due.val().is_seed;
+            self.passed_dealt.d.next = self.plans.first_dealt.val();
             self.turn.d.next = self.after_turn.val();
             if self.after_turn.val() == self.contexts.val() {
                 self.turn.d.next = 0.into();
+                self.is_planned.d.next = true;
                 self.round.d.next = self.round.q.val() + self.one_round.val();
             }
         }
         if self.reset.val() | self.clears.val() {
             self.turn.d.next = 0.into();
             self.round.d.next = 0.into();
-            self.has_passed.d.next = false;
+            self.is_planned.d.next = false;
             self.wants_again.d.next = false;
             self.wants_new.d.next = false;
             self.is_alone.d.next = false;

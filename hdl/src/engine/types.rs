@@ -26,6 +26,8 @@ pub const RING_ADDRESS_BITS: usize = CONTEXT_BITS + ENTRY_BITS;
 /// Bits of the address of a memory with a word for each lock of each context.
 pub const LOG_ADDRESS_BITS: usize = CONTEXT_BITS + LOG_BITS;
 
+/// Bits of [`Plan`].
+pub const PLAN_BITS: usize = Plan::BITS;
 /// Bits of [`Token`].
 pub const TOKEN_BITS: usize = Token::BITS;
 /// Bits of [`Bundle`].
@@ -57,6 +59,14 @@ fn bits_to_number(things: u32) -> usize {
 }
 
 crate::packed! {
+    /// What a context takes next.
+    pub struct Plan {
+        /// The vertex.
+        pub id: Bits<VERTEX_BITS>,
+        /// It is the third of the context's own first triangle, in a batch.
+        pub is_seed: bool,
+    }
+
     /// How points are dealt to contexts.
     pub struct Deal {
         /// Contexts that work.

@@ -5,8 +5,8 @@ use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 use super::block;
 use crate::engine::{
     AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FreshIds,
-    InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, Progress, PushPort, Release,
-    RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
+    InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, PlanTable, Progress, PushPort,
+    Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
 use crate::link::{
     AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordBuffer, RecordReads, RecordWords,
@@ -31,6 +31,7 @@ pub(super) fn control_blocks() -> Vec<(String, String)> {
         block(InnerList::new(longest_list), "inner_list_64"),
         block(JobQueue::<6>::new(2), "job_queue_2x6"),
         block(NextPoint::default(), "next_point"),
+        block(PlanTable::new(LARGE), "plan_table"),
         block(NextVisits::default(), "next_visits"),
         block(Progress::default(), "progress"),
         block(PushPort::default(), "push_port"),

@@ -13,8 +13,9 @@
 //!
 //! 1. `read` goes on to the addresses of the triangle memory, so `is_packed` passes a register before it.
 //! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
+//! 3. `valid` and `beat` are registers: whether a beat is the last decides in the same clock what the whole command port does next.
 //!
-//! Latency: 1 clock from `read_done` to the first word of the record, 2 to the beat that its vertices fill.
+//! Latency: 2 clocks from `read_done` to the first word of the record, 3 to the beat that its vertices fill.
 
 use super::{AnswerBeat, RecordBuffer, VertexStream};
 use rust_hdl_core::prelude::*;
@@ -71,6 +72,9 @@ pub struct RecordReads {
     fetching: DFF<Bit>,
     record: RecordBuffer,
     vertices: VertexStream,
+    is_there: DFF<Bit>,
+    head: DFF<AnswerBeat>,
+    moves: Signal<Local, Bit>,
     may_ask: Signal<Local, Bit>,
     asks: Signal<Local, Bit>,
     packs: Signal<Local, Bit>,
@@ -81,7 +85,7 @@ pub struct RecordReads {
 impl Logic for RecordReads {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, vertices_alone, record_id, left, some_are_left, fetching);
+        dff_setup!(self, clock, vertices_alone, record_id, left, some_are_left, fetching, is_there, head);
         clock!(self, clock, record, vertices);
         self.no_word.next = 0.into();
         self.one.next = 1.into();
@@ -131,20 +135,26 @@ impl Logic for RecordReads {
         self.vertices.v2.next = self.record.vertex2.val();
 
         // What is sent of it.
-        self.record.takes.next = self.takes.val() & (!self.vertices_alone.q.val());
-        self.vertices.takes.next = self.takes.val() & self.vertices_alone.q.val();
-        self.valid.next = self.record.holds.val();
-        self.beat.next.low = self.record.word.val();
-        self.beat.next.high = self.no_word.val();
-        self.beat.next.both = false;
-        self.beat.next.last = self.record.is_at_last.val() & (!self.some_are_left.q.val());
-        if self.vertices_alone.q.val() {
-            self.valid.next = self.vertices.valid.val();
-            self.beat.next = self.vertices.beat.val();
+        self.valid.next = self.is_there.q.val();
+        self.beat.next = self.head.q.val();
+        self.moves.next = (!self.is_there.q.val()) | self.takes.val();
+        self.record.takes.next = self.moves.val() & self.record.holds.val() & (!self.vertices_alone.q.val());
+        self.vertices.takes.next = self.moves.val() & self.vertices.valid.val() & self.vertices_alone.q.val();
+        if self.moves.val() {
+            self.is_there.d.next = self.record.holds.val();
+            self.head.d.next.low = self.record.word.val();
+            self.head.d.next.high = self.no_word.val();
+            self.head.d.next.both = false;
+            self.head.d.next.last = self.record.is_at_last.val() & (!self.some_are_left.q.val());
+            if self.vertices_alone.q.val() {
+                self.is_there.d.next = self.vertices.valid.val();
+                self.head.d.next = self.vertices.beat.val();
+            }
         }
         if self.reset.val() {
             self.some_are_left.d.next = false;
             self.fetching.d.next = false;
+            self.is_there.d.next = false;
         }
     }
 }

@@ -23,18 +23,18 @@
 //! 3. The second word is zero where there is none.
 //!
 //! Latency: 4 clocks from `answers` to the header; 3 clocks a word, 7 a record: the read's 3 and 4 more. Vertices: 1 clock a record, and
-//! the first beat of theirs 7 clocks after the header.
+//! the first beat of theirs 8 clocks after the header.
 //!
 //! A read of one record, whose header has to wait; `beat` counts the beats of the answer:
 //! ```text
-//! answers         ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\___________
+//! answers         ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\________
 //! read            _______________/^^\_____________________________
-//! response_valid  _______________/^^^^^^^^\_____/^^^^^^^^\________
-//! beat              .  .  .  .  .  0  0  0  .  .  1  2  3  .  .  .
+//! response_valid  _______________/^^^^^^^^\________/^^^^^^^^\_____
+//! beat              .  .  .  .  .  0  0  0  .  .  .  1  2  3  .  .
 //! response_ready  /^^^^^^^^^^^^^^\_____/^^^^^^^^^^^^^^^^^^^^^^^^^^
-//! response_last   ____________________________________/^^\________
-//! ends            _________________________________/^^\___________
-//! is_idle         /^^^^^\_____________________________/^^^^^^^^^^^
+//! response_last   _______________________________________/^^\_____
+//! ends            ____________________________________/^^\________
+//! is_idle         /^^^^^\________________________________/^^^^^^^^
 //! ```
 
 use super::{AnswerBeat, RecordReads, WordPair, WORD_PAIR_BITS};

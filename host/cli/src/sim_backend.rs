@@ -60,6 +60,10 @@ impl Transport for SimTransport {
         }
     }
 
+    fn takes_ahead(&self) -> bool {
+        true
+    }
+
     fn name(&self) -> String {
         format!("sim:{}", self.name)
     }

@@ -347,6 +347,10 @@ impl Transport for PcieTransport {
         }
     }
 
+    fn takes_ahead(&self) -> bool {
+        true
+    }
+
     fn name(&self) -> String {
         self.name.clone()
     }

@@ -195,10 +195,6 @@ impl Transport for SerialTransport {
         Ok(())
     }
 
-    fn takes_ahead(&self) -> bool {
-        false
-    }
-
     fn name(&self) -> String {
         self.name.clone()
     }

@@ -229,10 +229,6 @@ impl Rig {
 }
 
 impl Transport for Rig {
-    fn takes_ahead(&self) -> bool {
-        false
-    }
-
     fn send(&mut self, words: &[u32], _: Instant) -> Result<(), TransportError> {
         let result = self.ask(words);
         if let Err(TransportError::Serial(fault)) = &result {

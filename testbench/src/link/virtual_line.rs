@@ -180,10 +180,6 @@ impl VirtualTransport {
 }
 
 impl Transport for VirtualTransport {
-    fn takes_ahead(&self) -> bool {
-        false
-    }
-
     fn send(&mut self, words: &[u32], _deadline: Instant) -> Result<(), TransportError> {
         self.taken = 0;
         self.answer = self.line.borrow_mut().ask(words, self.limit)?;

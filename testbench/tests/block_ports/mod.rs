@@ -4,7 +4,7 @@
 #![allow(dead_code)] // Every test that includes this uses a part of it.
 
 use incircle_hdl::engine::{
-    Attempt, Bundle, CommitJob, Deal, Entry, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
+    Attempt, Bundle, CommitJob, Deal, Entry, Plan, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::link::AnswerBeat;
@@ -81,7 +81,8 @@ packed_values!(
     WriteEnables,
     Asked,
     AnswerBeat,
-    Deal
+    Deal,
+    Plan
 );
 
 /// A block whose ports are reached by name.

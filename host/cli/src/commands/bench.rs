@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use incircle::{Options, Point, Report, Session};
+use incircle::{Options, Point, Session};
 
 use crate::arguments::{BackendChoice, BenchArguments, BenchCommand};
 use crate::backend::{self, Backend};
@@ -163,11 +163,16 @@ fn run_once(
         contexts: arguments.job.contexts,
         insert_chunk,
     };
+    let (mesh, seconds) = timed(|| session.triangulate_with(points, &options))?;
+    Ok(Measured { set, report: mesh.report, seconds, fit: None })
+}
+
+/// What a library call gives, and how many seconds it took.
+pub(super) fn timed<T>(call: impl FnOnce() -> Result<T, incircle::Error>) -> Result<(T, f64), Failure> {
     let since = Instant::now();
-    let mesh = interrupt::working(|| session.triangulate_with(points, &options));
+    let result = interrupt::working(call);
     let seconds = since.elapsed().as_secs_f64();
     // Comes first, because an interrupt may show as any error.
     interrupt::check()?;
-    let report: Report = mesh.map_err(|error| failure_of(&error))?.report;
-    Ok(Measured { set, report, seconds, fit: None })
+    Ok((result.map_err(|error| failure_of(&error))?, seconds))
 }

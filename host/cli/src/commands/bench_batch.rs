@@ -1,19 +1,17 @@
 //! `incircle bench --batch`: many small jobs in one call, from the first word in to the last triangle out.
 
-use std::time::Instant;
-
 use incircle::{Options, Point, Session};
 use incircle_protocol::FULL;
 use serde_json::{json, Value};
 
 use crate::arguments::{BackendChoice, BenchArguments};
 use crate::backend;
-use crate::commands::bench::{is_software, points_of, sets_of, DEFAULT_MHZ, SOFTWARE_RUNS};
+use crate::commands::bench::{is_software, points_of, sets_of, timed, DEFAULT_MHZ, SOFTWARE_RUNS};
 use crate::failure::{counted, Failure};
 use crate::generate::Distribution;
 use crate::grid::failure_of;
+use crate::output;
 use crate::progress::Meter;
-use crate::{interrupt, output};
 
 /// Width of the names of sets.
 const SET_WIDTH: usize = 15;
@@ -116,12 +114,7 @@ fn run_once(
         ..Options::default()
     };
     let before = session.clocks();
-    let since = Instant::now();
-    let meshes = interrupt::working(|| session.triangulate_batch(jobs, &options));
-    let seconds = since.elapsed().as_secs_f64();
-    // Comes first, because an interrupt may show as any error.
-    interrupt::check()?;
-    let meshes = meshes.map_err(|error| failure_of(&error))?;
+    let (meshes, seconds) = timed(|| session.triangulate_batch(jobs, &options))?;
     let cycles = session.clocks().zip(before).map(|(after, before)| after - before);
     let distinct = meshes.iter().map(|mesh| mesh.report.distinct).sum();
     let triangles = meshes.iter().map(|mesh| mesh.report.triangles).sum();

@@ -25,6 +25,8 @@ pub(super) struct RecordReads {
     has_room: bool,
     packer: Packer,
     queue: Queue,
+    /// The beat that is offered.
+    head: Option<Beat>,
 }
 
 /// What happens to it at an edge.
@@ -36,7 +38,7 @@ pub(super) struct Event {
     pub asks: bool,
     /// One that was asked for comes.
     pub done: Option<[u32; 3]>,
-    /// The first beat is taken.
+    /// The beat that is offered is taken.
     pub takes: bool,
 }
 
@@ -55,8 +57,13 @@ impl RecordReads {
         (self.left != 0 && may_ask).then_some(self.record_id)
     }
 
-    /// The first beat that is left.
-    pub(super) fn beat(&self, packs: bool) -> Option<Beat> {
+    /// The beat that is offered.
+    pub(super) fn beat(&self) -> Option<Beat> {
+        self.head
+    }
+
+    /// The beat that is offered after it.
+    fn next_beat(&self, packs: bool) -> Option<Beat> {
         if packs {
             return self.queue.first().or(self.packer.filled);
         }
@@ -81,12 +88,17 @@ impl RecordReads {
             self.buffer = words;
             self.buffer_valid = true;
         }
-        if takes && !packs {
+        let mut moves = false;
+        if takes || was.head.is_none() {
+            self.head = was.next_beat(packs);
+            moves = self.head.is_some();
+        }
+        if moves && !packs {
             self.column = (was.column + 1) % 3;
             self.buffer_valid = self.column != 0;
         }
         self.has_room = was.queue.waiting <= ROOM;
-        self.queue.clock(was.packer.filled, takes && packs);
+        self.queue.clock(was.packer.filled, moves && packs);
         self.packer.clock(packed.then(|| was.buffer.map(|word| word & ((1 << NARROW_ID_BITS) - 1))));
     }
 }

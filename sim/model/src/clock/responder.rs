@@ -84,12 +84,12 @@ impl Responder {
     }
 
     /// The last word is loaded at this edge.
-    pub(super) fn ends(&self, was: &Registers, response_ready: bool) -> bool {
-        self.loads(response_ready) && self.next_beat(was).is_some_and(|beat| beat.last)
+    pub(super) fn ends(&self, response_ready: bool) -> bool {
+        self.loads(response_ready) && self.next_beat().is_some_and(|beat| beat.last)
     }
 
     /// The beat that is loaded at this edge, if the last one is taken.
-    fn next_beat(&self, was: &Registers) -> Option<Beat> {
+    fn next_beat(&self) -> Option<Beat> {
         match self.state {
             State::Idle | State::Prepare | State::Choose => None,
             State::Header => {
@@ -97,7 +97,7 @@ impl Responder {
                 Some(Beat { low: self.answer.header(), high: length, both: true, last: length == 0 })
             }
             State::Payload => Some(Beat { last: self.left == 1, ..Beat::of(self.answer.word()) }),
-            State::Records => self.records.beat(packs(was)),
+            State::Records => self.records.beat(),
         }
     }
 
@@ -107,7 +107,7 @@ impl Responder {
             self.answer.choose(was, latencies, config, was.responder.index);
         }
         self.wait(was, latencies);
-        let beat = was.responder.next_beat(was).filter(|_| was.responder.loads(wires.response_ready));
+        let beat = was.responder.next_beat().filter(|_| was.responder.loads(wires.response_ready));
         self.records.clock(Event {
             packs: packs(was),
             asks: wires.read.is_some(),

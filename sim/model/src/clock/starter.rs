@@ -11,17 +11,10 @@ use incircle_protocol::FIRST_ROUND;
 const BACK_OFF_ROUNDS: u32 = 4;
 
 /// The context that the pointer has left last, and the vertex it would take.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Passed {
     context: usize,
     id: u32,
-}
-
-impl Default for Passed {
-    /// At first there is no such vertex.
-    fn default() -> Self {
-        Self { context: 0, id: u32::MAX }
-    }
 }
 
 /// The context before that one, and what has been decided about it.
@@ -46,6 +39,8 @@ pub(super) struct Start {
 pub(super) struct Starter {
     turn: usize,
     round: u32,
+    /// The pointer has gone round once; before that nobody starts.
+    is_planned: bool,
     passed: Passed,
     candidate: Candidate,
     /// The first round is over, or there is none: all contexts work.
@@ -82,7 +77,7 @@ impl Starter {
             0 => was.seeder.seeded || flags.began & 1 == 0,
             _ => self.all_work || (defect == Some(Defect::AllFromTheStart) && was.seeder.seeded),
         };
-        let ready = id < was.command.arrived && works;
+        let ready = self.is_planned && id < was.command.arrived && works;
         let start = match flags.hinted & bit {
             // The first record of its job.
             0 if was.command.batch => 4 * context as u32,
@@ -112,6 +107,7 @@ impl Starter {
             self.turn += 1;
             if self.turn as u32 == was.command.contexts {
                 self.turn = 0;
+                self.is_planned = true;
                 self.round = (self.round + 1) % BACK_OFF_ROUNDS;
             }
         }

@@ -80,7 +80,7 @@ impl ClockModel {
             outcome,
             record_read: self.pipeline.record_read().map(|id| self.memory.record_words(id)),
             read: was.responder.read_request(was),
-            answer_ends: was.responder.ends(was, inputs.response_ready),
+            answer_ends: was.responder.ends(inputs.response_ready),
             is_quiet: was.progress.is_done(was) && rests,
             new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
             start: wanted.filter(|_| !lacks_port && !lacks_queue),
