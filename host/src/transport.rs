@@ -28,6 +28,12 @@ pub trait Transport {
         None
     }
 
+    /// The clock of the device, counted as [`Transport::clocks`] does, in which it gave the word that was received last. None where that is not
+    /// known: the device may be far ahead of what was received.
+    fn answer_clock(&self) -> Option<u64> {
+        None
+    }
+
     /// Short name for reports: `model`, `sim:full`.
     fn name(&self) -> String;
 
