@@ -110,7 +110,8 @@ impl Batch<'_> {
         let opcode = if self.link.packs_records() { Opcode::Triangles } else { Opcode::Read };
         let assembled = assembled.map_err(|fault| self.link.distrust(opcode, fault))?;
         let clock = self.link.answer_clock();
-        let clocks = clock.zip(flight.clock).map(|(end, begin)| end - begin).filter(|_| load.group.is_frame);
+        let clocks =
+            clock.zip(flight.clock).and_then(|(end, begin)| end.checked_sub(begin)).filter(|_| load.group.is_frame);
         let contexts = if load.group.is_frame { self.contexts } else { 1 };
         let jobs = flight.loads.pop_front().map_or_else(Vec::new, |load| load.group.jobs);
         for (Ordered { job, prepared }, (triangles, hull)) in jobs.into_iter().zip(assembled) {
