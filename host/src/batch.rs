@@ -7,10 +7,9 @@
 mod commands;
 mod flight;
 mod group;
+mod part_listener;
 mod threads;
 
-use std::cell::Cell;
-use std::ops::ControlFlow;
 use std::sync::mpsc::{sync_channel, Receiver};
 use std::thread::Scope;
 
@@ -19,13 +18,14 @@ use incircle_protocol::Identity;
 use crate::error::Error;
 use crate::link::{Limit, Link};
 use crate::mesh::Mesh;
-use crate::options::{Options, Order, Progress, Stage};
+use crate::options::{Options, Order, Stage};
 use crate::point::Point;
 use crate::prepare::{prepare, Prepared};
 use crate::report::Report;
 use crate::session::tell;
 
 use group::{Group, Ordered};
+pub(crate) use part_listener::PartListener;
 pub(crate) use threads::on_threads;
 
 /// Most points of a job that is one of a group: the records of a group are read at once.
@@ -34,8 +34,6 @@ const MAX_JOB_POINTS: usize = 8192;
 const MAX_FRAME_POINTS: usize = 65_536;
 /// Jobs that are taken between two looks at the listener.
 const JOBS_PER_LOOK: usize = 64;
-/// Frames in order that wait for their turn, besides the one at hand.
-const ORDERED_AHEAD: usize = 1;
 
 /// What becomes of the jobs: meshes without their points, in the order of the caller, and those that must go one by one.
 pub(crate) struct Done {
@@ -168,35 +166,11 @@ fn order_frames<'s>(
     order: Order,
     contexts: u32,
 ) -> Receiver<Ordered> {
-    let (sender, ordered) = sync_channel(ORDERED_AHEAD);
+    // It has one in hand until that is wanted: no more are kept.
+    let (sender, ordered) = sync_channel(0);
     if !frames.is_empty() {
         let in_order = move |job: usize| Ordered { job, prepared: prepare(&jobs[job], order, contexts) };
         scope.spawn(move || frames.into_iter().try_for_each(|job| sender.send(in_order(job))));
     }
     ordered
-}
-
-/// Hears of a job that goes by itself, and tells how far all jobs are.
-pub(crate) struct PartListener<'a> {
-    options: &'a Options<'a>,
-    /// Points of the jobs before it, and of all.
-    before: usize,
-    total: usize,
-    /// The most that was told.
-    most: Cell<usize>,
-}
-
-impl<'a> PartListener<'a> {
-    pub(crate) fn new(options: &'a Options<'a>, before: usize, total: usize) -> Self {
-        Self { options, before, total, most: Cell::new(before) }
-    }
-
-    /// What a job that is done once more tells again is told once.
-    pub(crate) fn hear(&self, progress: Progress) -> ControlFlow<()> {
-        if progress.stage == Stage::Insert {
-            self.most.set(self.most.get().max(self.before + progress.done));
-        }
-        let all = Progress { stage: Stage::Insert, done: self.most.get(), total: self.total };
-        self.options.progress.map_or(ControlFlow::Continue(()), |listener| listener(all))
-    }
 }

@@ -79,7 +79,7 @@ impl<'d> Session<'d> {
     /// A device works on as many jobs side by side as it has contexts, each in its share of the memory; [`Options::contexts`] says how
     /// many at most. Jobs too large for a share are done one by one, each with all contexts. Where the link takes words ahead, those of the next
     /// job are on their way, and the one behind it is put in order in a thread, while the device works on the last and its mesh is assembled:
-    /// two jobs are in memory besides their meshes. The engine in this process works on a job with each thread.
+    /// three jobs are held in order at once. The engine in this process works on a job with each thread.
     ///
     /// [`Options::insert_chunk`] is used only where a job has more than 65,536 points, or the link takes nothing ahead. The time of
     /// [`Options::timeout`] is for all jobs that share the memory together, and for each of the others; a job that is sent ahead lends its own to

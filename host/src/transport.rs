@@ -49,7 +49,7 @@ pub trait Transport {
     }
 
     /// After an error: brings the device back to where it was after its reset, if that may help, and says whether it did. Then the
-    /// job is tried once more, from its `Clear` on.
+    /// job is tried once more, from its `Clear` on, and so is what was sent ahead behind it.
     ///
     /// # Errors
     /// A newer fault, which tells more than the one before.

@@ -146,9 +146,7 @@ impl Batch<'_> {
     }
 
     fn check_insert(&mut self, load: &Load, answer: &[u32]) -> Result<(), Error> {
-        let Ok(words) = <[u32; 5]>::try_from(answer) else {
-            return Ok(());
-        };
+        let words = std::array::from_fn(|place| answer.get(place).copied().unwrap_or(0));
         let checked = load.group.check_report(&InsertReport::from_words(words), load.points);
         checked.map_err(|fault| self.link.distrust(Opcode::Insert, fault))
     }
