@@ -1,61 +1,57 @@
-//! Many small jobs: side by side in the memory of a device, or on the threads of this process.
+//! Many jobs in one call: on a device, or on the threads of this process.
 //!
-//! A small mesh has no room for many insertions at once, so a device with several contexts gets a group of jobs, a mesh for each context.
-//! The words of the next group are sent before the answers of the last are received, so that the device never waits for the host.
+//! A small mesh has no room for many insertions at once, so a device with several contexts gets a *group* of small jobs, a mesh for each
+//! context. A job too large for that is a *frame*: it has the whole memory. Where the link takes words ahead, those of the next group or
+//! frame are sent before the answers of the last are received ([`flight`]), so that the device never waits for the host.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+mod commands;
+mod flight;
+mod group;
+mod part_listener;
+mod threads;
 
-use incircle_protocol::{batch_word, command_word, infinite_vertex, Identity, InsertReport, Layout, Opcode};
+use std::sync::mpsc::{sync_channel, Receiver};
+use std::thread::Scope;
 
-use crate::assemble::{check_last_half, checked_record, Assembly};
-use crate::cpu::CpuJob;
+use incircle_protocol::Identity;
+
 use crate::error::Error;
-use crate::fault::DeviceFault;
 use crate::link::{Limit, Link};
 use crate::mesh::Mesh;
 use crate::options::{Options, Order, Stage};
 use crate::point::Point;
 use crate::prepare::{prepare, Prepared};
 use crate::report::Report;
-use crate::session::{tell, Stopwatch};
+use crate::session::tell;
+
+use group::{Group, Ordered};
+pub(crate) use part_listener::PartListener;
+pub(crate) use threads::on_threads;
 
 /// Most points of a job that is one of a group: the records of a group are read at once.
 const MAX_JOB_POINTS: usize = 8192;
-/// Jobs that a thread takes between two looks at the listener.
+/// Most points of a frame: its words are kept, and its records are read at once.
+const MAX_FRAME_POINTS: usize = 65_536;
+/// Jobs that are taken between two looks at the listener.
 const JOBS_PER_LOOK: usize = 64;
-
-/// A job in the order of insertion.
-struct Ordered {
-    /// Its place in the list of the caller.
-    job: usize,
-    prepared: Prepared,
-}
-
-impl Ordered {
-    fn vertices(&self) -> usize {
-        self.prepared.order.len()
-    }
-}
-
-/// Jobs that share the memory, the longest first.
-struct Group {
-    jobs: Vec<Ordered>,
-}
-
-/// A command of a group: its words, and the words of the payload of its answer.
-struct Command {
-    opcode: Opcode,
-    words: Vec<u32>,
-    payload: usize,
-}
-
-/// Triangles and hull of a job.
-type Assembled = (Vec<[u32; 3]>, Vec<u32>);
 
 /// What becomes of the jobs: meshes without their points, in the order of the caller, and those that must go one by one.
 pub(crate) struct Done {
     pub(crate) meshes: Vec<Option<Mesh>>,
     pub(crate) singles: Vec<usize>,
+    /// Points of the jobs that a listener has been told of as done.
+    pub(crate) passed: usize,
+}
+
+impl Done {
+    fn nothing_of(jobs: &[Vec<Point>]) -> Self {
+        Self { meshes: jobs.iter().map(|_| None).collect(), singles: Vec::new(), passed: 0 }
+    }
+}
+
+/// Points of all jobs.
+pub(crate) fn points_of(jobs: &[Vec<Point>]) -> usize {
+    jobs.iter().map(Vec::len).sum()
 }
 
 /// A batch over a link.
@@ -63,6 +59,7 @@ pub(crate) struct Batch<'b> {
     pub(crate) identity: Identity,
     /// Contexts that work.
     pub(crate) contexts: u32,
+    /// For all jobs that share the memory.
     pub(crate) limit: Limit,
     pub(crate) link: &'b mut Link,
     pub(crate) options: &'b Options<'b>,
@@ -70,55 +67,49 @@ pub(crate) struct Batch<'b> {
 }
 
 impl Batch<'_> {
-    /// All jobs but those that are too large to share the memory.
+    /// All jobs but those that must go one by one: large ones on a link that takes nothing ahead, and very large ones on any.
     pub(crate) fn run(mut self) -> Result<Done, Error> {
-        let mut done = Done { meshes: self.jobs.iter().map(|_| None).collect(), singles: Vec::new() };
-        let groups = self.prepare_all(&mut done)?;
-        let total = groups.iter().map(|group| group.jobs.iter().map(Ordered::vertices).sum::<usize>()).sum();
-        let (mut sent, mut waiting) = (0, None);
-        for group in groups {
-            if let Err(cancelled) = tell(self.options, Stage::Insert, sent, total) {
-                if let Some((group, commands)) = waiting {
-                    // The session stays in step.
-                    self.finish(group, commands, &mut done.meshes)?;
-                }
-                return Err(cancelled);
-            }
-            sent += group.jobs.iter().map(Ordered::vertices).sum::<usize>();
-            let commands = self.commands(&group);
-            if self.link.takes_ahead() {
-                let words = commands.each_ref().map(|command| &command.words[..]).concat();
-                self.link.send_ahead(Opcode::Insert, &words, self.limit)?;
-            }
-            if let Some((before, commands)) = waiting.replace((group, commands)) {
-                self.finish(before, commands, &mut done.meshes)?;
-            }
-        }
-        if let Some((last, commands)) = waiting {
-            self.finish(last, commands, &mut done.meshes)?;
-        }
-        tell(self.options, Stage::Insert, total, total)?;
+        let mut done = Done::nothing_of(self.jobs);
+        let (small, frames) = self.divide(&mut done);
+        let groups = self.group(small, &mut done)?;
+        std::thread::scope(|scope| {
+            let ordered = order_frames(scope, self.jobs, frames, self.options.order, self.contexts);
+            self.carry(groups.into_iter().chain(ordered.into_iter().map(Group::frame)), &mut done)
+        })?;
         Ok(done)
     }
 
-    /// Puts all jobs in order, and those that share the memory into groups. What needs no device is answered here.
-    fn prepare_all(&self, done: &mut Done) -> Result<Vec<Group>, Error> {
-        let total = self.jobs.iter().map(Vec::len).sum();
+    /// The jobs that share the memory, and the frames.
+    fn divide(&self, done: &mut Done) -> (Vec<usize>, Vec<usize>) {
         let share = (self.identity.capacity / self.contexts) as usize;
-        let (mut shared, mut seen) = (Vec::new(), 0);
+        let (mut small, mut frames) = (Vec::new(), Vec::new());
         for (job, points) in self.jobs.iter().enumerate() {
-            if job % JOBS_PER_LOOK == 0 {
+            if points.len() <= share.min(MAX_JOB_POINTS) {
+                small.push(job);
+            } else if points.len() <= MAX_FRAME_POINTS && self.link.takes_ahead() {
+                frames.push(job);
+            } else {
+                done.singles.push(job);
+            }
+        }
+        (small, frames)
+    }
+
+    /// Puts the small jobs in order and into groups. What needs no device is answered here.
+    fn group(&self, small: Vec<usize>, done: &mut Done) -> Result<Vec<Group>, Error> {
+        let total = small.iter().map(|&job| self.jobs[job].len()).sum();
+        let (mut shared, mut seen) = (Vec::new(), 0);
+        for (place, job) in small.into_iter().enumerate() {
+            if place % JOBS_PER_LOOK == 0 {
                 tell(self.options, Stage::Order, seen, total)?;
             }
+            let points = &self.jobs[job];
             seen += points.len();
             let prepared = prepare(points, self.options.order, 1);
-            let vertices = prepared.order.len();
-            if prepared.collinear && vertices <= self.identity.capacity as usize {
-                done.meshes[job] = Some(self.mesh(job, Vec::new(), prepared.order.clone(), prepared));
-            } else if prepared.collinear || vertices > share.min(MAX_JOB_POINTS) {
-                done.singles.push(job);
-            } else {
-                shared.push(Ordered { job, prepared });
+            let is_answered = prepared.collinear;
+            shared.extend(self.answer_here(Ordered { job, prepared }, done)?);
+            if is_answered {
+                done.passed += points.len();
             }
         }
         // Jobs of one length side by side: none waits long for another.
@@ -126,84 +117,25 @@ impl Batch<'_> {
         let mut groups = Vec::new();
         let mut rest = shared.into_iter().peekable();
         while rest.peek().is_some() {
-            groups.push(Group { jobs: rest.by_ref().take(self.contexts as usize).collect() });
+            let jobs = rest.by_ref().take(self.contexts as usize).collect();
+            groups.push(Group { jobs, is_frame: false });
         }
         Ok(groups)
     }
 
-    fn layout(&self) -> Layout {
-        Layout::of(self.identity.coord_bits, self.identity.capacity)
-    }
-
-    /// `Clear`, `Insert` and the read-out.
-    fn commands(&self, group: &Group) -> [Command; 3] {
-        let layout = self.layout();
-        let points = group.points(self.jobs);
-        let mut insert = Vec::with_capacity(2 + points.len() * layout.point_words);
-        insert.extend([command_word(Opcode::Insert), points.len() as u32]);
-        for point in &points {
-            insert.extend_from_slice(&layout.point_to_words(point.x, point.y)[..layout.point_words]);
+    /// Answers a job that needs no device; gives back one that does. An error if the device cannot hold it.
+    fn answer_here(&self, ordered: Ordered, done: &mut Done) -> Result<Option<Ordered>, Error> {
+        let (distinct, capacity) = (ordered.vertices(), self.identity.capacity);
+        if distinct > capacity as usize {
+            let source = Box::new(Error::Capacity { distinct, capacity, device: self.link.name() });
+            return Err(Error::InJob { job: ordered.job, source });
         }
-        let records = group.records();
-        let (opcode, payload) = match layout.triangles_words(records as u32) {
-            Some(words) if self.link.packs_records() => (Opcode::Triangles, words as usize),
-            _ => (Opcode::Read, records * layout.record_words),
-        };
-        [
-            Command { opcode: Opcode::Clear, words: vec![batch_word(group.jobs.len() as u32)], payload: 0 },
-            Command { opcode: Opcode::Insert, words: insert, payload: incircle_protocol::INSERT_REPORT_WORDS },
-            Command { opcode, words: vec![command_word(opcode), 0, records as u32], payload },
-        ]
-    }
-
-    /// Receives the answers of a group and makes its meshes.
-    fn finish(&mut self, group: Group, commands: [Command; 3], meshes: &mut [Option<Mesh>]) -> Result<(), Error> {
-        let is_sent = self.link.takes_ahead();
-        let sent = (commands[1].words.len() - 2) / self.layout().point_words;
-        let mut answer = Vec::new();
-        for Command { opcode, words, payload } in commands {
-            if !is_sent {
-                self.link.send_ahead(opcode, &words, self.limit)?;
-            }
-            answer.clear();
-            answer.resize(payload, 0);
-            self.link.receive_answer(opcode, &mut answer, self.limit)?;
-            if let (Opcode::Insert, Ok(report)) = (opcode, <[u32; 5]>::try_from(&answer[..])) {
-                let checked = group.check_report(&InsertReport::from_words(report), sent);
-                checked.map_err(|fault| self.link.distrust(opcode, fault))?;
-            }
+        if !ordered.prepared.collinear {
+            return Ok(Some(ordered));
         }
-        let opcode = if self.link.packs_records() { Opcode::Triangles } else { Opcode::Read };
-        let assembled = self.assemble(&group, sent, &answer).map_err(|fault| self.link.distrust(opcode, fault))?;
-        for (ordered, (triangles, hull)) in group.jobs.into_iter().zip(assembled) {
-            meshes[ordered.job] = Some(self.mesh(ordered.job, triangles, hull, ordered.prepared));
-        }
-        Ok(())
-    }
-
-    /// The triangles and the hull of each job from the records of all.
-    fn assemble(&self, group: &Group, sent: usize, words: &[u32]) -> Result<Vec<Assembled>, DeviceFault> {
-        let (layout, capacity, records) = (self.layout(), self.identity.capacity, group.records());
-        let assembly = |ordered| {
-            let Ordered { job, prepared }: &Ordered = ordered;
-            Assembly::new(&prepared.order, &self.jobs[*job], layout, capacity)
-        };
-        let mut assemblies: Vec<Assembly<'_>> = group.jobs.iter().map(assembly).collect();
-        let is_packed = self.link.packs_records();
-        for record in 0..records {
-            let v = if is_packed {
-                layout.vertices_from_words(words, record)
-            } else {
-                let width = layout.record_words;
-                checked_record(layout, record, &words[record * width..][..width], records)?
-            };
-            let (job, [a, b, c]) = group.own_vertices(record, v, sent, infinite_vertex(capacity))?;
-            assemblies[job].take_vertices(record, a, b, c)?;
-        }
-        if is_packed {
-            check_last_half(layout, 0, records, words)?;
-        }
-        assemblies.into_iter().map(Assembly::finish).collect()
+        let Ordered { job, prepared } = ordered;
+        done.meshes[job] = Some(self.mesh(job, Vec::new(), prepared.order.clone(), prepared));
+        Ok(None)
     }
 
     /// Everything but the points.
@@ -226,130 +158,19 @@ impl Batch<'_> {
     }
 }
 
-impl Group {
-    /// Records of all jobs.
-    fn records(&self) -> usize {
-        self.jobs.iter().map(|ordered| 2 * ordered.vertices() - 2).sum()
-    }
-
-    /// The points in the order in which they are sent: three of each job, then one of each in turn. A job that has no more repeats its last
-    /// one, which is found at once, until the longest is over.
-    fn points(&self, jobs: &[Vec<Point>]) -> Vec<Point> {
-        let at = |ordered: &Ordered, index: u32| jobs[ordered.job][index as usize];
-        let first = self
-            .jobs
-            .iter()
-            .flat_map(|ordered| ordered.prepared.order[..3].iter().map(move |&index| at(ordered, index)));
-        let mut points: Vec<Point> = first.collect();
-        let longest = self.jobs.iter().map(Ordered::vertices).max().unwrap_or(0);
-        // The jobs stand in the order of their lengths, so the last round ends with the last of the longest.
-        let last_round = self.jobs.iter().take_while(|ordered| ordered.vertices() == longest).count();
-        for place in 3..longest {
-            let takers = if place + 1 == longest { last_round } else { self.jobs.len() };
-            points.extend(self.jobs[..takers].iter().filter_map(|ordered| {
-                let order = &ordered.prepared.order;
-                order.get(place).or(order.last()).map(|&index| at(ordered, index))
-            }));
-        }
-        points
-    }
-
-    /// All points must be in, and those that were repeated are duplicates.
-    fn check_report(&self, report: &InsertReport, sent: usize) -> Result<(), DeviceFault> {
-        let vertices: usize = self.jobs.iter().map(Ordered::vertices).sum();
-        let counts = [
-            ("points arrived", report.arrived, sent),
-            ("points inserted", report.inserted, vertices),
-            ("duplicates", report.duplicates, sent - vertices),
-            ("points refused", report.refused, 0),
-            ("records", report.records, self.records()),
-        ];
-        match counts.into_iter().find(|&(_, found, expected)| found as usize != expected) {
-            Some((what, found, expected)) => Err(DeviceFault::Count { what, found, expected: expected as u32 }),
-            None => Ok(()),
-        }
-    }
-
-    /// The job that a record belongs to, and its vertices as that job counts them.
-    fn own_vertices(
-        &self,
-        record: usize,
-        v: [u32; 3],
-        sent: usize,
-        infinite: u32,
-    ) -> Result<(usize, [u32; 3]), DeviceFault> {
-        let (count, mut owner) = (self.jobs.len() as u32, None);
-        let mut own = v;
-        for (vertex, own) in v.into_iter().zip(&mut own).filter(|(vertex, _)| *vertex != infinite) {
-            if vertex as usize >= sent {
-                return Err(DeviceFault::VertexOutOfRange { record, vertex, points: sent });
-            }
-            let (job, place) = match vertex.checked_sub(3 * count) {
-                None => (vertex / 3, vertex % 3),
-                Some(dealt) => (dealt % count, 3 + dealt / count),
-            };
-            *own = place;
-            if owner.replace(job).is_some_and(|other| other != job) {
-                return Err(DeviceFault::MixedJobs { record, vertices: v });
-            }
-        }
-        match owner {
-            Some(job) => Ok((job as usize, own)),
-            None => Err(DeviceFault::RepeatedVertex { record }),
-        }
-    }
-}
-
-/// Jobs side by side on the threads of this process, each by one thread. Large jobs are left to all threads together.
-pub(crate) fn on_threads(
-    jobs: &[Vec<Point>],
-    threads: u32,
-    options: &Options<'_>,
-    limit: Limit,
-) -> Result<Done, Error> {
-    let total = jobs.iter().map(Vec::len).sum();
-    let mut done = Done { meshes: jobs.iter().map(|_| None).collect(), singles: Vec::new() };
-    let (small, large) = (0..jobs.len()).partition(|&job: &usize| jobs[job].len() <= MAX_JOB_POINTS);
-    done.singles = large;
-    let small: Vec<usize> = small;
-    let (order, mut seen) = (options.order, 0);
-    for look in small.chunks(JOBS_PER_LOOK * threads as usize) {
-        tell(options, Stage::Insert, seen, total)?;
-        let taken = AtomicUsize::new(0);
-        let work = || take_jobs(jobs, look, &taken, order, limit);
-        let results = std::thread::scope(|scope| {
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-            let mut results = work();
-            for other in others {
-                match other.join() {
-                    Ok(own) => results.extend(own),
-                    Err(panic) => std::panic::resume_unwind(panic),
-                }
-            }
-            results
-        });
-        for (job, mesh) in results {
-            done.meshes[job] = Some(mesh?);
-            seen += jobs[job].len();
-        }
-    }
-    tell(options, Stage::Insert, total, total)?;
-    Ok(done)
-}
-
-/// What a thread does: the next of these jobs that nobody has taken, until there is none.
-fn take_jobs(
-    jobs: &[Vec<Point>],
-    look: &[usize],
-    taken: &AtomicUsize,
+/// Puts frames in order in a thread of its own, so that it is done while the device works. It ends when nobody wants the next one.
+fn order_frames<'s>(
+    scope: &'s Scope<'s, '_>,
+    jobs: &'s [Vec<Point>],
+    frames: Vec<usize>,
     order: Order,
-    limit: Limit,
-) -> Vec<(usize, Result<Mesh, Error>)> {
-    let options = Options { order, ..Options::default() };
-    let mut own = Vec::new();
-    while let Some(&job) = look.get(taken.fetch_add(1, Ordering::Relaxed)) {
-        let watch = Stopwatch::start();
-        own.push((job, CpuJob { points: &jobs[job], contexts: 1, options: &options, limit, watch }.run()));
+    contexts: u32,
+) -> Receiver<Ordered> {
+    // It has one in hand until that is wanted: no more are kept.
+    let (sender, ordered) = sync_channel(0);
+    if !frames.is_empty() {
+        let in_order = move |job: usize| Ordered { job, prepared: prepare(&jobs[job], order, contexts) };
+        scope.spawn(move || frames.into_iter().try_for_each(|job| sender.send(in_order(job))));
     }
-    own
+    ordered
 }

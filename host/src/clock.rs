@@ -23,8 +23,10 @@ const SLICE: u32 = 4096;
 pub struct ClockTransport {
     model: ClockModel,
     config: Config,
-    answers: VecDeque<u32>,
+    /// Words that have not been received, each with the clock that ended when it came.
+    answers: VecDeque<(u32, u64)>,
     clocks: u64,
+    answer_clock: Option<u64>,
 }
 
 impl ClockTransport {
@@ -34,20 +36,20 @@ impl ClockTransport {
     /// [`Error::Model`] for a configuration that no core can be built with.
     pub fn new(config: Config) -> Result<Self, Error> {
         let model = ClockModel::new(config).map_err(|refusal| Error::Model(refusal.to_string()))?;
-        Ok(Self { model, config, answers: VecDeque::new(), clocks: 0 })
+        Ok(Self { model, config, answers: VecDeque::new(), clocks: 0, answer_clock: None })
     }
 
     /// One clock in which the core is offered this word, or none. True if it takes the word.
     fn clock(&mut self, command: Option<u32>) -> bool {
         let outputs = self.model.outputs();
-        self.answers.extend(outputs.answer_words());
+        self.clocks += 1;
+        self.answers.extend(outputs.answer_words().map(|word| (word, self.clocks)));
         self.model.clock(Inputs {
             reset: false,
             command_valid: command.is_some(),
             command_data: command.unwrap_or(0),
             response_ready: true,
         });
-        self.clocks += 1;
         command.is_some() && outputs.command_ready
     }
 }
@@ -71,9 +73,16 @@ impl Transport for ClockTransport {
             self.clock(None);
             go_on(&mut left, deadline, self.answers.len(), words.len())?;
         }
-        // There are enough, so every place is filled.
-        words.fill_with(|| self.answers.pop_front().unwrap_or(0));
+        let answers = self.answers.drain(..words.len());
+        for (place, (word, clock)) in words.iter_mut().zip(answers) {
+            *place = word;
+            self.answer_clock = Some(clock);
+        }
         Ok(())
+    }
+
+    fn answer_clock(&self) -> Option<u64> {
+        self.answer_clock
     }
 
     fn clocks(&self) -> Option<u64> {

@@ -39,6 +39,12 @@ impl Limit {
         self.timeout
     }
 
+    /// For so much longer.
+    pub(crate) fn longer(self, time: Duration) -> Self {
+        let more = Self::of(time).timeout;
+        Self { deadline: self.deadline + more, timeout: self.timeout + more }
+    }
+
     /// An error once the deadline has passed.
     pub(crate) fn check(&self, device: &str, during: &'static str) -> Result<(), Error> {
         if Instant::now() <= self.deadline {
@@ -77,6 +83,10 @@ impl Link {
 
     pub(crate) fn clocks(&self) -> Option<u64> {
         self.transport.clocks()
+    }
+
+    pub(crate) fn answer_clock(&self) -> Option<u64> {
+        self.transport.answer_clock()
     }
 
     /// Asks who the device is, and believes only what a sound device can be.

@@ -24,12 +24,16 @@ pub struct Report {
     pub backend: String,
     /// Name of the insertion order.
     pub order: &'static str,
-    /// Time per stage, in the order in which they ran; none where the job was one of a batch on a device.
+    /// Time per stage, in the order in which they ran; none where the job went with others, as one of a batch.
     pub stages: Vec<(&'static str, Duration)>,
-    /// The device's counters; `None` if the host answered alone, or the job was one of a batch.
+    /// The device's counters; `None` if the host answered alone, or the job shared the memory of the device with others. Of a job of a batch
+    /// that had the whole memory they are read before its mesh is, so that [`Counters::read_cycles`] is 0.
     pub counters: Option<Counters>,
     /// How long insertions took; `None` where there is no clock, or where there are no counters.
     pub latencies: Option<Latencies>,
+    /// Clocks of the device for a job of a batch that had the whole memory: from the last word of the job before it, or the first of the
+    /// batch, to its own last triangle. `None` elsewhere, and where the link does not know.
+    pub clocks: Option<u64>,
     /// Bits of a coordinate of the device.
     pub coord_bits: u32,
     /// Points the device holds.

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use incircle_protocol::{command_word, Identity, InsertReport, Layout, Opcode};
 
 use crate::assemble::Assembly;
-use crate::batch::{on_threads, Batch, Done};
+use crate::batch::{on_threads, points_of, Batch, Done, PartListener};
 use crate::counters::Latencies;
 use crate::cpu::{CpuJob, CPU_NAME};
 use crate::error::Error;
@@ -73,13 +73,18 @@ impl<'d> Session<'d> {
         self.triangulate_owned(own, options)
     }
 
-    /// Triangulates many small sets in one call: the mesh of each is that of [`Session::triangulate_with`], byte for byte but for its
-    /// report, which has no counters and no times.
+    /// Triangulates many sets in one call: the mesh of each is that of [`Session::triangulate_with`], byte for byte but for its
+    /// report, which has no times, and counters only where a job had the whole memory.
     ///
     /// A device works on as many jobs side by side as it has contexts, each in its share of the memory; [`Options::contexts`] says how
-    /// many at most. Jobs too large for a share are done one by one. The engine in this process works on a job with each thread.
-    /// [`Options::insert_chunk`] is not used, and the time of [`Options::timeout`] is for all jobs that share the memory together, and for each
-    /// of the others.
+    /// many at most. Jobs too large for a share are done one by one, each with all contexts. Where the link takes words ahead, those of the next
+    /// job are on their way, and the one behind it is put in order in a thread, while the device works on the last and its mesh is assembled:
+    /// three jobs are held in order at once. The engine in this process works on a job with each thread.
+    ///
+    /// [`Options::insert_chunk`] is used only where a job has more than 65,536 points, or the link takes nothing ahead. The time of
+    /// [`Options::timeout`] is for all jobs that share the memory together, and for each of the others; a job that is sent ahead lends its own to
+    /// the one before it. Progress is told in points of all jobs, duplicates included, and never goes back: first [`Stage::Order`] of those that
+    /// share the memory, then [`Stage::Insert`]. What has been sent when a listener cancels is still answered, so the session stays in step.
     ///
     /// ```
     /// use incircle::{Device, Options, Point};
@@ -97,8 +102,8 @@ impl<'d> Session<'d> {
     /// Those of [`Session::triangulate_with`], with the number of the job where one is at fault. There are no meshes then.
     pub fn triangulate_batch(&mut self, jobs: &[Vec<Point>], options: &Options<'_>) -> Result<Vec<Mesh>, Error> {
         let slow = self.link.as_ref().map_or(1, |link| link.pace().slow);
-        let points: usize = jobs.iter().map(Vec::len).sum();
-        let default = || Options::default_timeout(points).saturating_mul(slow);
+        let total = points_of(jobs);
+        let default = || Options::default_timeout(total).saturating_mul(slow);
         let limit = Limit::of(options.timeout.unwrap_or_else(default));
         let identity = self.identity;
         let contexts = options.contexts.unwrap_or(identity.contexts);
@@ -108,13 +113,18 @@ impl<'d> Session<'d> {
         for (job, points) in jobs.iter().enumerate() {
             check_input(points, contexts, &identity, name.clone()).map_err(in_job(job))?;
         }
-        let Done { mut meshes, singles } = match &mut self.link {
+        let Done { mut meshes, singles, mut passed } = match &mut self.link {
             None => on_threads(jobs, contexts, options, limit)?,
             Some(link) => Batch { identity, contexts, limit, link, options, jobs }.run()?,
         };
         for job in singles {
-            meshes[job] = Some(self.triangulate_with(&jobs[job], options).map_err(in_job(job))?);
+            let part = PartListener::new(options, passed, total);
+            let listener = |progress| part.hear(progress);
+            let options = Options { progress: Some(&listener), ..*options };
+            meshes[job] = Some(self.triangulate_with(&jobs[job], &options).map_err(in_job(job))?);
+            passed += jobs[job].len();
         }
+        tell(options, Stage::Insert, total, total)?;
         let whole =
             |(mesh, points): (Option<Mesh>, &Vec<Point>)| mesh.map(|mesh| Mesh { points: points.clone(), ..mesh });
         Ok(meshes.into_iter().zip(jobs).filter_map(whole).collect())

@@ -28,6 +28,12 @@ pub trait Transport {
         None
     }
 
+    /// The clock of the device, counted as [`Transport::clocks`] does, in which it gave the word that was received last. None where that is not
+    /// known: the device may be far ahead of what was received.
+    fn answer_clock(&self) -> Option<u64> {
+        None
+    }
+
     /// Short name for reports: `model`, `sim:full`.
     fn name(&self) -> String;
 
@@ -43,7 +49,7 @@ pub trait Transport {
     }
 
     /// After an error: brings the device back to where it was after its reset, if that may help, and says whether it did. Then the
-    /// job is tried once more, from its `Clear` on.
+    /// job is tried once more, from its `Clear` on, and so is what was sent ahead behind it.
     ///
     /// # Errors
     /// A newer fault, which tells more than the one before.

@@ -1,34 +1,17 @@
 //! Batches: every job gets the mesh that it gets alone, on every device, whatever its neighbours are.
 
 mod common;
+#[path = "common/mock.rs"]
+mod mock;
 
 use std::ops::ControlFlow;
-use std::time::Instant;
 
+use common::batches::{alone, bare, batch};
 use common::Random;
-use incircle::{
-    Config, Device, DeviceFault, Error, ErrorKind, Mesh, Options, Order, Point, Progress, Stage, Transport,
-    TransportError,
-};
-use incircle_model::CommandModel;
+use incircle::{Config, Device, DeviceFault, Error, ErrorKind, Options, Order, Point, Progress, Stage};
 use incircle_protocol::{FULL, SMALL};
+use mock::Mock;
 use proptest::prelude::*;
-
-/// The mesh without its report.
-fn bare(mesh: Mesh) -> Mesh {
-    Mesh { report: Default::default(), ..mesh }
-}
-
-/// Every job alone, by the engine in this process.
-fn alone(jobs: &[Vec<Point>]) -> Vec<Mesh> {
-    let mut device = Device::cpu(None);
-    let mut session = device.session().expect("a device in this process");
-    jobs.iter().map(|points| bare(session.triangulate(points).expect("a mesh"))).collect()
-}
-
-fn batch(device: &mut Device, jobs: &[Vec<Point>], options: &Options<'_>) -> Result<Vec<Mesh>, Error> {
-    device.session()?.triangulate_batch(jobs, options).map(|meshes| meshes.into_iter().map(bare).collect())
-}
 
 /// Sets of every kind: none, one, two and collinear points, duplicates, lattices, larger ones.
 fn mixed(random: &mut Random, count: usize, most: u32) -> Vec<Vec<Point>> {
@@ -130,63 +113,6 @@ fn a_cancelled_batch_leaves_the_session_in_step() {
             let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
             assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()));
         }
-    }
-}
-
-/// The software model with five contexts, over any kind of link. One word of its answers is a lie.
-struct Mock {
-    model: CommandModel,
-    takes_ahead: bool,
-    packs_records: bool,
-    /// Which word, and the bits that are turned over.
-    lie: (usize, u32),
-    received: usize,
-    /// Answers that have not been received.
-    open: usize,
-}
-
-impl Mock {
-    fn device(takes_ahead: bool, packs_records: bool, lie: (usize, u32)) -> Device {
-        let model = CommandModel::new(16, 512, 32).expect("possible").with_contexts(5);
-        Device::from_transport(Box::new(Self { model, takes_ahead, packs_records, lie, received: 0, open: 0 }))
-    }
-}
-
-impl Transport for Mock {
-    fn send(&mut self, words: &[u32], _: Instant) -> Result<(), TransportError> {
-        assert!(self.takes_ahead || self.open == 0, "one command at a time");
-        self.open += 1;
-        self.model.send(words);
-        Ok(())
-    }
-
-    fn receive(&mut self, words: &mut [u32], _: Instant) -> Result<(), TransportError> {
-        self.open = 0;
-        let wanted = words.len();
-        let mut done = 0;
-        while done < wanted {
-            match self.model.receive(&mut words[done..]) {
-                0 => return Err(TransportError::Closed { done, wanted }),
-                more => done += more,
-            }
-        }
-        if let Some(word) = self.lie.0.checked_sub(self.received).and_then(|place| words.get_mut(place)) {
-            *word ^= self.lie.1;
-        }
-        self.received += wanted;
-        Ok(())
-    }
-
-    fn takes_ahead(&self) -> bool {
-        self.takes_ahead
-    }
-
-    fn packs_records(&self) -> bool {
-        self.packs_records
-    }
-
-    fn name(&self) -> String {
-        "mock".to_owned()
     }
 }
 

@@ -128,11 +128,14 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
     assert_eq!(rows.len(), 6);
     for row in &rows {
         let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
-        let (points, cycles, ms) = (value(1), value(3), value(4));
+        let (points, cycles, ms) = (value(1), value(3), value(7));
         // Groups of 16, 16 and 8 jobs.
         assert!(points > 7900.0 && cycles > 10.0 && cycles < 25.0, "{row:?}");
         assert!((cycles * points / 125e3 - ms).abs() < 0.01, "{row:?}");
-        assert!((value(5) - 25.0 * ms).abs() < 0.1 && (value(6) - 8.0 * cycles).abs() < 0.1, "{row:?}");
+        assert!((value(8) - 25.0 * ms).abs() < 0.1 && (value(9) - 8.0 * cycles).abs() < 0.1, "{row:?}");
+        assert!((40.0 * value(5) - cycles * points).abs() < 0.01 * points, "{row:?}");
+        // They share the memory, so none is timed by itself.
+        assert_eq!((row[4].as_str(), row[6].as_str()), ("-", "-"));
     }
     let run = scratch.run("bench uniform --batch 20 -n 60 --backend clock --config small --contexts 3 --json").ok();
     let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
@@ -141,6 +144,7 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
     let set = &bench["sets"][0];
     let cycles = set["cycles"].as_f64().expect("cycles are counted");
     assert_eq!(set["cycles_per_point"], cycles / set["distinct"].as_f64().expect("a count"));
+    assert_eq!((&set["longest_job_cycles"], &set["engine_cycles_per_point"]), (&Value::Null, &Value::Null));
     assert_eq!(set["seconds_at_mhz"], cycles / 125e6);
     // Side by side they take a fraction of the time of one after the other.
     let alone = scratch.run("bench uniform --batch 20 -n 60 --backend clock --config small --contexts 1 --json").ok();
@@ -155,6 +159,27 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
         assert_eq!((bench.get("mhz"), bench["sets"][0].get("cycles")), (None, None));
     }
     scratch.run("bench --batch 2 -n 2000 --backend clock --config small").fails(7, &["2000", "--config full"]);
+}
+
+/// The figures of the README. Cycles are the same on every machine, so this is no test of time.
+#[test]
+fn a_sequence_of_frames_costs_little_more_than_the_engine() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench uniform --batch 20 -n 4000 --backend clock --json").ok();
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    assert_eq!((&bench["config"], bench["contexts"].as_u64()), (&Value::from("full"), Some(16)));
+    let set = &bench["sets"][0];
+    let number = |key: &str| set[key].as_f64().unwrap_or_else(|| panic!("{key}: {set}"));
+    assert_eq!(number("cycles_per_job"), number("cycles") / 20.0);
+    assert!(number("cycles_per_job") <= number("longest_job_cycles"), "{set}");
+    assert!(number("longest_job_cycles") <= 90_000.0, "{set}");
+    let (whole, engine) = (number("cycles_per_point"), number("engine_cycles_per_point"));
+    // The read-out alone takes two clocks a point.
+    assert!(whole - engine > 2.0 && whole - engine <= 2.5, "{set}");
+    let table = scratch.run("bench uniform --batch 2 -n 4000 --backend clock").ok();
+    let row = &rows(&table, 2)[0];
+    let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
+    assert!(value(3) > value(4) + 2.0 && value(5) <= value(6) && value(6) <= 90_000.0, "{row:?}");
 }
 
 #[test]

@@ -48,9 +48,15 @@ pub struct MemoryCard {
     inside: Arc<(Mutex<Inside>, Condvar)>,
 }
 
+#[allow(dead_code)] // each test file uses one of them
 impl MemoryCard {
     pub fn new(config: Config, beat_bits: u32, mischief: Mischief) -> Self {
-        let device = StreamModel::new(ModelCore::of(config).unwrap(), beat_bits);
+        Self::of(ModelCore::of(config).unwrap(), beat_bits, mischief)
+    }
+
+    /// A card with this device behind its beats.
+    pub fn of(core: ModelCore, beat_bits: u32, mischief: Mischief) -> Self {
+        let device = StreamModel::new(core, beat_bits);
         let inside = Inside { device, mischief, reads: 0, writes: 0, gone: false };
         Self { inside: Arc::new((Mutex::new(inside), Condvar::new())) }
     }

@@ -1,6 +1,8 @@
 //! What several tests share: a small random generator, and a brute-force oracle.
 #![allow(dead_code)] // each test file uses a part
 
+pub mod batches;
+
 use incircle::{Device, Mesh, Point};
 
 /// A small random generator: SplitMix64.

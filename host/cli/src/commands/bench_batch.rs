@@ -1,4 +1,4 @@
-//! `incircle bench --batch`: many small jobs in one call, from the first word in to the last triangle out.
+//! `incircle bench --batch`: many jobs in one call, from the first word in to the last triangle out.
 
 use incircle::{Options, Point, Session};
 use incircle_protocol::FULL;
@@ -16,8 +16,17 @@ use crate::progress::Meter;
 /// Width of the names of sets.
 const SET_WIDTH: usize = 15;
 /// Columns with their widths.
-const COLUMNS: [(&str, usize); 6] =
-    [("points", 10), ("triangles", 11), ("cycles/point", 14), ("ms", 10), ("us/job", 10), ("ns/point", 10)];
+const COLUMNS: [(&str, usize); 9] = [
+    ("points", 10),
+    ("triangles", 11),
+    ("cycles/point", 14),
+    ("engine", 8),
+    ("cycles/job", 12),
+    ("longest", 9),
+    ("ms", 10),
+    ("us/job", 10),
+    ("ns/point", 10),
+];
 
 /// A set and what became of its jobs.
 struct Measured {
@@ -27,6 +36,10 @@ struct Measured {
     triangles: usize,
     /// Clocks of all jobs, where they are counted.
     cycles: Option<u64>,
+    /// Those of the longest job, where each job had the whole memory.
+    longest: Option<u64>,
+    /// Those in which the engine was at work, as it counts them itself, where each job had the whole memory.
+    engine: Option<u64>,
     /// Time of the whole library call.
     seconds: f64,
 }
@@ -118,7 +131,22 @@ fn run_once(
     let cycles = session.clocks().zip(before).map(|(after, before)| after - before);
     let distinct = meshes.iter().map(|mesh| mesh.report.distinct).sum();
     let triangles = meshes.iter().map(|mesh| mesh.report.triangles).sum();
-    Ok(Measured { set, distinct, triangles, cycles, seconds })
+    let (longest, engine) = (longest_of(&meshes), engine_of(&meshes));
+    Ok(Measured { set, distinct, triangles, cycles, longest, engine, seconds })
+}
+
+/// Clocks of the longest job; none where jobs shared the memory.
+fn longest_of(meshes: &[incircle::Mesh]) -> Option<u64> {
+    let of_device = meshes.iter().filter(|mesh| !mesh.report.collinear);
+    let clocks: Option<Vec<u64>> = of_device.map(|mesh| mesh.report.clocks).collect();
+    clocks?.into_iter().max()
+}
+
+/// Clocks of all insertions; none where they are not counted for each job.
+fn engine_of(meshes: &[incircle::Mesh]) -> Option<u64> {
+    let of_device = meshes.iter().filter(|mesh| !mesh.report.collinear);
+    let cycles = |mesh: &incircle::Mesh| mesh.report.counters.map(|counters| counters.insert_cycles);
+    of_device.map(cycles).sum::<Option<u64>>().filter(|&cycles| cycles > 0)
 }
 
 impl Table<'_> {
@@ -146,7 +174,10 @@ impl Table<'_> {
         let cells = [
             measured.distinct.to_string(),
             measured.triangles.to_string(),
-            cell(measured.cycles_per_point(), 2),
+            cell(measured.per_point(measured.cycles), 2),
+            cell(measured.per_point(measured.engine), 2),
+            cell(self.cycles_per_job(measured), 0),
+            cell(measured.longest.map(|cycles| cycles as f64), 0),
             cell(Some(1e3 * seconds), 3),
             cell(Some(1e6 * seconds / f64::from(self.jobs)), 2),
             cell(Some(1e9 * seconds / measured.distinct as f64), 1),
@@ -157,6 +188,11 @@ impl Table<'_> {
     /// Time of all jobs: of the clocks at the frequency that is assumed, or of the call where there are none.
     fn device_seconds(&self, measured: &Measured) -> f64 {
         measured.cycles.map_or(measured.seconds, |cycles| cycles as f64 / (self.mhz * 1e6))
+    }
+
+    /// From the first word in to the last triangle out, in the mean.
+    fn cycles_per_job(&self, measured: &Measured) -> Option<f64> {
+        measured.cycles.map(|cycles| cycles as f64 / f64::from(self.jobs))
     }
 
     fn to_json(&self, rows: &[Measured]) -> Value {
@@ -188,7 +224,10 @@ impl Table<'_> {
         });
         if let Some(cycles) = measured.cycles {
             object["cycles"] = cycles.into();
-            object["cycles_per_point"] = measured.cycles_per_point().into();
+            object["cycles_per_point"] = measured.per_point(Some(cycles)).into();
+            object["cycles_per_job"] = self.cycles_per_job(measured).into();
+            object["longest_job_cycles"] = measured.longest.into();
+            object["engine_cycles_per_point"] = measured.per_point(measured.engine).into();
             object["seconds_at_mhz"] = self.device_seconds(measured).into();
         }
         object
@@ -196,8 +235,8 @@ impl Table<'_> {
 }
 
 impl Measured {
-    fn cycles_per_point(&self) -> Option<f64> {
-        self.cycles.filter(|_| self.distinct > 0).map(|cycles| cycles as f64 / self.distinct as f64)
+    fn per_point(&self, cycles: Option<u64>) -> Option<f64> {
+        cycles.filter(|_| self.distinct > 0).map(|cycles| cycles as f64 / self.distinct as f64)
     }
 }
 

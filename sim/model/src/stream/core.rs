@@ -28,6 +28,7 @@ pub trait WordStream {
 pub struct ModelCore {
     model: CommandModel,
     parameters: (u32, u32, u32),
+    contexts: u32,
 }
 
 impl ModelCore {
@@ -37,7 +38,15 @@ impl ModelCore {
     /// As [`CommandModel::new`].
     pub fn new(coord_bits: u32, capacity: u32, ring: u32) -> Result<Self, ModelError> {
         let model = CommandModel::new(coord_bits, capacity, ring)?;
-        Ok(Self { model, parameters: (coord_bits, capacity, ring) })
+        Ok(Self { model, parameters: (coord_bits, capacity, ring), contexts: 1 })
+    }
+
+    /// The same as if it had so many contexts; see [`CommandModel::with_contexts`].
+    #[must_use]
+    pub fn with_contexts(mut self, contexts: u32) -> Self {
+        self.model = self.model.with_contexts(contexts);
+        self.contexts = contexts.clamp(1, 255);
+        self
     }
 
     /// A device with the parameters of a core, and one context.
@@ -53,7 +62,7 @@ impl WordStream for ModelCore {
     fn reset(&mut self) {
         let (coord_bits, capacity, ring) = self.parameters;
         if let Ok(fresh) = Self::new(coord_bits, capacity, ring) {
-            *self = fresh;
+            *self = fresh.with_contexts(self.contexts);
         }
     }
 
@@ -71,6 +80,6 @@ impl WordStream for ModelCore {
 
     fn identity(&self) -> Identity {
         let (coord_bits, points, ring) = self.parameters;
-        Identity { coord_bits, ..core_identity(Config { name: "", points, ring, contexts: 1 }) }
+        Identity { coord_bits, ..core_identity(Config { name: "", points, ring, contexts: self.contexts }) }
     }
 }

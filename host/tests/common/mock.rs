@@ -1,0 +1,81 @@
+//! The software model with five contexts, over any kind of link.
+
+use std::cell::Cell;
+use std::rc::Rc;
+use std::time::Instant;
+
+use incircle::{Device, Transport, TransportError};
+use incircle_model::CommandModel;
+use incircle_protocol::{answer_opcode, command_opcode, Opcode};
+
+/// The model for 512 points, behind a link that refuses what its kind must not carry. One word of its answers is a lie.
+pub struct Mock {
+    model: CommandModel,
+    takes_ahead: bool,
+    packs_records: bool,
+    /// Which word, and the bits that are turned over.
+    lie: (usize, u32),
+    received: usize,
+    /// Commands that have not been answered, where only one may be.
+    open: usize,
+    /// Jobs or groups of them that were sent and whose first answer has not been received; the most of them.
+    ahead: usize,
+    most_ahead: Rc<Cell<usize>>,
+}
+
+impl Mock {
+    pub fn device(takes_ahead: bool, packs_records: bool, lie: (usize, u32)) -> Device {
+        Self::watched(takes_ahead, packs_records, lie).0
+    }
+
+    /// With the number of jobs, or groups of them, that were under way at most.
+    pub fn watched(takes_ahead: bool, packs_records: bool, lie: (usize, u32)) -> (Device, Rc<Cell<usize>>) {
+        let model = CommandModel::new(16, 512, 32).expect("possible").with_contexts(5);
+        let most_ahead = Rc::new(Cell::new(0));
+        let watch = Rc::clone(&most_ahead);
+        let mock = Self { model, takes_ahead, packs_records, lie, received: 0, open: 0, ahead: 0, most_ahead };
+        (Device::from_transport(Box::new(mock)), watch)
+    }
+}
+
+impl Transport for Mock {
+    fn send(&mut self, words: &[u32], _: Instant) -> Result<(), TransportError> {
+        assert!(self.takes_ahead || self.open == 0, "one command at a time");
+        self.open += 1;
+        self.ahead += usize::from(command_opcode(words[0]) == Opcode::Clear as u8);
+        self.most_ahead.set(self.most_ahead.get().max(self.ahead));
+        self.model.send(words);
+        Ok(())
+    }
+
+    fn receive(&mut self, words: &mut [u32], _: Instant) -> Result<(), TransportError> {
+        self.open = 0;
+        let wanted = words.len();
+        let mut done = 0;
+        while done < wanted {
+            match self.model.receive(&mut words[done..]) {
+                0 => return Err(TransportError::Closed { done, wanted }),
+                more => done += more,
+            }
+        }
+        // No payload has two words, so this is a header.
+        self.ahead -= usize::from(wanted == 2 && answer_opcode(words[0]) == Opcode::Clear as u8);
+        if let Some(word) = self.lie.0.checked_sub(self.received).and_then(|place| words.get_mut(place)) {
+            *word ^= self.lie.1;
+        }
+        self.received += wanted;
+        Ok(())
+    }
+
+    fn takes_ahead(&self) -> bool {
+        self.takes_ahead
+    }
+
+    fn packs_records(&self) -> bool {
+        self.packs_records
+    }
+
+    fn name(&self) -> String {
+        "mock".to_owned()
+    }
+}
