@@ -13945,6 +13945,9 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  [4:0] turn$d;
     wire  [4:0] turn$q;
     reg  turn$clock;
+    reg  [6:0] third$d;
+    wire  [6:0] third$q;
+    reg  third$clock;
     reg  [1:0] round$d;
     wire  [1:0] round$q;
     reg  round$clock;
@@ -14017,6 +14020,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  plans$clock;
     reg  [12:0] plans$deal;
     reg  [4:0] plans$turn;
+    reg  [6:0] plans$third;
     reg  plans$is_planned;
     wire  [15:0] plans$due;
     wire  [6:0] plans$first_dealt;
@@ -14047,6 +14051,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  is_taken;
     reg  [4:0] after_turn;
     reg  [4:0] one_turn;
+    reg  [6:0] three;
     reg  [4:0] first_context;
     reg  [1:0] one_round;
     reg  [1:0] resting_round;
@@ -14057,6 +14062,11 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .d(turn$d),
         .q(turn$q),
         .clock(turn$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$third third(
+        .d(third$d),
+        .q(third$q),
+        .clock(third$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$start$round round(
         .d(round$d),
@@ -14171,6 +14181,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .clock(plans$clock),
         .deal(plans$deal),
         .turn(plans$turn),
+        .third(plans$third),
         .is_planned(plans$is_planned),
         .due(plans$due),
         .first_dealt(plans$first_dealt),
@@ -14188,6 +14199,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     // Update code
     always @(*) begin
         turn$clock = clock;
+        third$clock = clock;
         round$clock = clock;
         is_planned$clock = clock;
         passed$clock = clock;
@@ -14196,6 +14208,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         candidate$clock = clock;
         candidate_id$clock = clock;
         turn$d = turn$q;
+        third$d = third$q;
         round$d = round$q;
         is_planned$d = is_planned$q;
         passed$d = passed$q;
@@ -14228,6 +14241,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         roots$clock = clock;
         hints$clock = clock;
         one_turn = 32'h1;
+        three = 32'h3;
         one_round = 32'h1;
         resting_round = 32'h0;
         first_context = 32'h0;
@@ -14235,6 +14249,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         contexts = deal[(64'h0)+:(5)];
         points$read_address = turn$q;
         plans$turn = turn$q;
+        plans$third = third$q;
         plans$is_planned = is_planned$q;
         plans$taken = passed_id$q;
         plans$taker = passed$q;
@@ -14308,14 +14323,17 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
             passed_is_seed$d = plans$due[(64'hf)+:(1)];
             passed_dealt$d = plans$first_dealt;
             turn$d = after_turn;
+            third$d = third$q + three;
             if (after_turn == contexts) begin
                 turn$d = 32'h0;
+                third$d = 32'h2;
                 is_planned$d = 1'b1;
                 round$d = round$q + one_round;
             end
         end
         if (reset | clears) begin
             turn$d = 32'h0;
+            third$d = 32'h2;
             round$d = 32'h0;
             is_planned$d = 1'b0;
             wants_again$d = 1'b0;
@@ -14617,12 +14635,13 @@ module incircle_core_logic$engine$insertions$dispatcher$start$passed_point(d,q,c
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,turn,is_planned,due,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record,takes,owner,planned);
+module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,turn,third,is_planned,due,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record,takes,owner,planned);
     
     // Module arguments
     input wire  clock;
     input wire  [12:0] deal;
     input wire  [4:0] turn;
+    input wire  [6:0] third;
     input wire  is_planned;
     output reg  [15:0] due;
     output reg  [6:0] first_dealt;
@@ -14639,6 +14658,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
     // Stub signals
     reg  [12:0] following$deal;
     reg  [4:0] following$turn;
+    reg  [6:0] following$third;
     wire  [15:0] following$first;
     wire  [6:0] following$first_dealt;
     reg  [4:0] following$taker;
@@ -14664,6 +14684,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
     incircle_core_logic$engine$insertions$dispatcher$start$plans$following following(
         .deal(following$deal),
         .turn(following$turn),
+        .third(following$third),
         .first(following$first),
         .first_dealt(following$first_dealt),
         .taker(following$taker),
@@ -14691,6 +14712,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
         plans$clock = clock;
         following$deal = deal;
         following$turn = turn;
+        following$third = third;
         following$taker = taker;
         following$taken = taken;
         following$took_seed = took_seed;
@@ -14717,11 +14739,12 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(deal,turn,first,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record);
+module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(deal,turn,third,first,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record);
     
     // Module arguments
     input wire  [12:0] deal;
     input wire  [4:0] turn;
+    input wire  [6:0] third;
     output reg  [15:0] first;
     output reg  [6:0] first_dealt;
     input wire  [4:0] taker;
@@ -14737,8 +14760,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(de
     reg  [14:0] from;
     reg  [14:0] step;
     reg  [14:0] wide_turn;
-    reg  [14:0] twice_turn;
-    reg  [14:0] thrice_turn;
     reg  [14:0] wide_taker;
     reg  [6:0] narrow_turn;
     reg  [6:0] dealt_from;
@@ -14774,11 +14795,9 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(de
         if (is_batch) begin
             first_record = wide_taker << two;
         end
-        twice_turn = wide_turn << one;
-        thrice_turn = wide_turn + twice_turn;
         first[(64'h0)+:(15)] = wide_turn + first_round;
         if (is_batch | (turn == first_context)) begin
-            first[(64'h0)+:(15)] = thrice_turn + two;
+            first[(64'h0)+:(15)] = ((third) & 15'h7fff);
         end
         first[(64'hf)+:(1)] = is_batch;
     end
@@ -14883,6 +14902,25 @@ module incircle_core_logic$engine$insertions$dispatcher$start$round(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$round
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$third(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$third
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$turn(d,q,clock);

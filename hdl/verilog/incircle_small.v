@@ -13873,6 +13873,9 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  [4:0] turn$d;
     wire  [4:0] turn$q;
     reg  turn$clock;
+    reg  [6:0] third$d;
+    wire  [6:0] third$q;
+    reg  third$clock;
     reg  [1:0] round$d;
     wire  [1:0] round$q;
     reg  round$clock;
@@ -13945,6 +13948,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  plans$clock;
     reg  [12:0] plans$deal;
     reg  [4:0] plans$turn;
+    reg  [6:0] plans$third;
     reg  plans$is_planned;
     wire  [15:0] plans$due;
     wire  [6:0] plans$first_dealt;
@@ -13975,6 +13979,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  is_taken;
     reg  [4:0] after_turn;
     reg  [4:0] one_turn;
+    reg  [6:0] three;
     reg  [4:0] first_context;
     reg  [1:0] one_round;
     reg  [1:0] resting_round;
@@ -13985,6 +13990,11 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .d(turn$d),
         .q(turn$q),
         .clock(turn$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$start$third third(
+        .d(third$d),
+        .q(third$q),
+        .clock(third$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$start$round round(
         .d(round$d),
@@ -14099,6 +14109,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .clock(plans$clock),
         .deal(plans$deal),
         .turn(plans$turn),
+        .third(plans$third),
         .is_planned(plans$is_planned),
         .due(plans$due),
         .first_dealt(plans$first_dealt),
@@ -14116,6 +14127,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     // Update code
     always @(*) begin
         turn$clock = clock;
+        third$clock = clock;
         round$clock = clock;
         is_planned$clock = clock;
         passed$clock = clock;
@@ -14124,6 +14136,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         candidate$clock = clock;
         candidate_id$clock = clock;
         turn$d = turn$q;
+        third$d = third$q;
         round$d = round$q;
         is_planned$d = is_planned$q;
         passed$d = passed$q;
@@ -14156,6 +14169,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         roots$clock = clock;
         hints$clock = clock;
         one_turn = 32'h1;
+        three = 32'h3;
         one_round = 32'h1;
         resting_round = 32'h0;
         first_context = 32'h0;
@@ -14163,6 +14177,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         contexts = deal[(64'h0)+:(5)];
         points$read_address = turn$q;
         plans$turn = turn$q;
+        plans$third = third$q;
         plans$is_planned = is_planned$q;
         plans$taken = passed_id$q;
         plans$taker = passed$q;
@@ -14236,14 +14251,17 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
             passed_is_seed$d = plans$due[(64'hf)+:(1)];
             passed_dealt$d = plans$first_dealt;
             turn$d = after_turn;
+            third$d = third$q + three;
             if (after_turn == contexts) begin
                 turn$d = 32'h0;
+                third$d = 32'h2;
                 is_planned$d = 1'b1;
                 round$d = round$q + one_round;
             end
         end
         if (reset | clears) begin
             turn$d = 32'h0;
+            third$d = 32'h2;
             round$d = 32'h0;
             is_planned$d = 1'b0;
             wants_again$d = 1'b0;
@@ -14545,12 +14563,13 @@ module incircle_core_logic$engine$insertions$dispatcher$start$passed_point(d,q,c
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,turn,is_planned,due,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record,takes,owner,planned);
+module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,turn,third,is_planned,due,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record,takes,owner,planned);
     
     // Module arguments
     input wire  clock;
     input wire  [12:0] deal;
     input wire  [4:0] turn;
+    input wire  [6:0] third;
     input wire  is_planned;
     output reg  [15:0] due;
     output reg  [6:0] first_dealt;
@@ -14567,6 +14586,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
     // Stub signals
     reg  [12:0] following$deal;
     reg  [4:0] following$turn;
+    reg  [6:0] following$third;
     wire  [15:0] following$first;
     wire  [6:0] following$first_dealt;
     reg  [4:0] following$taker;
@@ -14592,6 +14612,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
     incircle_core_logic$engine$insertions$dispatcher$start$plans$following following(
         .deal(following$deal),
         .turn(following$turn),
+        .third(following$third),
         .first(following$first),
         .first_dealt(following$first_dealt),
         .taker(following$taker),
@@ -14619,6 +14640,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
         plans$clock = clock;
         following$deal = deal;
         following$turn = turn;
+        following$third = third;
         following$taker = taker;
         following$taken = taken;
         following$took_seed = took_seed;
@@ -14645,11 +14667,12 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(deal,turn,first,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record);
+module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(deal,turn,third,first,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record);
     
     // Module arguments
     input wire  [12:0] deal;
     input wire  [4:0] turn;
+    input wire  [6:0] third;
     output reg  [15:0] first;
     output reg  [6:0] first_dealt;
     input wire  [4:0] taker;
@@ -14665,8 +14688,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(de
     reg  [14:0] from;
     reg  [14:0] step;
     reg  [14:0] wide_turn;
-    reg  [14:0] twice_turn;
-    reg  [14:0] thrice_turn;
     reg  [14:0] wide_taker;
     reg  [6:0] narrow_turn;
     reg  [6:0] dealt_from;
@@ -14702,11 +14723,9 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(de
         if (is_batch) begin
             first_record = wide_taker << two;
         end
-        twice_turn = wide_turn << one;
-        thrice_turn = wide_turn + twice_turn;
         first[(64'h0)+:(15)] = wide_turn + first_round;
         if (is_batch | (turn == first_context)) begin
-            first[(64'h0)+:(15)] = thrice_turn + two;
+            first[(64'h0)+:(15)] = ((third) & 15'h7fff);
         end
         first[(64'hf)+:(1)] = is_batch;
     end
@@ -14811,6 +14830,25 @@ module incircle_core_logic$engine$insertions$dispatcher$start$round(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$round
+
+
+module incircle_core_logic$engine$insertions$dispatcher$start$third(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$start$third
 
 
 module incircle_core_logic$engine$insertions$dispatcher$start$turn(d,q,clock);

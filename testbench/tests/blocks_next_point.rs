@@ -11,12 +11,12 @@ use stepper::{named_ports, Stepper};
 
 named_ports!(
     NextPoint,
-    [deal, turn, taker, taken, took_seed, taken_dealt],
+    [deal, turn, third, taker, taken, took_seed, taken_dealt],
     [first, first_dealt, after_taken, first_record]
 );
 named_ports!(
     PlanTable,
-    [deal, turn, is_planned, taker, taken, took_seed, taken_dealt, takes, owner, planned],
+    [deal, turn, third, is_planned, taker, taken, took_seed, taken_dealt, takes, owner, planned],
     [due, first_dealt, after_taken, first_record],
     clock
 );
@@ -30,6 +30,7 @@ fn next_point_deals_every_vertex_to_one_context() {
         let mut owners = vec![0; 400];
         for turn in 0..contexts {
             block.set("turn", turn);
+            block.set("third", 3 * turn + 2);
             block.set("taker", turn);
             let vertices: Vec<u64> = deal.dealt(turn).take_while(|vertex| *vertex < 450).collect();
             for (place, pair) in vertices.windows(2).filter(|pair| pair[0] < 400).enumerate() {
@@ -76,6 +77,7 @@ fn plan_table_knows_what_each_context_takes_next() {
             let next = *rests[turn as usize].peek().expect("points have no end");
             let is_seed = deal.is_batch && next == 3 * turn + 2;
             block.set("turn", turn);
+            block.set("third", 3 * turn + 2);
             block.set("is_planned", step >= deal.contexts);
             block.set("takes", false);
             block.settle();

@@ -3,7 +3,7 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `deal` | in | Deal | contexts that work, and whether each has a mesh of its own |
-//! | `turn` | in | 5 | the context |
+//! | `turn`, `third` | in | 5, 7 | the context, and `3 turn + 2` |
 //! | `first` | out | Plan | the vertex it takes first |
 //! | `first_dealt` | out | 7 | the one that it takes after that, in a batch |
 //! | `taker`, `taken` | in | 5, 15 | another context, and a vertex that it takes |
@@ -30,6 +30,8 @@ pub struct NextPoint {
     pub deal: Signal<In, Deal>,
     /// The context.
     pub turn: Signal<In, Bits<5>>,
+    /// The third vertex of its own first triangle, in a batch.
+    pub third: Signal<In, Bits<7>>,
     /// The vertex it takes first.
     pub first: Signal<Out, Plan>,
     /// The one after such a third.
@@ -51,8 +53,6 @@ pub struct NextPoint {
     from: Signal<Local, Bits<15>>,
     step: Signal<Local, Bits<15>>,
     wide_turn: Signal<Local, Bits<15>>,
-    twice_turn: Signal<Local, Bits<15>>,
-    thrice_turn: Signal<Local, Bits<15>>,
     wide_taker: Signal<Local, Bits<15>>,
     narrow_turn: Signal<Local, Bits<7>>,
     dealt_from: Signal<Local, Bits<7>>,
@@ -93,12 +93,10 @@ impl Logic for NextPoint {
         if self.is_batch.val() {
             self.first_record.next = self.wide_taker.val() << self.two.val();
         }
-        self.twice_turn.next = self.wide_turn.val() << self.one.val();
-        self.thrice_turn.next = self.wide_turn.val() + self.twice_turn.val();
         self.first.next.id = self.wide_turn.val() + self.first_round.val();
         // That of context 0 is 2 either way.
         if self.is_batch.val() | (self.turn.val() == self.first_context.val()) {
-            self.first.next.id = self.thrice_turn.val() + self.two.val();
+            self.first.next.id = bit_cast::<15, 7>(self.third.val());
         }
         self.first.next.is_seed = self.is_batch.val();
     }

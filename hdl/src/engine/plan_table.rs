@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | `clock` | in | 1 | everything happens at its rising edge |
 //! | `deal` | in | Deal | contexts that work, and which points are theirs |
-//! | `turn` | in | 5 | the context that the pointer stands at |
+//! | `turn`, `third` | in | 5, 7 | the context that the pointer stands at, and `3 turn + 2` |
 //! | `is_planned` | in | 1 | the pointer has stood at every context since the last clear |
 //! | `due`, `first_dealt` | out | Plan, 7 | what that context takes next; the vertex after its first, in a batch |
 //! | `taker`, `taken`, `took_seed`, `taken_dealt` | in | 5, 15, 1, 7 | another context, and what stood on `due` and `first_dealt` for it |
@@ -32,6 +32,8 @@ pub struct PlanTable {
     pub deal: Signal<In, Deal>,
     /// The context that the pointer stands at.
     pub turn: Signal<In, Bits<5>>,
+    /// The third vertex of that one's own first triangle, in a batch.
+    pub third: Signal<In, Bits<7>>,
     /// It has stood at all of them.
     pub is_planned: Signal<In, Bit>,
     /// What that context takes next.
@@ -76,6 +78,7 @@ impl Logic for PlanTable {
         clock!(self, clock, plans);
         self.following.deal.next = self.deal.val();
         self.following.turn.next = self.turn.val();
+        self.following.third.next = self.third.val();
         self.following.taker.next = self.taker.val();
         self.following.taken.next = self.taken.val();
         self.following.took_seed.next = self.took_seed.val();

@@ -125,6 +125,8 @@ pub struct Starter {
     /// The point.
     pub solo_p: Signal<Out, Bits<15>>,
     turn: DFF<Bits<5>>,
+    /// `3 turn + 2`; two sums in a row would set the clock of the core.
+    third: DFF<Bits<7>>,
     round: DFF<Bits<2>>,
     /// The pointer has gone round once.
     is_planned: DFF<Bit>,
@@ -168,6 +170,7 @@ pub struct Starter {
     is_taken: Signal<Local, Bit>,
     after_turn: Signal<Local, Bits<5>>,
     one_turn: Signal<Local, Bits<5>>,
+    three: Signal<Local, Bits<7>>,
     first_context: Signal<Local, Bits<5>>,
     one_round: Signal<Local, Bits<2>>,
     resting_round: Signal<Local, Bits<2>>,
@@ -186,11 +189,24 @@ impl Starter {
 impl Logic for Starter {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, turn, round, is_planned, passed, passed_id, passed_point, candidate, candidate_id);
+        dff_setup!(
+            self,
+            clock,
+            turn,
+            third,
+            round,
+            is_planned,
+            passed,
+            passed_id,
+            passed_point,
+            candidate,
+            candidate_id
+        );
         dff_setup!(self, clock, candidate_plan, candidate_point, wants_again, wants_new, from, is_alone, all_work);
         dff_setup!(self, clock, passed_is_seed, passed_dealt, candidate_is_dealt);
         clock!(self, clock, points, plans, roots, hints);
         self.one_turn.next = 1.into();
+        self.three.next = 3.into();
         self.one_round.next = 1.into();
         self.resting_round.next = 0.into();
         self.first_context.next = 0.into();
@@ -200,6 +216,7 @@ impl Logic for Starter {
         // The context under the pointer: which vertex it would take.
         self.points.read_address.next = self.turn.q.val();
         self.plans.turn.next = self.turn.q.val();
+        self.plans.third.next = self.third.q.val();
         self.plans.is_planned.next = self.is_planned.q.val();
         self.plans.taken.next = self.passed_id.q.val();
         self.plans.taker.next = self.passed.q.val();
@@ -287,14 +304,17 @@ impl Logic for Starter {
             self.passed_is_seed.d.next = self.plans.due.val().is_seed;
             self.passed_dealt.d.next = self.plans.first_dealt.val();
             self.turn.d.next = self.after_turn.val();
+            self.third.d.next = self.third.q.val() + self.three.val();
             if self.after_turn.val() == self.contexts.val() {
                 self.turn.d.next = 0.into();
+                self.third.d.next = 2.into();
                 self.is_planned.d.next = true;
                 self.round.d.next = self.round.q.val() + self.one_round.val();
             }
         }
         if self.reset.val() | self.clears.val() {
             self.turn.d.next = 0.into();
+            self.third.d.next = 2.into();
             self.round.d.next = 0.into();
             self.is_planned.d.next = false;
             self.wants_again.d.next = false;
