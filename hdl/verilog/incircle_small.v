@@ -13956,6 +13956,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  [14:0] plans$taken;
     reg  plans$took_seed;
     reg  [6:0] plans$taken_dealt;
+    wire  plans$taken_is_dealt;
     wire  [14:0] plans$after_taken;
     wire  [14:0] plans$first_record;
     reg  plans$takes;
@@ -13983,7 +13984,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  [4:0] first_context;
     reg  [1:0] one_round;
     reg  [1:0] resting_round;
-    reg  [14:0] first_round;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$dispatcher$start$turn turn(
@@ -14117,6 +14117,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .taken(plans$taken),
         .took_seed(plans$took_seed),
         .taken_dealt(plans$taken_dealt),
+        .taken_is_dealt(plans$taken_is_dealt),
         .after_taken(plans$after_taken),
         .first_record(plans$first_record),
         .takes(plans$takes),
@@ -14173,7 +14174,6 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         one_round = 32'h1;
         resting_round = 32'h0;
         first_context = 32'h0;
-        first_round = 32'h10;
         contexts = deal[(64'h0)+:(5)];
         points$read_address = turn$q;
         plans$turn = turn$q;
@@ -14232,7 +14232,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         if (moves) begin
             candidate$d = passed$q;
             candidate_id$d = passed_id$q;
-            candidate_is_dealt$d = passed_id$q >= first_round;
+            candidate_is_dealt$d = plans$taken_is_dealt;
             candidate_plan$d = plans$after_taken;
             candidate_point$d = passed_point$q;
             wants_again$d = is_asleep & tries_again & is_rested & may_try;
@@ -14563,7 +14563,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$passed_point(d,q,c
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,turn,third,is_planned,due,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record,takes,owner,planned);
+module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,turn,third,is_planned,due,first_dealt,taker,taken,took_seed,taken_dealt,taken_is_dealt,after_taken,first_record,takes,owner,planned);
     
     // Module arguments
     input wire  clock;
@@ -14577,6 +14577,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
     input wire  [14:0] taken;
     input wire  took_seed;
     input wire  [6:0] taken_dealt;
+    output reg  taken_is_dealt;
     output reg  [14:0] after_taken;
     output reg  [14:0] first_record;
     input wire  takes;
@@ -14593,6 +14594,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
     reg  [14:0] following$taken;
     reg  following$took_seed;
     reg  [6:0] following$taken_dealt;
+    wire  following$taken_is_dealt;
     wire  [14:0] following$after_taken;
     wire  [14:0] following$first_record;
     reg  plans$clock;
@@ -14619,6 +14621,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
         .taken(following$taken),
         .took_seed(following$took_seed),
         .taken_dealt(following$taken_dealt),
+        .taken_is_dealt(following$taken_is_dealt),
         .after_taken(following$after_taken),
         .first_record(following$first_record)
     );
@@ -14646,6 +14649,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
         following$took_seed = took_seed;
         following$taken_dealt = taken_dealt;
         first_dealt = following$first_dealt;
+        taken_is_dealt = following$taken_is_dealt;
         after_taken = following$after_taken;
         first_record = following$first_record;
         plans$read_address = turn;
@@ -14667,7 +14671,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
 endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(deal,turn,third,first,first_dealt,taker,taken,took_seed,taken_dealt,after_taken,first_record);
+module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(deal,turn,third,first,first_dealt,taker,taken,took_seed,taken_dealt,taken_is_dealt,after_taken,first_record);
     
     // Module arguments
     input wire  [12:0] deal;
@@ -14679,12 +14683,15 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(de
     input wire  [14:0] taken;
     input wire  took_seed;
     input wire  [6:0] taken_dealt;
+    output reg  taken_is_dealt;
     output reg  [14:0] after_taken;
     output reg  [14:0] first_record;
     
     // Local signals
     reg  is_batch;
     reg  is_early;
+    reg  is_dealt;
+    reg  [10:0] rounds;
     reg  [14:0] from;
     reg  [14:0] step;
     reg  [14:0] wide_turn;
@@ -14708,7 +14715,10 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(de
         narrow_turn = ((turn) & 7'h7f);
         dealt_from = deal[(64'h6)+:(7)];
         first_dealt = dealt_from + narrow_turn;
-        is_early = (taken < first_round) & (~is_batch);
+        rounds = taken[(32'h4)+:(11)];
+        is_dealt = |rounds;
+        taken_is_dealt = is_dealt;
+        is_early = (~is_dealt) & (~is_batch);
         from = taken;
         step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
         if (is_early) begin

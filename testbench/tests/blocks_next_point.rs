@@ -12,12 +12,12 @@ use stepper::{named_ports, Stepper};
 named_ports!(
     NextPoint,
     [deal, turn, third, taker, taken, took_seed, taken_dealt],
-    [first, first_dealt, after_taken, first_record]
+    [first, first_dealt, taken_is_dealt, after_taken, first_record]
 );
 named_ports!(
     PlanTable,
     [deal, turn, third, is_planned, taker, taken, took_seed, taken_dealt, takes, owner, planned],
-    [due, first_dealt, after_taken, first_record],
+    [due, first_dealt, taken_is_dealt, after_taken, first_record],
     clock
 );
 
@@ -46,6 +46,7 @@ fn next_point_deals_every_vertex_to_one_context() {
                 if is_seed {
                     block.expect("first_dealt", pair[1]);
                 }
+                block.expect("taken_is_dealt", pair[0] >= 16);
                 block.expect("after_taken", pair[1]);
                 block.expect("first_record", if deal.is_batch { 4 * turn } else { 0 });
                 owners[pair[0] as usize] += 1;
@@ -59,6 +60,7 @@ fn next_point_deals_every_vertex_to_one_context() {
         for id in (1 << 14) - 40..1 << 14 {
             block.set("taken", id as u64);
             block.settle();
+            block.expect("taken_is_dealt", true);
             block.expect("after_taken", id as u64 + contexts);
         }
     }
@@ -94,6 +96,7 @@ fn plan_table_knows_what_each_context_takes_next() {
                 }
                 block.set("took_seed", is_seed);
                 block.settle();
+                block.expect("taken_is_dealt", taken >= 16);
                 block.expect("after_taken", after);
                 block.set("planned", after);
             }

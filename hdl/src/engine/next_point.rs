@@ -8,6 +8,7 @@
 //! | `first_dealt` | out | 7 | the one that it takes after that, in a batch |
 //! | `taker`, `taken` | in | 5, 15 | another context, and a vertex that it takes |
 //! | `took_seed`, `taken_dealt` | in | 1, 7 | that is the third of its first triangle, in a batch; what then stood on `first_dealt` |
+//! | `taken_is_dealt` | out | 1 | that vertex is behind the first round |
 //! | `after_taken` | out | 15 | the vertex that it takes after that |
 //! | `first_record` | out | 15 | the first record of that context's mesh |
 //!
@@ -44,12 +45,16 @@ pub struct NextPoint {
     pub took_seed: Signal<In, Bit>,
     /// The one after such a third.
     pub taken_dealt: Signal<In, Bits<7>>,
+    /// That vertex is behind the first round.
+    pub taken_is_dealt: Signal<Out, Bit>,
     /// The one after it.
     pub after_taken: Signal<Out, Bits<15>>,
     /// The first record of its mesh.
     pub first_record: Signal<Out, Bits<15>>,
     is_batch: Signal<Local, Bit>,
     is_early: Signal<Local, Bit>,
+    is_dealt: Signal<Local, Bit>,
+    rounds: Signal<Local, Bits<11>>,
     from: Signal<Local, Bits<15>>,
     step: Signal<Local, Bits<15>>,
     wide_turn: Signal<Local, Bits<15>>,
@@ -78,7 +83,11 @@ impl Logic for NextPoint {
         self.narrow_turn.next = bit_cast::<7, 5>(self.turn.val());
         self.dealt_from.next = self.deal.val().dealt_from;
         self.first_dealt.next = self.dealt_from.val() + self.narrow_turn.val();
-        self.is_early.next = (self.taken.val() < self.first_round.val()) & (!self.is_batch.val());
+        // Not compared with 16: that would be a carry chain in front of the sum.
+        self.rounds.next = self.taken.val().get_bits::<11>(4);
+        self.is_dealt.next = self.rounds.val().any();
+        self.taken_is_dealt.next = self.is_dealt.val();
+        self.is_early.next = (!self.is_dealt.val()) & (!self.is_batch.val());
         self.from.next = self.taken.val();
         self.step.next = bit_cast::<15, 5>(self.deal.val().contexts);
         if self.is_early.val() {

@@ -8,7 +8,7 @@
 //! | `is_planned` | in | 1 | the pointer has stood at every context since the last clear |
 //! | `due`, `first_dealt` | out | Plan, 7 | what that context takes next; the vertex after its first, in a batch |
 //! | `taker`, `taken`, `took_seed`, `taken_dealt` | in | 5, 15, 1, 7 | another context, and what stood on `due` and `first_dealt` for it |
-//! | `after_taken`, `first_record` | out | 15 | the vertex it takes after that; the first record of its mesh |
+//! | `taken_is_dealt`, `after_taken`, `first_record` | out | 1, 15, 15 | that is behind the first round; the vertex it takes after that; the first record of its mesh |
 //! | `takes`, `owner`, `planned` | in | 1, 5, 15 | a context takes a vertex at this edge, and this one after it; only while `is_planned` |
 //!
 //! 1. Nothing is cleared: until the pointer has gone round, each context's first vertex comes from its number, and is written down.
@@ -48,6 +48,8 @@ pub struct PlanTable {
     pub took_seed: Signal<In, Bit>,
     /// The one after such a third.
     pub taken_dealt: Signal<In, Bits<7>>,
+    /// That vertex is behind the first round.
+    pub taken_is_dealt: Signal<Out, Bit>,
     /// The one after it.
     pub after_taken: Signal<Out, Bits<15>>,
     /// The first record of its mesh.
@@ -84,6 +86,7 @@ impl Logic for PlanTable {
         self.following.took_seed.next = self.took_seed.val();
         self.following.taken_dealt.next = self.taken_dealt.val();
         self.first_dealt.next = self.following.first_dealt.val();
+        self.taken_is_dealt.next = self.following.taken_is_dealt.val();
         self.after_taken.next = self.following.after_taken.val();
         self.first_record.next = self.following.first_record.val();
 

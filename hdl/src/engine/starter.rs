@@ -174,7 +174,6 @@ pub struct Starter {
     first_context: Signal<Local, Bits<5>>,
     one_round: Signal<Local, Bits<2>>,
     resting_round: Signal<Local, Bits<2>>,
-    first_round: Signal<Local, Bits<15>>,
 }
 
 impl Starter {
@@ -210,7 +209,6 @@ impl Logic for Starter {
         self.one_round.next = 1.into();
         self.resting_round.next = 0.into();
         self.first_context.next = 0.into();
-        self.first_round.next = 16.into();
         self.contexts.next = self.deal.val().contexts;
 
         // The context under the pointer: which vertex it would take.
@@ -283,7 +281,7 @@ impl Logic for Starter {
         if self.moves.val() {
             self.candidate.d.next = self.passed.q.val();
             self.candidate_id.d.next = self.passed_id.q.val();
-            self.candidate_is_dealt.d.next = self.passed_id.q.val() >= self.first_round.val();
+            self.candidate_is_dealt.d.next = self.plans.taken_is_dealt.val();
             self.candidate_plan.d.next = self.plans.after_taken.val();
             self.candidate_point.d.next = self.passed_point.q.val();
             self.wants_again.d.next =
