@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::path::Path;
+
 use common::{Run, Scratch};
 use serde_json::Value;
 
@@ -173,6 +175,18 @@ fn a_sequence_of_frames_costs_little_more_than_the_engine() {
     assert_eq!(number("cycles_per_job"), number("cycles") / 20.0);
     assert!(number("cycles_per_job") <= number("longest_job_cycles"), "{set}");
     assert!(number("longest_job_cycles") <= 90_000.0, "{set}");
+    // As the documents have them: a comma after the thousands.
+    let shown = |key: &str| {
+        let cycles = number(key).round() as u64;
+        format!("{},{:03}", cycles / 1000, cycles % 1000)
+    };
+    for document in ["README.md", "docs/engine.md"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(document);
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        for figure in [shown("cycles_per_job"), shown("longest_job_cycles")] {
+            assert!(text.contains(&figure), "{document} has no {figure}");
+        }
+    }
     let (whole, engine) = (number("cycles_per_point"), number("engine_cycles_per_point"));
     // The read-out alone takes two clocks a point.
     assert!(whole - engine > 2.0 && whole - engine <= 2.5, "{set}");
