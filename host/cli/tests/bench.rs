@@ -231,6 +231,10 @@ fn orders_are_compared_as_table_csv_and_drawing() {
     assert!(walk(2) > 2.0 * walk(0), "{rows:?}");
     let drawing = scratch.read("o.svg");
     assert!(drawing.starts_with("<svg ") && drawing.matches("<rect").count() == 1 + 2 * rows.len(), "{drawing}");
+    // Told before any row.
+    let one = scratch.run("bench orders uniform -n 100 --order hilbert --csv o.csv --plot ./o.csv");
+    one.fails(2, &["--csv and --plot", "the same file"]);
+    assert_eq!(scratch.read("o.csv"), csv);
     let wide = scratch.run("bench orders uniform -n 100 --coord-bits 20 --order hilbert").ok();
     assert!(wide.stdout.lines().last().is_some_and(|line| line.ends_with(" -")), "{wide:?}");
 }
