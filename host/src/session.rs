@@ -65,8 +65,8 @@ impl<'d> Session<'d> {
     ///
     /// # Errors
     /// A coordinate beyond the device's bits, more contexts than it has, more distinct points than it holds, a failing link, an answer that no
-    /// sound device gives, a passed deadline, or a cancelled job. After an error of link or device the session is out of
-    /// step; after all others it can be used again.
+    /// sound device gives, a passed deadline, or a cancelled job. After an error of link or device, or a deadline that passed while
+    /// the device worked, the session is out of step: open the device again. After all others it can be used again.
     pub fn triangulate_with(&mut self, points: &[Point], options: &Options<'_>) -> Result<Mesh, Error> {
         let mut own = pages::with_room(points.len());
         own.extend_from_slice(points);

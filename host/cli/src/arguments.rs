@@ -17,7 +17,7 @@ use crate::values::{
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
 #[derive(Debug, Parser)]
-#[command(name = "incircle", version, about, after_help = EXIT_CODES)]
+#[command(name = "incircle", version, after_help = EXIT_CODES)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]

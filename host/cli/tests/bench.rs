@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::path::Path;
+
 use common::{Run, Scratch};
 use serde_json::Value;
 
@@ -173,6 +175,18 @@ fn a_sequence_of_frames_costs_little_more_than_the_engine() {
     assert_eq!(number("cycles_per_job"), number("cycles") / 20.0);
     assert!(number("cycles_per_job") <= number("longest_job_cycles"), "{set}");
     assert!(number("longest_job_cycles") <= 90_000.0, "{set}");
+    // As the documents have them: a comma after the thousands.
+    let shown = |key: &str| {
+        let cycles = number(key).round() as u64;
+        format!("{},{:03}", cycles / 1000, cycles % 1000)
+    };
+    for document in ["README.md", "docs/engine.md"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(document);
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        for figure in [shown("cycles_per_job"), shown("longest_job_cycles")] {
+            assert!(text.contains(&figure), "{document} has no {figure}");
+        }
+    }
     let (whole, engine) = (number("cycles_per_point"), number("engine_cycles_per_point"));
     // The read-out alone takes two clocks a point.
     assert!(whole - engine > 2.0 && whole - engine <= 2.5, "{set}");
@@ -217,6 +231,10 @@ fn orders_are_compared_as_table_csv_and_drawing() {
     assert!(walk(2) > 2.0 * walk(0), "{rows:?}");
     let drawing = scratch.read("o.svg");
     assert!(drawing.starts_with("<svg ") && drawing.matches("<rect").count() == 1 + 2 * rows.len(), "{drawing}");
+    // Told before any row.
+    let one = scratch.run("bench orders uniform -n 100 --order hilbert --csv o.csv --plot ./o.csv");
+    one.fails(2, &["--csv and --plot", "the same file"]);
+    assert_eq!(scratch.read("o.csv"), csv);
     let wide = scratch.run("bench orders uniform -n 100 --coord-bits 20 --order hilbert").ok();
     assert!(wide.stdout.lines().last().is_some_and(|line| line.ends_with(" -")), "{wide:?}");
 }

@@ -251,6 +251,8 @@ fn help_version_and_completions_go_to_standard_output() {
         let run = scratch.run(arguments).ok();
         assert!(run.stdout.contains("incircle") && run.stderr.is_empty(), "{run:?}");
     }
+    let about = scratch.run("--help").ok().stdout;
+    assert!(about.starts_with("Exact Delaunay triangulation"), "{about}");
     // It offers what it can do, and says what it does not.
     let help = scratch.run("verify --help").ok().stdout;
     for (part, there) in [("- ele:", true), ("- vtk:", false), ("svg", false), ("Only the triangles are checked", true)]

@@ -29,11 +29,14 @@ fn cards_that_cannot_be_had_end_with_exit_code_4() {
     scratch.run("triangulate p.csv -o m.ele --backend pcie:/nowhere").fails(4, &missing);
     scratch.run("bench --backend pcie:/nowhere").fails(4, &missing);
     scratch.run("info --backend pcie:/nowhere").fails(4, &missing);
+    // The driver has nothing to do with a directory.
+    let refusal = scratch.run("info --backend pcie:/nowhere");
+    assert!(refusal.stderr.contains("serve-pcie") && !refusal.stderr.contains("modprobe"), "{refusal:?}");
     // Files that are no card: they end, or have other registers.
     for name in ["xdma0_h2c_0", "xdma0_c2h_0", "xdma0_user"] {
         scratch.write(name, "");
     }
-    scratch.run("info --backend pcie:.").fails(5, &["the reading of a register failed"]);
+    scratch.run("info --backend pcie:.").fails(5, &["the reading of a register failed", "the file ends before it"]);
     scratch.write("xdma0_user", "none".repeat(64));
     scratch.run("info --backend pcie:.").fails(4, &["begin with 0x656e6f6e", "choose another card"]);
 }

@@ -53,6 +53,11 @@ impl CardAddress {
         Ok(Self::in_directory(text))
     }
 
+    /// True for a card of the driver; others have a directory of their own.
+    pub(crate) fn is_of_the_system(&self) -> bool {
+        self.directory == Path::new(DEVICES)
+    }
+
     fn file(&self, name: &str) -> PathBuf {
         self.directory.join(format!("xdma{}_{name}", self.number))
     }
@@ -75,7 +80,7 @@ impl CardAddress {
 
 impl fmt::Display for CardAddress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.directory == Path::new(DEVICES) {
+        if self.is_of_the_system() {
             write!(f, "{PREFIX}{}", self.number)
         } else {
             write!(f, "{PREFIX}{}", self.directory.display())
@@ -134,9 +139,11 @@ mod tests {
         let card = CardAddress::parse("pcie:3").unwrap().unwrap();
         assert_eq!((card.commands(), card.answers()), ("/dev/xdma3_h2c_0".into(), "/dev/xdma3_c2h_0".into()));
         assert_eq!((card.registers(), card.to_string()), ("/dev/xdma3_user".into(), "pcie:3".to_owned()));
+        assert!(card.is_of_the_system());
         for directory in ["/tmp/card", "card", "./0"] {
             let card = CardAddress::parse(&format!("pcie:{directory}")).unwrap().unwrap();
             assert_eq!(card.registers(), Path::new(directory).join("xdma0_user"));
+            assert!(!card.is_of_the_system());
             assert_eq!(card.to_string(), format!("pcie:{directory}"));
         }
         for bad in ["pcie:", "pcie:256", "pcie:99999999999"] {

@@ -19,6 +19,12 @@ pub enum CardFault {
         /// The cards there are.
         cards: Vec<String>,
     },
+    /// A file of a card in a directory of its own does not exist, so this is no matter of the driver.
+    #[error("there is no {path}: name the directory with the files of a card, such as that of a simulated one ('incircle-sim serve-pcie --dir DIR'), or a number as in \"pcie:0\"")]
+    MissingInDirectory {
+        /// The file.
+        path: String,
+    },
     /// The user may not use it.
     #[error(
         "you may not use {path}: run as root, or add a udev rule, such as 'SUBSYSTEM==\"xdma\", MODE=\"0660\", GROUP=\"plugdev\"' in \

@@ -72,7 +72,13 @@ mod system {
     impl RegisterFile for Registers {
         fn read(&mut self, offset: u32) -> io::Result<u32> {
             let mut word = [0; 4];
-            self.0.read_exact_at(&mut word, u64::from(offset))?;
+            self.0.read_exact_at(&mut word, u64::from(offset)).map_err(|error| match error.kind() {
+                // An ordinary file, or one cut short: no driver does so.
+                io::ErrorKind::UnexpectedEof => {
+                    io::Error::new(error.kind(), "the file ends before it, so it is no card's")
+                }
+                _ => error,
+            })?;
             Ok(u32::from_le_bytes(word))
         }
 
@@ -84,11 +90,11 @@ mod system {
     /// Opens the files of a card, and locks it.
     pub fn open(address: &CardAddress) -> Result<CardFiles, CardFault> {
         let mut choice = OpenOptions::new();
-        let registers = open_file(&address.registers(), choice.read(true).write(true))?;
+        let registers = open_file(address, &address.registers(), choice.read(true).write(true))?;
         registers.try_lock().map_err(|error| lock_fault(&address.registers(), error))?;
         let lock = Arc::new(registers);
-        let commands = open_file(&address.commands(), OpenOptions::new().write(true))?;
-        let answers = open_file(&address.answers(), OpenOptions::new().read(true))?;
+        let commands = open_file(address, &address.commands(), OpenOptions::new().write(true))?;
+        let answers = open_file(address, &address.answers(), OpenOptions::new().read(true))?;
         let locked = |file| Locked { file, _lock: Arc::clone(&lock) };
         Ok(CardFiles {
             commands: Box::new(locked(commands)),
@@ -97,10 +103,13 @@ mod system {
         })
     }
 
-    fn open_file(path: &Path, choice: &OpenOptions) -> Result<File, CardFault> {
+    fn open_file(address: &CardAddress, path: &Path, choice: &OpenOptions) -> Result<File, CardFault> {
         choice.open(path).map_err(|error| {
             let name = path.display().to_string();
             match (error.kind(), error.raw_os_error()) {
+                (io::ErrorKind::NotFound, _) if !address.is_of_the_system() => {
+                    CardFault::MissingInDirectory { path: name }
+                }
                 (io::ErrorKind::NotFound, _) => CardFault::Missing {
                     path: name,
                     cards: cards().into_iter().map(|card| card.address.to_string()).collect(),

@@ -1,6 +1,7 @@
 //! `incircle bench orders`: what orders of insertion cost and save.
 
 use std::fmt::Write as _;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use incircle::order::{Alpha, Curve};
@@ -35,8 +36,7 @@ const COLUMNS: &str = "set,points,order,order_ns,total_ns,walk,tests,cavity,cycl
 /// Runs the subcommand: a row as soon as it is done; files at the end.
 pub fn run(arguments: &OrdersArguments) -> Result<(), Failure> {
     arguments.n.iter().try_for_each(|&n| check_count(n))?;
-    let csv = arguments.csv.as_deref().map(|path| Output::prepare(path, None)).transpose()?;
-    let plot = arguments.plot.as_deref().map(|path| Output::prepare(path, None)).transpose()?;
+    let (csv, plot) = files_of(arguments)?;
     let orders = if arguments.orders.is_empty() { usual() } else { arguments.orders.clone() };
     let mut rows: Vec<Row> = Vec::new();
     output::print(&header(arguments))?;
@@ -57,6 +57,16 @@ pub fn run(arguments: &OrdersArguments) -> Result<(), Failure> {
 }
 
 /// Random order, and every curve, alone and in rounds.
+/// The files for the figures and for the drawing, which cannot be one.
+fn files_of(arguments: &OrdersArguments) -> Result<(Option<Output>, Option<Output>), Failure> {
+    let prepare = |path: &Option<PathBuf>| path.as_deref().map(|path| Output::prepare(path, None)).transpose();
+    let (csv, plot) = (prepare(&arguments.csv)?, prepare(&arguments.plot)?);
+    if csv.as_ref().zip(plot.as_ref()).is_some_and(|(csv, plot)| csv.is_same(plot)) {
+        return Err(Failure::usage("--csv and --plot name the same file: choose another file for one"));
+    }
+    Ok((csv, plot))
+}
+
 fn usual() -> Vec<Order> {
     let others = Curve::ALL.into_iter().filter(|&curve| curve != Curve::Hilbert);
     let along = others.flat_map(|curve| [Order::Along(curve), Order::Brio(curve, Alpha::Quarter)]);
