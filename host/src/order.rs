@@ -8,6 +8,7 @@
 //! Indices are 32 bits wide: points past the 2^32nd are left out.
 
 mod adaptive;
+mod brio_dc;
 mod curve;
 #[cfg(test)]
 mod drawing;
@@ -19,6 +20,7 @@ mod random;
 mod sierpinski;
 mod squarified;
 
+pub use brio_dc::{brio_dc, BrioDc, Guided};
 pub use curve::Curve;
 
 use crate::hilbert::{position_16, position_32};
@@ -45,12 +47,14 @@ pub(crate) struct Rounds {
     pub(crate) order: Vec<u32>,
     /// Where each round begins; the first begins at 0.
     pub(crate) starts: Vec<usize>,
+    /// For each place one before it, whose point guides this one, or its own; empty where the order has no guides.
+    pub(crate) guides: Vec<u32>,
 }
 
 impl Rounds {
     /// One round of points in this order.
     pub(crate) fn single(order: Vec<u32>) -> Self {
-        Self { order, starts: vec![0] }
+        Self { order, starts: vec![0], guides: Vec::new() }
     }
 
     /// Deals each round to the contexts of a device, so that every context runs along a stretch of the curve of its own and they
@@ -59,7 +63,7 @@ impl Rounds {
     /// Context 0 takes the points before [`FIRST_ROUND`], and place `j` from there on belongs to context
     /// `(j - FIRST_ROUND) mod contexts`. The places of a round that belong to context `c` get the `c`-th stretch of the round.
     pub(crate) fn deal(self, contexts: u32) -> Vec<u32> {
-        let Self { mut order, starts } = self;
+        let Self { mut order, starts, .. } = self;
         let ends = starts.iter().skip(1).copied().chain([order.len()]);
         for (start, end) in starts.iter().copied().zip(ends) {
             let alone = (incircle_protocol::FIRST_ROUND as usize).clamp(start, end);
@@ -226,7 +230,7 @@ fn sort_into_rounds<E: Entry>(entries: &[E], alpha: Alpha) -> Rounds {
     // By now each slot is the end of its level, which is where the round after it begins.
     let mut rounds = vec![0];
     rounds.extend((1..=last).rev().map(|level| starts[level]));
-    Rounds { order, starts: rounds }
+    Rounds { order, starts: rounds, guides: Vec::new() }
 }
 
 /// Levels there can be: the trailing zeros of a 64-bit hash, and all of them zero.
@@ -298,7 +302,7 @@ mod tests {
                     true => Rounds::single(hilbert(&points)),
                     false => rounds(&along_curve(&points)),
                 };
-                let Rounds { order, starts } = undealt();
+                let Rounds { order, starts, .. } = undealt();
                 let dealt = undealt().deal(contexts);
                 assert_eq!(dealt[..FIRST_ROUND], order[..FIRST_ROUND]);
                 assert_eq!(starts.len(), if single { 1 } else { 4 });

@@ -13,7 +13,7 @@ pub(super) fn order(points: &[Point]) -> Vec<u32> {
 }
 
 /// The position of a cell.
-fn position(x: u32, y: u32) -> u64 {
+pub(super) fn position(x: u32, y: u32) -> u64 {
     spread(x) << 1 | spread(y)
 }
 

@@ -1,0 +1,86 @@
+//! Walks that begin at a vertex: a finite triangle of each is kept, from the first guide on.
+//!
+//! The core has no such table: it would be a memory of a word a vertex with a write port that is busy six times an insertion, for walks that are short
+//! already.
+
+use super::{Insertion, Mesh};
+use crate::predicate::Point;
+
+/// A finite triangle of each vertex, once somebody has asked for it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Guides {
+    is_kept: bool,
+    /// By vertex. A point that fell onto a vertex has a triangle near it, a point before the first triangle has record 0.
+    triangle_of: Vec<u32>,
+}
+
+impl Guides {
+    /// Forgets all triangles; they are no longer kept.
+    pub(super) fn clear(&mut self) {
+        self.is_kept = false;
+        self.triangle_of.clear();
+    }
+
+    /// Makes room for a vertex.
+    #[inline]
+    pub(super) fn add_vertex(&mut self) {
+        if self.is_kept {
+            self.triangle_of.push(0);
+        }
+    }
+
+    /// Notes a triangle of these vertices.
+    #[inline]
+    pub(super) fn note<const N: usize>(&mut self, triangle: u32, vertices: [u32; N]) {
+        if self.is_kept {
+            for vertex in vertices {
+                self.triangle_of[vertex as usize] = triangle;
+            }
+        }
+    }
+}
+
+impl Mesh {
+    /// Inserts one point. The search for it begins at a triangle of the vertex `guide`, by number of arrival; where the last one ended if
+    /// that is no earlier point, and in a batch. The mesh is the same wherever it begins.
+    ///
+    /// From the first guide on four bytes more are kept per point, and written with each triangle. O(n) for the first since the last clear.
+    pub fn insert_near(&mut self, p: Point, guide: u32) -> Insertion {
+        self.keep_triangles();
+        self.insert_from(p, Some(guide))
+    }
+
+    /// A finite triangle with this vertex; `None` if there is none, or none is kept because no point has been guided.
+    pub fn triangle_of(&self, vertex: u32) -> Option<u32> {
+        let found = self.guides.triangle_of.get(vertex as usize).copied()?;
+        self.records.get(found as usize)?.v.contains(&vertex).then_some(found)
+    }
+
+    /// Where the walk to a guided point begins.
+    #[inline]
+    pub(super) fn guided_start(&self, guide: Option<u32>) -> Option<u32> {
+        let is_batch = self.starts.len() > 1;
+        let start = self.guides.triangle_of.get(guide? as usize).copied();
+        // The place of the point itself has been made, and says nothing yet.
+        start.filter(|_| !is_batch && guide.is_some_and(|guide| guide + 1 < self.counts.arrived))
+    }
+
+    /// Notes a triangle of its vertices, unless it is a ghost.
+    #[inline]
+    pub(super) fn note_finite(&mut self, triangle: u32, vertices: [u32; 3]) {
+        if self.guides.is_kept && !vertices.contains(&self.infinite) {
+            self.guides.note(triangle, vertices);
+        }
+    }
+
+    /// Finds a triangle of each vertex, and keeps it right from now on.
+    fn keep_triangles(&mut self) {
+        if self.guides.is_kept {
+            return;
+        }
+        self.guides = Guides { is_kept: true, triangle_of: vec![0; self.points.len()] };
+        for triangle in 0..self.records.len() as u32 {
+            self.note_finite(triangle, self.records[triangle as usize].v);
+        }
+    }
+}
