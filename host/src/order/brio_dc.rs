@@ -11,13 +11,14 @@
 //! The paper leaves open which edge of a component is chosen, and lets the walk run along any of its edges; the pair makes every guide a
 //! nearest neighbour. A component's sampled points are about half, so there are about log2 n rounds, and all take about twice as long as the last.
 
+mod descent;
 mod distance;
 mod neighbors;
 mod pairs;
 mod quadtree;
 mod z_order;
 
-use self::neighbors::nearest_neighbors;
+use self::neighbors::Search;
 use self::z_order::along_z;
 use super::{mix, Rounds};
 use crate::point::Point;
@@ -109,11 +110,12 @@ fn rounds(points: Vec<Point>, by: BrioDc) -> Guided {
     let mut all = Guided { order: vec![0; points.len()], guides: vec![0; points.len()], starts: Vec::new() };
     let mut sample: Vec<u32> = (0..=u32::MAX).take(points.len()).collect();
     let mut points = points;
+    let mut search = Search::with_room(points.len(), by);
     while sample.len() > 1 {
-        let nearest = nearest_neighbors(&points, by);
-        let is_chosen = choose(&points, &nearest, all.starts.len() as u64);
+        let nearest = search.run(&points);
+        let is_chosen = choose(&points, nearest, all.starts.len() as u64);
         let mut end = sample.len();
-        for (place, guide) in outwards(&nearest, &is_chosen).into_iter().rev() {
+        for (place, guide) in outwards(nearest, &is_chosen).into_iter().rev() {
             end -= 1;
             (all.order[end], all.guides[end]) = (sample[place as usize], sample[guide as usize]);
         }

@@ -19,13 +19,13 @@ pub(super) struct Pair {
     pub(super) node: u32,
 }
 
-/// All pairs of a point and a node of several points that are well separated and within reach. Pairs of two points are told to
+/// Finds all pairs of a point and a node of several points that are well separated and within reach. Pairs of two points are told to
 /// `neighbors` at once.
-pub(super) fn well_separated(neighbors: &mut Neighbors) -> Vec<Pair> {
+pub(super) fn well_separated(neighbors: &mut Neighbors, pairs: &mut Vec<Pair>) {
     reach_along_curve(neighbors);
-    let mut decomposition = Decomposition { neighbors, pairs: Vec::new() };
-    decomposition.within(decomposition.neighbors.tree.root);
-    decomposition.pairs
+    pairs.clear();
+    let root = neighbors.tree.root;
+    Decomposition { neighbors, pairs }.within(root);
 }
 
 /// Tells each point its neighbours along the curve: in every node each point then reaches another one there.
@@ -38,7 +38,7 @@ fn reach_along_curve(neighbors: &mut Neighbors) {
 /// The decomposition under way. Nodes are as deep as a coordinate pair has bits, and so are its calls, twice.
 struct Decomposition<'n> {
     neighbors: &'n mut Neighbors,
-    pairs: Vec<Pair>,
+    pairs: &'n mut Vec<Pair>,
 }
 
 impl Decomposition<'_> {

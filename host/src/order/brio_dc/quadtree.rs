@@ -4,6 +4,7 @@
 //! build it: in one pass with a stack (Chan, *Well-separated pair decomposition in linear time?*, 2008), or from the top.
 
 use super::distance::{gap, Distance};
+use crate::pages::with_room;
 use crate::point::Point;
 
 /// A square, or half of one, with all its points.
@@ -36,6 +37,8 @@ impl Node {
 pub(super) struct Quadtree {
     pub(super) nodes: Vec<Node>,
     pub(super) root: u32,
+    /// While it is built from left to right: nodes whose right halves are not complete, and their levels, each higher than the next.
+    open: Vec<(u32, u32)>,
 }
 
 /// Whether this node is a leaf.
@@ -60,50 +63,50 @@ pub(super) fn level(one: Point, other: Point) -> u32 {
 }
 
 impl Quadtree {
-    /// The leaves alone, at least one, which have met nobody.
-    fn of_leaves(points: &[Point]) -> Self {
-        let mut nodes = Vec::with_capacity(2 * points.len() - 1);
+    /// A tree that has room for this many points, and none yet.
+    pub(super) fn with_room(points: usize) -> Self {
+        Self { nodes: with_room(2 * points), root: 0, open: Vec::new() }
+    }
+
+    /// The leaves alone, which have met nobody.
+    fn begin(&mut self, points: &[Point]) {
+        self.nodes.clear();
         for (place, &point) in (0..).zip(points) {
             let id = leaf(place);
             let own = Node { low: point, high: point, left: id, right: id, reach: Distance::MAX };
             if place > 0 {
-                nodes.push(own);
+                self.nodes.push(own);
             }
-            nodes.push(own);
+            self.nodes.push(own);
         }
-        Self { nodes, root: 0 }
     }
 
-    /// In one pass from left to right: O(n). The points are distinct, in Z-order, and at least one.
-    pub(super) fn by_stack(points: &[Point]) -> Self {
-        let mut tree = Self::of_leaves(points);
-        // Nodes whose right halves are not complete, each larger than the next.
-        let mut open: Vec<(u32, u32)> = Vec::new();
+    /// Builds it anew in one pass from left to right: O(n). The points are distinct, in Z-order, and at least one.
+    pub(super) fn build_by_stack(&mut self, points: &[Point]) {
+        self.begin(points);
         for (before, pair) in (0..).zip(points.windows(2)) {
             let size = level(pair[0], pair[1]);
             let mut left = leaf(before);
-            while let Some((node, _)) = open.pop_if(|&mut (_, smaller)| smaller < size) {
-                tree.close(node, left);
+            while let Some((node, _)) = self.open.pop_if(|&mut (_, lower)| lower < size) {
+                self.close(node, left);
                 left = node;
             }
             let node = leaf(before) + 1;
-            tree.nodes[node as usize].left = left;
-            open.push((node, size));
+            self.nodes[node as usize].left = left;
+            self.open.push((node, size));
         }
         let mut right = leaf(points.len() as u32 - 1);
-        while let Some((node, _)) = open.pop() {
-            tree.close(node, right);
+        while let Some((node, _)) = self.open.pop() {
+            self.close(node, right);
             right = node;
         }
-        tree.root = right;
-        tree
+        self.root = right;
     }
 
-    /// From the top, each node's right half found by bisection: O(n log n), which is less than O(n log U). Points as for `by_stack`.
-    pub(super) fn from_top(points: &[Point]) -> Self {
-        let mut tree = Self::of_leaves(points);
-        tree.root = tree.halve(points, 0);
-        tree
+    /// Builds it anew from the top, each node's right half found by bisection: O(n log n), which is less than O(n log U). Points as before.
+    pub(super) fn build_from_top(&mut self, points: &[Point]) {
+        self.begin(points);
+        self.root = self.halve(points, 0);
     }
 
     /// The node of these points, the first of which is at place `first`. As deep as a coordinate pair has bits.
@@ -173,7 +176,9 @@ mod tests {
         ) {
             let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(x >> wide, y >> high)).collect();
             let points = distinct_in_z_order(&points);
-            let (tree, other) = (Quadtree::by_stack(&points), Quadtree::from_top(&points));
+            let (mut tree, mut other) = (Quadtree::with_room(0), Quadtree::with_room(0));
+            tree.build_by_stack(&points);
+            other.build_from_top(&points);
             prop_assert_eq!(tree.root, other.root);
             for id in 0..tree.nodes.len() as u32 {
                 let (node, same) = (tree.nodes[id as usize], other.nodes[id as usize]);

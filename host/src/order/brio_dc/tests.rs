@@ -1,7 +1,7 @@
 //! The graph against brute force, and the promises of the order.
 
 use super::distance::{span, Distance};
-use super::neighbors::nearest_neighbors;
+use super::neighbors::Search;
 use super::z_order::distinct_in_z_order;
 use super::*;
 use proptest::prelude::*;
@@ -11,6 +11,11 @@ fn by_brute_force(points: &[Point]) -> Vec<u32> {
     let others = |own: u32| (0..points.len() as u32).filter(move |&other| other != own);
     let key = |own: u32, other: u32| (span(points[own as usize], points[other as usize]), other);
     (0..points.len() as u32).filter_map(|own| others(own).min_by_key(|&other| key(own, other))).collect()
+}
+
+/// The nearest neighbour of each point, as the order finds it.
+fn nearest_neighbors(points: &[Point], by: BrioDc) -> Vec<u32> {
+    Search::with_room(points.len(), by).run(points).to_vec()
 }
 
 /// Sets on which a search for neighbours can go wrong: even, in a box, long and thin, on a lattice, in clusters, on a line.
