@@ -1,5 +1,7 @@
 //! Stable radix sort of keyed entries.
 
+use crate::pages;
+
 /// Bits of a radix digit: 2048 counters stay in the first-level cache.
 const DIGIT_BITS: u32 = 11;
 /// Below this length a comparison sort is faster than clearing the counters.
@@ -72,7 +74,7 @@ pub(crate) fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
     }
     let (any, all) = entries.iter().fold((0, u64::MAX), |(any, all), e| (any | e.key(), all & e.key()));
     let varying = any & !all;
-    let mut scratch = vec![E::default(); entries.len()];
+    let mut scratch = pages::filled(E::default(), entries.len());
     let mut shift = 0;
     while shift < u64::BITS {
         if varying >> shift & ((1 << DIGIT_BITS) - 1) != 0 {

@@ -19,8 +19,9 @@ mod quadtree;
 mod z_order;
 
 use self::neighbors::Search;
-use self::z_order::along_z;
+use self::z_order::{along_z, Along};
 use super::{mix, Rounds};
+use crate::pages::zeros;
 use crate::point::Point;
 
 /// How the nearest-neighbour graph is found. Both give the same order; only the time to find it differs.
@@ -76,17 +77,19 @@ impl Guided {
 /// The order follows from the coordinates alone. Equal points stay together, in input order, and the first guides the others. Exact for coordinates below 2^31; beyond,
 /// distances of 2^32 and more count as equally long. About 0.4 µs and, while it runs, 100 bytes per point.
 pub fn brio_dc(points: &[Point], by: BrioDc) -> Guided {
-    let along = along_z(points, by);
-    let at = |&index: &u32| points[index as usize];
-    let groups: Vec<&[u32]> = along.chunk_by(|one, other| at(one) == at(other)).collect();
-    if groups.len() == along.len() {
-        let mut guided = rounds(along.iter().map(at).collect(), by);
-        let indices = guided.order.iter_mut().chain(&mut guided.guides);
-        indices.for_each(|place| *place = along[*place as usize]);
+    let Along { indices, points } = along_z(points, by);
+    if points.windows(2).all(|pair| pair[0] != pair[1]) {
+        let mut guided = rounds(points, by);
+        let places = guided.order.iter_mut().chain(&mut guided.guides);
+        places.for_each(|place| *place = indices[*place as usize]);
         return guided;
     }
-    let firsts = groups.iter().map(|group| at(&group[0])).collect();
-    repeat_equals(&rounds(firsts, by), &groups)
+    let mut rest = indices.as_slice();
+    let groups: Vec<&[u32]> =
+        points.chunk_by(|one, other| one == other).filter_map(|equal| rest.split_off(..equal.len())).collect();
+    let mut distinct = points;
+    distinct.dedup();
+    repeat_equals(&rounds(distinct, by), &groups)
 }
 
 /// The order of all points from that of groups of equal ones.
@@ -107,19 +110,21 @@ fn repeat_equals(distinct: &Guided, groups: &[&[u32]]) -> Guided {
 
 /// The rounds of distinct points in Z-order. Indices are places in that order.
 fn rounds(points: Vec<Point>, by: BrioDc) -> Guided {
-    let mut all = Guided { order: vec![0; points.len()], guides: vec![0; points.len()], starts: Vec::new() };
+    let mut all = Guided { order: zeros(points.len()), guides: zeros(points.len()), starts: Vec::new() };
     let mut sample: Vec<u32> = (0..=u32::MAX).take(points.len()).collect();
     let mut points = points;
     let mut search = Search::with_room(points.len(), by);
     while sample.len() > 1 {
         let nearest = search.run(&points);
-        let is_chosen = choose(&points, nearest, all.starts.len() as u64);
-        let mut end = sample.len();
-        for (place, guide) in outwards(nearest, &is_chosen).into_iter().rev() {
-            end -= 1;
-            (all.order[end], all.guides[end]) = (sample[place as usize], sample[guide as usize]);
-        }
-        all.starts.push(end);
+        let is_chosen = choose(&points, nearest, all.starts.len() as u32);
+        let start = is_chosen.iter().filter(|&&is_chosen| is_chosen).count();
+        let mut slots = all.order[start..].iter_mut().zip(&mut all.guides[start..]);
+        outwards(nearest, is_chosen.clone(), |place, guide| {
+            if let Some((own, before)) = slots.next() {
+                (*own, *before) = (sample[place as usize], sample[guide as usize]);
+            }
+        });
+        all.starts.push(start);
         keep(&mut sample, &is_chosen);
         keep(&mut points, &is_chosen);
     }
@@ -137,8 +142,9 @@ fn keep<T>(items: &mut Vec<T>, is_chosen: &[bool]) {
 }
 
 /// Throws the coins: one of each pair of mutually nearest points is chosen, and each other point with probability 1/2.
-fn choose(points: &[Point], nearest: &[u32], round: u64) -> Vec<bool> {
-    let coin = |point: &Point| mix(mix(u64::from(point.x) << 32 | u64::from(point.y)) ^ round) & 1 == 0;
+fn choose(points: &[Point], nearest: &[u32], round: u32) -> Vec<bool> {
+    let bit = round % u64::BITS;
+    let coin = |point: &Point| mix(u64::from(point.x) << 32 | u64::from(point.y)) >> bit & 1 == 0;
     let mut is_chosen: Vec<bool> = points.iter().map(coin).collect();
     for (place, &other) in (0..).zip(nearest) {
         if place < other && nearest[other as usize] == place {
@@ -148,10 +154,9 @@ fn choose(points: &[Point], nearest: &[u32], round: u64) -> Vec<bool> {
     is_chosen
 }
 
-/// The points that are not chosen, each after its nearest neighbour unless that is chosen, with that neighbour; otherwise along the Z-curve.
-fn outwards(nearest: &[u32], is_chosen: &[bool]) -> Vec<(u32, u32)> {
-    let mut is_in = is_chosen.to_vec();
-    let mut round = Vec::with_capacity(nearest.len() / 2);
+/// Visits the points that are not chosen, each with its nearest neighbour and after it, unless that is chosen; otherwise along the Z-curve.
+fn outwards(nearest: &[u32], is_chosen: Vec<bool>, mut visit: impl FnMut(u32, u32)) {
+    let mut is_in = is_chosen;
     let mut chain = Vec::new();
     for first in 0..nearest.len() as u32 {
         // The chain of nearest neighbours ends at the latest at the chosen point of the component's pair.
@@ -161,10 +166,9 @@ fn outwards(nearest: &[u32], is_chosen: &[bool]) -> Vec<(u32, u32)> {
             place = nearest[place as usize];
         }
         while let Some(place) = chain.pop() {
-            round.push((place, nearest[place as usize]));
+            visit(place, nearest[place as usize]);
         }
     }
-    round
 }
 
 #[cfg(test)]

@@ -4,9 +4,8 @@
 //! to another than to the node stays behind. Those that go on are farther from each other than from the node, of which there is room
 //! for a constant number. Callahan and Kosaraju 1995.
 
-use super::neighbors::Neighbors;
 use super::pairs::Pair;
-use super::quadtree::{is_leaf, place};
+use super::quadtree::{is_leaf, place, Quadtree, FEW};
 
 /// No pair of a list: larger than all numbers.
 const END: u32 = u32::MAX;
@@ -23,37 +22,38 @@ pub(super) struct Lists {
 }
 
 impl Lists {
-    /// Lets the points of all pairs go down the tree and meet the leaves they come to.
-    pub(super) fn descend_with(&mut self, neighbors: &mut Neighbors, pairs: &[Pair]) {
-        for (list, length) in [(&mut self.first, neighbors.nearest.len()), (&mut self.next, pairs.len())] {
+    /// Lets the points of all pairs go down the tree and meet the leaves they come to. O(n).
+    pub(super) fn descend_with(&mut self, tree: &mut Quadtree, pairs: &[Pair]) {
+        for (list, length) in [(&mut self.first, tree.nodes.len() / 2), (&mut self.next, pairs.len())] {
             list.clear();
             list.resize(length, END);
         }
         for (number, pair) in (0..).zip(pairs) {
             self.next[number as usize] = std::mem::replace(&mut self.first[pair.node as usize / 2], number);
         }
-        let root = neighbors.tree.root;
-        Descent { neighbors, pairs, lists: self }.go(root, 0);
+        let (root, last) = (tree.root, tree.nodes.len() as u32 - 1);
+        Descent { tree, pairs, lists: self }.go(root, [0, last], 0);
     }
 }
 
 /// The descent under way.
 struct Descent<'d> {
-    neighbors: &'d mut Neighbors,
+    tree: &'d mut Quadtree,
     pairs: &'d [Pair],
     lists: &'d mut Lists,
 }
 
 impl Descent<'_> {
-    /// Takes the points that came to the node above, from `above` on, and those paired with this node, down to the leaves.
-    fn go(&mut self, node: u32, above: usize) {
+    /// Takes the points that came to the node above, from `above` on, and those paired with this node, down to the leaves, of which the first
+    /// and the last are given.
+    fn go(&mut self, node: u32, [first, last]: [u32; 2], above: usize) {
         let own = self.lists.coming.len();
         for come in above..own {
             self.admit(self.lists.coming[come], node, own);
         }
         if is_leaf(node) {
             while self.lists.coming.len() > own {
-                self.lists.coming.pop().into_iter().for_each(|point| self.neighbors.meet(point, place(node)));
+                self.lists.coming.pop().into_iter().for_each(|point| self.tree.meet(point, place(node)));
             }
             return;
         }
@@ -62,11 +62,11 @@ impl Descent<'_> {
             self.admit(self.pairs[number as usize].place, node, own);
             number = self.lists.next[number as usize];
         }
-        let (left, right) = self.neighbors.tree.children(node);
-        for half in [left, right] {
-            // A leaf to which nobody comes needs no visit.
-            if !is_leaf(half) || self.lists.coming.len() > own {
-                self.go(half, own);
+        let (left, right) = self.tree.children(node);
+        for (half, [first, last]) in [(left, [first, node - 1]), (right, [node + 1, last])] {
+            // Nodes of few points have no pairs, nor have those below.
+            if place(last) - place(first) >= FEW || self.lists.coming.len() > own {
+                self.go(half, [first, last], own);
             }
         }
         self.lists.coming.truncate(own);
@@ -76,14 +76,14 @@ impl Descent<'_> {
     fn admit(&mut self, point: u32, node: u32, own: usize) {
         let mut there = own;
         while let Some(&other) = self.lists.coming.get(there) {
-            self.neighbors.meet(point, other);
-            if self.neighbors.is_within_reach(other, node) {
+            self.tree.meet(point, other);
+            if self.tree.is_within_reach(other, node) {
                 there += 1;
             } else {
                 self.lists.coming.swap_remove(there);
             }
         }
-        if self.neighbors.is_within_reach(point, node) {
+        if self.tree.is_within_reach(point, node) {
             self.lists.coming.push(point);
         }
     }

@@ -2,33 +2,46 @@
 
 use super::quadtree::level;
 use super::BrioDc;
-use crate::order::morton::position;
+use crate::order::morton::{point_at, position};
+use crate::pages::with_room;
 use crate::point::Point;
 use crate::sort::{sort_by_key, Entry, Narrow, Wide};
 
-/// Indices of the points along the curve; of equal points, in input order. By radix O(n), by comparison O(n log n).
-pub(super) fn along_z(points: &[Point], by: BrioDc) -> Vec<u32> {
+/// Points along the curve.
+pub(super) struct Along {
+    /// Their indices; of equal points, in input order.
+    pub(super) indices: Vec<u32>,
+    /// The same points.
+    pub(super) points: Vec<Point>,
+}
+
+/// Sorts points along the curve: by radix in O(n), by comparison in O(n log n).
+pub(super) fn along_z(points: &[Point], by: BrioDc) -> Along {
     let all = points.iter().fold(0, |all, point| all | point.x | point.y);
     let indices = 0..=u32::MAX;
     match by {
         BrioDc::LogU => {
-            let mut order: Vec<u32> = indices.take(points.len()).collect();
-            order.sort_by(|&one, &other| compare(points[one as usize], points[other as usize]));
-            order
+            let mut indices: Vec<u32> = indices.take(points.len()).collect();
+            indices.sort_by(|&one, &other| compare(points[one as usize], points[other as usize]));
+            let points = indices.iter().map(|&index| points[index as usize]).collect();
+            Along { indices, points }
         }
         // Positions of points of 16 bits have 32.
         BrioDc::Linear if all < 1 << 16 => {
-            sorted(points.iter().zip(indices).map(|(p, index)| Narrow::new(position(p.x, p.y) as u32, index)).collect())
+            sorted(points.iter().zip(indices).map(|(p, index)| Narrow::new(position(p.x, p.y) as u32, index)))
         }
-        BrioDc::Linear => {
-            sorted(points.iter().zip(indices).map(|(p, index)| Wide::new(position(p.x, p.y), index)).collect())
-        }
+        BrioDc::Linear => sorted(points.iter().zip(indices).map(|(p, index)| Wide::new(position(p.x, p.y), index))),
     }
 }
 
-fn sorted<E: Entry>(mut entries: Vec<E>) -> Vec<u32> {
-    sort_by_key(&mut entries);
-    entries.iter().map(Entry::value).collect()
+/// Sorts by position, of which the points are made again: that is faster than to fetch them from all over the input.
+fn sorted<E: Entry>(entries: impl Iterator<Item = E>) -> Along {
+    let mut along = with_room(entries.size_hint().0);
+    along.extend(entries);
+    sort_by_key(&mut along);
+    let mut points = with_room(along.len());
+    points.extend(along.iter().map(|entry| point_at(entry.key())));
+    Along { indices: along.iter().map(Entry::value).collect(), points }
 }
 
 /// Which of two points comes first, decided by the axis in which they differ at the higher bit. Chan, *A minimalist's implementation of
@@ -45,7 +58,7 @@ fn compare(one: Point, other: Point) -> std::cmp::Ordering {
 /// The distinct ones of some points, in Z-order.
 #[cfg(test)]
 pub(super) fn distinct_in_z_order(points: &[Point]) -> Vec<Point> {
-    let mut along: Vec<Point> = along_z(points, BrioDc::Linear).iter().map(|&index| points[index as usize]).collect();
+    let mut along = along_z(points, BrioDc::Linear).points;
     along.dedup();
     along
 }
@@ -63,10 +76,12 @@ mod tests {
         ) {
             let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(x >> wide, y >> high)).collect();
             let order = along_z(&points, BrioDc::Linear);
-            prop_assert_eq!(&order, &along_z(&points, BrioDc::LogU));
+            let other = along_z(&points, BrioDc::LogU);
+            prop_assert_eq!((&order.indices, &order.points), (&other.indices, &other.points));
+            prop_assert!(order.indices.iter().zip(&order.points).all(|(&index, &point)| points[index as usize] == point));
             let key = |index: &u32| (position(points[*index as usize].x, points[*index as usize].y), *index);
-            prop_assert!(order.is_sorted_by_key(key));
-            prop_assert_eq!(order.len(), points.len());
+            prop_assert!(order.indices.iter().is_sorted_by_key(key));
+            prop_assert_eq!(order.indices.len(), points.len());
         }
     }
 }
