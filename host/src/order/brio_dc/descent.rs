@@ -5,7 +5,8 @@
 //! for a constant number. Callahan and Kosaraju 1995.
 
 use super::pairs::Pair;
-use super::quadtree::{is_leaf, place, Quadtree, FEW};
+use super::quadtree::{is_leaf, place, Quadtree};
+use crate::sort::sort_by_key;
 
 /// No pair of a list: larger than all numbers.
 const END: u32 = u32::MAX;
@@ -17,22 +18,28 @@ pub(super) struct Lists {
     first: Vec<u32>,
     /// The pair behind each pair, of the same node.
     next: Vec<u32>,
-    /// The points that have come to the nodes from the root to the one at work, by node.
+    /// The points that have come to the nodes from the first to the one at work, by node.
     coming: Vec<u32>,
 }
 
 impl Lists {
-    /// Lets the points of all pairs go down the tree and meet the leaves they come to. O(n).
-    pub(super) fn descend_with(&mut self, tree: &mut Quadtree, pairs: &[Pair]) {
+    /// Lets the points of all pairs go down the tree and meet the leaves they come to. O(n): no node is visited twice but by points.
+    pub(super) fn descend_with(&mut self, tree: &mut Quadtree, pairs: &mut Vec<Pair>) {
+        // A node above another is larger: its points come first, and take those of the other with them.
+        sort_by_key(pairs);
         for (list, length) in [(&mut self.first, tree.nodes.len() / 2), (&mut self.next, pairs.len())] {
             list.clear();
             list.resize(length, END);
         }
-        for (number, pair) in (0..).zip(pairs) {
+        for (number, pair) in (0..).zip(&*pairs) {
             self.next[number as usize] = std::mem::replace(&mut self.first[pair.node as usize / 2], number);
         }
-        let (root, last) = (tree.root, tree.nodes.len() as u32 - 1);
-        Descent { tree, pairs, lists: self }.go(root, [0, last], 0);
+        let mut descent = Descent { tree, pairs, lists: self };
+        for pair in &*pairs {
+            if descent.lists.first[pair.node as usize / 2] != END {
+                descent.go(pair.node, 0);
+            }
+        }
     }
 }
 
@@ -44,30 +51,28 @@ struct Descent<'d> {
 }
 
 impl Descent<'_> {
-    /// Takes the points that came to the node above, from `above` on, and those paired with this node, down to the leaves, of which the first
-    /// and the last are given.
-    fn go(&mut self, node: u32, [first, last]: [u32; 2], above: usize) {
+    /// Takes the points that came to the node above, from `above` on, and those paired with this node, down to the leaves.
+    fn go(&mut self, node: u32, above: usize) {
         let own = self.lists.coming.len();
         for come in above..own {
             self.admit(self.lists.coming[come], node, own);
         }
         if is_leaf(node) {
-            while self.lists.coming.len() > own {
-                self.lists.coming.pop().into_iter().for_each(|point| self.tree.meet(point, place(node)));
+            for come in own..self.lists.coming.len() {
+                self.tree.meet(self.lists.coming[come], place(node));
             }
-            return;
-        }
-        let mut number = self.lists.first[node as usize / 2];
-        while number != END {
-            self.admit(self.pairs[number as usize].place, node, own);
-            number = self.lists.next[number as usize];
-        }
-        let (left, right) = self.tree.children(node);
-        for (half, [first, last]) in [(left, [first, node - 1]), (right, [node + 1, last])] {
-            // Nodes of few points have no pairs, nor have those below.
-            if place(last) - place(first) >= FEW || self.lists.coming.len() > own {
-                self.go(half, [first, last], own);
+        } else {
+            let mut number = std::mem::replace(&mut self.lists.first[node as usize / 2], END);
+            while number != END {
+                self.admit(self.pairs[number as usize].place, node, own);
+                number = self.lists.next[number as usize];
             }
+        }
+        // Where nobody goes on, pairs further below have a turn of their own.
+        if !is_leaf(node) && self.lists.coming.len() > own {
+            let (left, right) = self.tree.children(node);
+            self.go(left, own);
+            self.go(right, own);
         }
         self.lists.coming.truncate(own);
     }

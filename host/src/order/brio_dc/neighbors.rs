@@ -52,7 +52,7 @@ impl Search {
 
 /// Lets each point meet all those of the nodes it is paired with.
 fn meet_all(tree: &mut Quadtree, pairs: &[Pair]) {
-    for &Pair { place, node } in pairs {
+    for &Pair { place, node, .. } in pairs {
         if tree.is_within_reach(place, node) {
             tree.places(node).for_each(|other| tree.meet(place, other));
         }

@@ -9,12 +9,21 @@
 //! as it is wide, so the pairs made are among those of the whole decomposition.
 
 use super::quadtree::{is_leaf, place, Quadtree};
+use crate::sort::Keyed;
 
-/// A point, and a node of more than [`FEW`](super::quadtree::FEW) points that can hold its nearest neighbour.
-#[derive(Clone, Copy, Debug)]
+/// A point, and a node of more than a few points that can hold its nearest neighbour.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pair {
     pub(super) place: u32,
     pub(super) node: u32,
+    level: u32,
+}
+
+impl Keyed for Pair {
+    /// Larger nodes first.
+    fn key(&self) -> u64 {
+        u64::from(u32::MAX - self.level)
+    }
 }
 
 /// Adds the pairs between the halves of a node, all of those within the halves having been made; then the node knows how far it reaches. Few
@@ -59,7 +68,7 @@ impl Decomposition<'_> {
         let place = place(leaf);
         match self.tree.few_places(node) {
             Some(few) => few.for_each(|other| self.tree.meet(place, other)),
-            None => self.pairs.push(Pair { place, node }),
+            None => self.pairs.push(Pair { place, node, level: self.tree.nodes[node as usize].level() }),
         }
     }
 }

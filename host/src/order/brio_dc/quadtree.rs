@@ -10,7 +10,7 @@ use crate::pages::with_room;
 use crate::point::Point;
 
 /// So many points are looked at one by one: it takes constant time.
-pub(super) const FEW: u32 = 8;
+const FEW: u32 = 8;
 /// No point: larger than all places.
 const NOBODY: u32 = u32::MAX;
 
