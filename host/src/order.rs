@@ -254,7 +254,7 @@ fn level(key: u64, last: usize, shift: u32) -> usize {
 
 /// A fixed hash: the output function of the SplitMix64 generator (Steele, Lea, Flood 2014), at the state `key`
 /// steps from 0.
-fn mix(key: u64) -> u64 {
+pub(crate) fn mix(key: u64) -> u64 {
     let z = key.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -7,6 +7,7 @@ mod walk;
 
 use crate::predicate::{orient2d, Point};
 use cavity::Cavity;
+pub use guides::Approach;
 use guides::Guides;
 use incircle_protocol::infinite_vertex;
 
@@ -147,20 +148,28 @@ impl Mesh {
     }
 
     fn insert_from(&mut self, p: Point, guide: Option<u32>) -> Insertion {
-        if self.collinear || self.counts.arrived == self.capacity {
-            self.counts.refused += 1;
+        let Some(id) = self.arrive(p) else {
             return Insertion::Refused;
-        }
-        let id = self.counts.arrived;
-        self.counts.arrived += 1;
-        self.points.push(p);
-        self.guides.add_vertex();
+        };
         let jobs = self.starts.len() as u32;
         match id.checked_sub(3 * jobs) {
             None if id % 3 != 2 => Insertion::Inserted,
             None => self.seed(id - 2),
             Some(place) => self.insert_vertex(id, guide, (place % jobs) as usize),
         }
+    }
+
+    /// Takes a point in, and numbers it; `None` if it is refused.
+    fn arrive(&mut self, p: Point) -> Option<u32> {
+        if self.collinear || self.counts.arrived == self.capacity {
+            self.counts.refused += 1;
+            return None;
+        }
+        let id = self.counts.arrived;
+        self.counts.arrived += 1;
+        self.points.push(p);
+        self.guides.add_vertex();
+        Some(id)
     }
 
     /// The first finite triangle of a job and its three ghosts, from its first three vertices.
@@ -191,6 +200,12 @@ impl Mesh {
         let start = self.guided_start(guide).unwrap_or(self.starts[job]);
         let root = self.locate(p, start);
         self.starts[job] = root;
+        self.insert_in(id, root)
+    }
+
+    /// Inserts a vertex whose point is in this record.
+    fn insert_in(&mut self, id: u32, root: u32) -> Insertion {
+        let p = self.points[id as usize];
         let record = self.records[root as usize];
         let falls_onto = |&v: &u32| v != self.infinite && self.points[v as usize] == p;
         if record.v.iter().any(falls_onto) {

@@ -50,6 +50,19 @@ impl Mesh {
         self.insert_from(p, Some(guide))
     }
 
+    /// Walks to a point that may be inserted afterwards, from a triangle of the vertex `guide`, or from where the last walk ended. `None`
+    /// before the first triangle, and in a batch.
+    pub fn approach(&mut self, p: Point, guide: Option<u32>) -> Option<Approach<'_>> {
+        if self.records.is_empty() || self.starts.len() > 1 {
+            return None;
+        }
+        self.keep_triangles();
+        let start = guide.and_then(|vertex| self.triangle_of(vertex)).unwrap_or(self.starts[0]);
+        let root = self.locate(p, start);
+        self.starts[0] = root;
+        Some(Approach { mesh: self, p, root })
+    }
+
     /// A finite triangle with this vertex; `None` if there is none, or none is kept because no point has been guided.
     pub fn triangle_of(&self, vertex: u32) -> Option<u32> {
         let found = self.guides.triangle_of.get(vertex as usize).copied()?;
@@ -82,5 +95,31 @@ impl Mesh {
         for triangle in 0..self.records.len() as u32 {
             self.note_finite(triangle, self.records[triangle as usize].v);
         }
+    }
+}
+
+/// A walk has ended at a point.
+pub struct Approach<'m> {
+    mesh: &'m mut Mesh,
+    p: Point,
+    /// The record that holds it.
+    root: u32,
+}
+
+impl Approach<'_> {
+    /// The nearest of the vertices of the triangle that holds the point, of the hull edge it lies before: by number of arrival, and where it lies.
+    pub fn nearest(&self) -> (u32, Point) {
+        let vertices = self.mesh.records[self.root as usize].v.into_iter().filter(|&v| v != self.mesh.infinite);
+        let at = |v: u32| self.mesh.points[v as usize];
+        let square = |one: u32, other: u32| u64::from(one.abs_diff(other)).pow(2);
+        let distance = |q: Point| square(q.x, self.p.x) + square(q.y, self.p.y);
+        // A record has two finite vertices at least, so the default is never taken.
+        vertices.map(|v| (v, at(v))).min_by_key(|&(_, q)| distance(q)).unwrap_or_default()
+    }
+
+    /// Inserts the point. It walks no more.
+    pub fn insert(self) -> Insertion {
+        let Self { mesh, p, root } = self;
+        mesh.arrive(p).map_or(Insertion::Refused, |id| mesh.insert_in(id, root))
     }
 }
