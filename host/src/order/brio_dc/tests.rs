@@ -22,13 +22,13 @@ fn nearest_neighbors(points: &[Point], by: BrioDc) -> Vec<u32> {
 fn sets() -> impl Strategy<Value = Vec<Point>> {
     let raw = prop::collection::vec((any::<u32>(), any::<u32>()), 0..160);
     (raw, 0u32..32, 0u32..32, 0u32..5).prop_map(|(raw, wide, high, shape)| {
-        let cut = |value: u32, bits: u32| value & u32::MAX >> 1 & ((1u64 << bits) - 1) as u32;
+        let cut = |value: u32, bits: u32| value & ((1u64 << bits) - 1) as u32;
         let point = |&(x, y): &(u32, u32)| match shape {
             0 => Point::new(cut(x, wide), cut(y, high)),
             1 => Point::new(x % 12 * 7, y % 12 * 7),
-            2 => Point::new(1 << (x % 31) | x >> 28, 1 << (y % 31) | y >> 28),
+            2 => Point::new((1 << (x % 31)) | (x >> 28), (1 << (y % 31)) | (y >> 28)),
             3 => Point::new(cut(x, wide.min(30)), 2 * cut(x, wide.min(30))),
-            _ => Point::new(x % 3 << 24 | y % 9, x / 3 % 3 << 24 | y / 9 % 9),
+            _ => Point::new(((x % 3) << 24) | (y % 9), ((x / 3 % 3) << 24) | (y / 9 % 9)),
         };
         raw.iter().map(point).collect()
     })
@@ -77,7 +77,7 @@ proptest! {
             let nearest = nearest_neighbors(&points, BrioDc::Linear);
             for first in 0..points.len() {
                 let chain = std::iter::successors(Some(first), |&place| Some(nearest[place] as usize));
-                let end = chain.skip(points.len()).next().expect("a chain has no end");
+                let end = chain.take(points.len()).last().expect("a chain has no end");
                 prop_assert_eq!(nearest[nearest[end] as usize] as usize, end);
             }
         }

@@ -47,7 +47,7 @@ fn sorted<E: Entry>(entries: impl Iterator<Item = E>) -> Along {
 /// Which of two points comes first, decided by the axis in which they differ at the higher bit. Chan, *A minimalist's implementation of
 /// an approximate nearest neighbor algorithm in fixed dimensions*, 2006.
 fn compare(one: Point, other: Point) -> std::cmp::Ordering {
-    let differs_in_x = level(one, other) % 2 == 0;
+    let differs_in_x = level(one, other).is_multiple_of(2);
     if differs_in_x {
         one.x.cmp(&other.x)
     } else {
