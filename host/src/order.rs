@@ -3,7 +3,7 @@
 //! The mesh does not depend on the order, the time does: a point whose predecessor lies near is found in a few steps,
 //! and random rounds keep any input from making many triangles that do not last.
 //! Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003; Buchin, *Constructing Delaunay triangulations along
-//! space-filling curves*, 2009.
+//! space-filling curves*, 2009; with guides, Buchin and Mulzer, *Delaunay triangulations in O(sort(n)) time and more*, 2011.
 //!
 //! Indices are 32 bits wide: points past the 2^32nd are left out.
 

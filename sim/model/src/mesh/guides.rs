@@ -1,7 +1,6 @@
 //! Walks that begin at a vertex: a finite triangle of each is kept, from the first guide on.
 //!
-//! The core has no such table: it would be a memory of a word a vertex with a write port that is busy six times an insertion, for walks that are short
-//! already.
+//! The core has no such table (docs/engine.md, "No guides").
 
 use super::{Insertion, Mesh};
 use crate::predicate::Point;
