@@ -147,6 +147,7 @@ impl Mesh {
         self.insert_from(p, None)
     }
 
+    #[inline]
     fn insert_from(&mut self, p: Point, guide: Option<u32>) -> Insertion {
         let Some(id) = self.arrive(p) else {
             return Insertion::Refused;
@@ -155,7 +156,7 @@ impl Mesh {
         match id.checked_sub(3 * jobs) {
             None if id % 3 != 2 => Insertion::Inserted,
             None => self.seed(id - 2),
-            Some(place) => self.insert_vertex(id, guide, (place % jobs) as usize),
+            Some(place) => self.insert_vertex(id, p, guide, (place % jobs) as usize),
         }
     }
 
@@ -195,17 +196,16 @@ impl Mesh {
         Insertion::Inserted
     }
 
-    fn insert_vertex(&mut self, id: u32, guide: Option<u32>, job: usize) -> Insertion {
-        let p = self.points[id as usize];
+    fn insert_vertex(&mut self, id: u32, p: Point, guide: Option<u32>, job: usize) -> Insertion {
         let start = self.guided_start(guide).unwrap_or(self.starts[job]);
         let root = self.locate(p, start);
         self.starts[job] = root;
-        self.insert_in(id, root)
+        self.insert_in(id, p, root)
     }
 
     /// Inserts a vertex whose point is in this record.
-    fn insert_in(&mut self, id: u32, root: u32) -> Insertion {
-        let p = self.points[id as usize];
+    #[inline]
+    fn insert_in(&mut self, id: u32, p: Point, root: u32) -> Insertion {
         let record = self.records[root as usize];
         let falls_onto = |&v: &u32| v != self.infinite && self.points[v as usize] == p;
         if record.v.iter().any(falls_onto) {
@@ -219,6 +219,7 @@ impl Mesh {
             self.counts.overflows += 1;
             self.insert_alone(id, p, root);
         }
+        self.note_star(root);
         self.counts.insertions += 1;
         Insertion::Inserted
     }

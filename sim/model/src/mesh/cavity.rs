@@ -178,7 +178,6 @@ impl Mesh {
     /// Writes the record of one entry, and the link of the triangle outside unless it is right already.
     fn write_star(&mut self, p: u32, entry: Entry, id: u32, b: u32, after: u32, before: u32) {
         self.records[id as usize] = Record { v: [p, entry.a, b], n: [entry.u, after, before] };
-        self.note_finite(id, [p, entry.a, b]);
         if id != entry.f {
             self.records[entry.u as usize].n[usize::from(entry.slot)] = id;
         }

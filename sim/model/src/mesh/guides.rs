@@ -2,7 +2,7 @@
 //!
 //! The core has no such table (docs/engine.md, "No guides").
 
-use super::{Insertion, Mesh};
+use super::{Insertion, Mesh, Record};
 use crate::predicate::Point;
 
 /// A finite triangle of each vertex, once somebody has asked for it.
@@ -77,10 +77,26 @@ impl Mesh {
         start.filter(|_| !is_batch && guide.is_some_and(|guide| guide + 1 < self.counts.arrived))
     }
 
-    /// Notes a triangle of its vertices, unless it is a ghost.
+    /// Notes the triangles round the point that was inserted last, of which this is one: all vertices of those that are gone are at them.
     #[inline]
-    pub(super) fn note_finite(&mut self, triangle: u32, vertices: [u32; 3]) {
-        if self.guides.is_kept && !vertices.contains(&self.infinite) {
+    pub(super) fn note_star(&mut self, of_star: u32) {
+        if !self.guides.is_kept {
+            return;
+        }
+        let mut triangle = of_star;
+        loop {
+            let Record { v, n } = self.records[triangle as usize];
+            self.note_finite(triangle, v);
+            triangle = n[1];
+            if triangle == of_star {
+                return;
+            }
+        }
+    }
+
+    /// Notes a triangle of its vertices, unless it is a ghost.
+    fn note_finite(&mut self, triangle: u32, vertices: [u32; 3]) {
+        if !vertices.contains(&self.infinite) {
             self.guides.note(triangle, vertices);
         }
     }
@@ -119,6 +135,6 @@ impl Approach<'_> {
     /// Inserts the point. It walks no more.
     pub fn insert(self) -> Insertion {
         let Self { mesh, p, root } = self;
-        mesh.arrive(p).map_or(Insertion::Refused, |id| mesh.insert_in(id, root))
+        mesh.arrive(p).map_or(Insertion::Refused, |id| mesh.insert_in(id, p, root))
     }
 }

@@ -49,9 +49,6 @@ impl Mesh {
         self.records[root as usize] = Record { v: [p, v1, v2], n: [old.n[0], second, third] };
         self.records.push(Record { v: [p, v2, v0], n: [old.n[1], third, root] });
         self.records.push(Record { v: [p, v0, v1], n: [old.n[2], root, second] });
-        for (id, v) in [(root, [p, v1, v2]), (second, [p, v2, v0]), (third, [p, v0, v1])] {
-            self.note_finite(id, v);
-        }
         for (outer, id) in [(old.n[1], second), (old.n[2], third)] {
             let slot = self.records[outer as usize].slot_of(root);
             self.records[outer as usize].n[slot] = id;
@@ -71,8 +68,6 @@ impl Mesh {
         self.records[star.id as usize] = Record { v: [p, star.a, apex], n: [u.n[1], flipped, star.before] };
         self.records[flipped as usize] = Record { v: [p, apex, star.b], n: [u.n[2], star.after, star.id] };
         self.records[star.after as usize].n[2] = flipped;
-        self.note_finite(star.id, [p, star.a, apex]);
-        self.note_finite(flipped, [p, apex, star.b]);
         (star.b, star.outer, star.after, star.back) = (apex, u.n[1], flipped, flipped);
     }
 }
