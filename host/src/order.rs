@@ -339,7 +339,8 @@ mod tests {
             let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(cut(x, wide), cut(y, high))).collect();
             let along = Curve::ALL.map(|curve| curve.order(&points));
             let rounds = Curve::ALL.into_iter().flat_map(|c| Alpha::ALL.map(|alpha| brio(&points, c, alpha)));
-            for order in along.into_iter().chain(rounds).chain([random(&points)]) {
+            let guided = BrioDc::ALL.map(|by| brio_dc(&points, by).order);
+            for order in along.into_iter().chain(rounds).chain(guided).chain([random(&points)]) {
                 let mut seen = std::collections::HashSet::new();
                 for pair in order.chunk_by(|&one, &other| points[one as usize] == points[other as usize]) {
                     prop_assert!(seen.insert(points[pair[0] as usize]), "{} comes twice", points[pair[0] as usize]);
@@ -358,7 +359,8 @@ mod tests {
             contexts in 1u32..25,
         ) {
             let points: Vec<Point> = raw.into_iter().map(Point::from).collect();
-            for mut dealt in [brio_hilbert_dealt(&points, contexts), Rounds::single(hilbert(&points)).deal(contexts)] {
+            let guided = brio_dc(&points, BrioDc::Linear).into_rounds().deal(contexts);
+            for mut dealt in [brio_hilbert_dealt(&points, contexts), Rounds::single(hilbert(&points)).deal(contexts), guided] {
                 dealt.sort_unstable();
                 prop_assert!(dealt.iter().copied().eq(0..points.len() as u32));
             }

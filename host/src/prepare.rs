@@ -185,6 +185,22 @@ mod tests {
     }
 
     #[test]
+    fn guides_are_vertices_before_and_near() {
+        let points: Vec<Point> = (0..900).map(|k| Point::new(k * 7919 % 10_007, k * 104_729 % 9973)).collect();
+        for by in crate::order::BrioDc::ALL {
+            let prepared = prepare(&points, Order::BrioDc(by), 1);
+            let at = |place: usize| points[prepared.order[place] as usize];
+            let apart = |p: Point, q: Point| p.x.abs_diff(q.x).max(p.y.abs_diff(q.y));
+            assert!((3..900).all(|place| (prepared.guides[place] as usize) < place));
+            // A nearest of 899 vertices is far nearer than any.
+            let last = 800..900;
+            assert!(last.clone().all(|place| apart(at(place), at(prepared.guides[place] as usize)) < 1000));
+            assert!(last.clone().any(|place| apart(at(place), at(place - 700)) > 3000));
+            assert!(prepare(&points, Order::BrioDc(by), 2).guides.is_empty());
+        }
+    }
+
+    #[test]
     fn doubled_area_holds_the_widest_coordinates() {
         let m = (1 << 31) - 1;
         let corner = doubled_area(Point::new(0, 0), Point::new(m, 0), Point::new(m, m));
@@ -198,7 +214,7 @@ mod tests {
         fn every_distinct_point_is_there_once_under_its_lowest_index(
             raw in prop::collection::vec((0u32..6, 0u32..6), 0..60),
             which in 0usize..Order::ALL.len(),
-            contexts in 1u32..25,
+            contexts in prop_oneof![Just(1u32), 1u32..25],
             shift in prop::sample::select(vec![0u32, 20]),
         ) {
             let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(x << shift, y << shift)).collect();
@@ -218,6 +234,9 @@ mod tests {
             all.extend(prepared.duplicates.iter().map(|d| d.index));
             all.sort_unstable();
             prop_assert!(all.iter().copied().eq(0..points.len() as u32));
+            let is_guided = matches!(Order::ALL[which], Order::BrioDc(_)) && contexts == 1 && !prepared.collinear;
+            prop_assert_eq!(prepared.guides.len(), if is_guided { prepared.order.len() } else { 0 });
+            prop_assert!((0..).zip(&prepared.guides).all(|(place, &guide)| guide <= place));
             if let ([a, b, c, ..], false) = (&prepared.order[..], prepared.collinear) {
                 let at = |index: u32| points[index as usize];
                 prop_assert!(doubled_area(at(*a), at(*b), at(*c)) != 0);
