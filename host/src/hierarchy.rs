@@ -21,13 +21,14 @@ use incircle_protocol::{Layout, MAX_COORD_BITS, MAX_MODEL_POINTS};
 const SHIFT: u32 = 5;
 /// Name in reports.
 const HIERARCHY_NAME: &str = "hierarchy";
-/// Of no core's: arrival chooses the order.
+/// Name of the order in reports: nobody chose it.
 const ORDER_NAME: &str = "arrival";
 
 /// A Delaunay triangulation of points that arrive one at a time. The mesh is the one that all devices give, byte for byte.
 ///
-/// The levels are meshes of the software model, with coordinates up to 31 bits. A point takes O(log n) in the mean over the coins that choose levels, which are
-/// hashes of the coordinates, as long as cavities are small: an order of arrival can be bad, unlike one that is chosen. About 100 bytes per point.
+/// The levels are meshes of the software model, with coordinates up to 31 bits. A point takes O(log n) in the mean over the coins that
+/// choose levels, which are hashes of the coordinates, as long as cavities are small: an order of arrival can be bad, unlike one that is
+/// chosen. About 100 bytes per point.
 ///
 /// ```
 /// use incircle::{Hierarchy, Point};

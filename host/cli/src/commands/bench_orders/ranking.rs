@@ -1,7 +1,7 @@
 //! Where the published ranking of orders comes back.
 //!
-//! Schrijvers, van Bommel, Buchin, *Delaunay triangulations on the word RAM*, EuroCG 2012: time in all, over the five distributions, of 2^22 points on
-//! a Xeon of 2009. Only the ranking can be compared: machine, program and the share of the points in a round are others.
+//! Schrijvers, van Bommel, Buchin, *Delaunay triangulations on the word RAM*, EuroCG 2012: time in all, over the five distributions,
+//! of 2^22 points on a Xeon of 2009. Only the ranking can be compared: machine, program and the share of the points in a round are others.
 
 use std::fmt::Write as _;
 
