@@ -77,6 +77,13 @@ impl Link {
         self.transport.packs_records()
     }
 
+    /// Tells a device that takes guides those of the next points.
+    pub(crate) fn guide(&mut self, guides: &[u32]) {
+        if self.transport.takes_guides() && !guides.is_empty() {
+            self.transport.guide(guides);
+        }
+    }
+
     pub(crate) fn takes_ahead(&self) -> bool {
         self.transport.takes_ahead()
     }

@@ -51,6 +51,14 @@ impl Transport for ModelTransport {
         true
     }
 
+    fn takes_guides(&self) -> bool {
+        true
+    }
+
+    fn guide(&mut self, guides: &[u32]) {
+        self.model.guide(guides);
+    }
+
     fn name(&self) -> String {
         MODEL_NAME.to_owned()
     }

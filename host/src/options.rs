@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::order::{self, Alpha, Curve};
+use crate::order::{self, Alpha, BrioDc, Curve};
 use crate::point::Point;
 
 /// The order in which points reach the device. The mesh does not depend on it, the time does.
@@ -23,15 +23,20 @@ pub enum Order {
     Along(Curve),
     /// Rounds of growing random samples, each along a curve.
     Brio(Curve, Alpha),
+    /// Rounds in which each point comes after its nearest neighbour, at which the software model then begins to look for it. See
+    /// [`order::brio_dc`](crate::order::brio_dc()).
+    BrioDc(BrioDc),
 }
 
 /// Every order once: Hilbert's curve has names of its own.
-const ALL: [Order; 3 + 1 + (Curve::ALL.len() - 1) + (3 * Curve::ALL.len() - 1)] = {
-    let mut all = [Order::BrioHilbert; 3 + 1 + (Curve::ALL.len() - 1) + (3 * Curve::ALL.len() - 1)];
+const ALL: [Order; 3 + 1 + (Curve::ALL.len() - 1) + (3 * Curve::ALL.len() - 1) + 2] = {
+    let mut all = [Order::BrioHilbert; 3 + 1 + (Curve::ALL.len() - 1) + (3 * Curve::ALL.len() - 1) + 2];
     all[1] = Order::Hilbert;
     all[2] = Order::Input;
     all[3] = Order::Random;
-    let (mut place, mut which) = (4, 0);
+    all[4] = Order::BrioDc(BrioDc::Linear);
+    all[5] = Order::BrioDc(BrioDc::LogU);
+    let (mut place, mut which) = (6, 0);
     while which < Curve::ALL.len() {
         let curve = Curve::ALL[which];
         let is_hilbert = matches!(curve, Curve::Hilbert);
@@ -63,6 +68,7 @@ impl Order {
             Self::Random => "random",
             Self::Along(curve) => curve.name(),
             Self::Brio(curve, alpha) => curve.brio_name(alpha),
+            Self::BrioDc(by) => by.name(),
         }
     }
 
@@ -75,6 +81,7 @@ impl Order {
             Self::Random => order::random(points),
             Self::Along(curve) => curve.order(points),
             Self::Brio(curve, alpha) => order::brio(points, curve, alpha),
+            Self::BrioDc(by) => order::brio_dc(points, by).order,
         }
     }
 
@@ -181,6 +188,8 @@ mod tests {
             assert_eq!(Order::named(order.name()), Some(order));
         }
         assert_eq!(Order::named("brio-half-squarified-peano"), Some(Order::Brio(Curve::SquarifiedPeano, Alpha::Half)));
+        assert_eq!(Order::named("briodc-log-u"), Some(Order::BrioDc(BrioDc::LogU)));
+        assert_eq!(Order::ALL.iter().collect::<std::collections::HashSet<_>>().len(), Order::ALL.len());
         assert_eq!(Order::named("spiral"), None);
     }
 

@@ -3,11 +3,12 @@
 //! The mesh does not depend on the order, the time does: a point whose predecessor lies near is found in a few steps,
 //! and random rounds keep any input from making many triangles that do not last.
 //! Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003; Buchin, *Constructing Delaunay triangulations along
-//! space-filling curves*, 2009.
+//! space-filling curves*, 2009; with guides, Buchin and Mulzer, *Delaunay triangulations in O(sort(n)) time and more*, 2011.
 //!
 //! Indices are 32 bits wide: points past the 2^32nd are left out.
 
 mod adaptive;
+mod brio_dc;
 mod curve;
 #[cfg(test)]
 mod drawing;
@@ -19,6 +20,7 @@ mod random;
 mod sierpinski;
 mod squarified;
 
+pub use brio_dc::{brio_dc, BrioDc, Guided};
 pub use curve::Curve;
 
 use crate::hilbert::{position_16, position_32};
@@ -45,12 +47,14 @@ pub(crate) struct Rounds {
     pub(crate) order: Vec<u32>,
     /// Where each round begins; the first begins at 0.
     pub(crate) starts: Vec<usize>,
+    /// For each place one before it, whose point guides this one, or its own; empty where the order has no guides.
+    pub(crate) guides: Vec<u32>,
 }
 
 impl Rounds {
     /// One round of points in this order.
     pub(crate) fn single(order: Vec<u32>) -> Self {
-        Self { order, starts: vec![0] }
+        Self { order, starts: vec![0], guides: Vec::new() }
     }
 
     /// Deals each round to the contexts of a device, so that every context runs along a stretch of the curve of its own and they
@@ -59,7 +63,7 @@ impl Rounds {
     /// Context 0 takes the points before [`FIRST_ROUND`], and place `j` from there on belongs to context
     /// `(j - FIRST_ROUND) mod contexts`. The places of a round that belong to context `c` get the `c`-th stretch of the round.
     pub(crate) fn deal(self, contexts: u32) -> Vec<u32> {
-        let Self { mut order, starts } = self;
+        let Self { mut order, starts, .. } = self;
         let ends = starts.iter().skip(1).copied().chain([order.len()]);
         for (start, end) in starts.iter().copied().zip(ends) {
             let alone = (incircle_protocol::FIRST_ROUND as usize).clamp(start, end);
@@ -226,7 +230,7 @@ fn sort_into_rounds<E: Entry>(entries: &[E], alpha: Alpha) -> Rounds {
     // By now each slot is the end of its level, which is where the round after it begins.
     let mut rounds = vec![0];
     rounds.extend((1..=last).rev().map(|level| starts[level]));
-    Rounds { order, starts: rounds }
+    Rounds { order, starts: rounds, guides: Vec::new() }
 }
 
 /// Levels there can be: the trailing zeros of a 64-bit hash, and all of them zero.
@@ -250,7 +254,7 @@ fn level(key: u64, last: usize, shift: u32) -> usize {
 
 /// A fixed hash: the output function of the SplitMix64 generator (Steele, Lea, Flood 2014), at the state `key`
 /// steps from 0.
-fn mix(key: u64) -> u64 {
+pub(crate) fn mix(key: u64) -> u64 {
     let z = key.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -298,7 +302,7 @@ mod tests {
                     true => Rounds::single(hilbert(&points)),
                     false => rounds(&along_curve(&points)),
                 };
-                let Rounds { order, starts } = undealt();
+                let Rounds { order, starts, .. } = undealt();
                 let dealt = undealt().deal(contexts);
                 assert_eq!(dealt[..FIRST_ROUND], order[..FIRST_ROUND]);
                 assert_eq!(starts.len(), if single { 1 } else { 4 });
@@ -335,7 +339,8 @@ mod tests {
             let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(cut(x, wide), cut(y, high))).collect();
             let along = Curve::ALL.map(|curve| curve.order(&points));
             let rounds = Curve::ALL.into_iter().flat_map(|c| Alpha::ALL.map(|alpha| brio(&points, c, alpha)));
-            for order in along.into_iter().chain(rounds).chain([random(&points)]) {
+            let guided = BrioDc::ALL.map(|by| brio_dc(&points, by).order);
+            for order in along.into_iter().chain(rounds).chain(guided).chain([random(&points)]) {
                 let mut seen = std::collections::HashSet::new();
                 for pair in order.chunk_by(|&one, &other| points[one as usize] == points[other as usize]) {
                     prop_assert!(seen.insert(points[pair[0] as usize]), "{} comes twice", points[pair[0] as usize]);
@@ -354,7 +359,8 @@ mod tests {
             contexts in 1u32..25,
         ) {
             let points: Vec<Point> = raw.into_iter().map(Point::from).collect();
-            for mut dealt in [brio_hilbert_dealt(&points, contexts), Rounds::single(hilbert(&points)).deal(contexts)] {
+            let guided = brio_dc(&points, BrioDc::Linear).into_rounds().deal(contexts);
+            for mut dealt in [brio_hilbert_dealt(&points, contexts), Rounds::single(hilbert(&points)).deal(contexts), guided] {
                 dealt.sort_unstable();
                 prop_assert!(dealt.iter().copied().eq(0..points.len() as u32));
             }

@@ -1,9 +1,15 @@
 //! Stable radix sort of keyed entries.
 
+use crate::pages;
+
 /// Bits of a radix digit: 2048 counters stay in the first-level cache.
 const DIGIT_BITS: u32 = 11;
 /// Below this length a comparison sort is faster than clearing the counters.
 const SMALL: usize = 1024;
+/// Bytes from which on entries do not stay in a second-level cache, and are sorted in parts.
+const LARGE: usize = 4 << 20;
+/// Bits of which the parts are made: with a million entries a part and its copy stay in the second-level cache.
+const PART_BITS: u32 = 8;
 
 /// Something with an unsigned integer key.
 pub(crate) trait Keyed: Copy + Default {
@@ -72,21 +78,52 @@ pub(crate) fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
     }
     let (any, all) = entries.iter().fold((0, u64::MAX), |(any, all), e| (any | e.key(), all & e.key()));
     let varying = any & !all;
-    let mut scratch = vec![E::default(); entries.len()];
-    let mut shift = 0;
-    while shift < u64::BITS {
-        if varying >> shift & ((1 << DIGIT_BITS) - 1) != 0 {
-            sort_by_digit(entries, &mut scratch, shift);
-            std::mem::swap(entries, &mut scratch);
-        }
-        shift += DIGIT_BITS;
+    let mut scratch = pages::filled(E::default(), entries.len());
+    let is_large = size_of::<E>() * entries.len() >= LARGE;
+    let lowest_of_top = (u64::BITS - varying.leading_zeros()).saturating_sub(PART_BITS);
+    if is_large && lowest_of_top > 0 {
+        sort_in_parts(entries, &mut scratch, varying, lowest_of_top);
+    } else if sort_by_digits(entries, &mut scratch, varying) {
+        std::mem::swap(entries, &mut scratch);
     }
 }
 
-/// One counting pass over the digit at `shift`.
-fn sort_by_digit<E: Keyed>(from: &[E], to: &mut [E], shift: u32) {
-    let digit = |entry: &E| (entry.key() >> shift) as usize & ((1 << DIGIT_BITS) - 1);
-    let mut starts = [0u32; 1 << DIGIT_BITS];
+/// Sorts by the bits from `shift` up, then each part of entries that agree in them by itself, so that only the first pass goes through all the
+/// memory at once.
+fn sort_in_parts<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64, shift: u32) {
+    sort_by_digit::<E, { 1 << PART_BITS }>(entries, scratch, shift);
+    let top = |entry: &E| entry.key() >> shift & ((1 << PART_BITS) - 1);
+    let mut rest = entries;
+    for part in scratch.chunk_by_mut(|one, other| top(one) == top(other)) {
+        let (sorted, after) = rest.split_at_mut(part.len());
+        if part.len() < SMALL {
+            part.sort_by_key(E::key);
+            sorted.copy_from_slice(part);
+        } else if !sort_by_digits(part, sorted, varying & ((1 << shift) - 1)) {
+            sorted.copy_from_slice(part);
+        }
+        rest = after;
+    }
+}
+
+/// Sorts by all digits in which the keys differ, lowest first. True if the result is in `scratch`.
+fn sort_by_digits<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64) -> bool {
+    let (mut from, mut to) = (entries, scratch);
+    let mut is_in_scratch = false;
+    for shift in (0..u64::BITS).step_by(DIGIT_BITS as usize) {
+        if varying >> shift & ((1 << DIGIT_BITS) - 1) != 0 {
+            sort_by_digit::<E, { 1 << DIGIT_BITS }>(from, to, shift);
+            std::mem::swap(&mut from, &mut to);
+            is_in_scratch = !is_in_scratch;
+        }
+    }
+    is_in_scratch
+}
+
+/// One counting pass over the digit at `shift`, which has so many values.
+fn sort_by_digit<E: Keyed, const VALUES: usize>(from: &[E], to: &mut [E], shift: u32) {
+    let digit = |entry: &E| (entry.key() >> shift) as usize & (VALUES - 1);
+    let mut starts = [0u32; VALUES];
     for entry in from {
         starts[digit(entry)] += 1;
     }
@@ -107,6 +144,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+
         #[test]
         fn sorts_stably_like_the_standard_library(
             keys in prop::collection::vec(any::<u64>(), 0..3000),
@@ -119,6 +158,17 @@ mod tests {
             let mut sorted = entries;
             sort_by_key(&mut sorted);
             prop_assert_eq!(sorted, expected);
+        }
+
+        #[test]
+        fn many_entries_sort_in_parts(seed in any::<u64>(), low in 0u32..64, high in 0u32..64) {
+            let mask = u64::MAX << low & u64::MAX >> high;
+            let keys = (0..LARGE as u64 / 16 + 1).map(|k| (k ^ seed).wrapping_mul(0x9e37_79b9_7f4a_7c15) & mask);
+            let mut entries: Vec<Wide> = (0..).zip(keys).map(|(index, key)| Wide::new(key, index)).collect();
+            sort_by_key(&mut entries);
+            prop_assert!(entries.is_sorted_by_key(|entry| (entry.key, entry.value)));
+            let sum = entries.iter().fold(0u64, |sum, entry| sum + u64::from(entry.value));
+            prop_assert_eq!(sum, (0..entries.len() as u64).sum::<u64>());
         }
 
         #[test]

@@ -9,10 +9,11 @@ use incircle::pcie::CardAddress;
 use incircle::serial::Address;
 use incircle::{Order, Quantize};
 
+use crate::commands::bench_orders::Way;
 use crate::formats::{MeshFormat, PointFormat};
 use crate::generate::Distribution;
 use crate::values::{
-    backend_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser, seconds_from,
+    backend_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser, seconds_from, way_parser,
 };
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
@@ -219,9 +220,9 @@ pub struct OrdersArguments {
     /// Points of a set, several numbers with commas; cycles are counted up to 16384
     #[arg(short, value_name = "N", value_delimiter = ',', default_values_t = [4096])]
     pub n: Vec<u32>,
-    /// Orders, several with commas (default: random, every curve, and rounds along every curve)
-    #[arg(long = "order", value_name = "ORDER", value_delimiter = ',', value_parser = order_parser())]
-    pub orders: Vec<Order>,
+    /// Orders, several with commas (default: random, every curve, rounds along every curve, rounds with guides, points as they arrive)
+    #[arg(long = "order", value_name = "ORDER", value_delimiter = ',', value_parser = way_parser())]
+    pub orders: Vec<Way>,
     /// Bits of a coordinate; cycles are counted up to 16
     #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
     pub coord_bits: u32,

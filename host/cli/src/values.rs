@@ -8,6 +8,7 @@ use incircle::serial::Address;
 use incircle::{Order, Quantize};
 
 use crate::arguments::BackendChoice;
+use crate::commands::bench_orders::Way;
 use crate::formats::MeshFormat;
 
 /// An order by its name.
@@ -16,6 +17,14 @@ pub fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
     let names = PossibleValuesParser::new(Order::ALL.map(Order::name));
     // Only names of orders come through, so the default is never taken.
     names.map(|name| Order::named(&name).unwrap_or_default())
+}
+
+/// A way to insert points, for `bench orders`.
+pub fn way_parser() -> impl clap::builder::TypedValueParser<Value = Way> {
+    use clap::builder::{PossibleValuesParser, TypedValueParser};
+    let names = PossibleValuesParser::new(Way::names());
+    // Only names of ways come through, so the last is never taken.
+    names.map(|name| Way::named(&name).unwrap_or(Way::Hierarchy))
 }
 
 /// A back end by its name or its address. Help and completions show the names.

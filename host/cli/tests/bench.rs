@@ -235,6 +235,30 @@ fn orders_are_compared_as_table_csv_and_drawing() {
     let one = scratch.run("bench orders uniform -n 100 --order hilbert --csv o.csv --plot ./o.csv");
     one.fails(2, &["--csv and --plot", "the same file"]);
     assert_eq!(scratch.read("o.csv"), csv);
+    assert!(!run.stdout.contains("published"), "{run:?}");
     let wide = scratch.run("bench orders uniform -n 100 --coord-bits 20 --order hilbert").ok();
     assert!(wide.stdout.lines().last().is_some_and(|line| line.ends_with(" -")), "{wide:?}");
+}
+
+#[test]
+fn guides_and_the_hierarchy_shorten_walks_and_the_published_ranking_is_told() {
+    let scratch = Scratch::new();
+    let orders = "brio-hilbert,briodc-linear,briodc-log-u,input,arrival-hierarchy";
+    let run = scratch.run(&format!("bench orders uniform line -n 3000 --order {orders} --csv o.csv")).ok();
+    let rows: Vec<Vec<String>> = rows(&run, 2).into_iter().filter(|row| row.len() == 9).collect();
+    assert_eq!(rows.len(), 2 * 5, "{run:?}");
+    for of_set in rows.chunks(5) {
+        let column = |way: usize, column: usize| of_set[way][column].parse::<f64>().expect("a number");
+        let walk = |way: usize| column(way, 5);
+        // On a line some vertices have many triangles, and few points are enough for that to show.
+        assert!(walk(1) < 3.3 && walk(1) < walk(0), "{of_set:?}");
+        // Both variants give one order.
+        assert_eq!(of_set[1][5..], of_set[2][5..], "{of_set:?}");
+        assert!(walk(4) < 0.5 * walk(3), "{of_set:?}");
+        assert!(column(1, 8) > 0.0 && of_set[4][8] == "-", "{of_set:?}");
+    }
+    assert_eq!(scratch.read("o.csv").lines().count(), 1 + rows.len());
+    let told = "3000 points, all distributions measured: of 3 pairs more than 5 % apart there, ";
+    assert!(run.stdout.contains(told), "{run:?}");
+    assert!(run.stdout.contains("  briodc-linear"), "{run:?}");
 }

@@ -82,6 +82,8 @@ fn orders_are_drawn_and_points_written_in_them() {
     scratch.run("generate lattice -n 64 --order hilbert -o order.svg").ok();
     let drawing = scratch.read("order.svg");
     assert!(drawing.starts_with("<svg ") && drawing.contains("64 points, lattice, in the order hilbert"), "{drawing}");
+    scratch.run("generate kuzmin -n 64 --order briodc-linear -o guided.svg").ok();
+    assert!(scratch.read("guided.svg").contains("64 points, kuzmin, in the order briodc-linear"));
     scratch.run("generate lattice -n 64 -o order2.svg").fails(2, &["--order", ".csv"]);
     scratch.run("generate uniform -n 500 -o p.csv").ok();
     scratch.run("generate uniform -n 500 --order brio-squarified-peano -o q.csv").ok();

@@ -13,8 +13,23 @@ pub(super) fn order(points: &[Point]) -> Vec<u32> {
 }
 
 /// The position of a cell.
-fn position(x: u32, y: u32) -> u64 {
+pub(super) fn position(x: u32, y: u32) -> u64 {
     spread(x) << 1 | spread(y)
+}
+
+/// The cell at a position.
+pub(super) fn point_at(position: u64) -> Point {
+    Point::new(gather(position >> 1), gather(position))
+}
+
+/// The even bits of a number, side by side.
+fn gather(bits: u64) -> u32 {
+    let fold = |bits: u64, shift: u32, mask: u64| (bits | bits >> shift) & mask;
+    let bits = fold(bits & 0x5555_5555_5555_5555, 1, 0x3333_3333_3333_3333);
+    let bits = fold(bits, 2, 0x0f0f_0f0f_0f0f_0f0f);
+    let bits = fold(bits, 4, 0x00ff_00ff_00ff_00ff);
+    let bits = fold(bits, 8, 0x0000_ffff_0000_ffff);
+    fold(bits, 16, 0x0000_0000_ffff_ffff) as u32
 }
 
 /// The bits of a number, each with a zero above it.

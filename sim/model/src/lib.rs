@@ -16,4 +16,4 @@ pub mod stream;
 
 pub use clock::{ClockModel, Defect, Inputs, Outputs, Write};
 pub use command::{CommandModel, ModelError};
-pub use mesh::{Counts, Insertion, Mesh, Record};
+pub use mesh::{Approach, Counts, Insertion, Mesh, Record};

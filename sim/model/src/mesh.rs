@@ -1,11 +1,14 @@
 //! The triangulation as the core stores it, and insertion into it, one point after the other.
 
 mod cavity;
+mod guides;
 mod solo;
 mod walk;
 
 use crate::predicate::{orient2d, Point};
 use cavity::Cavity;
+pub use guides::Approach;
+use guides::Guides;
 use incircle_protocol::infinite_vertex;
 
 /// A triangle record: vertex ids counter-clockwise; `n[k]` is the record across the edge opposite `v[k]`.
@@ -80,6 +83,7 @@ pub struct Mesh {
     collinear: bool,
     counts: Counts,
     cavity: Cavity,
+    guides: Guides,
 }
 
 impl Mesh {
@@ -94,6 +98,7 @@ impl Mesh {
             collinear: false,
             counts: Counts::default(),
             cavity: Cavity::new(ring_capacity),
+            guides: Guides::default(),
         }
     }
 
@@ -111,6 +116,7 @@ impl Mesh {
         self.starts = (0..jobs.max(1)).map(|job| SEED_RECORDS * job).collect();
         self.collinear = false;
         self.counts = Counts::default();
+        self.guides.clear();
     }
 
     /// All records, by id; empty before the third point.
@@ -136,21 +142,35 @@ impl Mesh {
         self.records.reserve_exact(2 * points);
     }
 
-    /// Inserts one point.
+    /// Inserts one point. The search for it begins where the last one ended.
     pub fn insert(&mut self, p: Point) -> Insertion {
-        if self.collinear || self.counts.arrived == self.capacity {
-            self.counts.refused += 1;
+        self.insert_from(p, None)
+    }
+
+    #[inline]
+    fn insert_from(&mut self, p: Point, guide: Option<u32>) -> Insertion {
+        let Some(id) = self.arrive(p) else {
             return Insertion::Refused;
-        }
-        let id = self.counts.arrived;
-        self.counts.arrived += 1;
-        self.points.push(p);
+        };
         let jobs = self.starts.len() as u32;
         match id.checked_sub(3 * jobs) {
             None if id % 3 != 2 => Insertion::Inserted,
             None => self.seed(id - 2),
-            Some(place) => self.insert_vertex(id, p, (place % jobs) as usize),
+            Some(place) => self.insert_vertex(id, p, guide, (place % jobs) as usize),
         }
+    }
+
+    /// Takes a point in, and numbers it; `None` if it is refused.
+    fn arrive(&mut self, p: Point) -> Option<u32> {
+        if self.collinear || self.counts.arrived == self.capacity {
+            self.counts.refused += 1;
+            return None;
+        }
+        let id = self.counts.arrived;
+        self.counts.arrived += 1;
+        self.points.push(p);
+        self.guides.add_vertex();
+        Some(id)
     }
 
     /// The first finite triangle of a job and its three ghosts, from its first three vertices.
@@ -170,17 +190,27 @@ impl Mesh {
             Record { v: [a, c, inf], n: [id(1), id(3), id(0)] },
             Record { v: [b, a, inf], n: [id(2), id(1), id(0)] },
         ]);
+        let triangle = self.records.len() as u32 - SEED_RECORDS;
+        self.guides.note(triangle, [a, b, c]);
         self.counts.insertions += 3;
         Insertion::Inserted
     }
 
-    fn insert_vertex(&mut self, id: u32, p: Point, job: usize) -> Insertion {
-        let root = self.locate(p, self.starts[job]);
+    fn insert_vertex(&mut self, id: u32, p: Point, guide: Option<u32>, job: usize) -> Insertion {
+        let start = self.guided_start(guide).unwrap_or(self.starts[job]);
+        let root = self.locate(p, start);
         self.starts[job] = root;
+        self.insert_in(id, p, root)
+    }
+
+    /// Inserts a vertex whose point is in this record.
+    #[inline]
+    fn insert_in(&mut self, id: u32, p: Point, root: u32) -> Insertion {
         let record = self.records[root as usize];
         let falls_onto = |&v: &u32| v != self.infinite && self.points[v as usize] == p;
         if record.v.iter().any(falls_onto) {
             self.counts.duplicates += 1;
+            self.guides.note(root, [id]);
             return Insertion::Duplicate;
         }
         if self.grow(root, p) {
@@ -189,6 +219,7 @@ impl Mesh {
             self.counts.overflows += 1;
             self.insert_alone(id, p, root);
         }
+        self.note_star(root);
         self.counts.insertions += 1;
         Insertion::Inserted
     }

@@ -1,0 +1,110 @@
+//! A level of the hierarchy: points along a line until three of them span a triangle, then a mesh.
+
+use std::collections::BTreeMap;
+
+use incircle_model::Mesh;
+use incircle_protocol::MAX_MODEL_POINTS;
+
+use crate::point::Point;
+use crate::prepare::doubled_area;
+
+/// Boundary edges of one cavity that a mesh keeps, as in the model behind a session.
+const RING_CAPACITY: u32 = 32;
+
+/// A sample of the points of the level below.
+#[derive(Debug)]
+pub(super) enum Level {
+    /// No three points span a triangle yet: they lie on a line, along which they are sorted, with their numbers in the level below.
+    Line(BTreeMap<Point, u32>),
+    /// Points in the plane.
+    Plane {
+        mesh: Box<Mesh>,
+        /// Of each vertex, its number in the level below.
+        below: Vec<u32>,
+    },
+}
+
+impl Default for Level {
+    fn default() -> Self {
+        Self::Line(BTreeMap::new())
+    }
+}
+
+impl Level {
+    /// Its mesh, if it has one.
+    pub(super) fn mesh(&self) -> Option<&Mesh> {
+        match self {
+            Self::Line(_) => None,
+            Self::Plane { mesh, .. } => Some(mesh),
+        }
+    }
+
+    /// Of a point near this one the number in the level below: found by a walk that begins at the vertex `guide`, or, on a line, the nearer of
+    /// its neighbours in the order of the line. `None` if the level has no points.
+    pub(super) fn find(&mut self, point: Point, guide: Option<u32>) -> Option<u32> {
+        match self {
+            Self::Line(line) => {
+                let neighbors = line.range(..=point).next_back().into_iter().chain(line.range(point..).next());
+                neighbors
+                    .min_by_key(|(at, _)| at.x.abs_diff(point.x).max(at.y.abs_diff(point.y)))
+                    .map(|(_, &below)| below)
+            }
+            Self::Plane { mesh, below } => {
+                let (vertex, _) = mesh.approach(in_model(point), guide)?.nearest();
+                below.get(vertex as usize).copied()
+            }
+        }
+    }
+
+    /// Adds a point, with its number in the level below, unless it is there: then the number of that one is the error. Returns its vertex,
+    /// if there is a mesh. The walk begins at the vertex `guide`, or where the last one ended.
+    pub(super) fn add(&mut self, point: Point, number_below: u32, guide: Option<u32>) -> Result<Option<u32>, u32> {
+        match self {
+            Self::Plane { mesh, below } => {
+                let own = below.len() as u32;
+                if let Some(approach) = mesh.approach(in_model(point), guide) {
+                    let (vertex, at) = approach.nearest();
+                    if at == in_model(point) {
+                        return Err(below[vertex as usize]);
+                    }
+                    approach.insert();
+                    below.push(number_below);
+                }
+                Ok(Some(own))
+            }
+            Self::Line(line) => {
+                if let Some(&there) = line.get(&point) {
+                    return Err(there);
+                }
+                let Some(plane) = Self::leave_line(line, point, number_below) else {
+                    line.insert(point, number_below);
+                    return Ok(None);
+                };
+                *self = plane;
+                // The point that spans a triangle comes third.
+                Ok(Some(2))
+            }
+        }
+    }
+
+    /// The mesh of the points of a line and one beside it; `None` if it is not beside, or if the line has one point at most.
+    fn leave_line(line: &BTreeMap<Point, u32>, point: Point, number_below: u32) -> Option<Self> {
+        let mut along = line.iter();
+        let (first, second) = (along.next()?, along.next_back()?);
+        if doubled_area(*first.0, *second.0, point) == 0 {
+            return None;
+        }
+        let mut mesh = Box::new(Mesh::new(MAX_MODEL_POINTS, RING_CAPACITY));
+        let mut below = Vec::with_capacity(line.len() + 1);
+        for (&at, &number) in [first, second, (&point, &number_below)].into_iter().chain(along) {
+            mesh.insert(in_model(at));
+            below.push(number);
+        }
+        Some(Self::Plane { mesh, below })
+    }
+}
+
+/// The point as the model has it.
+fn in_model(Point { x, y }: Point) -> incircle_model::predicate::Point {
+    incircle_model::predicate::Point { x, y }
+}
