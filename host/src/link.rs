@@ -202,7 +202,9 @@ impl Link {
         let Limit { deadline, .. } = limit;
         let mut header = [0; 2];
         self.transport.receive(&mut header, deadline).map_err(|source| self.failed(opcode, source, limit))?;
-        check_header(header, opcode, payload.len()).map_err(|fault| self.distrust(opcode, fault))?;
+        if let Err(fault) = check_header(header, opcode, payload.len()) {
+            return Err(self.refuse(opcode, header[0], fault, limit));
+        }
         if !payload.is_empty() {
             self.transport.receive(payload, deadline).map_err(|source| self.failed(opcode, source, limit))?;
         }
@@ -210,6 +212,17 @@ impl Link {
             return Err(self.late(opcode, limit));
         }
         Ok(())
+    }
+
+    /// The error for a header that is not the awaited one.
+    fn refuse(&mut self, opcode: Opcode, header: u32, fault: DeviceFault, limit: Limit) -> Error {
+        let is_foreign = answer_opcode(header) != opcode as u8
+            && header & 0xffff == 0
+            && Status::from_u8(answer_status(header)).is_some();
+        match is_foreign.then(|| self.transport.lost_step()).flatten() {
+            Some(source) => self.failed(opcode, source, limit),
+            None => self.distrust(opcode, fault),
+        }
     }
 
     fn failed(&self, opcode: Opcode, source: TransportError, limit: Limit) -> Error {

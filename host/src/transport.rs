@@ -59,6 +59,12 @@ pub trait Transport {
         Pace::default()
     }
 
+    /// An answer has come to a command that nobody gave, as when others reset the device in the middle of one: what else follows is then taken
+    /// for commands. The error to tell, if that may have happened here and [`recover`](Self::recover) may help; `None` distrusts the device.
+    fn lost_step(&mut self) -> Option<TransportError> {
+        None
+    }
+
     /// After an error: brings the device back to where it was after its reset, if that may help, and says whether it did. Then the
     /// job is tried once more, from its `Clear` on, and so is what was sent ahead behind it.
     ///

@@ -94,6 +94,14 @@ fn a_reset_in_mid_job_is_found_out() {
 }
 
 #[test]
+fn a_reset_in_the_middle_of_the_points_costs_no_job() {
+    // A beat at a time, through the commands before the points and the first of them, which are then taken for commands.
+    for beat in 5..120 {
+        must_be_right(64, Mischief { reset_after: Some(8 * beat), ..Mischief::default() }, "a reset");
+    }
+}
+
+#[test]
 fn cards_that_are_gone_or_silent_are_typed_errors() {
     for number in 0..5 {
         must_fail(Mischief { gone: Some(number), ..Mischief::default() }, ErrorKind::Link, "the card is gone");

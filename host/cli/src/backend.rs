@@ -94,18 +94,19 @@ impl Backend {
 
 /// Opens the back end for these points, or, without points, as large as it gets. A core is taken in the configuration
 /// asked for, or else in the smallest that holds the distinct points. Its waveform goes to the file `trace`; other back
-/// ends have none. A board is greeted, and is what it is.
+/// ends have none. A board is greeted, which takes no longer than `timeout`, and is what it is.
 pub fn open(
     choice: &BackendArguments,
     coord_bits: u32,
     points: Option<&[Point]>,
     trace: Option<&Path>,
+    timeout: Option<Duration>,
 ) -> Result<Backend, Failure> {
     let room = points.map(|points| match choice.choice() {
         BackendChoice::Cpu | BackendChoice::Model | BackendChoice::Serial(_) | BackendChoice::Pcie(_) => points.len(),
         BackendChoice::Clock | BackendChoice::Sim => count_distinct(points),
     });
-    open_with_room(choice, coord_bits, room, trace)
+    open_with_room(choice, coord_bits, room, trace, timeout)
 }
 
 /// As [`open`], for jobs of up to `room` points: all of them for the model, distinct ones for a core.
@@ -114,12 +115,13 @@ pub fn open_with_room(
     coord_bits: u32,
     room: Option<usize>,
     trace: Option<&Path>,
+    timeout: Option<Duration>,
 ) -> Result<Backend, Failure> {
     if choice.threads.is_some() && *choice.choice() != BackendChoice::Cpu {
         return Err(Failure::usage("--threads is for the engine on the processor: it needs --backend cpu"));
     }
     let (device, name, config) = match choice.choice() {
-        BackendChoice::Serial(address) => return open_serial(choice, address),
+        BackendChoice::Serial(address) => return open_serial(choice, address, timeout),
         BackendChoice::Pcie(address) => return open_card(choice, address),
         BackendChoice::Cpu => {
             check_no_config(choice)?;
@@ -149,10 +151,11 @@ fn check_no_config(choice: &BackendArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-fn open_serial(choice: &BackendArguments, address: &Address) -> Result<Backend, Failure> {
+fn open_serial(choice: &BackendArguments, address: &Address, timeout: Option<Duration>) -> Result<Backend, Failure> {
     check_no_config(choice)?;
     let mut transport = SerialTransport::open(address).map_err(|error| failure_of(&error))?;
-    transport.connect(CONNECT_TIMEOUT).map_err(|error| failure_of(&error))?;
+    let most = timeout.map_or(CONNECT_TIMEOUT, |timeout| CONNECT_TIMEOUT.min(timeout / address.slow.max(1)));
+    transport.connect(most).map_err(|error| failure_of(&error))?;
     let rate = transport.rate();
     let board = transport.greeting().map(|&greeting| Board { greeting, rate, slow: address.slow });
     let device = Device::from_transport(Box::new(transport));

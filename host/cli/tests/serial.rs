@@ -44,6 +44,19 @@ fn ports_that_cannot_be_had_end_with_exit_code_4() {
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 
+/// A pseudo-terminal of which nobody holds the other end is a board that says nothing.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_timeout_bounds_the_opening_of_a_board_too() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n4,0\n0,4\n");
+    for command in ["triangulate p.csv -o m.ele", "bench uniform -n 10", "bench uniform -n 10 --batch 2"] {
+        let run = scratch.run(&format!("{command} --backend serial:/dev/ptmx?slow=50 --timeout 1"));
+        run.fails(6, &["the greeting within 1 s", "allow a longer time"]);
+    }
+    assert_eq!(scratch.files(), ["p.csv"]);
+}
+
 #[test]
 fn devices_lists_what_the_system_knows() {
     let scratch = Scratch::new();

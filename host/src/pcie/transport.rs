@@ -355,6 +355,10 @@ impl Transport for PcieTransport {
         self.name.clone()
     }
 
+    fn lost_step(&mut self) -> Option<TransportError> {
+        Some(self.fail(PcieFault::Forgotten))
+    }
+
     fn recover(&mut self, deadline: Instant) -> Result<bool, TransportError> {
         if !self.fault.as_ref().is_some_and(PcieFault::is_passing) {
             return Ok(false);

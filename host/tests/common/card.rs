@@ -22,6 +22,8 @@ pub struct Mischief {
     pub bad_write: Option<(u32, i32)>,
     /// Before the read of this number the card is reset.
     pub reset: Option<u32>,
+    /// It is reset when so many bytes of commands have come.
+    pub reset_after: Option<usize>,
     /// From the read of this number on it is gone.
     pub gone: Option<u32>,
     /// No read brings more bytes than this.
@@ -39,7 +41,23 @@ struct Inside {
     mischief: Mischief,
     reads: u32,
     writes: u32,
+    /// Bytes of commands that have come.
+    taken: usize,
     gone: bool,
+}
+
+impl Inside {
+    /// Bytes of commands that the device takes now.
+    fn take(&mut self, bytes: &[u8]) -> usize {
+        let until = self.mischief.reset_after.and_then(|after| after.checked_sub(self.taken)).unwrap_or(usize::MAX);
+        let taken = self.device.take(&bytes[..bytes.len().min(until)]);
+        self.taken += taken;
+        if self.mischief.reset_after == Some(self.taken) {
+            self.mischief.reset_after = None;
+            self.device.reset();
+        }
+        taken
+    }
 }
 
 /// The card.
@@ -57,7 +75,7 @@ impl MemoryCard {
     /// A card with this device behind its beats.
     pub fn of(core: ModelCore, beat_bits: u32, mischief: Mischief) -> Self {
         let device = StreamModel::new(core, beat_bits);
-        let inside = Inside { device, mischief, reads: 0, writes: 0, gone: false };
+        let inside = Inside { device, mischief, reads: 0, writes: 0, taken: 0, gone: false };
         Self { inside: Arc::new((Mutex::new(inside), Condvar::new())) }
     }
 
@@ -103,7 +121,7 @@ impl Write for MemoryCard {
                     return Some(Err(io::Error::from_raw_os_error(errno)));
                 }
             }
-            done += inside.device.take(&bytes[done..]);
+            done += inside.take(&bytes[done..]);
             (done == bytes.len()).then_some(Ok(done))
         })
     }

@@ -36,7 +36,8 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     }
     let sets = sets_of(arguments);
     let room = room_for(&sets, arguments)?;
-    let mut backend = backend::open_with_room(&arguments.backend, arguments.coord_bits, Some(room), None)?;
+    let mut backend =
+        backend::open_with_room(&arguments.backend, arguments.coord_bits, Some(room), None, arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
     let Backend { name, config, board, insert_chunk, .. } = backend;
     let has_clock = backend.has_clock();

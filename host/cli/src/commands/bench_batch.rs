@@ -57,7 +57,13 @@ struct Table<'a> {
 
 /// Runs so many jobs of each set: a row as soon as they are done, or one JSON object at the end.
 pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
-    let mut backend = backend::open_with_room(&arguments.backend, arguments.coord_bits, Some(room(arguments)), None)?;
+    let mut backend = backend::open_with_room(
+        &arguments.backend,
+        arguments.coord_bits,
+        Some(room(arguments)),
+        None,
+        arguments.job.timeout,
+    )?;
     backend.check_job(&arguments.job)?;
     let (name, config) = (backend.name, backend.config);
     let mut session = backend.device.session().map_err(|error| failure_of(&error))?;

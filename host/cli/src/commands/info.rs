@@ -13,7 +13,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let port = arguments.port.clone();
     let port =
         port.map(|port| BackendArguments { backend: Some(BackendChoice::Serial(port)), threads: None, config: None });
-    let mut backend = backend::open(port.as_ref().unwrap_or(&arguments.backend), CORE_COORD_BITS, None, None)?;
+    let mut backend = backend::open(port.as_ref().unwrap_or(&arguments.backend), CORE_COORD_BITS, None, None, None)?;
     let card = backend.card.map_or(String::new(), |registers| registers.to_string());
     let board = backend.board.map_or(String::new(), about_board);
     let session = backend.device.session().map_err(|error| failure_of(&error))?;

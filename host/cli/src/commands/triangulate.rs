@@ -35,6 +35,7 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
         arguments.grid.coord_bits,
         Some(&points),
         trace.as_ref().and_then(Written::part),
+        arguments.job.timeout,
     )?;
     backend.check_job(&arguments.job)?;
     tell_if_long(&backend, points.len(), arguments);
