@@ -10,8 +10,8 @@ mod group;
 mod part_listener;
 mod threads;
 
-use std::sync::mpsc::{sync_channel, Receiver};
-use std::thread::Scope;
+use std::sync::mpsc::sync_channel;
+use std::thread::{Builder, Scope};
 
 use incircle_protocol::Identity;
 
@@ -39,7 +39,7 @@ const JOBS_PER_LOOK: usize = 64;
 pub(crate) struct Done {
     pub(crate) meshes: Vec<Option<Mesh>>,
     pub(crate) singles: Vec<usize>,
-    /// Points of the jobs that a listener has been told of as done.
+    /// Points of the jobs that have been begun or answered: what a listener hears is ahead by the jobs under way at most.
     pub(crate) passed: usize,
 }
 
@@ -67,14 +67,15 @@ pub(crate) struct Batch<'b> {
 }
 
 impl Batch<'_> {
-    /// All jobs but those that must go one by one: large ones on a link that takes nothing ahead, and very large ones on any.
+    /// All jobs but those that must go one by one: large ones on a link that takes nothing ahead, very large
+    /// ones on any, and those with guides.
     pub(crate) fn run(mut self) -> Result<Done, Error> {
         let mut done = Done::nothing_of(self.jobs);
         let (small, frames) = self.divide(&mut done);
         let groups = self.group(small, &mut done)?;
         std::thread::scope(|scope| {
             let ordered = order_frames(scope, self.jobs, frames, self.options.order, self.contexts);
-            self.carry(groups.into_iter().chain(ordered.into_iter().map(Group::frame)), &mut done)
+            self.carry(groups.into_iter().chain(ordered.map(Group::frame)), &mut done)
         })?;
         Ok(done)
     }
@@ -84,7 +85,9 @@ impl Batch<'_> {
         let share = (self.identity.capacity / self.contexts) as usize;
         let (mut small, mut frames) = (Vec::new(), Vec::new());
         for (job, points) in self.jobs.iter().enumerate() {
-            if points.len() <= share.min(MAX_JOB_POINTS) {
+            if self.wants_guides() {
+                done.singles.push(job);
+            } else if points.len() <= share.min(MAX_JOB_POINTS) {
                 small.push(job);
             } else if points.len() <= MAX_FRAME_POINTS && self.link.takes_ahead() {
                 frames.push(job);
@@ -93,6 +96,11 @@ impl Batch<'_> {
             }
         }
         (small, frames)
+    }
+
+    /// The order has guides, and the device takes them, but for one job at a time.
+    fn wants_guides(&self) -> bool {
+        self.link.takes_guides() && matches!(self.options.order, Order::BrioDc(_))
     }
 
     /// Puts the small jobs in order and into groups. What needs no device is answered here.
@@ -165,12 +173,16 @@ fn order_frames<'s>(
     frames: Vec<usize>,
     order: Order,
     contexts: u32,
-) -> Receiver<Ordered> {
+) -> impl Iterator<Item = Ordered> + use<'s> {
     // It has one in hand until that is wanted: no more are kept.
     let (sender, ordered) = sync_channel(0);
-    if !frames.is_empty() {
-        let in_order = move |job: usize| Ordered { job, prepared: prepare(&jobs[job], order, contexts) };
-        scope.spawn(move || frames.into_iter().try_for_each(|job| sender.send(in_order(job))));
-    }
-    ordered
+    let in_order = move |job: usize| Ordered { job, prepared: prepare(&jobs[job], order, contexts) };
+    let kept = frames.clone();
+    let has_thread = !frames.is_empty()
+        && Builder::new()
+            .spawn_scoped(scope, move || frames.into_iter().try_for_each(|job| sender.send(in_order(job))))
+            .is_ok();
+    // A system that gives no thread leaves the work here.
+    let here = if has_thread { Vec::new() } else { kept };
+    ordered.into_iter().chain(here.into_iter().map(in_order))
 }

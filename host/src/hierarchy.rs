@@ -28,7 +28,8 @@ const ORDER_NAME: &str = "arrival";
 ///
 /// The levels are meshes of the software model, with coordinates up to 31 bits. A point takes O(log n) in the mean over the coins that
 /// choose levels, which are hashes of the coordinates, as long as cavities are small: an order of arrival can be bad, unlike one that is
-/// chosen. About 100 bytes per point.
+/// chosen. Points that come while all lie on one line are in no sample, so walks among them can be long. 75 bytes per point, up to
+/// twice that while lists grow.
 ///
 /// ```
 /// use incircle::{Hierarchy, Point};

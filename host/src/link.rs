@@ -77,9 +77,13 @@ impl Link {
         self.transport.packs_records()
     }
 
+    pub(crate) fn takes_guides(&self) -> bool {
+        self.transport.takes_guides()
+    }
+
     /// Tells a device that takes guides those of the next points.
     pub(crate) fn guide(&mut self, guides: &[u32]) {
-        if self.transport.takes_guides() && !guides.is_empty() {
+        if self.takes_guides() && !guides.is_empty() {
             self.transport.guide(guides);
         }
     }
@@ -219,7 +223,9 @@ impl Link {
         let is_foreign = answer_opcode(header) != opcode as u8
             && header & 0xffff == 0
             && Status::from_u8(answer_status(header)).is_some();
-        match is_foreign.then(|| self.transport.lost_step()).flatten() {
+        // Of records that it has told of nothing is asked beyond: it has forgotten them.
+        let is_forgotten = answer_opcode(header) == opcode as u8 && answer_status(header) == Status::BadRange as u8;
+        match (is_foreign || is_forgotten).then(|| self.transport.lost_step()).flatten() {
             Some(source) => self.failed(opcode, source, limit),
             None => self.distrust(opcode, fault),
         }

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::transport::{Transport, TransportError};
 
 /// Boundary edges of one cavity that the model keeps; the standard cores keep as many.
-const RING_CAPACITY: u32 = 32;
+pub(crate) const RING_CAPACITY: u32 = 32;
 /// Name in reports.
 pub(crate) const MODEL_NAME: &str = "model";
 

@@ -23,8 +23,8 @@ pub enum Order {
     Along(Curve),
     /// Rounds of growing random samples, each along a curve.
     Brio(Curve, Alpha),
-    /// Rounds in which each point comes after its nearest neighbour, at which the software model then begins to look for it. See
-    /// [`order::brio_dc`](crate::order::brio_dc()).
+    /// Rounds in which each point comes after its nearest neighbour, at which the software model then begins to look for it; no
+    /// other device does. See [`order::brio_dc`](crate::order::brio_dc()).
     BrioDc(BrioDc),
 }
 

@@ -24,12 +24,14 @@ pub struct Report {
     pub backend: String,
     /// Name of the insertion order.
     pub order: &'static str,
-    /// Time per stage, in the order in which they ran; none where the job went with others, as one of a batch.
+    /// Time per stage, in the order in which they ran; none where a device did the job with others, or as one
+    /// that was sent ahead.
     pub stages: Vec<(&'static str, Duration)>,
     /// The device's counters; `None` if the host answered alone, or the job shared the memory of the device with others. Of a job of a batch
     /// that had the whole memory they are read before its mesh is, so that [`Counters::read_cycles`] is 0.
     pub counters: Option<Counters>,
-    /// How long insertions took; `None` where there is no clock, or where there are no counters.
+    /// How long insertions took; `None` where there is no clock, where there are no counters, and for a job of a batch that was sent
+    /// ahead.
     pub latencies: Option<Latencies>,
     /// Clocks of the device for a job of a batch that had the whole memory: from the last word of the job before it, or the first of the
     /// batch, to its own last triangle. `None` elsewhere, and where the link does not know.

@@ -74,7 +74,7 @@ impl<'d> Session<'d> {
     }
 
     /// Triangulates many sets in one call: the mesh of each is that of [`Session::triangulate_with`], byte for byte but for its
-    /// report, which has no times, and counters only where a job had the whole memory.
+    /// report: a job that a device does with others, or ahead of another, has no times, and counters only where it had the whole memory.
     ///
     /// A device works on as many jobs side by side as it has contexts, each in its share of the memory; [`Options::contexts`] says how
     /// many at most. Jobs too large for a share are done one by one, each with all contexts. Where the link takes words ahead, those of the next

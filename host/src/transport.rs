@@ -18,7 +18,8 @@ pub trait Transport {
     fn receive(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError>;
 
     /// Words of commands may be sent before the answers to earlier ones are received. False, unless a way says otherwise: each call of
-    /// `send` is one command, whose answer is received before the next.
+    /// `send` is one command, whose answer is received before the next. Say true only if `send` never waits until answers are received: what
+    /// comes meanwhile is kept, up to the answers of two jobs.
     fn takes_ahead(&self) -> bool {
         false
     }
@@ -59,8 +60,8 @@ pub trait Transport {
         Pace::default()
     }
 
-    /// An answer has come to a command that nobody gave, as when others reset the device in the middle of one: what else follows is then taken
-    /// for commands. The error to tell, if that may have happened here and [`recover`](Self::recover) may help; `None` distrusts the device.
+    /// An answer has come to a command that nobody gave, or one that says that what was there is not, as when others reset the device: what
+    /// follows in a command is then taken for commands. The error to tell, if that may have happened here and [`recover`](Self::recover) may help; `None` distrusts the device.
     fn lost_step(&mut self) -> Option<TransportError> {
         None
     }

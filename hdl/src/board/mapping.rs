@@ -34,6 +34,6 @@ mod tests {
         let mapping = mapping("some_top");
         assert!(mapping.starts_with("hierarchy -top some_top; proc; "), "{mapping}");
         assert!(!mapping.contains("TOP") && !mapping.contains('#') && !mapping.contains('\n'), "{mapping}");
-        assert!(placer().eq(["--placer", "static"]));
+        assert!(placer().eq(["--placer", "static", "--tmg-ripup"]));
     }
 }

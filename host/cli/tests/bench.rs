@@ -258,7 +258,7 @@ fn guides_and_the_hierarchy_shorten_walks_and_the_published_ranking_is_told() {
         assert!(column(1, 8) > 0.0 && of_set[4][8] == "-", "{of_set:?}");
     }
     assert_eq!(scratch.read("o.csv").lines().count(), 1 + rows.len());
-    let told = "3000 points, all distributions measured: of 3 pairs more than 5 % apart there, ";
+    let told = "3000 points, the literature's distributions among the rows: of 3 pairs more than 5 % apart there, ";
     assert!(run.stdout.contains(told), "{run:?}");
     assert!(run.stdout.contains("  briodc-linear"), "{run:?}");
 }

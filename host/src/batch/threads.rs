@@ -1,6 +1,7 @@
 //! Batches on the threads of this process.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::Builder;
 
 use super::{points_of, Done, JOBS_PER_LOOK, MAX_JOB_POINTS};
 use crate::cpu::CpuJob;
@@ -29,7 +30,8 @@ pub(crate) fn on_threads(
         let taken = AtomicUsize::new(0);
         let work = || take_jobs(jobs, look, &taken, order, limit);
         let results = std::thread::scope(|scope| {
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+            // What threads cannot be had others do.
+            let others: Vec<_> = (1..threads).map_while(|_| Builder::new().spawn_scoped(scope, work).ok()).collect();
             let mut results = work();
             for other in others {
                 match other.join() {

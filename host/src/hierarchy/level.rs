@@ -5,11 +5,9 @@ use std::collections::BTreeMap;
 use incircle_model::Mesh;
 use incircle_protocol::MAX_MODEL_POINTS;
 
+use crate::model::RING_CAPACITY;
 use crate::point::Point;
 use crate::prepare::doubled_area;
-
-/// Boundary edges of one cavity that a mesh keeps, as in the model behind a session.
-const RING_CAPACITY: u32 = 32;
 
 /// A sample of the points of the level below.
 #[derive(Debug)]

@@ -75,8 +75,8 @@ impl Guided {
 /// its own; of equally near ones, by the first along the Z-curve.
 ///
 /// The order follows from the coordinates alone. Equal points stay together, in input order, and the first guides the others. Exact for
-/// coordinates below 2^31; beyond, distances of 2^32 and more count as equally long. For up to 2^31 points. About 0.35 µs per point, and 130
-/// bytes while it runs.
+/// coordinates below 2^31; beyond, distances of 2^32 and more count as equally long. For up to 2^31 points. 0.25 µs per point for some
+/// hundred of them, 0.45 for a million, and 130 bytes while it runs.
 pub fn brio_dc(points: &[Point], by: BrioDc) -> Guided {
     let Along { indices, points } = along_z(points, by);
     if points.windows(2).all(|pair| pair[0] != pair[1]) {

@@ -79,6 +79,12 @@ impl MemoryCard {
         Self { inside: Arc::new((Mutex::new(inside), Condvar::new())) }
     }
 
+    /// Reads and writes that were begun.
+    pub fn transfers(&self) -> (u32, u32) {
+        let inside = self.inside.0.lock().unwrap();
+        (inside.reads, inside.writes)
+    }
+
     pub fn files(&self) -> CardFiles {
         CardFiles {
             commands: Box::new(self.clone()),

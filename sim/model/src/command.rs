@@ -121,7 +121,8 @@ impl CommandModel {
     }
 
     /// Names for each of the next points a vertex at which the search for it begins, by number of arrival: see
-    /// [`Mesh::insert_near`]. It replaces what was named before and is forgotten at the next `Clear`. The words say nothing of it: it is for hosts in the same process.
+    /// [`Mesh::insert_near`]. It replaces what was named before and is forgotten at the next `Clear`. The
+    /// words say nothing of it: it is for hosts in the same process.
     pub fn guide(&mut self, guides: &[u32]) {
         self.guides.clear();
         self.guides.extend(guides.iter().rev());

@@ -6,6 +6,7 @@
 use std::fmt::Write as _;
 
 use super::Row;
+use crate::failure::counted;
 use crate::generate::Distribution;
 
 /// Orders and their published microseconds per point, fastest first. Those of BrioDC are the means of the table's five.
@@ -38,8 +39,11 @@ struct Ranked {
 /// For each number of points the published orders with their times here, and how many pairs come in the same order; nothing where there is no pair.
 pub fn ranking(rows: &[Row]) -> String {
     let mut text = String::new();
-    for n in rows.chunk_by(|one, other| one.asked == other.asked).filter_map(|group| group.first()) {
-        let of_n: Vec<&Row> = rows.iter().filter(|row| row.asked == n.asked).collect();
+    let mut asked: Vec<usize> = rows.iter().map(|row| row.asked).collect();
+    asked.sort_unstable();
+    asked.dedup();
+    for n in asked {
+        let of_n: Vec<&Row> = rows.iter().filter(|row| row.asked == n).collect();
         let ranked = ranked(&of_n);
         let pairs = pairs_apart(&ranked);
         if pairs.is_empty() {
@@ -49,10 +53,9 @@ pub fn ranking(rows: &[Row]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "published ranking (Schrijvers, van Bommel, Buchin 2012), {} points, all distributions measured: of {} pairs more than 5 % apart there, \
+            "published ranking (Schrijvers, van Bommel, Buchin 2012), {n} points, the literature's distributions among the rows: of {} more than 5 % apart there, \
              {} come in the same order here",
-            n.asked,
-            pairs.len(),
+            counted(pairs.len(), "pair"),
             same.len()
         );
         for Ranked { name, published, measured } in &ranked {
