@@ -111,7 +111,12 @@ impl Engine {
     fn say_poll(&mut self, now: Duration, out: &mut Vec<u8>) {
         encode(self.session, HostFrame::Poll, 0, &[], out);
         let left_at = self.line.carry(FRAME_BYTES, now);
-        self.polled = Some(Polled { base: self.sender.base(), cut: self.sender.cut(), left_at });
+        // One that had no answer stays: an answer that comes before its `Poll` has left the line, as from a simulated board, may be of the one
+        // before, and what was out then is lost all the same.
+        let base = self.sender.base();
+        if self.polled.as_ref().is_none_or(|polled| polled.base != base) {
+            self.polled = Some(Polled { base, cut: self.sender.cut(), left_at });
+        }
         self.trips.lengthen();
         self.last_said = now;
         self.statistics.polls += 1;
