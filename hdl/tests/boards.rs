@@ -60,9 +60,10 @@ fn the_oscillator_is_constrained_as_the_pll_is_computed() {
         let constraint = format!("{:.1} MHZ;", f64::from(board.oscillator_hz) / 1e6);
         let lines: Vec<_> = lpf.lines().filter(|line| line.starts_with("FREQUENCY PORT")).collect();
         assert!(lines.len() == 1 && lines[0].ends_with(&constraint), "{}: {lines:?}", board.name);
-        let clocks = board.clocks();
+        let clocks = board.clocks(board.most_mhz);
         assert!(clocks.len() > 10 && clocks.is_sorted_by(|a, b| a > b), "{}: {clocks:?}", board.name);
         assert!(clocks.contains(&125), "{}: {clocks:?}", board.name);
+        assert_eq!(board.clocks(board.usual_mhz).first(), Some(&board.usual_mhz), "{}", board.name);
     }
 }
 
@@ -87,6 +88,7 @@ fn reports_are_whole() {
         assert_eq!(report.fmax_mhz, Summary::of(&report.seeds));
         assert_eq!(report.met, report.fmax_mhz.median >= f64::from(report.clock_mhz));
         assert_eq!(report.met, report.bitstream.is_some() && report.picked_seed.is_some());
+        assert!(!report.met || report.clock_mhz >= board.usual_mhz, "{}: {} MHz", board.name, report.clock_mhz);
         assert_eq!((report.points, report.contexts), (board.config.points, board.config.contexts), "{}", board.name);
     }
 }

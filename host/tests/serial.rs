@@ -115,6 +115,20 @@ fn a_fault_of_any_frame_leaves_no_trace() {
     }
 }
 
+/// Simulated boards answer a `Poll` before it would have left a real line: such an answer tells of what was out before all the same.
+#[test]
+fn a_lost_frame_goes_again_also_where_answers_come_sooner_than_the_rate_allows() {
+    let points = points(300);
+    let expected = expected(&points).triangles;
+    for place in 0..20 {
+        let mut rig = rig();
+        (rig.is_instant, rig.delay) = (true, Duration::ZERO);
+        rig.faults = Box::new(move |to_host, frame| if !to_host && frame == place { Fate::Lost } else { Fate::Passes });
+        let mesh = triangulate(rig, &points).unwrap_or_else(|error| panic!("{place}: {error}"));
+        assert_eq!(mesh.triangles, expected, "{place}");
+    }
+}
+
 /// All kinds of faults, a few per cent each.
 #[test]
 fn many_faults_leave_no_trace_either() {

@@ -76,8 +76,9 @@ pub enum BoardError {
     },
     /// No clock asked for is met.
     #[error(
-        "{board} does not meet {clock_mhz} MHz: the median of {seeds} seeds reaches {median_mhz:.1} MHz; {} says more, and --clock {possible_mhz} is within reach",
-        report.display()
+        "{board} does not meet {clock_mhz} MHz: the median of {seeds} seeds reaches {median_mhz:.1} MHz; {} says more, and {}",
+        report.display(),
+        within_reach(*possible_mhz)
     )]
     Timing {
         /// The board.
@@ -88,11 +89,16 @@ pub enum BoardError {
         seeds: usize,
         /// What their median reaches.
         median_mhz: f64,
-        /// A multiple of 5 MHz that is met.
-        possible_mhz: u32,
+        /// The largest clock of the board that is met.
+        possible_mhz: Option<u32>,
         /// The report.
         report: PathBuf,
     },
+}
+
+/// What a missed clock leaves to try.
+fn within_reach(possible_mhz: Option<u32>) -> String {
+    possible_mhz.map_or("no clock of the board is within reach".into(), |mhz| format!("--clock {mhz} is within reach"))
 }
 
 impl BoardError {

@@ -1,7 +1,7 @@
 //! Export, synthesis, place and route with several seeds, bitstream, report.
 //!
-//! The clock is the largest of the board's list that the median of the seeds meets. A clock that is missed says what is within reach,
-//! so the next one tried is the largest below that.
+//! The clock is the board's usual one, if the median of the seeds meets that. A clock that is missed says what is within reach, so the
+//! next one tried is the largest of the board's list below that.
 
 use super::mapping::{mapping, placer, FLOORPLAN};
 use super::readings;
@@ -18,6 +18,20 @@ use std::path::{Path, PathBuf};
 /// Where the core is in the synthesised board: its instance is called `core`.
 const CORE: &str = "c:device.*.core.*";
 
+/// Name of the report's file.
+const REPORT: &str = "report.json";
+
+/// Which clocks are tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clock {
+    /// The board's usual one, and lower ones while it is missed.
+    Usual,
+    /// The largest the board may be asked for, and lower ones while it is missed.
+    Largest,
+    /// This one, in MHz, and no other.
+    Exactly(u32),
+}
+
 /// What the bitstream is made of.
 pub struct Request<'a> {
     /// The board.
@@ -26,8 +40,8 @@ pub struct Request<'a> {
     pub config: Config,
     /// Seeds of the placer, from 1 on.
     pub seeds: u32,
-    /// The clock, in MHz; without it the largest that is met.
-    pub clock_mhz: Option<u32>,
+    /// Which clocks are tried.
+    pub clock: Clock,
     /// Folder for the bitstream, the report, and the folder `work` with all the tools say.
     pub out: &'a Path,
     /// Where the tools come from.
@@ -63,11 +77,7 @@ impl Placed {
 /// A tool fails or warns, or no clock asked for is met; then the report is there all the same.
 pub fn build(request: &Request) -> Result<Report, BoardError> {
     let clocks = clocks(request)?;
-    let work = request.out.join("work");
-    if work.exists() {
-        std::fs::remove_dir_all(&work).map_err(BoardError::file(&work))?;
-    }
-    std::fs::create_dir_all(&work).map_err(BoardError::file(&work))?;
+    let work = emptied(request)?;
     let tools = Tools::find(request.tools, request.say)?;
     let mut missed = Vec::new();
     let mut rest = clocks.as_slice();
@@ -87,13 +97,34 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
     }
 }
 
+/// The folder for what the tools say, empty. Nothing of an earlier run stays: nobody shall flash it for this one.
+fn emptied(request: &Request) -> Result<PathBuf, BoardError> {
+    let work = request.out.join("work");
+    if work.exists() {
+        std::fs::remove_dir_all(&work).map_err(BoardError::file(&work))?;
+    }
+    for file in [request.out.join(REPORT), request.out.join(bitstream(request.board))] {
+        if file.exists() {
+            std::fs::remove_file(&file).map_err(BoardError::file(&file))?;
+        }
+    }
+    std::fs::create_dir_all(&work).map_err(BoardError::file(&work))?;
+    Ok(work)
+}
+
+/// Name of the bitstream's file.
+fn bitstream(board: Board) -> String {
+    format!("{}.bit", board.name)
+}
+
 /// The clocks to try, largest first.
 fn clocks(request: &Request) -> Result<Vec<u32>, BoardError> {
     let board = request.board;
-    match request.clock_mhz {
-        None => Ok(board.clocks()),
-        Some(clock_mhz) if board.pll(clock_mhz).is_some() => Ok(vec![clock_mhz]),
-        Some(clock_mhz) => Err(BoardError::Clock {
+    match request.clock {
+        Clock::Usual => Ok(board.clocks(board.usual_mhz)),
+        Clock::Largest => Ok(board.clocks(board.most_mhz)),
+        Clock::Exactly(clock_mhz) if board.pll(clock_mhz).is_some() => Ok(vec![clock_mhz]),
+        Clock::Exactly(clock_mhz) => Err(BoardError::Clock {
             board: board.name,
             clock_mhz,
             least_mhz: board.least_mhz,
@@ -179,7 +210,7 @@ fn finish(
     let picked_seed = placed.fastest().filter(|_| placed.is_met());
     let bitstream = picked_seed.map(|seed| pack(request, tools, work, seed)).transpose()?;
     let report = Report { picked_seed, bitstream, missed, ..describe(request, placed, tools.versions(work)?) };
-    let file = request.out.join("report.json");
+    let file = request.out.join(REPORT);
     report.write(&file)?;
     if report.met {
         return Ok(report);
@@ -190,7 +221,11 @@ fn finish(
         clock_mhz: report.clock_mhz,
         seeds: report.seeds.len(),
         median_mhz,
-        possible_mhz: within_reach(median_mhz),
+        possible_mhz: request
+            .board
+            .clocks(request.board.most_mhz)
+            .into_iter()
+            .find(|&mhz| f64::from(mhz) <= median_mhz),
         report: file,
     })
 }
@@ -226,18 +261,9 @@ fn describe(request: &Request, placed: &Placed, tools: Versions) -> Report {
     }
 }
 
-/// The largest multiple of 5 MHz that is not above this.
-fn within_reach(median_mhz: f64) -> u32 {
-    (0..u32::from(u8::MAX))
-        .map(|multiple| 5 * multiple)
-        .take_while(|&mhz| f64::from(mhz) <= median_mhz)
-        .last()
-        .unwrap_or(0)
-}
-
 /// Makes the bitstream of a placed seed.
 fn pack(request: &Request, tools: &Tools, work: &Path, seed: u32) -> Result<Bitstream, BoardError> {
-    let file = format!("{}.bit", request.board.name);
+    let file = bitstream(request.board);
     let config = format!("seed-{seed}.config");
     run_strictly(&tools.ecppack, &["--compress", "--input", &config, "--bit", &file], work, "pack.log")?;
     let packed: PathBuf = work.join(&file);

@@ -15,7 +15,7 @@ mod table;
 mod tools;
 
 pub use error::BoardError;
-pub use flow::{build, Request};
+pub use flow::{build, Clock, Request};
 pub use mapping::mapping;
 pub use pll::Pll;
 pub use report::{Attempt, Bitstream, Cells, Parts, Report, Seed, Serial, Summary, Versions};
@@ -46,8 +46,10 @@ pub struct Board {
     pub chip: [&'static str; 5],
     /// Its oscillator in Hz.
     pub oscillator_hz: u32,
-    /// The largest clock that is tried, in MHz.
+    /// The largest clock that may be asked for, in MHz.
     pub most_mhz: u32,
+    /// The clock that is tried unless another is asked for, in MHz: what its last report met.
+    pub usual_mhz: u32,
     /// The smallest clock that is tried, in MHz; below it the command fails.
     pub least_mhz: u32,
     /// Configuration of the core, unless another is asked for.
@@ -70,6 +72,7 @@ pub const BOARDS: [Board; 3] = [
         chip: ["--85k", "--speed", "6", "--package", "CABGA381"],
         oscillator_hz: 25 * MHZ,
         most_mhz: 150,
+        usual_mhz: 120,
         least_mhz: 50,
         config: FULL,
         fifo_bytes: 16384,
@@ -84,6 +87,7 @@ pub const BOARDS: [Board; 3] = [
         chip: ["--25k", "--speed", "6", "--package", "CABGA381"],
         oscillator_hz: 25 * MHZ,
         most_mhz: 150,
+        usual_mhz: 120,
         least_mhz: 50,
         config: SMALL,
         fifo_bytes: 4096,
@@ -98,6 +102,7 @@ pub const BOARDS: [Board; 3] = [
         chip: ["--um5g-85k", "--speed", "8", "--package", "CABGA554"],
         oscillator_hz: 100 * MHZ,
         most_mhz: 180,
+        usual_mhz: 150,
         least_mhz: 50,
         config: FULL,
         fifo_bytes: 16384,
@@ -117,9 +122,9 @@ impl Board {
         constraints().join(self.name)
     }
 
-    /// The clocks that are tried, in MHz, largest first: multiples of [`CLOCK_STEP`] that the PLL makes exactly.
-    pub fn clocks(&self) -> Vec<u32> {
-        let multiples = (self.least_mhz.div_ceil(CLOCK_STEP)..=self.most_mhz / CLOCK_STEP).rev();
+    /// The clocks that are tried from `most_mhz` down, in MHz: multiples of [`CLOCK_STEP`] that the PLL makes exactly.
+    pub fn clocks(&self, most_mhz: u32) -> Vec<u32> {
+        let multiples = (self.least_mhz.div_ceil(CLOCK_STEP)..=most_mhz / CLOCK_STEP).rev();
         multiples.map(|multiple| multiple * CLOCK_STEP).filter(|&mhz| self.pll(mhz).is_some()).collect()
     }
 

@@ -39,6 +39,8 @@ pub struct Rig {
     pub board: Board,
     pub now: Duration,
     pub delay: Duration,
+    /// The line carries bytes at once, as the pseudo-terminal of a simulated board does; the engine reckons by the rate all the same.
+    pub is_instant: bool,
     /// Errors per bit.
     pub noise: f64,
     pub faults: Faults,
@@ -67,6 +69,7 @@ impl Rig {
             board: Board::new(fifo),
             now: Duration::from_secs(5),
             delay: Duration::from_micros(500),
+            is_instant: false,
             noise: 0.0,
             faults: Box::new(|_, _| Fate::Passes),
             cut_at: Duration::MAX,
@@ -88,7 +91,8 @@ impl Rig {
     fn carry(&mut self, to_host: bool, bytes: &[u8], rate: u32) -> Duration {
         let way = usize::from(to_host);
         for piece in bytes.split_inclusive(|&byte| byte == 0) {
-            let time = Duration::from_nanos(piece.len() as u64 * 10_000_000_000 / u64::from(rate));
+            let bits = if self.is_instant { 0 } else { 10 * piece.len() as u64 };
+            let time = Duration::from_nanos(bits * 1_000_000_000 / u64::from(rate));
             self.wires[way].free_at = self.wires[way].free_at.max(self.now) + time;
             let fate = if piece.len() > 1 {
                 self.frames[way] += 1;

@@ -1,0 +1,135 @@
+//! From the source to a bitstream, with stand-ins for the tools: which clock is taken, which seed is packed, and what ends without a bitstream.
+//! With the tools themselves `./check` makes a tiny core.
+
+use incircle_hdl::board::{Attempt, Report, Seed, Summary};
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// An empty folder for one test.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("board_flow").join(name);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+    folder
+}
+
+/// Runs `board colorlight-i5` with a tiny core and more options. `fmax` is what the seeds reach, whatever the clock; `fault` is what a tool does wrong.
+fn build(out: &Path, options: &[&str], fmax: &str, fault: &str) -> Output {
+    let stand_ins = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join("stand_ins");
+    let path = std::env::var("PATH").unwrap_or_default();
+    Command::new(env!("CARGO_BIN_EXE_incircle-hdl"))
+        .args(["board", "colorlight-i5", "--config", "tiny", "--system", "--out"])
+        .arg(out)
+        .args(options)
+        .env("PATH", format!("{}:{path}", stand_ins.display()))
+        .envs([("FMAX", fmax), ("FAULT", fault)])
+        .output()
+        .unwrap()
+}
+
+/// What a failure says, which is one sentence.
+fn refusal(output: &Output) -> String {
+    assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stdout));
+    let said = String::from_utf8_lossy(&output.stderr);
+    said.lines().filter_map(|line| line.strip_prefix("incircle-hdl: ")).collect::<Vec<_>>().join("\n")
+}
+
+fn report(out: &Path) -> Report {
+    Report::read(&out.join("report.json")).unwrap()
+}
+
+#[test]
+fn the_fastest_seed_is_packed_if_the_median_meets_the_clock() {
+    let out = folder("met");
+    let output = build(&out, &[], "119.0 127.5 121.0", "");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report = report(&out);
+    assert!(report.met && report.missed.is_empty());
+    assert_eq!((report.clock_mhz, report.picked_seed), (120, Some(2)));
+    assert_eq!(report.seeds[0], Seed { seed: 1, fmax_mhz: 119.0 });
+    assert_eq!(report.fmax_mhz, Summary { min: 119.0, median: 121.0, max: 127.5 });
+    let bitstream = report.bitstream.unwrap();
+    let bytes = std::fs::read(out.join(&bitstream.file)).unwrap();
+    assert_eq!(bytes, b"seed 2\n");
+    let sum: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    assert_eq!((bitstream.bytes, &bitstream.sha256), (7, &sum));
+    assert!(String::from_utf8_lossy(&output.stdout).contains(&sum));
+}
+
+#[test]
+fn a_clock_that_was_asked_for_and_is_missed_is_a_failure() {
+    let out = folder("missed");
+    let said = refusal(&build(&out, &["--clock", "125"], "124.9 130.0 118.0", ""));
+    assert!(said.contains("does not meet 125 MHz: the median of 3 seeds reaches 124.9 MHz"), "{said}");
+    assert!(said.ends_with("--clock 120 is within reach"), "{said}");
+    let report = report(&out);
+    assert!(!report.met && report.missed.is_empty());
+    assert_eq!((report.clock_mhz, report.picked_seed, &report.bitstream), (125, None, &None));
+    assert!(!out.join("colorlight-i5.bit").exists());
+}
+
+#[test]
+fn without_a_clock_a_lower_one_is_tried() {
+    let fmax_mhz = Summary { min: 104.0, median: 111.0, max: 121.0 };
+    for (options, missed) in [(&[][..], 120), (&["--clock", "largest"], 150)] {
+        let out = folder(&format!("lower-{missed}"));
+        let output = build(&out, options, "104.0 111.0 121.0", "");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let report = report(&out);
+        assert_eq!((report.clock_mhz, report.picked_seed), (110, Some(3)));
+        assert_eq!(report.missed, [Attempt { clock_mhz: missed, fmax_mhz }]);
+        assert!(out.join("colorlight-i5.bit").exists());
+    }
+}
+
+#[test]
+fn the_lowest_clock_of_the_board_is_the_last() {
+    let out = folder("lowest");
+    let said = refusal(&build(&out, &["--seeds", "1"], "49.0", ""));
+    assert!(said.contains("does not meet 120 MHz: the median of 1 seeds reaches 49.0 MHz"), "{said}");
+    assert!(said.ends_with("no clock of the board is within reach"), "{said}");
+    assert!(!report(&out).met);
+}
+
+#[test]
+fn whatever_a_tool_does_wrong_ends_without_a_bitstream() {
+    let faults = [
+        ("synthesis-fails", "yosys ends with exit status: 1"),
+        ("synthesis-warns", "yosys warns, see "),
+        ("placer-fails", "nextpnr-ecp5 ends with exit status: 1"),
+        ("wrong-clock", "the clock is to be 120 MHz, and is 125 MHz"),
+        ("packer-fails", "ecppack ends with exit status: 1"),
+    ];
+    for (fault, sentence) in faults {
+        let out = folder(fault);
+        let said = refusal(&build(&out, &["--seeds", "1"], "130.0", fault));
+        assert!(said.contains(sentence), "{fault}: {said}");
+        assert!(!out.join("colorlight-i5.bit").exists() && !out.join("report.json").exists(), "{fault}");
+    }
+}
+
+#[test]
+fn a_bitstream_of_an_earlier_run_does_not_outlive_a_failure() {
+    let out = folder("earlier");
+    assert!(build(&out, &["--seeds", "1"], "130.0", "").status.success());
+    refusal(&build(&out, &["--seeds", "1", "--clock", "140"], "130.0", ""));
+    assert!(!report(&out).met && !out.join("colorlight-i5.bit").exists());
+    assert!(build(&out, &["--seeds", "1"], "130.0", "").status.success());
+    refusal(&build(&out, &["--seeds", "1"], "130.0", "packer-fails"));
+    assert!(!out.join("report.json").exists() && !out.join("colorlight-i5.bit").exists());
+}
+
+#[test]
+fn a_clock_that_is_none_is_refused() {
+    let out = folder("none");
+    let said = refusal(&build(&out, &["--clock", "149"], "130.0", ""));
+    assert!(
+        said.contains("the PLL of colorlight-i5 makes no clock of 149 MHz: choose a multiple of 5 from 50 to 150"),
+        "{said}"
+    );
+    let unknown = build(&out, &["--clock", "fast"], "130.0", "");
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(!out.exists());
+}
