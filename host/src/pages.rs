@@ -19,7 +19,6 @@ pub(crate) fn with_room<T>(count: usize) -> Vec<T> {
     list
 }
 
-
 /// A list of so many zeros, which the system gives as they are needed: to whichever thread needs them first.
 pub(crate) fn zeros<T: Zeroable>(count: usize) -> Vec<T> {
     let list = bytemuck::zeroed_vec(count);

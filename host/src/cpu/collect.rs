@@ -18,7 +18,7 @@ const BUCKET_BITS: u32 = 11;
 /// Most buckets, as a power of two: so many places can be written to at a time.
 const MOST_BUCKETS_BITS: u32 = 11;
 /// Edges between two looks at the room that is left.
-const BLOCK: usize = 1024;
+const BLOCK: usize = 512;
 
 /// The hull, counter-clockwise from its lowest id on; marks its half-edges.
 pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
@@ -40,13 +40,7 @@ pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
 }
 
 /// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The half-edges are not needed any more.
-pub(super) fn triangles(
-    halves: Vec<Half>,
-    ids: &[u32],
-    points: usize,
-    count: usize,
-    threads: usize,
-) -> Vec<[u32; 3]> {
+pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: usize, threads: usize) -> Vec<[u32; 3]> {
     let buckets = Buckets::of(points);
     let stretch = (halves.len() / 2).div_ceil(threads).max(1) * 2;
     let mut found = in_parallel(halves.chunks(stretch), |own| buckets.find(&halves, own, ids, count / threads));
@@ -65,6 +59,32 @@ struct Buckets {
     /// Ids of a bucket, as a power of two.
     bits: u32,
     count: usize,
+}
+
+/// An edge, seen from its end with the smaller id.
+#[derive(Clone, Copy, Default)]
+struct Edge {
+    smaller: u32,
+    larger: u32,
+    /// The next half-edge counter-clockwise, then the vertex that it leads to.
+    next: u32,
+    /// There is a triangle to the left.
+    is_inside: bool,
+}
+
+/// Looks at the edges of some half-edges; returns how many there are.
+fn look_at(halves: &[Half], ids: &[u32], edges: &mut [Edge; BLOCK]) -> usize {
+    let mut count = 0;
+    for pair in halves.as_chunks::<2>().0.iter().filter(|pair| pair[0].is_used()) {
+        let id = |half: Half| ids[(half.end & !GAP) as usize];
+        let (from, to) = (id(pair[1]), id(pair[0]));
+        // An index instead of a branch: no processor predicts which.
+        let leaving = pair[usize::from(to < from)];
+        edges[count] =
+            Edge { smaller: from.min(to), larger: from.max(to), next: leaving.next, is_inside: leaving.end < GAP };
+        count += 1;
+    }
+    count
 }
 
 /// Triangles of a stretch of half-edges.
@@ -86,27 +106,26 @@ impl Buckets {
 
     /// The triangles of which an edge in a stretch of the half-edges knows. There should be about `expected`.
     fn find(self, halves: &[Half], own: &[Half], ids: &[u32], expected: usize) -> Found {
-        let mut triangles = pages::zeros(expected + expected / 8 + BLOCK);
+        let mut triangles: Vec<[u32; 3]> = pages::zeros(expected + expected / 8 + BLOCK);
         let mut sizes = vec![0; self.count];
         let mut found = 0;
-        let id = |end: u32| ids[(end & !GAP) as usize];
+        let mut edges = [Edge::default(); BLOCK];
         for block in own.chunks(2 * BLOCK) {
             if triangles.len() < found + BLOCK {
                 triangles.resize(2 * (found + BLOCK), [0; 3]);
             }
-            for pair in block.chunks_exact(2) {
-                let (one, other) = (pair[0], pair[1]);
-                if !one.is_used() {
-                    continue;
-                }
-                let (from, to) = (id(other.end), id(one.end));
-                // Selections instead of branches, and written in any case: no processor predicts which.
-                let leaving = if from < to { one } else { other };
-                let third = id(halves[leaving.next as usize].end);
-                let smallest = from.min(to);
-                triangles[found] = [smallest, from.max(to), third];
-                let is_one = (leaving.end < GAP) & (smallest < third);
-                sizes[self.at(smallest)] += u32::from(is_one);
+            let count = look_at(block, ids, &mut edges);
+            let edges = &mut edges[..count];
+            // A loop of its own, with so little in it that the processor waits for many of these at a time.
+            for edge in &mut *edges {
+                edge.next = halves[edge.next as usize].end & !GAP;
+            }
+            for &Edge { smaller, larger, next, is_inside } in &*edges {
+                let third = ids[next as usize];
+                // Written in any case and kept in some: no processor predicts which.
+                triangles[found] = [smaller, larger, third];
+                let is_one = is_inside & (smaller < third);
+                sizes[self.at(smaller)] += u32::from(is_one);
                 found += usize::from(is_one);
             }
         }

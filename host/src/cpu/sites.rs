@@ -106,8 +106,10 @@ pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
     let parts: Vec<_> = ranges
         .into_iter()
         .map(|range| {
-            let (own_sites, own_ids) =
-                (sites.split_off_mut(..range.len()).unwrap_or_default(), ids.split_off_mut(..range.len()).unwrap_or_default());
+            let (own_sites, own_ids) = (
+                sites.split_off_mut(..range.len()).unwrap_or_default(),
+                ids.split_off_mut(..range.len()).unwrap_or_default(),
+            );
             (range, Kept { sites: own_sites, ids: own_ids, count: 0, duplicates: Vec::new() })
         })
         .collect();
