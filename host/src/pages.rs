@@ -3,6 +3,10 @@
 //! Lists are read and written all over, in the order of the input along the curve and back. In pages of 4 kB nearly every such access
 //! first has to find its page; in pages of 2 MB the processor knows them all, and the system hands out far fewer.
 
+use std::sync::atomic::AtomicU32;
+
+use bytemuck::Zeroable;
+
 /// Bytes from which on a list is worth large pages: two of them.
 const LARGE: usize = 4 << 20;
 
@@ -15,20 +19,21 @@ pub(crate) fn with_room<T>(count: usize) -> Vec<T> {
     list
 }
 
-/// A list of so many times the same.
-pub(crate) fn filled<T: Clone>(value: T, count: usize) -> Vec<T> {
-    let mut list = with_room(count);
-    list.resize(count, value);
-    list
-}
-
-/// A list of so many zeros, which the system gives as they are needed.
-pub(crate) fn zeros<T: Clone + Default>(count: usize) -> Vec<T> {
-    let list = vec![T::default(); count];
+/// A list of so many zeros, which the system gives as they are needed: to whichever thread needs them first.
+pub(crate) fn zeros<T: Zeroable>(count: usize) -> Vec<T> {
+    let list = bytemuck::zeroed_vec(count);
     if size_of::<T>() * count >= LARGE {
         advise(&list);
     }
     list
+}
+
+/// A list of numbers as several threads can write it at once, each number by one of them.
+#[allow(unsafe_code)] // the standard library's own function for it is not stable yet
+pub(crate) fn shared(list: &mut [u32]) -> &[AtomicU32] {
+    const { assert!(align_of::<u32>() == align_of::<AtomicU32>()) };
+    // SAFETY: an `AtomicU32` has the size and every value of a `u32`, here also its alignment, and the list is borrowed for as long as the result.
+    unsafe { &*(std::ptr::from_mut(list) as *const [AtomicU32]) }
 }
 
 /// Asks for large pages for the room of a list. Where they cannot be had, nothing happens: it is a matter of speed only.

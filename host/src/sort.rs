@@ -2,23 +2,31 @@
 
 use crate::pages;
 
-/// Bits of a radix digit: 2048 counters stay in the first-level cache.
+use bytemuck::Zeroable;
+
+/// Most bits of a radix digit: 2048 counters stay in the first-level cache.
 const DIGIT_BITS: u32 = 11;
-/// Below this length a comparison sort is faster than clearing the counters.
-const SMALL: usize = 1024;
+/// Most bits of a digit of few entries, so that counters are not more work than entries.
+const SMALL_DIGIT_BITS: u32 = 8;
+/// Below this length digits are small.
+const FEW: usize = 4096;
+/// Below this length a comparison sort is faster than all passes.
+const SMALL: usize = 256;
 /// Bytes from which on entries do not stay in a second-level cache, and are sorted in parts.
-const LARGE: usize = 4 << 20;
-/// Bits of which the parts are made: with a million entries a part and its copy stay in the second-level cache.
-const PART_BITS: u32 = 8;
+const LARGE: usize = 1 << 20;
+/// Bytes of a part, about: it and its copy stay in the first-level cache, or nearly.
+const PART: usize = 32 << 10;
+/// Bits of which the parts are made: more would be too many places to write to at a time.
+const PART_BITS: std::ops::RangeInclusive<u32> = 6..=DIGIT_BITS;
 
 /// Something with an unsigned integer key.
-pub(crate) trait Keyed: Copy + Default {
+pub(crate) trait Keyed: Copy + Zeroable {
     /// The key to sort by.
     fn key(&self) -> u64;
 }
 
 /// A 32-bit key above a 32-bit value, in one word.
-#[derive(Clone, Copy, Default, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Zeroable)]
 pub(crate) struct Narrow(u64);
 
 impl Narrow {
@@ -34,7 +42,7 @@ impl Keyed for Narrow {
 }
 
 /// A 64-bit key and a 32-bit value.
-#[derive(Clone, Copy, Default, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Zeroable)]
 pub(crate) struct Wide {
     key: u64,
     value: u32,
@@ -78,11 +86,12 @@ pub(crate) fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
     }
     let (any, all) = entries.iter().fold((0, u64::MAX), |(any, all), e| (any | e.key(), all & e.key()));
     let varying = any & !all;
-    let mut scratch = pages::filled(E::default(), entries.len());
-    let is_large = size_of::<E>() * entries.len() >= LARGE;
-    let lowest_of_top = (u64::BITS - varying.leading_zeros()).saturating_sub(PART_BITS);
-    if is_large && lowest_of_top > 0 {
-        sort_in_parts(entries, &mut scratch, varying, lowest_of_top);
+    let mut scratch = pages::zeros(entries.len());
+    let bytes = size_of::<E>() * entries.len();
+    let part_bits = (bytes / PART).max(1).ilog2().clamp(*PART_BITS.start(), *PART_BITS.end());
+    let shift = (u64::BITS - varying.leading_zeros()).saturating_sub(part_bits);
+    if bytes >= LARGE && shift > 0 {
+        sort_in_parts(entries, &mut scratch, varying, shift);
     } else if sort_by_digits(entries, &mut scratch, varying) {
         std::mem::swap(entries, &mut scratch);
     }
@@ -91,10 +100,9 @@ pub(crate) fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
 /// Sorts by the bits from `shift` up, then each part of entries that agree in them by itself, so that only the first pass goes through all the
 /// memory at once.
 fn sort_in_parts<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64, shift: u32) {
-    sort_by_digit::<E, { 1 << PART_BITS }>(entries, scratch, shift);
-    let top = |entry: &E| entry.key() >> shift & ((1 << PART_BITS) - 1);
+    sort_by_digit(entries, scratch, shift, u64::BITS - varying.leading_zeros() - shift);
     let mut rest = entries;
-    for part in scratch.chunk_by_mut(|one, other| top(one) == top(other)) {
+    for part in scratch.chunk_by_mut(|one, other| (one.key() ^ other.key()) & varying >> shift << shift == 0) {
         let (sorted, after) = rest.split_at_mut(part.len());
         if part.len() < SMALL {
             part.sort_by_key(E::key);
@@ -106,13 +114,19 @@ fn sort_in_parts<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64, s
     }
 }
 
-/// Sorts by all digits in which the keys differ, lowest first. True if the result is in `scratch`.
+/// Sorts by all digits in which the keys differ, lowest first, which are as small as so many can be. True if the result is in `scratch`.
 fn sort_by_digits<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64) -> bool {
+    if varying == 0 {
+        return false;
+    }
+    let most = if entries.len() < FEW { SMALL_DIGIT_BITS } else { DIGIT_BITS };
+    let (lowest, end) = (varying.trailing_zeros(), u64::BITS - varying.leading_zeros());
+    let bits = (end - lowest).div_ceil((end - lowest).div_ceil(most));
     let (mut from, mut to) = (entries, scratch);
     let mut is_in_scratch = false;
-    for shift in (0..u64::BITS).step_by(DIGIT_BITS as usize) {
-        if varying >> shift & ((1 << DIGIT_BITS) - 1) != 0 {
-            sort_by_digit::<E, { 1 << DIGIT_BITS }>(from, to, shift);
+    for shift in (lowest..end).step_by(bits as usize) {
+        if varying >> shift & ((1 << bits) - 1) != 0 {
+            sort_by_digit(from, to, shift, bits);
             std::mem::swap(&mut from, &mut to);
             is_in_scratch = !is_in_scratch;
         }
@@ -120,15 +134,17 @@ fn sort_by_digits<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64) 
     is_in_scratch
 }
 
-/// One counting pass over the digit at `shift`, which has so many values.
-fn sort_by_digit<E: Keyed, const VALUES: usize>(from: &[E], to: &mut [E], shift: u32) {
-    let digit = |entry: &E| (entry.key() >> shift) as usize & (VALUES - 1);
-    let mut starts = [0u32; VALUES];
+/// One counting pass over the digit of up to [`DIGIT_BITS`] bits from `shift` up.
+fn sort_by_digit<E: Keyed>(from: &[E], to: &mut [E], shift: u32, bits: u32) {
+    const MASK: usize = (1 << DIGIT_BITS) - 1;
+    let mask = (1 << bits) - 1;
+    let digit = |entry: &E| (entry.key() >> shift) as usize & mask & MASK;
+    let mut starts = [0u32; 1 << DIGIT_BITS];
     for entry in from {
         starts[digit(entry)] += 1;
     }
     let mut sum = 0;
-    for start in &mut starts {
+    for start in &mut starts[..1 << bits] {
         sum += std::mem::replace(start, sum);
     }
     for entry in from {

@@ -1,15 +1,24 @@
 //! From the subdivision to the canonical mesh.
 //!
-//! The list is sorted by smallest corner, then by the second one. So each vertex, in the order of the curve, finds the triangles whose
-//! smallest corner it is by going round itself, and sorts those few; then they are copied to their places.
+//! The list is sorted by smallest corner, then by the second one. Each edge knows one triangle of which its end with the smaller id may be the
+//! smallest corner: the one to its left, seen from there. So a pass over the edges finds every triangle once, in the order of the curve. They are
+//! dealt to buckets of neighbouring ids, and each bucket is sorted while it is in the cache: nothing is ever fetched from all over the memory.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use super::edges::Half;
-use crate::pages;
+use super::parallel::in_parallel;
+use crate::pages::{self, shared};
 
-/// Marks the end of the half-edge after which, counter-clockwise, its vertex sees the outside.
+/// Marks the end of a half-edge that has the outside to its left.
 const GAP: u32 = 1 << 31;
+/// Ids of a bucket, as a power of two: with its triangles and their copy it stays in the second-level cache.
+const BUCKET_BITS: u32 = 11;
+/// Most buckets, as a power of two: so many places can be written to at a time.
+const MOST_BUCKETS_BITS: u32 = 11;
+/// Edges between two looks at the room that is left.
+const BLOCK: usize = 512;
 
 /// The hull, counter-clockwise from its lowest id on; marks its half-edges.
 pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
@@ -30,131 +39,172 @@ pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
     hull
 }
 
-/// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted.
-pub(super) fn triangles(halves: &[Half], ids: &[u32], points: usize, count: usize, threads: usize) -> Vec<[u32; 3]> {
-    let first = zeros(ids.len());
-    let starts = zeros(points);
-    let chunk = ids.len().div_ceil(threads).max(1);
-    in_parallel(halves.chunks(6 * chunk).enumerate(), |(place, halves)| {
-        note_first(halves, (6 * chunk * place) as u32, &first);
-    });
-    let stars = in_parallel(ids.chunks(chunk).zip(first.chunks(chunk)), |(own, first)| {
-        let stars = Stars::of(halves, ids, own, first);
-        stars.count_at(&starts);
-        stars
-    });
-    drop(first);
-    let mut starts: Vec<u32> = starts.into_iter().map(AtomicU32::into_inner).collect();
-    let mut sum = 0;
-    for start in &mut starts {
-        sum += std::mem::replace(start, sum);
-    }
-    let mut triangles = pages::zeros(count);
-    in_parallel(split(&mut triangles, &starts, threads).into_iter(), |(own, first)| {
-        stars.iter().for_each(|stars| stars.write(&starts, own, first));
-    });
+/// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The half-edges are not needed any more.
+pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: usize, threads: usize) -> Vec<[u32; 3]> {
+    let buckets = Buckets::of(points);
+    let stretch = (halves.len() / 2).div_ceil(threads).max(1) * 2;
+    let mut found = in_parallel(halves.chunks(stretch), |own| buckets.find(&halves, own, ids, count / threads));
+    drop(halves);
+    let ends = buckets.give_places(&mut found);
+    let mut triangles: Vec<[u32; 3]> = pages::zeros(count);
+    let corners = shared(triangles.as_flattened_mut());
+    in_parallel(found.into_iter(), |found| found.deal(buckets, corners));
+    in_parallel(split(&mut triangles, &ends, threads).into_iter(), |own| buckets.sort(own, &ends));
     triangles
 }
 
-fn zeros(count: usize) -> Vec<AtomicU32> {
-    let mut list = pages::with_room(count);
-    list.resize_with(count, || AtomicU32::new(0));
-    list
+/// Triangles by their smallest corner: those of so many ids are together.
+#[derive(Clone, Copy)]
+struct Buckets {
+    /// Ids of a bucket, as a power of two.
+    bits: u32,
+    count: usize,
 }
 
-/// The results of all items, in their order, each worked out on a thread of its own; a single one on this.
-fn in_parallel<T: Send, R: Send>(items: impl ExactSizeIterator<Item = T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
-    if items.len() < 2 {
-        return items.map(work).collect();
+/// An edge, seen from its end with the smaller id.
+#[derive(Clone, Copy, Default)]
+struct Edge {
+    smaller: u32,
+    larger: u32,
+    /// The next half-edge counter-clockwise, then the vertex that it leads to.
+    next: u32,
+    /// There is a triangle to the left.
+    is_inside: bool,
+}
+
+/// Looks at the edges of some half-edges; returns how many there are.
+fn look_at(halves: &[Half], ids: &[u32], edges: &mut [Edge; BLOCK]) -> usize {
+    let mut count = 0;
+    for pair in halves.as_chunks::<2>().0.iter().filter(|pair| pair[0].is_used()) {
+        let id = |half: Half| ids[(half.end & !GAP) as usize];
+        let (from, to) = (id(pair[1]), id(pair[0]));
+        // An index instead of a branch: no processor predicts which.
+        let leaving = pair[usize::from(to < from)];
+        edges[count] =
+            Edge { smaller: from.min(to), larger: from.max(to), next: leaving.next, is_inside: leaving.end < GAP };
+        count += 1;
     }
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = items.map(|item| scope.spawn(|| work(item))).collect();
-        workers
-            .into_iter()
-            .map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-            .collect()
-    })
+    count
 }
 
-/// Notes a half-edge that leaves each vertex: any will do. The half-edges are a stretch that begins with number `start`.
-fn note_first(halves: &[Half], start: u32, first: &[AtomicU32]) {
-    for (e, pair) in (start..).step_by(2).zip(halves.chunks_exact(2)) {
-        if pair[0].is_used() {
-            first[(pair[1].end & !GAP) as usize].store(e, Relaxed);
-            first[(pair[0].end & !GAP) as usize].store(e + 1, Relaxed);
+/// Triangles of a stretch of half-edges.
+struct Found {
+    triangles: Vec<[u32; 3]>,
+    /// Of each bucket: first how many of the triangles are its own, then the place in the list of all where the next of them goes.
+    places: Vec<u32>,
+}
+
+impl Buckets {
+    fn of(points: usize) -> Self {
+        let bits = BUCKET_BITS.max((points.max(1).ilog2() + 1).saturating_sub(MOST_BUCKETS_BITS));
+        Self { bits, count: (points >> bits) + 1 }
+    }
+
+    fn at(self, id: u32) -> usize {
+        (id >> self.bits) as usize
+    }
+
+    /// The triangles of which an edge in a stretch of the half-edges knows. There should be about `expected`.
+    fn find(self, halves: &[Half], own: &[Half], ids: &[u32], expected: usize) -> Found {
+        let mut triangles: Vec<[u32; 3]> = pages::zeros(expected + expected / 8 + BLOCK);
+        let mut sizes = vec![0; self.count];
+        let mut found = 0;
+        let mut edges = [Edge::default(); BLOCK];
+        for block in own.chunks(2 * BLOCK) {
+            if triangles.len() < found + BLOCK {
+                triangles.resize(2 * (found + BLOCK), [0; 3]);
+            }
+            let count = look_at(block, ids, &mut edges);
+            let edges = &mut edges[..count];
+            // A loop of its own, with so little in it that the processor waits for many of these at a time.
+            for edge in &mut *edges {
+                edge.next = halves[edge.next as usize].end & !GAP;
+            }
+            for &Edge { smaller, larger, next, is_inside } in &*edges {
+                let third = ids[next as usize];
+                // Written in any case and kept in some: no processor predicts which.
+                triangles[found] = [smaller, larger, third];
+                let is_one = is_inside & (smaller < third);
+                sizes[self.at(smaller)] += u32::from(is_one);
+                found += usize::from(is_one);
+            }
         }
+        triangles.truncate(found);
+        Found { triangles, places: sizes }
     }
-}
 
-/// The triangles of a stretch of vertices.
-struct Stars<'a> {
-    /// Input indices of the vertices.
-    ids: &'a [u32],
-    /// The two larger ids of each triangle, in one word, vertex by vertex.
-    pairs: Vec<u64>,
-    /// Where each vertex's triangles end.
-    ends: Vec<u32>,
-}
-
-impl<'a> Stars<'a> {
-    fn of(halves: &[Half], all: &[u32], ids: &'a [u32], first: &[AtomicU32]) -> Self {
-        let mut stars = Self { ids, pairs: pages::zeros(2 * ids.len() + 64), ends: pages::with_room(ids.len()) };
+    /// Gives the triangles of all stretches their places in the list, bucket by bucket; returns where each bucket ends.
+    fn give_places(self, found: &mut [Found]) -> Vec<usize> {
         let mut end = 0;
-        for (&id, first) in ids.iter().zip(first) {
-            end = stars.go_round(halves, all, id, first.load(Relaxed), end);
-            stars.ends.push(end as u32);
-        }
-        stars
-    }
-
-    /// Writes the triangles around vertex `id` whose smallest id is its own from place `end` on; returns where they end.
-    #[inline(always)]
-    fn go_round(&mut self, halves: &[Half], all: &[u32], id: u32, start: u32, end: usize) -> usize {
-        let mut at = end;
-        let Half { next: mut e, end: mut seen, .. } = halves[start as usize];
-        let mut before = all[(seen & !GAP) as usize];
-        loop {
-            let half = halves[e as usize];
-            let after = all[(half.end & !GAP) as usize];
-            if at == self.pairs.len() {
-                self.pairs.resize(2 * at, 0);
-            }
-            // Written in any case and kept in some: no processor predicts which.
-            self.pairs[at] = u64::from(before) << 32 | u64::from(after);
-            at += usize::from((seen < GAP) & (id < before) & (id < after));
-            (seen, before) = (half.end, after);
-            if e == start {
-                break;
-            }
-            e = half.next;
-        }
-        sort_few(&mut self.pairs[end..at]);
-        at
-    }
-
-    /// Each vertex's id with its triangles.
-    fn stretches(&self) -> impl Iterator<Item = (usize, &[u64])> {
-        let ends = self.ids.iter().zip(&self.ends);
-        ends.scan(0, |start, (&id, &end)| {
-            let start = std::mem::replace(start, end as usize);
-            Some((id as usize, &self.pairs[start..end as usize]))
-        })
-    }
-
-    fn count_at(&self, counts: &[AtomicU32]) {
-        for (id, pairs) in self.stretches() {
-            counts[id].store(pairs.len() as u32, Relaxed);
-        }
-    }
-
-    /// Writes those triangles that belong into `own`, a stretch of the list that begins with place `first`.
-    fn write(&self, starts: &[u32], own: &mut [[u32; 3]], first: usize) {
-        for (id, pairs) in self.stretches() {
-            let place = (starts[id] as usize).wrapping_sub(first);
-            if let Some(slots) = own.get_mut(place..place.wrapping_add(pairs.len())) {
-                for (slot, &pair) in slots.iter_mut().zip(pairs) {
-                    *slot = [id as u32, (pair >> 32) as u32, pair as u32];
+        (0..self.count)
+            .map(|bucket| {
+                for found in &mut *found {
+                    let size = std::mem::replace(&mut found.places[bucket], end as u32);
+                    end += size as usize;
                 }
+                end
+            })
+            .collect()
+    }
+
+    /// Sorts some buckets, which are a stretch of the list.
+    fn sort(self, (own, buckets): (&mut [[u32; 3]], Range<usize>), ends: &[usize]) {
+        let mut rest = own;
+        let mut start = buckets.start.checked_sub(1).map_or(0, |before| ends[before]);
+        let mut room = Room { ends: vec![0; 1 << self.bits], pairs: Vec::new() };
+        for bucket in buckets {
+            let size = ends[bucket] - std::mem::replace(&mut start, ends[bucket]);
+            let (own, after) = rest.split_at_mut(size);
+            room.sort(own, (bucket << self.bits) as u32);
+            rest = after;
+        }
+    }
+}
+
+impl Found {
+    /// Writes the triangles to their places, corner by corner.
+    fn deal(mut self, buckets: Buckets, corners: &[AtomicU32]) {
+        for &triangle in &self.triangles {
+            let place = &mut self.places[buckets.at(triangle[0])];
+            let slots = &corners[3 * *place as usize..][..3];
+            slots.iter().zip(triangle).for_each(|(slot, corner)| slot.store(corner, Relaxed));
+            *place += 1;
+        }
+    }
+}
+
+/// What sorting a bucket takes.
+struct Room {
+    /// Of each id, where its triangles end.
+    ends: Vec<u32>,
+    /// The two larger corners of each triangle, in one word.
+    pairs: Vec<u64>,
+}
+
+impl Room {
+    /// Sorts the triangles of a bucket, whose ids begin with `first`.
+    fn sort(&mut self, own: &mut [[u32; 3]], first: u32) {
+        self.ends.fill(0);
+        for [smallest, ..] in &*own {
+            self.ends[(smallest - first) as usize] += 1;
+        }
+        let mut sum = 0;
+        for end in &mut self.ends {
+            sum += std::mem::replace(end, sum);
+        }
+        self.pairs.resize(self.pairs.len().max(own.len()), 0);
+        for &[smallest, second, third] in &*own {
+            let end = &mut self.ends[(smallest - first) as usize];
+            self.pairs[*end as usize] = u64::from(second) << 32 | u64::from(third);
+            *end += 1;
+        }
+        let mut start = 0;
+        for (id, &end) in (first..).zip(&self.ends) {
+            let range = std::mem::replace(&mut start, end as usize)..end as usize;
+            let pairs = &mut self.pairs[range.clone()];
+            sort_few(pairs);
+            for (slot, &mut pair) in own[range].iter_mut().zip(pairs) {
+                *slot = [id, (pair >> 32) as u32, pair as u32];
             }
         }
     }
@@ -183,16 +233,17 @@ fn sort_few(words: &mut [u64]) {
     }
 }
 
-/// The list in stretches, each with its first place; a vertex's triangles are all in one.
-fn split<'a>(triangles: &'a mut [[u32; 3]], starts: &[u32], count: usize) -> Vec<(&'a mut [[u32; 3]], usize)> {
-    let mut stretches = Vec::with_capacity(count);
-    let (mut rest, mut first) = (triangles, 0);
-    for k in 1..count {
-        let place = starts.get(k * starts.len() / count).map_or(first, |&start| start as usize);
-        let (own, after) = rest.split_at_mut(place - first);
-        stretches.push((own, first));
-        (rest, first) = (after, place);
-    }
-    stretches.push((rest, first));
-    stretches
+/// The list in stretches of whole buckets with about as many triangles each, and which buckets these are.
+fn split<'a>(triangles: &'a mut [[u32; 3]], ends: &[usize], count: usize) -> Vec<(&'a mut [[u32; 3]], Range<usize>)> {
+    let all = triangles.len();
+    let (mut rest, mut first, mut start) = (triangles, 0, 0);
+    (1..=count)
+        .map(|k| {
+            let last = if k == count { ends.len() } else { ends.partition_point(|&end| end <= k * all / count) };
+            let end = last.checked_sub(1).map_or(0, |last| ends[last]);
+            let (own, after) = std::mem::take(&mut rest).split_at_mut(end - start);
+            (rest, start) = (after, end);
+            (own, std::mem::replace(&mut first, last)..last)
+        })
+        .collect()
 }

@@ -4,6 +4,8 @@
 //! `previous` the next one clockwise. `n` points never have more than `3 n` edges, so vertex `v` brings the six half-edges from `6 v`
 //! on: a part of the plane owns a stretch of the list, nothing is allocated, and neighbours in the plane are neighbours in memory.
 
+use bytemuck::Zeroable;
+
 use super::view::Site;
 
 /// Half-edges that a vertex brings.
@@ -16,7 +18,7 @@ const NONE: u32 = u32::MAX;
 const UNUSED: u32 = u32::MAX;
 
 /// One half of an edge.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Zeroable)]
 pub(super) struct Half {
     /// The next half-edge of this origin, counter-clockwise; of an unused pair, the next unused pair.
     pub(super) next: u32,

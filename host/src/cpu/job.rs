@@ -78,7 +78,7 @@ impl CpuJob<'_> {
         bits: u32,
         threads: usize,
     ) -> Result<(Vec<[u32; 3]>, Vec<u32>), Error> {
-        let mut halves = pages::filled(Half::default(), HALVES * sites.len());
+        let mut halves = pages::zeros::<Half>(HALVES * sites.len());
         self.tell(Stage::Insert, 0, sites.len())?;
         let (mut done, mut failure) = (0, None);
         let mut go_on = |more| {
@@ -103,7 +103,7 @@ impl CpuJob<'_> {
         };
         let hull = collect::hull(&mut halves, ids, whole.leftmost());
         let count = 2 * ids.len() - 2 - hull.len();
-        let triangles = collect::triangles(&halves, ids, self.points.len(), count, threads);
+        let triangles = collect::triangles(halves, ids, self.points.len(), count, threads);
         self.watch.ended(Stage::Assemble);
         Ok((triangles, hull))
     }

@@ -13,6 +13,7 @@ mod conquer;
 mod edges;
 mod job;
 mod merge;
+mod parallel;
 mod sites;
 #[cfg(test)]
 mod tests;

@@ -1,20 +1,14 @@
 //! The distinct points along the Z-curve, which is what the engine divides by.
 
-use std::ops::RangeInclusive;
-use std::panic::resume_unwind;
-
+use super::parallel::in_parallel;
 use super::view::Site;
 use crate::mesh::Duplicate;
 use crate::pages;
 use crate::point::Point;
+use crate::sort::{sort_by_key, Entry as _, Keyed as _, Narrow};
 
-/// Bits of a radix digit: 2048 counters stay in the first-level cache.
-const DIGIT_BITS: u32 = 11;
-/// Digits of the 32 bits that are sorted at a time.
-const DIGITS: usize = 3;
-/// Below this length a comparison sort is faster than the passes over all digits.
+/// Below this length points of equal leading bits are sorted by comparison.
 const SMALL: usize = 256;
-
 /// Points of which the ranges of threads are guessed.
 const SAMPLE: usize = 1024;
 
@@ -30,14 +24,6 @@ pub(super) struct Sites {
     pub(super) bits: u32,
 }
 
-/// Thirty-two bits of a position on the curve above an index.
-type Entry = u64;
-
-/// The index of an entry.
-fn index_of(entry: Entry) -> usize {
-    entry as u32 as usize
-}
-
 /// The window onto the grid that the points are in: curve positions count from its corner.
 #[derive(Clone, Copy)]
 struct Window {
@@ -50,11 +36,10 @@ struct Window {
 
 impl Window {
     fn of(points: &[Point]) -> Self {
-        let fold = |start: u32, choose: fn(u32, u32) -> u32, get: fn(&Point) -> u32| {
-            points.iter().map(get).fold(start, choose)
-        };
-        let corner = Point::new(fold(u32::MAX, u32::min, |p| p.x), fold(u32::MAX, u32::min, |p| p.y));
-        let far = Point::new(fold(0, u32::max, |p| p.x), fold(0, u32::max, |p| p.y));
+        let none = (Point::new(u32::MAX, u32::MAX), Point::new(0, 0));
+        let (corner, far) = points.iter().fold(none, |(low, high), p| {
+            (Point::new(low.x.min(p.x), low.y.min(p.y)), Point::new(high.x.max(p.x), high.y.max(p.y)))
+        });
         let extent = far.x.saturating_sub(corner.x) | far.y.saturating_sub(corner.y);
         let bits = u32::BITS - extent.leading_zeros();
         Self { corner, bits, shift: 2 * bits.saturating_sub(16) }
@@ -72,13 +57,15 @@ impl Window {
         spread(point.x - self.corner.x) << 1 | spread(point.y - self.corner.y)
     }
 
-    fn entry(&self, point: Point, index: u32) -> Entry {
-        (self.position(point) >> self.shift) << 32 | u64::from(index)
+    /// The leading bits of a position.
+    #[inline(always)]
+    fn key(&self, point: Point) -> u32 {
+        (self.position(point) >> self.shift) as u32
     }
 
-    /// The bits below those of [`Window::entry`].
-    fn rest(&self, point: Point) -> u64 {
-        self.position(point) & ((1 << self.shift) - 1)
+    /// The bits below those of [`Window::key`]: 30 at most.
+    fn rest(&self, point: Point) -> u32 {
+        (self.position(point) & ((1 << self.shift) - 1)) as u32
     }
 }
 
@@ -104,153 +91,161 @@ fn gather(bits: u64) -> u32 {
     (bits | bits >> 16) as u32
 }
 
-/// Sorts by the upper half; entries of equal upper halves keep their order. O(n).
-fn sort_entries(entries: &mut Vec<Entry>) {
-    if entries.len() < SMALL {
-        // The lower halves rise in the input, so they decide nothing.
-        entries.sort_unstable();
-        return;
-    }
-    const MASK: usize = (1 << DIGIT_BITS) - 1;
-    let digit = |entry: Entry, place: usize| (entry >> (32 + place as u32 * DIGIT_BITS)) as usize & MASK;
-    let mut starts = [[0u32; 1 << DIGIT_BITS]; DIGITS];
-    for &entry in &*entries {
-        for (place, counts) in starts.iter_mut().enumerate() {
-            counts[digit(entry, place)] += 1;
-        }
-    }
-    let mut scratch = pages::zeros(entries.len());
-    for (place, starts) in starts.iter_mut().enumerate() {
-        if starts[digit(entries[0], place)] as usize == entries.len() {
-            continue;
-        }
-        let mut sum = 0;
-        for start in starts.iter_mut() {
-            sum += std::mem::replace(start, sum);
-        }
-        for &entry in &*entries {
-            let slot = &mut starts[digit(entry, place)];
-            scratch[*slot as usize] = entry;
-            *slot += 1;
-        }
-        std::mem::swap(entries, &mut scratch);
-    }
-}
-
 /// Sorts the points along the curve and takes duplicates out, on so many threads. O(n): a radix sort of the 32 leading bits of the
 /// positions, and another one of the rest inside long stretches that they leave undecided.
 pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
     let window = Window::of(points);
-    if threads < 2 {
-        return sort_range(points, window, 0..=u64::MAX);
-    }
-    let ranges = ranges(points, window, threads);
-    let sorted: Vec<Sites> = std::thread::scope(|scope| {
-        let spawn = |range: RangeInclusive<Entry>| scope.spawn(move || sort_range(points, window, range));
-        let workers: Vec<_> = ranges.into_iter().map(spawn).collect();
-        workers.into_iter().map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
+    let mut all = Sites {
+        sites: pages::zeros(points.len()),
+        ids: pages::zeros(points.len()),
+        duplicates: Vec::new(),
+        bits: window.bits,
+    };
+    let ranges = if threads < 2 { vec![entries(points, window)] } else { deal(points, window, threads) };
+    let (mut sites, mut ids) = (all.sites.as_mut_slice(), all.ids.as_mut_slice());
+    let parts: Vec<_> = ranges
+        .into_iter()
+        .map(|range| {
+            let (own_sites, own_ids) = (
+                sites.split_off_mut(..range.len()).unwrap_or_default(),
+                ids.split_off_mut(..range.len()).unwrap_or_default(),
+            );
+            (range, Kept { sites: own_sites, ids: own_ids, count: 0, duplicates: Vec::new() })
+        })
+        .collect();
+    let kept = in_parallel(parts.into_iter(), |(mut range, mut kept)| {
+        sort_by_key(&mut range);
+        if window.shift == 0 {
+            kept.take_narrow(&range);
+        } else {
+            kept.take_wide(&mut range, points, window);
+        }
+        (range.len(), kept.count, kept.duplicates)
     });
-    let mut all = Sites::with_room(points.len(), window);
-    for part in sorted {
-        all.sites.extend(part.sites);
-        all.ids.extend(part.ids);
-        all.duplicates.extend(part.duplicates);
-    }
+    all.close_up(kept);
     all
 }
 
-/// Ranges of entries that hold about as many points each. Entries of equal upper halves are in one range.
-fn ranges(points: &[Point], window: Window, count: usize) -> Vec<RangeInclusive<Entry>> {
-    let mut sample: Vec<Entry> =
-        points.iter().step_by(points.len() / SAMPLE + 1).map(|&point| window.entry(point, 0)).collect();
-    sample.sort_unstable();
-    let mut starts: Vec<Entry> = (1..count).filter_map(|k| sample.get(k * sample.len() / count).copied()).collect();
-    starts.dedup();
-    starts.retain(|&start| start > 0);
-    let firsts = std::iter::once(0).chain(starts.iter().copied());
-    let lasts = starts.iter().map(|&start| start - 1).chain([u64::MAX]);
-    firsts.zip(lasts).map(|(first, last)| first..=last).collect()
+/// Each point with its key, in the order of the input.
+fn entries(points: &[Point], window: Window) -> Vec<Narrow> {
+    let mut entries = pages::with_room(points.len());
+    entries.extend(points.iter().zip(0..=u32::MAX).map(|(&point, index)| Narrow::new(window.key(point), index)));
+    entries
 }
 
-/// The points whose entries lie in a range.
-fn sort_range(points: &[Point], window: Window, range: RangeInclusive<Entry>) -> Sites {
-    let all = points.iter().zip(0..=u32::MAX).map(|(&point, index)| window.entry(point, index));
-    let is_whole = range == (0..=u64::MAX);
-    let mut entries: Vec<Entry> = pages::with_room(if is_whole { points.len() } else { 0 });
-    if is_whole {
-        entries.extend(all);
-    } else {
-        entries.extend(all.filter(|entry| range.contains(entry)));
-    }
-    sort_entries(&mut entries);
-    let mut sorted = Sites::with_room(entries.len(), window);
-    if window.shift == 0 {
-        sorted.take_narrow(&entries);
-    } else {
-        sorted.take_wide(&mut entries, points, window);
-    }
-    sorted
-}
-
-impl Sites {
-    fn with_room(points: usize, window: Window) -> Self {
-        Self {
-            sites: pages::with_room(points),
-            ids: pages::with_room(points),
-            duplicates: Vec::new(),
-            bits: window.bits,
+/// The points with their keys in ranges of keys, one for each thread; in each range in the order of the input.
+fn deal(points: &[Point], window: Window, threads: usize) -> Vec<Vec<Narrow>> {
+    let bounds = bounds(points, window, threads);
+    let chunk = points.len().div_ceil(threads).max(1);
+    let dealt = in_parallel(points.chunks(chunk).enumerate(), |(place, points)| {
+        let room = points.len() / threads + points.len() / (4 * threads);
+        let mut ranges: Vec<Vec<Narrow>> = (0..threads).map(|_| pages::with_room(room)).collect();
+        for (&point, index) in points.iter().zip((chunk * place) as u32..) {
+            let key = window.key(point);
+            // Counted rather than searched for: no processor predicts which range it is.
+            let range: usize = bounds.iter().map(|&bound| usize::from(key >= bound)).sum();
+            ranges[range].push(Narrow::new(key, index));
         }
-    }
+        ranges
+    });
+    in_parallel(0..threads, |range| {
+        let own = || dealt.iter().map(|ranges| &ranges[range]);
+        let mut entries = pages::with_room(own().map(Vec::len).sum());
+        own().for_each(|range| entries.extend_from_slice(range));
+        entries
+    })
+}
 
+/// The first keys of all ranges but the first, which hold about as many points each.
+fn bounds(points: &[Point], window: Window, count: usize) -> Vec<u32> {
+    let mut sample: Vec<u32> =
+        points.iter().step_by(points.len() / SAMPLE + 1).map(|&point| window.key(point)).collect();
+    sample.sort_unstable();
+    (1..count).filter_map(|k| sample.get(k * sample.len() / count).copied()).collect()
+}
+
+/// What is kept of a range of the curve: room for all its points.
+struct Kept<'a> {
+    sites: &'a mut [Site],
+    ids: &'a mut [u32],
+    count: usize,
+    duplicates: Vec<Duplicate>,
+}
+
+impl Kept<'_> {
     /// Takes entries whose 32 bits are the whole position.
-    fn take_narrow(&mut self, entries: &[Entry]) {
+    fn take_narrow(&mut self, entries: &[Narrow]) {
         let mut before = None;
-        for &entry in entries {
-            let (position, index) = (entry >> 32, entry as u32);
+        for entry in entries {
+            let position = entry.key();
             if before == Some(position) {
-                self.drop_onto_last(index);
+                self.drop_onto_last(entry.value());
                 continue;
             }
             before = Some(position);
-            self.sites.push(Point::new(gather(position >> 1), gather(position)).into());
-            self.ids.push(index);
+            self.keep(Point::new(gather(position >> 1), gather(position)).into(), entry.value());
         }
     }
 
     /// Takes entries whose 32 bits are the leading ones.
-    fn take_wide(&mut self, entries: &mut [Entry], points: &[Point], window: Window) {
-        for group in entries.chunk_by_mut(|one, other| one >> 32 == other >> 32) {
+    fn take_wide(&mut self, entries: &mut [Narrow], points: &[Point], window: Window) {
+        for group in entries.chunk_by_mut(|one, other| one.key() == other.key()) {
             if group.len() > 1 {
                 sort_by_rest(group, points, window);
             }
             let mut before = None;
-            for &entry in &*group {
-                let point = points[index_of(entry)];
+            for entry in &*group {
+                let point = points[entry.value() as usize];
                 if before == Some(point) {
-                    self.drop_onto_last(entry as u32);
+                    self.drop_onto_last(entry.value());
                     continue;
                 }
                 before = Some(point);
-                self.sites.push(window.site(point));
-                self.ids.push(entry as u32);
+                self.keep(window.site(point), entry.value());
             }
         }
     }
 
+    #[inline(always)]
+    fn keep(&mut self, site: Site, id: u32) {
+        (self.sites[self.count], self.ids[self.count]) = (site, id);
+        self.count += 1;
+    }
+
     fn drop_onto_last(&mut self, index: u32) {
         // There is a last one: the point fell onto it.
-        self.duplicates.extend(self.ids.last().map(|&of| Duplicate { index, of }));
+        self.duplicates.extend(self.ids[..self.count].last().map(|&of| Duplicate { index, of }));
+    }
+}
+
+impl Sites {
+    /// Takes ranges together: of each its room, how much of that is used, and its duplicates.
+    fn close_up(&mut self, ranges: Vec<(usize, usize, Vec<Duplicate>)>) {
+        let (mut from, mut to) = (0, 0);
+        for (room, count, duplicates) in ranges {
+            if from > to {
+                self.sites.copy_within(from..from + count, to);
+                self.ids.copy_within(from..from + count, to);
+            }
+            (from, to) = (from + room, to + count);
+            self.duplicates.extend(duplicates);
+        }
+        self.sites.truncate(to);
+        self.ids.truncate(to);
     }
 }
 
 /// Sorts entries of equal leading bits by the others, equal points by index.
-fn sort_by_rest(group: &mut [Entry], points: &[Point], window: Window) {
+fn sort_by_rest(group: &mut [Narrow], points: &[Point], window: Window) {
+    let rest = |entry: &Narrow| window.rest(points[entry.value() as usize]);
     if group.len() < SMALL {
-        group.sort_unstable_by_key(|&entry| (window.rest(points[index_of(entry)]), entry));
+        group.sort_unstable_by_key(|entry| (rest(entry), entry.value()));
         return;
     }
-    let mut rest: Vec<Entry> =
-        group.iter().map(|&entry| window.rest(points[index_of(entry)]) << 32 | entry & 0xffff_ffff).collect();
-    sort_entries(&mut rest);
-    group.copy_from_slice(&rest);
+    let key = group[0].key() as u32;
+    let mut by_rest: Vec<Narrow> = group.iter().map(|entry| Narrow::new(rest(entry), entry.value())).collect();
+    sort_by_key(&mut by_rest);
+    for (slot, entry) in group.iter_mut().zip(by_rest) {
+        *slot = Narrow::new(key, entry.value());
+    }
 }

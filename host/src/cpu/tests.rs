@@ -4,8 +4,12 @@ use std::cmp::Ordering;
 
 use proptest::prelude::*;
 
-use super::sites::sort;
+use super::edges::{Half, HALVES};
+use super::sites::{sort, Sites};
 use super::view::{is_inside, Narrow, Seen, Site, View, Wide, Width};
+use super::{collect, conquer};
+use crate::order::mix;
+use crate::pages;
 use crate::point::Point;
 
 /// A coordinate of so many bits, often an extreme one.
@@ -60,6 +64,55 @@ fn ties_are_decided_by_the_smallest() {
     assert!(ties > 100, "{ties}");
 }
 
+/// Along the curve: interleaved bits rise, those of x first.
+fn position(point: Point) -> u64 {
+    let bits = |bit: u32| u64::from(point.x >> bit & 1) << 1 | u64::from(point.y >> bit & 1);
+    (0..32).rev().fold(0, |position, bit| position << 2 | bits(bit))
+}
+
+/// The triangles of points that are not on one line, with all stages on so many threads, be the points ever so few.
+fn triangles(points: &[Point], threads: usize) -> Vec<[u32; 3]> {
+    let Sites { sites, ids, .. } = sort(points, threads);
+    let mut halves = pages::zeros::<Half>(HALVES * sites.len());
+    let whole = conquer::triangulate::<Wide>(&sites, &mut halves, threads, &mut |_| true).expect("points");
+    let hull = collect::hull(&mut halves, &ids, whole.leftmost());
+    collect::triangles(halves, &ids, points.len(), 2 * ids.len() - 2 - hull.len(), threads)
+}
+
+/// Points that come in an order of their own are in few buckets at a time, and the lowest ids have most of the triangles.
+#[test]
+fn threads_share_the_triangles_whatever_the_order_of_the_points() {
+    let mut points: Vec<Point> =
+        (0..9000u64).map(|k| mix(k)).map(|random| Point::new(random as u32 >> 16, random as u32 & 0xffff)).collect();
+    for _ in 0..3 {
+        let expected = triangles(&points, 1);
+        assert!(expected.is_sorted() && expected.iter().all(|t| t[0] < t[1] && t[0] < t[2]));
+        for threads in 2..=5 {
+            assert!(triangles(&points, threads) == expected, "{threads}");
+        }
+        // Along the curve, then back.
+        let is_sorted = points.is_sorted_by_key(|&p| position(p));
+        if is_sorted {
+            points.reverse();
+        } else {
+            points.sort_by_key(|&p| position(p));
+        }
+    }
+}
+
+/// More points in a square of the curve's leading bits than are sorted by comparison.
+#[test]
+fn a_crowd_beside_a_far_point_is_sorted() {
+    let far = Point::new((1 << 31) - 1, (1 << 31) - 1);
+    let crowd = (0..1000u32).map(|k| Point::new(k * 7919 % 1009, k % 13));
+    let points: Vec<Point> = std::iter::once(far).chain(crowd).collect();
+    let Sites { sites, ids, duplicates, .. } = sort(&points, 1);
+    assert!(duplicates.is_empty() && ids.len() == points.len());
+    let key = |id: &u32| position(points[*id as usize]);
+    assert!(ids.is_sorted_by_key(key) && ids[1000] == 0);
+    assert!(sites.iter().zip(&ids).all(|(&site, &id)| site == Site::from(points[id as usize])));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
@@ -102,10 +155,7 @@ proptest! {
             prop_assert_eq!(lowest(points[duplicate.index as usize]), Some(duplicate.of));
             prop_assert!(duplicate.of < duplicate.index);
         }
-        // Along the curve: interleaved bits rise, those of x first.
-        let position = |site: &Site| (0..31).rev().fold(0u64, |position, bit| {
-            position << 2 | u64::from(site.x as u32 >> bit & 1) << 1 | u64::from(site.y as u32 >> bit & 1)
-        });
+        let position = |site: &Site| position(Point::new(site.x as u32, site.y as u32));
         prop_assert!(sorted.sites.windows(2).all(|pair| position(&pair[0]) < position(&pair[1])));
     }
 }

@@ -27,13 +27,15 @@
 //!   `√½`, its largest value, and then at most `1/2`.
 //! - Three points are outside: a corner would lie inside their triangle, which cannot be.
 
+use bytemuck::Zeroable;
+
 use crate::point::Point;
 
 /// Coordinates of up to this many bits have determinants of 64 bits.
 pub(super) const NARROW_BITS: u32 = 16;
 
 /// A point of the grid, with the coordinates as signed numbers: the widest are below 2^31.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
 pub(super) struct Site {
     pub(super) x: i32,
     pub(super) y: i32,

@@ -8,11 +8,13 @@
 //! *reaches* hold no nearest neighbours, whatever is in them, and are left out with all that would follow. A node reaches at most as far
 //! as it is wide, so the pairs made are among those of the whole decomposition.
 
+use bytemuck::Zeroable;
+
 use super::quadtree::{is_leaf, place, Quadtree};
 use crate::sort::Keyed;
 
 /// A point, and a node of more than a few points that can hold its nearest neighbour.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Zeroable)]
 pub(super) struct Pair {
     pub(super) place: u32,
     pub(super) node: u32,
