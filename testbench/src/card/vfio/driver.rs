@@ -11,20 +11,14 @@ use incircle::pcie::{CardFiles, RegisterFile};
 use rustix::event::{eventfd, EventfdFlags};
 use vfio_bindings::bindings::vfio::{
     VFIO_IRQ_SET_ACTION_MASK, VFIO_IRQ_SET_ACTION_TRIGGER, VFIO_IRQ_SET_ACTION_UNMASK, VFIO_IRQ_SET_DATA_EVENTFD,
-    VFIO_IRQ_SET_DATA_NONE, VFIO_PCI_BAR5_REGION_INDEX, VFIO_PCI_CONFIG_REGION_INDEX, VFIO_PCI_MSIX_IRQ_INDEX,
+    VFIO_IRQ_SET_DATA_NONE, VFIO_PCI_MSIX_IRQ_INDEX,
 };
 use vfio_user::{Client, Error};
 
 use super::channel::Way;
-use super::numbers::{
-    block, channel, config, interrupts, status, ALL_ONES, CHANNELS, DEVICE, ENTRY_BYTES, ENTRY_CONTROL, VENDOR,
-};
+use super::numbers::{CHANNELS, DEVICE, VENDOR};
+use super::places::{find, read, read_config, start, write, write_config, Places};
 use super::transfers::{Answers, Commands, DmaMemory, Transfers};
-
-/// Upper bits of what two of the bridge's blocks say they are, by which XDMA finds its window.
-const BLOCKS: [(u32, u32); 2] = [(block::INTERRUPTS, 0x1fc2), (block::CHOICES, 0x1fc3)];
-/// Most capabilities that fit.
-const MOST_CAPABILITIES: usize = 48;
 
 /// Why the driver does not start.
 #[derive(Debug, thiserror::Error)]
@@ -60,17 +54,6 @@ pub struct Link {
     mapped: Mutex<Vec<u64>>,
     ranges: AtomicU32,
     untold: AtomicU32,
-}
-
-/// Where things are.
-#[derive(Clone, Copy, Debug)]
-struct Places {
-    user: u32,
-    dma: u32,
-    /// The capability of messages, in configuration space.
-    messages: u64,
-    /// Their table: window and offset.
-    table: (u32, u64),
 }
 
 impl Link {
@@ -129,89 +112,6 @@ impl Link {
     pub fn count_untold(&self) {
         self.untold.fetch_add(1, Ordering::Relaxed);
     }
-}
-
-fn read(client: &mut Client, region: u32, offset: u64) -> u32 {
-    let mut bytes = [0; 4];
-    client.region_read(region, offset, &mut bytes).map_or(ALL_ONES, |()| u32::from_le_bytes(bytes))
-}
-
-fn write(client: &mut Client, region: u32, offset: u64, value: u32) {
-    // As on a bus: what cannot be written is lost, and what is read next tells.
-    let _ = client.region_write(region, offset, &value.to_le_bytes());
-}
-
-fn read_config(client: &mut Client, offset: u64) -> u32 {
-    read(client, VFIO_PCI_CONFIG_REGION_INDEX, offset)
-}
-
-fn write_config(client: &mut Client, offset: u64, value: u32) {
-    write(client, VFIO_PCI_CONFIG_REGION_INDEX, offset, value);
-}
-
-/// What the card's configuration space says of it.
-fn find(client: &mut Client) -> Result<Places, DriverError> {
-    let who = read_config(client, 0);
-    let (vendor, device) = (who as u16, (who >> 16) as u16);
-    if (vendor, device) != (VENDOR, DEVICE) {
-        return Err(DriverError::Other { vendor, device });
-    }
-    // The windows answer from now on.
-    write_config(client, config::COMMAND as u64, config::COMMAND_MEMORY.into());
-    let bars: Vec<(u32, u64)> = (0..=VFIO_PCI_BAR5_REGION_INDEX).map(|bar| (bar, bar_size(client, bar))).collect();
-    let has_bridge = |client: &mut Client, bar, size| {
-        size > u64::from(block::PENDING) && BLOCKS.iter().all(|&(at, who)| read(client, bar, at.into()) >> 16 == who)
-    };
-    let dma = bars.iter().find(|&&(bar, size)| has_bridge(client, bar, size));
-    let &(dma, _) = dma.ok_or(DriverError::Lacks("window with the registers of AMD's bridge"))?;
-    let user = bars.iter().find(|&&(bar, size)| bar != dma && size > 0);
-    let &(user, _) = user.ok_or(DriverError::Lacks("window with registers of its own"))?;
-    let messages = capability(client).ok_or(DriverError::Lacks("message-signalled interrupts"))?;
-    let table = read_config(client, messages + 4);
-    Ok(Places { user, dma, messages, table: (table & 7, u64::from(table & !7)) })
-}
-
-/// Bytes of a window: of an address that is written as all ones, the bits stay that are above its size.
-fn bar_size(client: &mut Client, bar: u32) -> u64 {
-    let at = (config::BARS + 4 * bar as usize) as u64;
-    let address = read_config(client, at);
-    write_config(client, at, ALL_ONES);
-    let bits = read_config(client, at) & !0xf;
-    write_config(client, at, address);
-    u64::from(bits.wrapping_neg())
-}
-
-/// Where the capability of messages is.
-fn capability(client: &mut Client) -> Option<u64> {
-    let mut at = u64::from(read_config(client, config::CAPABILITIES as u64) & 0xfc);
-    for _ in 0..MOST_CAPABILITIES {
-        if at == 0 {
-            return None;
-        }
-        let head = read_config(client, at);
-        if head as u8 == config::MESSAGES {
-            return Some(at);
-        }
-        at = u64::from(head >> 8 & 0xfc);
-    }
-    None
-}
-
-/// Switches on what a reset switches off: windows, DMA, messages, and what each channel tells.
-fn start(client: &mut Client, places: Places) {
-    let switches = u32::from(config::COMMAND_MEMORY | config::COMMAND_MASTER);
-    write_config(client, config::COMMAND as u64, switches);
-    write_config(client, places.messages, u32::from(config::MESSAGES_ENABLED) << 16);
-    let (table_bar, table) = places.table;
-    for (vector, way) in (0..).zip(0..CHANNELS) {
-        write(client, table_bar, table + u64::from(vector * ENTRY_BYTES + ENTRY_CONTROL), 0);
-        write(client, places.dma, (block::CHANNEL[way] + channel::CONTROL).into(), status::ALL);
-        let asks = status::STOPPED | status::COMPLETED | status::ERRORS;
-        write(client, places.dma, (block::CHANNEL[way] + channel::MASK).into(), asks);
-    }
-    // Message 0 for the channel to the card, message 1 for the one to the host.
-    write(client, places.dma, (block::INTERRUPTS + interrupts::CHANNEL_VECTORS).into(), 0x0100);
-    write(client, places.dma, (block::INTERRUPTS + interrupts::CHANNEL_MASK_SET).into(), 3);
 }
 
 impl VfioDriver {

@@ -16,6 +16,7 @@ mod driver;
 mod interrupts;
 mod memory;
 pub mod numbers;
+mod places;
 mod server;
 mod transfers;
 
