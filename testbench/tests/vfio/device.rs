@@ -110,6 +110,11 @@ fn the_second_window_has_the_registers_of_the_bridge() {
             link.set_dma(low + 4, 0x0123_4567);
             assert_eq!((link.dma(low), link.dma(low + 4)), (0x89ab_cde0, 0x0123_4567));
         }
+        driver.reset().unwrap();
+        for way in [0, 1] {
+            let low = block::DESCRIPTORS[way] + 0x80;
+            assert_eq!((link.dma(low), link.dma(low + 4)), (0, 0));
+        }
         assert_eq!((link.dma(0x3ffc), link.dma(0x1_0000), link.dma(0x42)), (0, ALL_ONES, ALL_ONES));
     });
 }
@@ -211,4 +216,41 @@ fn unmapped_meanwhile(way: Way) {
 fn memory_that_is_unmapped_during_a_transfer_is_not_reached_any_more() {
     within(|| unmapped_meanwhile(Way::ToCard));
     within(|| unmapped_meanwhile(Way::ToHost));
+}
+
+#[test]
+fn a_reset_ends_a_run_that_waits() {
+    within(|| {
+        let card = card(64);
+        let driver = VfioDriver::open(card.path()).unwrap();
+        let (_commands, answers) = channels(&driver);
+        let destination = answers.memory().address() + 4096;
+        let descriptor = Descriptor { stops: true, length: 4096, destination, ..Descriptor::default() };
+        answers.describe(&[descriptor]).unwrap();
+        answers.begin(answers.memory().address());
+        assert_eq!(driver.link().dma(answers.register(channel::STATUS)), status::BUSY);
+        driver.reset().unwrap();
+        assert_eq!(driver.link().dma(answers.register(channel::STATUS)), 0);
+        assert_eq!(answers.wait().unwrap_err().raw_os_error(), Some(5));
+        works(&driver);
+    });
+}
+
+#[test]
+fn memory_of_a_host_that_left_is_not_reached() {
+    within(|| {
+        let card = card(64);
+        let first = VfioDriver::open(card.path()).unwrap();
+        let memory = DmaMemory::new(0x5000_0000_0000, 4096).unwrap();
+        first.link().map(&memory).unwrap();
+        let source = memory.address();
+        let descriptor = Descriptor { stops: true, length: 64, source, ..Descriptor::default() };
+        for (driver, ended) in [(Some(first), status::STOPPED), (None, status::READ)] {
+            let driver = driver.unwrap_or_else(|| VfioDriver::open(card.path()).unwrap());
+            let transfers = Transfers::new(driver.link(), Way::ToCard, LIMIT).unwrap();
+            transfers.describe(&[descriptor]).unwrap();
+            transfers.begin(transfers.memory().address());
+            assert_eq!(transfers.wait().unwrap(), ended);
+        }
+    });
 }
