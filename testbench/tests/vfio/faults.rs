@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use incircle::pcie::CardFiles;
 use incircle::{Error, ErrorKind, Mesh, Point};
-use incircle_testbench::card::vfio::{VfioCard, VfioDriver};
+use incircle_testbench::card::vfio::{Descriptor, Transfers, VfioCard, VfioDriver, Way};
 use incircle_testbench::link::{is_one_mesh, random_points};
 
 use crate::rig::{card, opened, triangulate, within, Meddled, Meddling, LIMIT};
@@ -86,6 +86,21 @@ fn a_card_that_vanishes_in_mid_job_is_a_typed_error() {
                 "{place:?}: {error}"
             );
         }
+    });
+}
+
+#[test]
+fn a_run_on_a_card_that_is_gone_fails_as_such() {
+    within(|| {
+        let card = card(64);
+        let driver = VfioDriver::open(card.path()).unwrap();
+        let transfers = Transfers::new(driver.link(), Way::ToHost, LIMIT).unwrap();
+        let destination = transfers.memory().address() + 4096;
+        transfers.describe(&[Descriptor { length: 64, destination, ..Descriptor::default() }]).unwrap();
+        transfers.begin(transfers.memory().address());
+        card.vanish();
+        // No such device.
+        assert_eq!(transfers.wait().unwrap_err().raw_os_error(), Some(19));
     });
 }
 
