@@ -61,10 +61,24 @@ fn jobs_of_a_batch_go_one_behind_the_other() {
 
 #[test]
 fn jobs_at_the_pins() {
-    within(|| {
-        let pins = || -> Box<dyn Beats> { Box::new(PinCard::new(SMALL, 64).unwrap()) };
-        jobs(&VfioCard::new(Box::new(pins)).unwrap(), &[3, 1000]);
-    });
+    for bits in [64, 128] {
+        within(move || {
+            let pins = move || -> Box<dyn Beats> { Box::new(PinCard::new(SMALL, bits).unwrap()) };
+            let card = VfioCard::new(Box::new(pins)).unwrap();
+            jobs(&card, &[3, 1000]);
+            // A reset of the device is one of the bus: its counters begin anew, where one by a register keeps them.
+            let driver = VfioDriver::open(card.path()).unwrap();
+            let beats = || driver.user(StreamRegister::CommandBeats.offset());
+            for seed in 1..=2 {
+                assert_eq!(beats(), 0);
+                let points = random_points(300, seed);
+                let mesh = triangulate(&mut opened(driver.files(LIMIT).unwrap()).unwrap(), &points).unwrap();
+                assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()));
+                assert!(beats() > 0);
+                driver.reset().unwrap();
+            }
+        });
+    }
 }
 
 #[test]

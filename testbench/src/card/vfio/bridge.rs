@@ -61,7 +61,7 @@ impl Bridge {
         self.memory.clear();
     }
 
-    /// Reads from a region. As on a bus, what nobody answers reads as all ones.
+    /// Reads from a region. As on a bus, what nobody answers reads as all ones, and so does what the card answers with SLVERR.
     pub fn read(&mut self, region: u32, offset: u64, bytes: &mut [u8]) {
         if region == VFIO_PCI_CONFIG_REGION_INDEX {
             return self.config.read(offset, bytes);

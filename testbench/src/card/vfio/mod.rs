@@ -5,8 +5,10 @@
 //! first window, and in the second those of AMD's DMA bridge, in the subset that one channel each way needs. [`VfioDriver`] finds the windows,
 //! maps memory for DMA, takes interrupts, and gives the three files that the library's own driver wants: so that runs its jobs through all of it.
 //!
-//! Both sides use the crate `vfio_user`, whose limits are these: the client does not look at errors in answers, and would wait without end for
-//! the rest of one to a read; so the device answers every read, with all ones where a bus would. The client has no deadline: its caller has.
+//! Both sides use the crate `vfio_user` 0.1.7, whose limits are these. The client does not look at errors in answers, and would wait without end for
+//! the rest of one to a read; so the device answers every read, with all ones where a bus would. The client has no deadline: its caller has. The
+//! server trusts the sizes in messages, and ends a connection only when the client does. Nor is the table of messages hidden from the host, as
+//! the kernel's VFIO does: the driver writes it.
 
 mod bridge;
 mod channel;

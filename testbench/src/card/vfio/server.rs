@@ -128,6 +128,8 @@ impl Drop for VfioCard {
         self.shared.changed.notify_all();
         // Wakes a server that waits for a host. If there is none, nobody has to be woken.
         let _ = UnixStream::connect(&self.path);
+        // The server does the same when it ends, if the process goes on so long.
+        let _ = std::fs::remove_file(&self.path);
     }
 }
 
