@@ -1,6 +1,7 @@
-//! Simulated PCIe cards for the driver: in memory, and behind the files of a directory; and what the driver costs before them.
+//! Simulated PCIe cards for the driver: in memory, behind the files of a directory, and as a device of vfio-user; and what the driver costs before them.
 
 mod driver;
+pub mod vfio;
 
 pub use driver::{driver_cost, DriverCost, DriverCostError, Jobs, Way};
 

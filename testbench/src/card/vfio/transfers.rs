@@ -1,0 +1,283 @@
+//! Transfers by a channel: memory for them, descriptors, a run, and the wait for its message.
+
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::os::fd::OwnedFd;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use rustix::event::{poll, PollFd, PollFlags, Timespec};
+use vm_memory::{FileOffset, MmapRegion, VolatileMemory};
+
+use super::channel::Way;
+use super::descriptor::{Descriptor, Written};
+use super::driver::{DriverError, Link};
+use super::numbers::{block, channel, descriptors, status, ALL_ONES, RUN};
+use super::shared_memory;
+
+/// Bytes of a page.
+const PAGE: usize = 4096;
+/// Pages of data for one run, behind the page with its descriptors.
+const PAGES: usize = 16;
+/// Bytes of data for one run.
+const MOST: usize = PAGES * PAGE;
+/// Where in its page an answer's length is written back.
+const WRITTEN: usize = PAGES * Descriptor::BYTES;
+/// Longest wait for a message until the status is read without one.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// As the driver XDMA fails: input or output, no such device, its time is over.
+const EIO: i32 = 5;
+const ENODEV: i32 = 19;
+const ERESTARTSYS: i32 = 512;
+
+fn failed(errno: i32) -> io::Error {
+    io::Error::from_raw_os_error(errno)
+}
+
+/// Memory that the card may be let reach.
+#[derive(Debug)]
+pub struct DmaMemory {
+    address: u64,
+    file: File,
+    memory: MmapRegion,
+}
+
+impl DmaMemory {
+    /// So many bytes, of zeros, which the card is to find at this address.
+    ///
+    /// # Errors
+    /// The system has none.
+    pub fn new(address: u64, bytes: usize) -> io::Result<Self> {
+        let file = shared_memory(bytes as u64)?;
+        let memory = MmapRegion::from_file(FileOffset::new(file.try_clone()?, 0), bytes).map_err(io::Error::other)?;
+        Ok(Self { address, file, memory })
+    }
+
+    /// Where the card finds it.
+    pub fn address(&self) -> u64 {
+        self.address
+    }
+
+    /// Its bytes.
+    pub fn size(&self) -> u64 {
+        self.memory.size() as u64
+    }
+
+    /// What it is a mapping of.
+    pub fn file(&self) -> &File {
+        &self.file
+    }
+
+    /// Writes from a place on.
+    ///
+    /// # Errors
+    /// Some of it lies behind the end.
+    pub fn write(&self, place: usize, bytes: &[u8]) -> io::Result<()> {
+        self.memory.get_slice(place, bytes.len()).map_err(io::Error::other)?.copy_from(bytes);
+        Ok(())
+    }
+
+    /// Reads from a place on.
+    ///
+    /// # Errors
+    /// Some of it lies behind the end.
+    pub fn read(&self, place: usize, bytes: &mut [u8]) -> io::Result<()> {
+        self.memory.get_slice(place, bytes.len()).map_err(io::Error::other)?.copy_to(bytes);
+        Ok(())
+    }
+}
+
+/// A channel of the card, with memory for what goes through it. While it lives it is the only user of its channel.
+pub struct Transfers {
+    link: Arc<Link>,
+    way: Way,
+    memory: DmaMemory,
+    timeout: Duration,
+}
+
+impl Transfers {
+    /// Memory of its own for the channel, mapped for the card.
+    ///
+    /// # Errors
+    /// The system has none, or the card does not answer.
+    pub fn new(link: &Arc<Link>, way: Way, timeout: Duration) -> Result<Self, DriverError> {
+        // The data begins where an address of 32 bits has come to its end.
+        let memory = DmaMemory::new(link.new_range() - PAGE as u64, PAGE + MOST)?;
+        link.map(&memory)?;
+        Ok(Self { link: Arc::clone(link), way, memory, timeout })
+    }
+
+    /// Its memory: a page for descriptors, then data.
+    pub fn memory(&self) -> &DmaMemory {
+        &self.memory
+    }
+
+    fn event(&self) -> &OwnedFd {
+        self.link.event(self.way)
+    }
+
+    /// True if messages came since this was asked last.
+    pub fn was_told(&self) -> bool {
+        rustix::io::read(self.event(), &mut [0u8; 8]).is_ok()
+    }
+
+    /// The offset of a register of the channel.
+    pub fn register(&self, register: u32) -> u32 {
+        block::CHANNEL[self.way as usize] + register
+    }
+
+    /// Puts descriptors where runs begin, each pointing at the one behind it.
+    ///
+    /// # Errors
+    /// They are more than fit.
+    pub fn describe(&self, all: &[Descriptor]) -> io::Result<()> {
+        for (place, descriptor) in all.iter().enumerate() {
+            let at = place * Descriptor::BYTES;
+            let next = self.memory.address + (at + Descriptor::BYTES) as u64;
+            self.memory.write(at, &Descriptor { next, ..*descriptor }.to_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// Lets the channel run from the descriptor at this address on.
+    pub fn begin(&self, first: u64) {
+        // What came for an earlier run tells nothing of this one.
+        self.was_told();
+        let at = block::DESCRIPTORS[self.way as usize];
+        self.link.set_dma(at + descriptors::LOW, first as u32);
+        self.link.set_dma(at + descriptors::HIGH, (first >> 32) as u32);
+        self.link.set_dma(at + descriptors::ADJACENT, 0);
+        self.link.set_dma(self.register(channel::CONTROL_SET), RUN);
+    }
+
+    /// Waits for the end of the run, and gives the bits of the status that came.
+    ///
+    /// # Errors
+    /// As the driver XDMA: the card is gone, somebody reset it, or the time is over.
+    pub fn wait(&self) -> io::Result<u32> {
+        let deadline = Instant::now() + self.timeout;
+        let mut seen = 0;
+        loop {
+            let left = deadline.saturating_duration_since(Instant::now());
+            let was_told = self.wait_for_message(left.min(LOOK));
+            let now = self.link.dma(self.register(channel::STATUS_CLEAR));
+            if now == ALL_ONES {
+                return Err(failed(ENODEV));
+            }
+            seen |= now & !status::BUSY;
+            if seen & (status::STOPPED | status::ERRORS) != 0 {
+                // The message is there before the status tells, so one that is not there now will not come.
+                if !was_told && !self.was_told() {
+                    self.link.count_untold();
+                }
+                return Ok(seen);
+            }
+            if self.link.dma(self.register(channel::CONTROL)) & RUN == 0 {
+                return Err(failed(EIO));
+            }
+            if left.is_zero() {
+                return Err(failed(ERESTARTSYS));
+            }
+        }
+    }
+
+    /// Ends the run, though it may not be at its end.
+    pub fn end(&self) {
+        self.link.set_dma(self.register(channel::CONTROL_CLEAR), RUN);
+    }
+
+    fn wait_for_message(&self, time: Duration) -> bool {
+        let time = Timespec { tv_sec: 0, tv_nsec: time.min(LOOK).subsec_nanos().into() };
+        let mut events = [PollFd::new(self.event(), PollFlags::IN)];
+        // An interrupted wait is a short one.
+        let _ = poll(&mut events, Some(&time));
+        self.was_told()
+    }
+
+    /// A run over the descriptors that were put down.
+    fn run(&self) -> io::Result<()> {
+        self.begin(self.memory.address);
+        let ended = self.wait();
+        self.end();
+        if ended? & status::ERRORS == 0 {
+            Ok(())
+        } else {
+            Err(failed(EIO))
+        }
+    }
+}
+
+impl Drop for Transfers {
+    /// The card must not reach memory that may be used for something else.
+    fn drop(&mut self) {
+        self.end();
+        // A card that is gone reaches nothing.
+        let _ = self.link.unmap(&self.memory);
+    }
+}
+
+/// The file to which commands are written.
+pub struct Commands(pub Transfers);
+
+impl Write for Commands {
+    /// Moves 64 KiB at most, a descriptor for each page. The pages lie in memory the other way round, as a real driver's lie anywhere.
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let Self(transfers) = self;
+        let count = bytes.len().min(MOST);
+        let pages = count.div_ceil(PAGE);
+        let mut all = Vec::with_capacity(pages);
+        for (page, piece) in bytes[..count].chunks(PAGE).enumerate() {
+            let at = (PAGES - page) * PAGE;
+            transfers.memory.write(at, piece)?;
+            let is_last = page + 1 == pages;
+            all.push(Descriptor {
+                stops: is_last,
+                completes: is_last,
+                ends: is_last,
+                length: piece.len() as u32,
+                source: transfers.memory.address + at as u64,
+                ..Descriptor::default()
+            });
+        }
+        if pages > 0 {
+            transfers.describe(&all)?;
+            transfers.run()?;
+        }
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// The file from which answers are read.
+pub struct Answers(pub Transfers);
+
+impl Read for Answers {
+    /// Moves 64 KiB at most, and nothing beyond the end of an answer.
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let Self(transfers) = self;
+        let count = bytes.len().min(MOST);
+        let memory = &transfers.memory;
+        memory.write(WRITTEN, &[0; Written::BYTES])?;
+        transfers.describe(&[Descriptor {
+            stops: true,
+            completes: true,
+            length: count as u32,
+            source: memory.address + WRITTEN as u64,
+            destination: memory.address + PAGE as u64,
+            ..Descriptor::default()
+        }])?;
+        transfers.run()?;
+        let mut written = [0; Written::BYTES];
+        memory.read(WRITTEN, &mut written)?;
+        let came = Written::from_bytes(written).map_or(0, |written| written.length as usize);
+        if came == 0 || came > count {
+            return Err(failed(EIO));
+        }
+        memory.read(PAGE, &mut bytes[..came])?;
+        Ok(came)
+    }
+}
