@@ -240,6 +240,19 @@ fn orders_are_compared_as_table_csv_and_drawing() {
     assert!(wide.stdout.lines().last().is_some_and(|line| line.ends_with(" -")), "{wide:?}");
 }
 
+/// Where each point of a curve sees all triangles before it, rounds of random samples keep tests few. Tests are counted, so the same everywhere.
+#[test]
+fn plain_hilbert_collapses_on_hard_sets_and_rounds_do_not() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench orders two-chains parabola-inward -n 1024,4096 --order hilbert,brio-hilbert").ok();
+    let rows = rows(&run, 2);
+    assert_eq!(rows.len(), 2 * 2 * 2, "{run:?}");
+    for pair in rows.chunks(2) {
+        let tests = [&pair[0][6], &pair[1][6]].map(|text| text.parse::<f64>().expect("a number"));
+        assert!(tests[0] > 5.0 * tests[1] && tests[1] < 15.0, "{pair:?}");
+    }
+}
+
 #[test]
 fn guides_and_the_hierarchy_shorten_walks_and_the_published_ranking_is_told() {
     let scratch = Scratch::new();

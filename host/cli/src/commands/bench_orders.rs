@@ -77,7 +77,7 @@ fn files_of(arguments: &OrdersArguments) -> Result<(Option<Output>, Option<Outpu
 
 fn sets_of(arguments: &OrdersArguments) -> Vec<Distribution> {
     if arguments.sets.is_empty() {
-        let hard = [Distribution::TwoChains, Distribution::Parabola];
+        let hard = [Distribution::TwoChains, Distribution::ParabolaInward];
         Distribution::LITERATURE.into_iter().chain(hard).collect()
     } else {
         arguments.sets.clone()

@@ -38,6 +38,8 @@ pub enum Distribution {
     Clusters,
     /// On a parabola
     Parabola,
+    /// The same, with the vertex where a Hilbert curve ends: the worst order there is
+    ParabolaInward,
     /// Two convex chains that face each other
     TwoChains,
     /// On a spiral
@@ -124,6 +126,7 @@ pub fn generate(distribution: Distribution, n: usize, bits: u32, seed: u64) -> R
         Distribution::Lattice => shaped::lattice(n, grid, random),
         Distribution::RotatedLattice => shaped::rotated_lattice(n, grid, random),
         Distribution::Parabola => shaped::parabola(n, grid, random),
+        Distribution::ParabolaInward => shaped::parabola_inward(n, grid, random),
         Distribution::TwoChains => shaped::two_chains(n, grid, random),
         Distribution::Spiral => shaped::spiral(n, grid, random),
         Distribution::Box => shaped::filled_box(n, grid, random),
@@ -220,6 +223,7 @@ mod tests {
             (Distribution::Circle, 0x3d82_963c_351b_7ba5),
             (Distribution::Clusters, 0x17fd_9532_2e4d_5bdb),
             (Distribution::Parabola, 0x9dd9_7cf6_5e4f_2322),
+            (Distribution::ParabolaInward, 0x6f83_6e40_2d28_e68e),
             (Distribution::TwoChains, 0x5710_cb7c_8bb8_6415),
             (Distribution::Spiral, 0xc204_e26f_90eb_aca4),
             (Distribution::Box, 0xdd99_a946_87f1_34e9),

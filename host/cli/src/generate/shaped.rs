@@ -42,6 +42,15 @@ pub fn parabola(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     shuffled(n, place, random)
 }
 
+/// The same, mirrored: a Hilbert curve, which ends in the lower right corner, comes to the vertex last. A point nearer to the vertex than all before it
+/// lies in the circles of all their triangles, so an order along the curve makes cavities of n triangles.
+pub fn parabola_inward(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
+    let mut points = parabola(n, grid, random)?;
+    let last = (grid.size - 1) as u32;
+    points.iter_mut().for_each(|[x, _]| *x = last - *x);
+    Ok(points)
+}
+
 /// Two chains of n/2 points, arcs of parabolas that bulge towards each other across the middle of the grid. Every point
 /// sees the whole other chain, so a point between them has a cavity of n triangles: the classic worst case of flips.
 pub fn two_chains(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
