@@ -75,8 +75,8 @@ impl Batch<'_> {
     pub(crate) fn run(mut self) -> Result<Done, Error> {
         let mut done = Done::nothing_of(self.jobs);
         let plan = Plan::new(self.contexts, self.identity.capacity);
-        let (small, mut frames) = self.divide(plan, &mut done);
-        let groups = self.group(plan, small, &mut frames, &mut done)?;
+        let (small, mut frames) = self.divide(&plan, &mut done);
+        let groups = self.group(&plan, small, &mut frames, &mut done)?;
         std::thread::scope(|scope| {
             let contexts = |job: usize| plan.frame_contexts(self.jobs[job].len());
             let frames = frames.into_iter().map(|job| (job, contexts(job))).collect();
@@ -87,7 +87,7 @@ impl Batch<'_> {
     }
 
     /// The jobs that may share the memory, and the frames.
-    fn divide(&self, plan: Plan, done: &mut Done) -> (Vec<usize>, Vec<usize>) {
+    fn divide(&self, plan: &Plan, done: &mut Done) -> (Vec<usize>, Vec<usize>) {
         let (mut small, mut frames) = (Vec::new(), Vec::new());
         for (job, points) in self.jobs.iter().enumerate() {
             if self.wants_guides() {
@@ -115,7 +115,7 @@ impl Batch<'_> {
     /// Puts the small jobs in order and into groups; those that are better off alone join the frames. What needs no device is answered here.
     fn group(
         &self,
-        plan: Plan,
+        plan: &Plan,
         small: Vec<usize>,
         frames: &mut Vec<usize>,
         done: &mut Done,

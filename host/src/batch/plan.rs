@@ -1,8 +1,8 @@
 //! Which jobs go side by side, and which have the memory alone: whatever takes the device the fewest clocks.
 //!
 //! A context alone waits for its own visits most of the time, so jobs side by side cost little more than one, until the read port of the
-//! triangle memory is busy ([`round`]). In a frame contexts share the work, but stand in each other's way while the mesh is small
-//! ([`Plan::frame`]). Jobs side by side are held to the longest of them, and to the capacity by it: so few large jobs fit, and few
+//! triangle memory is busy ([`rounds`]). In a frame contexts share the work, but stand in each other's way while the mesh is small
+//! ([`Plan::frame_with`]). Jobs side by side are held to the longest of them, and to the capacity by it: so few large jobs fit, and few
 //! together are slower than a frame each. Both formulas are fitted to the model by clock, uniform points, and hold within an eighth
 //! there (`plan/tests.rs`). For other sets and devices they are a guess: the clocks depend on it, the meshes do not.
 
@@ -20,20 +20,27 @@ const BESIDE: u64 = 230;
 const ROOM: u64 = 8;
 const CROWDED: u64 = 120;
 const VISITS: u64 = 13 * CLOCK;
-/// What the commands of a group or a frame take besides, its headers and pauses; and each first triangle of a group.
+/// What a frame takes until its mesh has room for its contexts, and besides for each of them: this often the fourth root of its points, of
+/// [`GROWN`] at most. None of it for one context.
+const CROWD: u64 = 500;
+const CROWD_OF_EACH: u64 = 120;
+const GROWN: u64 = 1024;
+/// What the commands of a group or a frame take besides, with headers and pauses; and each first triangle.
 const COMMANDS: u64 = 250 * CLOCK;
 const FIRST_TRIANGLE: u64 = 42 * CLOCK;
-/// Points from which on a mesh has room for all contexts.
-const GROWN: u64 = 1024;
 
-/// A round of a group: a point of each of so many jobs.
+/// A round of a group, a point of each job: with one job, with two, and so on.
 ///
 /// | jobs | 1 | 2 | 4 | 6 | 8 | 10 | 12 | 14 | 16 | 20 | 24 |
 /// |---|---|---|---|---|---|---|---|---|---|---|---|
 /// | clocks counted, 500 points a job | 155 | 157 | 161 | 166 | 171 | 179 | 191 | 207 | 230 | 282 | 335 |
-/// | clocks by this formula | 155 | 157 | 162 | 166 | 171 | 179 | 191 | 208 | 232 | 284 | 336 |
-fn round(jobs: u64) -> u64 {
-    (2..=jobs).fold(ALONE, |clocks, job| clocks + one_more(job))
+/// | by this formula | 155 | 157 | 162 | 166 | 171 | 179 | 192 | 210 | 233 | 285 | 337 |
+fn rounds(most: u32) -> Vec<u64> {
+    let sums = (1..=u64::from(most)).scan(0, |clocks, jobs| {
+        *clocks += one_more(jobs);
+        Some(*clocks)
+    });
+    sums.collect()
 }
 
 /// What the last of so many jobs adds to a round.
@@ -42,21 +49,6 @@ fn one_more(jobs: u64) -> u64 {
         1 => ALONE,
         _ => (BESIDE + CROWDED * jobs.saturating_sub(ROOM)).min(VISITS),
     }
-}
-
-/// A frame with so many contexts, but for the read-out: rounds as in a group, and what it takes until the mesh has room for the contexts.
-/// That was found to grow with the fourth root of the points and to end at [`GROWN`].
-///
-/// | points | 200 | 500 | 1000 | 1000 | 1000 | 2000 | 3000 |
-/// |---|---|---|---|---|---|---|---|
-/// | contexts | 6 | 12 | 9 | 14 | 16 | 15 | 16 |
-/// | clocks a point counted | 53.8 | 33.9 | 28.5 | 26.7 | 28.1 | 20.9 | 19.2 |
-fn frame(points: usize, contexts: u32) -> u64 {
-    let (points, many) = (points as u64, u64::from(contexts));
-    // A hundred times the fourth root.
-    let root = (points.min(GROWN) * 100_000_000).isqrt().isqrt();
-    let crowd = if contexts == 1 { 0 } else { (500 + 120 * many) * root };
-    points * round(many) / many + crowd + FIRST_TRIANGLE + COMMANDS
 }
 
 /// What the device does in one go.
@@ -78,10 +70,9 @@ impl Part {
 }
 
 /// How jobs are divided on a device.
-#[derive(Clone, Copy)]
 pub(super) struct Plan {
-    /// Contexts that may work: at most so many jobs are side by side.
-    contexts: u32,
+    /// A round with one job side by side, up to as many as there are contexts that may work.
+    rounds: Vec<u64>,
     /// Points that it holds.
     capacity: usize,
 }
@@ -89,15 +80,16 @@ pub(super) struct Plan {
 impl Plan {
     /// For a device with this capacity, of which so many contexts may work, one at least.
     pub(super) fn new(contexts: u32, capacity: u32) -> Self {
-        Self { contexts: contexts.max(1), capacity: capacity as usize }
+        Self { rounds: rounds(contexts.max(1)), capacity: capacity as usize }
     }
 
     /// As many jobs of this length as go side by side take no longer than one behind the other: for 8,192 points and 16 contexts up to 1,170
     /// points, of which 7 fit.
     pub(super) fn shares(&self, points: usize) -> bool {
-        let all = vec![points; self.contexts as usize];
-        let most = self.groups(&all).last();
-        most.is_some_and(|(jobs, clocks)| clocks <= jobs as u64 * self.frame(points).0)
+        let most = self.rounds.len().min(self.capacity / points.max(1));
+        let rounds = most.checked_sub(1).and_then(|place| self.rounds.get(place));
+        let group = rounds.map(|round| COMMANDS + most as u64 * FIRST_TRIANGLE + points as u64 * round);
+        group.is_some_and(|clocks| clocks <= most as u64 * self.frame(points).0)
     }
 
     /// How many contexts do a frame of so many points in the fewest clocks.
@@ -129,7 +121,7 @@ impl Plan {
     fn groups<'a>(&self, lengths: &'a [usize]) -> impl Iterator<Item = (usize, u64)> + use<'a> {
         let (capacity, longest) = (self.capacity, lengths.first().map_or(0, |&first| first));
         let (mut clocks, mut full) = (COMMANDS, 0);
-        let steps = (1..).zip(&lengths[..lengths.len().min(self.contexts as usize)]).map(move |(jobs, &points)| {
+        let steps = (1..).zip(&lengths[..lengths.len().min(self.rounds.len())]).map(move |(jobs, &points)| {
             // A job that is over has repeated points, which are found at once.
             clocks += points as u64 * one_more(jobs as u64) + FIRST_TRIANGLE;
             full += usize::from(points == longest);
@@ -141,6 +133,23 @@ impl Plan {
 
     /// What a frame takes but for the read-out, and with how many contexts.
     fn frame(&self, points: usize) -> (u64, u32) {
-        (1..=self.contexts).map(|contexts| (frame(points, contexts), contexts)).min().unwrap_or((u64::MAX, 1))
+        let clocks = |contexts| (self.frame_with(points, contexts), contexts);
+        (1..=self.rounds.len() as u32).map(clocks).min().unwrap_or((u64::MAX, 1))
+    }
+
+    /// What a frame with so many contexts takes but for the read-out: it shares out rounds, and waits for room.
+    ///
+    /// | points | 200 | 500 | 1,000 | 1,000 | 1,000 | 2,000 | 3,000 |
+    /// |---|---|---|---|---|---|---|---|
+    /// | contexts | 6 | 12 | 9 | 14 | 16 | 15 | 16 |
+    /// | clocks a point counted | 53.8 | 33.9 | 28.5 | 26.7 | 28.1 | 20.9 | 19.2 |
+    /// | by this formula | 50.7 | 34.3 | 28.3 | 27.3 | 28.1 | 21.2 | 19.1 |
+    fn frame_with(&self, points: usize, contexts: u32) -> u64 {
+        let (points, many) = (points as u64, u64::from(contexts));
+        let round = self.rounds[contexts as usize - 1];
+        // A hundred times the fourth root: the product is a hundred times the clocks.
+        let root = (points.min(GROWN) * CLOCK.pow(4)).isqrt().isqrt();
+        let crowd = if contexts == 1 { 0 } else { (CROWD + CROWD_OF_EACH * many) * root };
+        points * round / many + crowd + FIRST_TRIANGLE + COMMANDS
     }
 }

@@ -60,6 +60,7 @@ fn jobs_that_are_over_cost_next_to_nothing() {
 fn a_frame_takes_what_is_expected() {
     let mut device = Device::clock_model(LARGE).expect("possible");
     let mut session = device.session().expect("a session");
+    let plan = Plan::new(LARGE.contexts, LARGE.points);
     for (count, contexts) in
         [(200, 2), (200, 6), (500, 4), (500, 12), (1000, 8), (1000, 14), (1300, 16), (2000, 15), (4000, 16), (4000, 20)]
     {
@@ -69,7 +70,7 @@ fn a_frame_takes_what_is_expected() {
             mesh.report.counters.expect("they are counted").insert_cycles
         };
         let mean = (0..6).map(clocks).sum::<u64>() / 6;
-        assert_near(mean, frame(count, contexts), 12, &format!("{count} points, {contexts} contexts"));
+        assert_near(mean, plan.frame_with(count, contexts), 12, &format!("{count} points, {contexts} contexts"));
     }
 }
 
@@ -121,11 +122,8 @@ fn clocks_of(plan: &Plan, part: Part, lengths: &[usize]) -> Option<u64> {
     };
     let own = &lengths[..jobs];
     let (sets, ordered) = jobs_of(own);
-    let fits = jobs <= plan.contexts as usize && Group::sharing(ordered).points(&sets).len() <= plan.capacity;
-    let steps = own
-        .iter()
-        .zip(1..)
-        .map(|(&points, jobs)| points as u64 * (round(jobs) - if jobs > 1 { round(jobs - 1) } else { 0 }));
+    let fits = jobs <= plan.rounds.len() && Group::sharing(ordered).points(&sets).len() <= plan.capacity;
+    let steps = own.iter().zip(1..).map(|(&points, jobs)| points as u64 * one_more(jobs));
     fits.then(|| COMMANDS + steps.sum::<u64>() + FIRST_TRIANGLE * jobs as u64)
 }
 
