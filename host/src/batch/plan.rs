@@ -20,10 +20,9 @@ const BESIDE: u64 = 230;
 const ROOM: u64 = 8;
 const CROWDED: u64 = 120;
 const VISITS: u64 = 13 * CLOCK;
-/// What a frame takes until its mesh has room for its contexts, and besides for each of them: this often the fourth root of its points, of
-/// [`GROWN`] at most. None of it for one context.
-const CROWD: u64 = 500;
-const CROWD_OF_EACH: u64 = 120;
+/// What a frame with several contexts takes longer because its mesh has no room for them at first: this often the fourth root of its points,
+/// of [`GROWN`] at most, times that of the third power of its contexts.
+const CROWD: u64 = 300;
 const GROWN: u64 = 1024;
 /// What the commands of a group or a frame take besides, with headers and pauses; and each first triangle.
 const COMMANDS: u64 = 250 * CLOCK;
@@ -139,17 +138,17 @@ impl Plan {
 
     /// What a frame with so many contexts takes but for the read-out: it shares out rounds, and waits for room.
     ///
-    /// | points | 200 | 500 | 1,000 | 1,000 | 1,000 | 2,000 | 3,000 |
-    /// |---|---|---|---|---|---|---|---|
-    /// | contexts | 6 | 12 | 9 | 14 | 16 | 15 | 16 |
-    /// | clocks a point counted | 53.8 | 33.9 | 28.5 | 26.7 | 28.1 | 20.9 | 19.2 |
-    /// | by this formula | 50.7 | 34.3 | 28.3 | 27.3 | 28.1 | 21.2 | 19.1 |
+    /// | points | 200 | 300 | 500 | 1,000 | 1,000 | 1,000 | 2,000 | 3,000 |
+    /// |---|---|---|---|---|---|---|---|---|
+    /// | contexts | 6 | 4 | 12 | 9 | 14 | 16 | 15 | 16 |
+    /// | clocks a point counted | 53.8 | 51.3 | 33.9 | 28.5 | 26.7 | 28.1 | 20.9 | 19.2 |
+    /// | by this formula | 49.4 | 52.2 | 34.3 | 28.2 | 27.2 | 28.0 | 21.2 | 19.1 |
     fn frame_with(&self, points: usize, contexts: u32) -> u64 {
         let (points, many) = (points as u64, u64::from(contexts));
         let round = self.rounds[contexts as usize - 1];
-        // A hundred times the fourth root: the product is a hundred times the clocks.
-        let root = (points.min(GROWN) * CLOCK.pow(4)).isqrt().isqrt();
-        let crowd = if contexts == 1 { 0 } else { (CROWD + CROWD_OF_EACH * many) * root };
+        // A hundred times the fourth root, so a hundred times the clocks.
+        let root = (points.min(GROWN) * many.pow(3) * CLOCK.pow(4)).isqrt().isqrt();
+        let crowd = if contexts == 1 { 0 } else { CROWD * root };
         points * round / many + crowd + FIRST_TRIANGLE + COMMANDS
     }
 }

@@ -61,15 +61,25 @@ fn a_frame_takes_what_is_expected() {
     let mut device = Device::clock_model(LARGE).expect("possible");
     let mut session = device.session().expect("a session");
     let plan = Plan::new(LARGE.contexts, LARGE.points);
-    for (count, contexts) in
-        [(200, 2), (200, 6), (500, 4), (500, 12), (1000, 8), (1000, 14), (1300, 16), (2000, 15), (4000, 16), (4000, 20)]
-    {
+    for (count, contexts) in [
+        (200, 2),
+        (200, 6),
+        (300, 4),
+        (500, 4),
+        (500, 12),
+        (1000, 8),
+        (1000, 14),
+        (1300, 16),
+        (2000, 15),
+        (4000, 16),
+        (4000, 20),
+    ] {
         let options = Options { contexts: Some(contexts), ..Options::default() };
         let clocks = |seed| {
             let mesh = session.triangulate_with(&points(seed, count), &options).expect("a mesh");
             mesh.report.counters.expect("they are counted").insert_cycles
         };
-        let mean = (0..6).map(clocks).sum::<u64>() / 6;
+        let mean = (0..16).map(clocks).sum::<u64>() / 16;
         assert_near(mean, plan.frame_with(count, contexts), 12, &format!("{count} points, {contexts} contexts"));
     }
 }
