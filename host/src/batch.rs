@@ -1,13 +1,15 @@
 //! Many jobs in one call: on a device, or on the threads of this process.
 //!
 //! A small mesh has no room for many insertions at once, so a device with several contexts gets a *group* of small jobs, a mesh for each
-//! context. A job too large for that is a *frame*: it has the whole memory. Where the link takes words ahead, those of the next group or
-//! frame are sent before the answers of the last are received ([`flight`]), so that the device never waits for the host.
+//! context. A job too large for that, or one that is left over, is a *frame*: it has the whole memory ([`plan`]). Where the link takes words
+//! ahead, those of the next group or frame are sent before the answers of the last are received ([`flight`]), so that the device never waits
+//! for the host.
 
 mod commands;
 mod flight;
 mod group;
 mod part_listener;
+mod plan;
 mod threads;
 
 use std::sync::mpsc::sync_channel;
@@ -26,6 +28,7 @@ use crate::session::tell;
 
 use group::{Group, Ordered};
 pub(crate) use part_listener::PartListener;
+use plan::{Part, Plan};
 pub(crate) use threads::on_threads;
 
 /// Most points of a job that is one of a group: the records of a group are read at once.
@@ -71,31 +74,37 @@ impl Batch<'_> {
     /// ones on any, and those with guides.
     pub(crate) fn run(mut self) -> Result<Done, Error> {
         let mut done = Done::nothing_of(self.jobs);
-        let (small, frames) = self.divide(&mut done);
-        let groups = self.group(small, &mut done)?;
+        let plan = Plan::new(self.contexts, self.identity.capacity);
+        let (small, mut frames) = self.divide(&plan, &mut done);
+        let groups = self.group(&plan, small, &mut frames, &mut done)?;
         std::thread::scope(|scope| {
-            let ordered = order_frames(scope, self.jobs, frames, self.options.order, self.contexts);
-            self.carry(groups.into_iter().chain(ordered.map(Group::frame)), &mut done)
+            let contexts = |job: usize| plan.frame_contexts(self.jobs[job].len());
+            let frames = frames.into_iter().map(|job| (job, contexts(job))).collect();
+            let ordered = order_frames(scope, self.jobs, frames, self.options.order);
+            self.carry(groups.into_iter().chain(ordered), &mut done)
         })?;
         Ok(done)
     }
 
-    /// The jobs that share the memory, and the frames.
-    fn divide(&self, done: &mut Done) -> (Vec<usize>, Vec<usize>) {
-        let share = (self.identity.capacity / self.contexts) as usize;
+    /// The jobs that may share the memory, and the frames.
+    fn divide(&self, plan: &Plan, done: &mut Done) -> (Vec<usize>, Vec<usize>) {
         let (mut small, mut frames) = (Vec::new(), Vec::new());
         for (job, points) in self.jobs.iter().enumerate() {
             if self.wants_guides() {
                 done.singles.push(job);
-            } else if points.len() <= share.min(MAX_JOB_POINTS) {
+            } else if points.len() <= MAX_JOB_POINTS && plan.shares(points.len()) {
                 small.push(job);
-            } else if points.len() <= MAX_FRAME_POINTS && self.link.takes_ahead() {
-                frames.push(job);
             } else {
-                done.singles.push(job);
+                self.leave_alone(job, &mut frames, done);
             }
         }
         (small, frames)
+    }
+
+    /// A job that shares the memory with none: a frame if it can be sent ahead.
+    fn leave_alone(&self, job: usize, frames: &mut Vec<usize>, done: &mut Done) {
+        let is_frame = self.jobs[job].len() <= MAX_FRAME_POINTS && self.link.takes_ahead();
+        if is_frame { frames } else { &mut done.singles }.push(job);
     }
 
     /// The order has guides, and the device takes them, but for one job at a time.
@@ -103,8 +112,32 @@ impl Batch<'_> {
         self.link.takes_guides() && matches!(self.options.order, Order::BrioDc(_))
     }
 
-    /// Puts the small jobs in order and into groups. What needs no device is answered here.
-    fn group(&self, small: Vec<usize>, done: &mut Done) -> Result<Vec<Group>, Error> {
+    /// Puts the small jobs in order and into groups; those that are better off alone join the frames. What needs no device is answered here.
+    fn group(
+        &self,
+        plan: &Plan,
+        small: Vec<usize>,
+        frames: &mut Vec<usize>,
+        done: &mut Done,
+    ) -> Result<Vec<Group>, Error> {
+        let mut shared = self.in_order(small, done)?;
+        // Jobs of one length side by side: none waits long for another.
+        shared.sort_by_key(|ordered| std::cmp::Reverse(ordered.vertices()));
+        let lengths: Vec<usize> = shared.iter().map(Ordered::vertices).collect();
+        let mut rest = shared.into_iter();
+        let mut groups = Vec::new();
+        for part in plan.divide(&lengths) {
+            match part {
+                Part::Group(jobs) => groups.push(Group::sharing(rest.by_ref().take(jobs).collect())),
+                // Put in order once more, for several contexts, when its turn comes.
+                Part::Frame => rest.next().into_iter().for_each(|own| self.leave_alone(own.job, frames, done)),
+            }
+        }
+        Ok(groups)
+    }
+
+    /// These jobs in order, each for one context, but those that need no device: they are answered here.
+    fn in_order(&self, small: Vec<usize>, done: &mut Done) -> Result<Vec<Ordered>, Error> {
         let total = small.iter().map(|&job| self.jobs[job].len()).sum();
         let (mut shared, mut seen) = (Vec::new(), 0);
         for (place, job) in small.into_iter().enumerate() {
@@ -120,15 +153,7 @@ impl Batch<'_> {
                 done.passed += points.len();
             }
         }
-        // Jobs of one length side by side: none waits long for another.
-        shared.sort_by_key(|ordered| std::cmp::Reverse(ordered.vertices()));
-        let mut groups = Vec::new();
-        let mut rest = shared.into_iter().peekable();
-        while rest.peek().is_some() {
-            let jobs = rest.by_ref().take(self.contexts as usize).collect();
-            groups.push(Group { jobs, is_frame: false });
-        }
-        Ok(groups)
+        Ok(shared)
     }
 
     /// Answers a job that needs no device; gives back one that does. An error if the device cannot hold it.
@@ -166,21 +191,23 @@ impl Batch<'_> {
     }
 }
 
-/// Puts frames in order in a thread of its own, so that it is done while the device works. It ends when nobody wants the next one.
+/// Puts frames in order in a thread of its own, each for so many contexts, so that it is done while the device works. It ends when nobody
+/// wants the next one.
 fn order_frames<'s>(
     scope: &'s Scope<'s, '_>,
     jobs: &'s [Vec<Point>],
-    frames: Vec<usize>,
+    frames: Vec<(usize, u32)>,
     order: Order,
-    contexts: u32,
-) -> impl Iterator<Item = Ordered> + use<'s> {
+) -> impl Iterator<Item = Group> + use<'s> {
     // It has one in hand until that is wanted: no more are kept.
     let (sender, ordered) = sync_channel(0);
-    let in_order = move |job: usize| Ordered { job, prepared: prepare(&jobs[job], order, contexts) };
+    let in_order = move |(job, contexts): (usize, u32)| {
+        Group::frame(Ordered { job, prepared: prepare(&jobs[job], order, contexts) }, contexts)
+    };
     let kept = frames.clone();
     let has_thread = !frames.is_empty()
         && Builder::new()
-            .spawn_scoped(scope, move || frames.into_iter().try_for_each(|job| sender.send(in_order(job))))
+            .spawn_scoped(scope, move || frames.into_iter().try_for_each(|frame| sender.send(in_order(frame))))
             .is_ok();
     // A system that gives no thread leaves the work here.
     let here = if has_thread { Vec::new() } else { kept };

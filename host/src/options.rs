@@ -143,7 +143,8 @@ pub struct Options<'a> {
     /// Called at the start of each stage and after every chunk.
     pub progress: Option<ProgressListener<'a>>,
     /// Contexts that work, that is insertions in flight at once: 1 to what [`Session::identity`](crate::Session::identity) says the
-    /// device has. `None`: all of them. The mesh does not depend on it, the time does.
+    /// device has. `None`: all of them. In a batch that is the most that may work, and a job has as many as pay. The mesh does not depend
+    /// on it, the time does.
     pub contexts: Option<u32>,
     /// Points of one `Insert` command; at least 3 are sent. Progress and cancellation come between chunks.
     pub insert_chunk: usize,

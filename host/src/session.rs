@@ -77,7 +77,8 @@ impl<'d> Session<'d> {
     /// report: a job that a device does with others, or ahead of another, has no times, and counters only where it had the whole memory.
     ///
     /// A device works on as many jobs side by side as it has contexts, each in its share of the memory; [`Options::contexts`] says how
-    /// many at most. Jobs too large for a share are done one by one, each with all contexts. Where the link takes words ahead, those of the next
+    /// many at most. Jobs so large that only few fit, or that are left over, are done one by one, each with as many contexts as pay:
+    /// whatever is expected to take the device the fewest clocks. Where the link takes words ahead, those of the next
     /// job are on their way, and the one behind it is put in order in a thread, while the device works on the last and its mesh is assembled:
     /// three jobs are held in order at once. The engine in this process works on a job with each thread.
     ///

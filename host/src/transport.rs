@@ -61,7 +61,8 @@ pub trait Transport {
     }
 
     /// An answer has come to a command that nobody gave, or one that says that what was there is not, as when others reset the device: what
-    /// follows in a command is then taken for commands. The error to tell, if that may have happened here and [`recover`](Self::recover) may help; `None` distrusts the device.
+    /// follows in a command is then taken for commands. The error to tell, if that may have happened here and [`recover`](Self::recover) may
+    /// help; `None` distrusts the device.
     fn lost_step(&mut self) -> Option<TransportError> {
         None
     }

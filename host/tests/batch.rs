@@ -4,11 +4,9 @@ mod common;
 #[path = "common/mock.rs"]
 mod mock;
 
-use std::ops::ControlFlow;
-
-use common::batches::{alone, bare, batch};
+use common::batches::{alone, bare, batch, check_cancelled};
 use common::Random;
-use incircle::{Config, Device, DeviceFault, Error, ErrorKind, Options, Order, Point, Progress, Stage};
+use incircle::{Config, Device, DeviceFault, Error, ErrorKind, Options, Order, Point};
 use incircle_protocol::{FULL, SMALL};
 use mock::Mock;
 use proptest::prelude::*;
@@ -102,16 +100,7 @@ fn a_cancelled_batch_leaves_the_session_in_step() {
     let right = alone(&jobs);
     for mut device in [Device::cpu(None), Device::clock_model(SMALL).expect("possible")] {
         for patience in [0, 1, 200, 500] {
-            let listener = |progress: Progress| match progress {
-                Progress { stage: Stage::Insert, done, .. } if done >= patience => ControlFlow::Break(()),
-                _ => ControlFlow::Continue(()),
-            };
-            let options = Options { progress: Some(&listener), ..Options::default() };
-            let mut session = device.session().expect("a session");
-            let error = session.triangulate_batch(&jobs, &options).expect_err("cancelled");
-            assert_eq!(error.kind(), ErrorKind::Cancelled);
-            let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
-            assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()));
+            check_cancelled(&mut device, &jobs, &right, patience);
         }
     }
 }

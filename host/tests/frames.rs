@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use card::{MemoryCard, Mischief};
-use common::batches::{alone, bare, batch};
+use common::batches::{alone, bare, batch, check_cancelled};
 use common::Random;
 use incircle::order::BrioDc;
 use incircle::pcie::PcieTransport;
@@ -20,7 +20,7 @@ use incircle_model::stream::ModelCore;
 use incircle_protocol::{Config, FULL, SMALL};
 use mock::Mock;
 
-/// Frames of a device for 512 points or more and 5 contexts or fewer, with small jobs, jobs on a line and duplicates among them.
+/// Frames of a device for 512 points and 5 contexts, with small jobs, jobs on a line and duplicates among them.
 fn mixed(random: &mut Random, count: usize) -> Vec<Vec<Point>> {
     let job = |place: usize| {
         let points = 257 + random.below(250) as usize;
@@ -142,16 +142,7 @@ fn a_batch_of_frames_can_be_cancelled_anywhere() {
     ];
     for mut device in devices {
         for patience in [0, 300, total / 2, total - 1, total] {
-            let listener = |progress: Progress| match progress {
-                Progress { stage: Stage::Insert, done, .. } if done >= patience => ControlFlow::Break(()),
-                _ => ControlFlow::Continue(()),
-            };
-            let options = Options { progress: Some(&listener), ..Options::default() };
-            let mut session = device.session().expect("a session");
-            let error = session.triangulate_batch(&jobs, &options).expect_err("cancelled");
-            assert_eq!(error.kind(), ErrorKind::Cancelled);
-            let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("in step");
-            assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()));
+            check_cancelled(&mut device, &jobs, &right, patience);
         }
     }
 }
@@ -215,7 +206,7 @@ fn a_transfer_that_fails_once_costs_no_frame() {
 
 #[test]
 fn a_card_that_is_lost_ends_the_batch_with_the_job() {
-    let jobs: Vec<Vec<Point>> = (0..6).map(|_| Random(77).points(300, 1 << 16)).collect();
+    let jobs: Vec<Vec<Point>> = (0..6).map(|_| Random(77).points(400, 1 << 16)).collect();
     let options = Options { timeout: Some(Duration::from_secs(20)), ..Options::default() };
     // Four reads to a frame, behind that of the greeting. The one of this number may be the last that brings something, or bring nothing.
     for number in 1..24 {
@@ -241,7 +232,7 @@ fn a_card_that_is_lost_ends_the_batch_with_the_job() {
 #[test]
 fn lies_about_frames_end_in_typed_errors() {
     let mut random = Random(78);
-    let jobs: Vec<Vec<Point>> = (0..3).map(|_| random.points(110, 1 << 16)).collect();
+    let jobs: Vec<Vec<Point>> = (0..3).map(|_| random.points(270, 1 << 16)).collect();
     let right = alone(&jobs);
     let (mut faults, mut others) = (0, 0);
     for packs_records in [true, false] {
@@ -288,5 +279,6 @@ fn the_clocks_of_frames_are_all_there_are() {
     let alone = session.triangulate(&jobs[2]).expect("a mesh").report.counters.expect("counters");
     let with_others = meshes[2].report.counters.expect("counters");
     assert_eq!((alone.insertions, with_others.read_cycles), (with_others.insertions, 0));
-    assert_eq!(meshes[2].report.contexts, 16);
+    // As many as pay for so few points.
+    assert_eq!(meshes[2].report.contexts, 12);
 }

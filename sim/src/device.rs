@@ -22,7 +22,10 @@ const CORE: &str = "core_";
 pub struct SimDevice {
     model: Model,
     ports: Ports,
-    answers: VecDeque<u32>,
+    /// Words that have not been received, each with the clock that ended when it came.
+    answers: VecDeque<(u32, u64)>,
+    /// That of the word that was received last.
+    answer_clock: Option<u64>,
     /// The command word that the core is offered.
     offered: Option<u32>,
     /// The command word that the last [`SimDevice::send`] left offered. The core may have taken it since.
@@ -70,7 +73,8 @@ impl SimDevice {
         model.set(reset, 0);
         model.set(response_ready, 1);
         model.eval();
-        Ok(Self { model, ports, answers: VecDeque::new(), offered: None, left: None, clocks: u64::from(RESET_CLOCKS) })
+        let clocks = u64::from(RESET_CLOCKS);
+        Ok(Self { model, ports, answers: VecDeque::new(), answer_clock: None, offered: None, left: None, clocks })
     }
 
     /// Hands all `words` to the core, within `max_clocks` clocks.
@@ -117,14 +121,22 @@ impl SimDevice {
                 self.offer(None);
             }
         }
-        // There are enough, so every place is filled.
-        words.fill_with(|| self.answers.pop_front().unwrap_or(0));
+        let answers = self.answers.drain(..words.len());
+        for (place, (word, clock)) in words.iter_mut().zip(answers) {
+            *place = word;
+            self.answer_clock = Some(clock);
+        }
         self.keep_waveform()
     }
 
     /// Clocks since the device was made, reset included.
     pub fn clocks(&self) -> u64 {
         self.clocks
+    }
+
+    /// The clock, counted as [`SimDevice::clocks`] does, that ended when the word came that was received last. None before the first.
+    pub fn answer_clock(&self) -> Option<u64> {
+        self.answer_clock
     }
 
     /// Writes a VCD waveform of all signals from now on; dropping the device completes the file. Slows the
@@ -169,10 +181,10 @@ impl SimDevice {
     fn clock(&mut self) -> bool {
         let is_taken = self.offered.is_some() && self.model.get(self.ports.command_ready) != 0;
         if self.model.get(self.ports.response_valid) != 0 {
-            let words = self.model.get(self.ports.response_data);
-            self.answers.push_back(words as u32);
+            let (words, clock) = (self.model.get(self.ports.response_data), self.clocks + 1);
+            self.answers.push_back((words as u32, clock));
             if self.model.get(self.ports.response_both) != 0 {
-                self.answers.push_back((words >> 32) as u32);
+                self.answers.push_back(((words >> 32) as u32, clock));
             }
         }
         self.model.clock();

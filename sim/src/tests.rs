@@ -34,6 +34,28 @@ fn equal_words_in_a_row_are_as_many_words() {
 }
 
 #[test]
+fn every_word_has_the_clock_in_which_it_came() {
+    let mut device = echo();
+    assert_eq!(device.answer_clock(), None);
+    device.send(&[1, 2, 3], 100).unwrap();
+    // Words wait here and keep their clocks.
+    device.receive(&mut [0; 6], 100).unwrap();
+    let last = device.answer_clock().unwrap();
+    assert!(last <= device.clocks());
+    device.receive(&mut [0], 50).unwrap_err();
+    assert_eq!(device.answer_clock(), Some(last));
+    let mut clocks = Vec::new();
+    device.send(&[4, 5, 6], 100).unwrap();
+    device.receive(&mut [0; 2], 100).unwrap();
+    clocks.push(device.answer_clock().unwrap());
+    let after = device.clocks();
+    device.receive(&mut [0; 4], 100).unwrap();
+    clocks.push(device.answer_clock().unwrap());
+    assert!(last + 50 < clocks[0] && clocks[0] < clocks[1], "{last} {clocks:?}");
+    assert!(clocks[0] <= after && clocks[1] <= device.clocks(), "{clocks:?} {after}");
+}
+
+#[test]
 fn nothing_takes_no_time() {
     let mut device = echo();
     let before = device.clocks();

@@ -30,10 +30,6 @@ struct SimTransport {
 }
 
 impl Transport for SimTransport {
-    fn clocks(&self) -> Option<u64> {
-        Some(self.device.clocks())
-    }
-
     fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
         let wanted = words.len();
         let mut sent = 0;
@@ -58,6 +54,14 @@ impl Transport for SimTransport {
                 Err(error) => return Err(TransportError::Other(error.to_string())),
             }
         }
+    }
+
+    fn answer_clock(&self) -> Option<u64> {
+        self.device.answer_clock()
+    }
+
+    fn clocks(&self) -> Option<u64> {
+        Some(self.device.clocks())
     }
 
     fn takes_ahead(&self) -> bool {

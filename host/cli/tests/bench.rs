@@ -131,7 +131,7 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
     for row in &rows {
         let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
         let (points, cycles, ms) = (value(1), value(3), value(7));
-        // Groups of 16, 16 and 8 jobs.
+        // Groups of 14, 13 and 13 jobs.
         assert!(points > 7900.0 && cycles > 10.0 && cycles < 25.0, "{row:?}");
         assert!((cycles * points / 125e3 - ms).abs() < 0.01, "{row:?}");
         assert!((value(8) - 25.0 * ms).abs() < 0.1 && (value(9) - 8.0 * cycles).abs() < 0.1, "{row:?}");
@@ -161,6 +161,25 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
         assert_eq!((bench.get("mhz"), bench["sets"][0].get("cycles")), (None, None));
     }
     scratch.run("bench --batch 2 -n 2000 --backend clock --config small").fails(7, &["2000", "--config full"]);
+}
+
+/// As many as fit, but for jobs of 1,200 points, of which 6 would: those are frames.
+#[test]
+fn jobs_of_middle_size_go_side_by_side() {
+    let scratch = Scratch::new();
+    let measured = |jobs: u32, n: u32| {
+        let run = scratch.run(&format!("bench uniform --batch {jobs} -n {n} --backend clock --json")).ok();
+        serde_json::from_str::<Value>(&run.stdout).expect("an object")["sets"][0].clone()
+    };
+    let cycles = |set: &Value| set["cycles_per_point"].as_f64().expect("cycles are counted");
+    let [small, middle, large] = [(39, 520), (40, 1000), (10, 1200)].map(|(jobs, n)| measured(jobs, n));
+    assert!(cycles(&small) < 18.0 && cycles(&middle) < 24.0 && cycles(&large) < 28.0, "{small} {middle} {large}");
+    let is_frame = [&small, &middle, &large].map(|set| !set["longest_job_cycles"].is_null());
+    assert_eq!(is_frame, [false, false, true]);
+    let readme =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).expect("it is there");
+    let figure = format!("{:.1} cycles a point", cycles(&middle));
+    assert!(readme.contains(&figure), "README.md has no {figure}");
 }
 
 /// The figures of the README. Cycles are the same on every machine, so this is no test of time.

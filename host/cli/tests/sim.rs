@@ -77,6 +77,27 @@ fn the_clock_model_counts_what_the_core_counts() {
     }
 }
 
+/// The longest is told from the last word of the mesh before it to the last of its own; not where a group is among them.
+#[test]
+fn a_batch_and_its_longest_job_take_the_same_clocks() {
+    let scratch = Scratch::new();
+    for (config, n, jobs, has_group) in [("small", 900, 3, false), ("full", 2500, 2, false), ("full", 1000, 9, true)] {
+        let [sim, clock] = ["sim", "clock"].map(|backend| {
+            let options = format!("--backend {backend} --config {config} --seed 4 --json");
+            let run = scratch.run(&format!("bench uniform kuzmin --batch {jobs} -n {n} {options}")).ok();
+            serde_json::from_str::<Value>(&run.stdout).expect("an object")
+        });
+        for set in 0..2 {
+            let longest = sim["sets"][set]["longest_job_cycles"].as_u64();
+            assert_eq!(longest.filter(|&cycles| cycles > 15 * n).is_none(), has_group, "{sim}");
+            assert!(sim["sets"][set]["cycles"].as_u64() > Some(15 * n * jobs), "{sim}");
+            for key in ["longest_job_cycles", "cycles", "engine_cycles_per_point"] {
+                assert_eq!(sim["sets"][set][key], clock["sets"][set][key], "{config}, {key}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_report_says_the_bits_of_the_grid() {
     let scratch = Scratch::new();

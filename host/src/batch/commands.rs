@@ -41,7 +41,7 @@ impl Batch<'_> {
         for point in &points {
             insert.extend_from_slice(&layout.point_to_words(point.x, point.y)[..layout.point_words]);
         }
-        let clear = if group.is_frame { clear_word(self.contexts) } else { batch_word(group.jobs.len() as u32) };
+        let clear = if group.is_frame { clear_word(group.contexts) } else { batch_word(group.jobs.len() as u32) };
         let mut commands = vec![
             Command { opcode: Opcode::Clear, words: vec![clear], payload: 0 },
             Command { opcode: Opcode::Insert, words: insert, payload: INSERT_REPORT_WORDS },

@@ -112,7 +112,7 @@ impl Batch<'_> {
         let clock = self.link.answer_clock();
         let clocks =
             clock.zip(flight.clock).and_then(|(end, begin)| end.checked_sub(begin)).filter(|_| load.group.is_frame);
-        let contexts = if load.group.is_frame { self.contexts } else { 1 };
+        let contexts = load.group.contexts;
         let jobs = flight.loads.pop_front().map_or_else(Vec::new, |load| load.group.jobs);
         for (Ordered { job, prepared }, (triangles, hull)) in jobs.into_iter().zip(assembled) {
             let mut mesh = self.mesh(job, triangles, hull, prepared);

@@ -22,13 +22,21 @@ impl Ordered {
 /// Jobs that go to the device in one go: those that share its memory, the longest first, or a frame.
 pub(super) struct Group {
     pub(super) jobs: Vec<Ordered>,
-    /// It is one job that has the whole memory, and all contexts work on it.
+    /// Contexts that work on each of them: one, or more for a frame.
+    pub(super) contexts: u32,
+    /// It is one job that has the whole memory.
     pub(super) is_frame: bool,
 }
 
 impl Group {
-    pub(super) fn frame(job: Ordered) -> Self {
-        Self { jobs: vec![job], is_frame: true }
+    /// Jobs that share the memory, the longest first, each with a context of its own.
+    pub(super) fn sharing(jobs: Vec<Ordered>) -> Self {
+        Self { jobs, contexts: 1, is_frame: false }
+    }
+
+    /// A job that has the whole memory and so many contexts.
+    pub(super) fn frame(job: Ordered, contexts: u32) -> Self {
+        Self { jobs: vec![job], contexts, is_frame: true }
     }
 
     /// Where there is only one job: its place in the list of the caller.

@@ -1,6 +1,8 @@
 //! What tests of batches share.
 
-use incircle::{Device, Error, Mesh, Options, Point};
+use std::ops::ControlFlow;
+
+use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Progress, Stage};
 
 /// The mesh without its report.
 pub fn bare(mesh: Mesh) -> Mesh {
@@ -17,4 +19,18 @@ pub fn alone(jobs: &[Vec<Point>]) -> Vec<Mesh> {
 /// The meshes of a batch, without their reports.
 pub fn batch(device: &mut Device, jobs: &[Vec<Point>], options: &Options<'_>) -> Result<Vec<Mesh>, Error> {
     device.session()?.triangulate_batch(jobs, options).map(|meshes| meshes.into_iter().map(bare).collect())
+}
+
+/// A listener ends the batch as soon as it hears of so many points under way; the session stays in step and gives the right meshes.
+pub fn check_cancelled(device: &mut Device, jobs: &[Vec<Point>], right: &[Mesh], patience: usize) {
+    let listener = |progress: Progress| match progress {
+        Progress { stage: Stage::Insert, done, .. } if done >= patience => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    let options = Options { progress: Some(&listener), ..Options::default() };
+    let mut session = device.session().expect("a session");
+    let error = session.triangulate_batch(jobs, &options).expect_err("cancelled");
+    assert_eq!(error.kind(), ErrorKind::Cancelled, "{patience}: {error}");
+    let meshes = session.triangulate_batch(jobs, &Options::default()).expect("in step");
+    assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()), "{patience}");
 }
