@@ -83,7 +83,7 @@ fn triangles(points: &[Point], threads: usize) -> Vec<[u32; 3]> {
 #[test]
 fn threads_share_the_triangles_whatever_the_order_of_the_points() {
     let mut points: Vec<Point> =
-        (0..9000u64).map(|k| mix(k)).map(|random| Point::new(random as u32 >> 16, random as u32 & 0xffff)).collect();
+        (0..9000u64).map(mix).map(|random| Point::new(random as u32 >> 16, random as u32 & 0xffff)).collect();
     for _ in 0..3 {
         let expected = triangles(&points, 1);
         assert!(expected.is_sorted() && expected.iter().all(|t| t[0] < t[1] && t[0] < t[2]));
