@@ -73,7 +73,8 @@ struct BoardArguments {
     /// Configuration of the core, if not that of the board.
     #[arg(long, value_parser = config)]
     config: Option<Config>,
-    /// The clock in MHz and no other, or `largest`: the largest that is met. Default: the board's usual clock, or less if that is missed.
+    /// The clock in MHz and no other; `usual`: that of the board's table and no other; `largest`: the largest that is met. Default: the
+    /// board's usual clock, or less if that is missed.
     #[arg(long, value_name = "MHZ", value_parser = clock)]
     clock: Option<Clock>,
     /// Use yosys, nextpnr-ecp5 and ecppack from PATH, not the pinned ones.
@@ -108,11 +109,14 @@ fn beat_bits(number: &str) -> Result<u32, String> {
 }
 
 fn clock(text: &str) -> Result<Clock, String> {
-    if text == "largest" {
-        return Ok(Clock::Largest);
+    match text {
+        "usual" => Ok(Clock::Usual),
+        "largest" => Ok(Clock::Largest),
+        number => number
+            .parse()
+            .map(Clock::Exactly)
+            .map_err(|_| "a clock is a whole number of MHz, `usual` or `largest`".into()),
     }
-    let number = text.parse().map(Clock::Exactly);
-    number.map_err(|_| "a clock is a whole number of MHz, or `largest`".to_owned())
 }
 
 fn named_board(name: &str) -> Result<Board, String> {
@@ -159,7 +163,7 @@ fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(),
         board,
         config: arguments.config.unwrap_or(board.config),
         seeds: arguments.seeds,
-        clock: arguments.clock.unwrap_or(Clock::Usual),
+        clock: arguments.clock.unwrap_or(Clock::UsualOrLess),
         out,
         tools: match (arguments.system, arguments.system_yosys) {
             (true, _) => Origin::System,

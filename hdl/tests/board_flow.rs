@@ -73,6 +73,7 @@ fn a_clock_that_was_asked_for_and_is_missed_is_a_failure() {
 #[test]
 fn without_a_clock_a_lower_one_is_tried() {
     let fmax_mhz = Summary { min: 104.0, median: 111.0, max: 121.0 };
+    refusal(&build(&folder("usual"), &["--clock", "usual"], "104.0 111.0 121.0", ""));
     for (options, missed) in [(&[][..], 120), (&["--clock", "largest"], 150)] {
         let out = folder(&format!("lower-{missed}"));
         let output = build(&out, options, "104.0 111.0 121.0", "");
@@ -81,6 +82,10 @@ fn without_a_clock_a_lower_one_is_tried() {
         assert_eq!((report.clock_mhz, report.picked_seed), (110, Some(3)));
         assert_eq!(report.missed, [Attempt { clock_mhz: missed, fmax_mhz }]);
         assert!(out.join("colorlight-i5.bit").exists());
+        let placed = std::fs::read_to_string(out.join("work").join("placed.txt")).unwrap();
+        let expected =
+            [missed, 110].map(|clock| [1, 2, 3].map(|seed| format!("clock {clock}, seed {seed}\n")).concat());
+        assert_eq!(placed, expected.concat());
     }
 }
 
@@ -124,11 +129,11 @@ fn a_bitstream_of_an_earlier_run_does_not_outlive_a_failure() {
 #[test]
 fn a_clock_that_is_none_is_refused() {
     let out = folder("none");
-    let said = refusal(&build(&out, &["--clock", "149"], "130.0", ""));
-    assert!(
-        said.contains("the PLL of colorlight-i5 makes no clock of 149 MHz: choose a multiple of 5 from 50 to 150"),
-        "{said}"
-    );
+    for clock in ["149", "45", "400", "4295"] {
+        let said = refusal(&build(&out, &["--clock", clock], "130.0", ""));
+        let sentence = format!("colorlight-i5 has no clock of {clock} MHz: choose a multiple of 5 from 50 to 150");
+        assert!(said.contains(&sentence), "{said}");
+    }
     let unknown = build(&out, &["--clock", "fast"], "130.0", "");
     assert_eq!(unknown.status.code(), Some(2));
     assert!(!out.exists());

@@ -41,9 +41,16 @@ const JOBS_PER_LOOK: usize = 64;
 /// What becomes of the jobs: meshes without their points, in the order of the caller, and those that must go one by one.
 pub(crate) struct Done {
     pub(crate) meshes: Vec<Option<Mesh>>,
-    pub(crate) singles: Vec<usize>,
+    pub(crate) singles: Vec<Single>,
     /// Points of the jobs that have been begun or answered: what a listener hears is ahead by the jobs under way at most.
     pub(crate) passed: usize,
+}
+
+/// A job that goes alone.
+pub(crate) struct Single {
+    pub(crate) job: usize,
+    /// As [`Options::contexts`].
+    pub(crate) contexts: Option<u32>,
 }
 
 impl Done {
@@ -70,7 +77,7 @@ pub(crate) struct Batch<'b> {
 }
 
 impl Batch<'_> {
-    /// All jobs but those that must go one by one: large ones on a link that takes nothing ahead, very large
+    /// All jobs but those that must go one by one: those that share the memory with none on a link that takes nothing ahead, very large
     /// ones on any, and those with guides.
     pub(crate) fn run(mut self) -> Result<Done, Error> {
         let mut done = Done::nothing_of(self.jobs);
@@ -91,20 +98,24 @@ impl Batch<'_> {
         let (mut small, mut frames) = (Vec::new(), Vec::new());
         for (job, points) in self.jobs.iter().enumerate() {
             if self.wants_guides() {
-                done.singles.push(job);
+                done.singles.push(Single { job, contexts: self.options.contexts });
             } else if points.len() <= MAX_JOB_POINTS && plan.shares(points.len()) {
                 small.push(job);
             } else {
-                self.leave_alone(job, &mut frames, done);
+                self.leave_alone(plan, job, &mut frames, done);
             }
         }
         (small, frames)
     }
 
     /// A job that shares the memory with none: a frame if it can be sent ahead.
-    fn leave_alone(&self, job: usize, frames: &mut Vec<usize>, done: &mut Done) {
-        let is_frame = self.jobs[job].len() <= MAX_FRAME_POINTS && self.link.takes_ahead();
-        if is_frame { frames } else { &mut done.singles }.push(job);
+    fn leave_alone(&self, plan: &Plan, job: usize, frames: &mut Vec<usize>, done: &mut Done) {
+        let points = self.jobs[job].len();
+        if points <= MAX_FRAME_POINTS && self.link.takes_ahead() {
+            frames.push(job);
+        } else {
+            done.singles.push(Single { job, contexts: Some(plan.frame_contexts(points)) });
+        }
     }
 
     /// The order has guides, and the device takes them, but for one job at a time.
@@ -130,7 +141,11 @@ impl Batch<'_> {
             match part {
                 Part::Group(jobs) => groups.push(Group::sharing(rest.by_ref().take(jobs).collect())),
                 // Put in order once more, for several contexts, when its turn comes.
-                Part::Frame => rest.next().into_iter().for_each(|own| self.leave_alone(own.job, frames, done)),
+                Part::Frame => {
+                    if let Some(own) = rest.next() {
+                        self.leave_alone(plan, own.job, frames, done);
+                    }
+                }
             }
         }
         Ok(groups)

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use incircle_protocol::{command_word, Identity, InsertReport, Layout, Opcode};
 
 use crate::assemble::Assembly;
-use crate::batch::{on_threads, points_of, Batch, Done, PartListener};
+use crate::batch::{on_threads, points_of, Batch, Done, PartListener, Single};
 use crate::counters::Latencies;
 use crate::cpu::{CpuJob, CPU_NAME};
 use crate::error::Error;
@@ -76,7 +76,7 @@ impl<'d> Session<'d> {
     /// Triangulates many sets in one call: the mesh of each is that of [`Session::triangulate_with`], byte for byte but for its
     /// report: a job that a device does with others, or ahead of another, has no times, and counters only where it had the whole memory.
     ///
-    /// A device works on as many jobs side by side as it has contexts, each in its share of the memory; [`Options::contexts`] says how
+    /// A device works on several jobs side by side in one memory: as many as it has contexts, if so many fit; [`Options::contexts`] says how
     /// many at most. Jobs so large that only few fit, or that are left over, are done one by one, each with as many contexts as pay:
     /// whatever is expected to take the device the fewest clocks. Where the link takes words ahead, those of the next
     /// job are on their way, and the one behind it is put in order in a thread, while the device works on the last and its mesh is assembled:
@@ -118,10 +118,10 @@ impl<'d> Session<'d> {
             None => on_threads(jobs, contexts, options, limit)?,
             Some(link) => Batch { identity, contexts, limit, link, options, jobs }.run()?,
         };
-        for job in singles {
+        for Single { job, contexts } in singles {
             let part = PartListener::new(options, passed, total);
             let listener = |progress| part.hear(progress);
-            let options = Options { progress: Some(&listener), ..*options };
+            let options = Options { progress: Some(&listener), contexts, ..*options };
             meshes[job] = Some(self.triangulate_with(&jobs[job], &options).map_err(in_job(job))?);
             passed += jobs[job].len();
         }

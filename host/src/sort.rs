@@ -6,7 +6,7 @@ use bytemuck::Zeroable;
 
 /// Most bits of a radix digit: 2048 counters stay in the first-level cache.
 const DIGIT_BITS: u32 = 11;
-/// Most bits of a digit of few entries, so that counters are not more work than entries.
+/// Most bits of a digit of few entries: there are fewer counters to sum up.
 const SMALL_DIGIT_BITS: u32 = 8;
 /// Below this length digits are small.
 const FEW: usize = 4096;
@@ -114,7 +114,7 @@ fn sort_in_parts<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64, s
     }
 }
 
-/// Sorts by all digits in which the keys differ, lowest first, which are as small as so many can be. True if the result is in `scratch`.
+/// Sorts by all digits in which the keys differ, lowest first: all of one width, the least for their number. True if the result is in `scratch`.
 fn sort_by_digits<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64) -> bool {
     if varying == 0 {
         return false;
@@ -164,7 +164,7 @@ mod tests {
 
         #[test]
         fn sorts_stably_like_the_standard_library(
-            keys in prop::collection::vec(any::<u64>(), 0..3000),
+            keys in prop::collection::vec(any::<u64>(), 0..6000),
             mask in any::<u64>(),
         ) {
             let entries: Vec<Wide> =

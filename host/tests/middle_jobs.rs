@@ -156,3 +156,15 @@ proptest! {
         prop_assert!(batch(&mut device, &jobs, &options).expect("meshes") == alone(&jobs));
     }
 }
+
+#[test]
+fn a_job_left_over_has_as_many_contexts_as_pay_whether_it_is_sent_ahead_or_not() {
+    let jobs = jobs_of(&mut Random(84), &[20]);
+    let contexts = [true, false].map(|takes_ahead| {
+        let mut device = Mock::device(takes_ahead, true, (0, 0));
+        let mut session = device.session().expect("a session");
+        let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
+        meshes[0].report.contexts as usize
+    });
+    assert!(contexts[0] == contexts[1] && (1..CONTEXTS).contains(&contexts[0]), "{contexts:?}");
+}

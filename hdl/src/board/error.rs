@@ -60,10 +60,8 @@ pub enum BoardError {
         /// What is wrong with it.
         reason: String,
     },
-    /// A clock that the board's PLL cannot make.
-    #[error(
-        "the PLL of {board} makes no clock of {clock_mhz} MHz: choose a multiple of 5 from {least_mhz} to {most_mhz}"
-    )]
+    /// A clock that the board's PLL cannot make, or that is not tried.
+    #[error("{board} has no clock of {clock_mhz} MHz: choose a multiple of 5 from {least_mhz} to {most_mhz}")]
     Clock {
         /// The board.
         board: &'static str,

@@ -25,6 +25,8 @@ const REPORT: &str = "report.json";
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clock {
     /// The board's usual one, and lower ones while it is missed.
+    UsualOrLess,
+    /// The board's usual one, and no other.
     Usual,
     /// The largest the board may be asked for, and lower ones while it is missed.
     Largest,
@@ -121,9 +123,10 @@ fn bitstream(board: Board) -> String {
 fn clocks(request: &Request) -> Result<Vec<u32>, BoardError> {
     let board = request.board;
     match request.clock {
-        Clock::Usual => Ok(board.clocks(board.usual_mhz)),
+        Clock::UsualOrLess => Ok(board.clocks(board.usual_mhz)),
+        Clock::Usual => Ok(vec![board.usual_mhz]),
         Clock::Largest => Ok(board.clocks(board.most_mhz)),
-        Clock::Exactly(clock_mhz) if board.pll(clock_mhz).is_some() => Ok(vec![clock_mhz]),
+        Clock::Exactly(clock_mhz) if board.clocks(board.most_mhz).contains(&clock_mhz) => Ok(vec![clock_mhz]),
         Clock::Exactly(clock_mhz) => Err(BoardError::Clock {
             board: board.name,
             clock_mhz,
@@ -207,9 +210,10 @@ fn finish(
     placed: &Placed,
     missed: Vec<Attempt>,
 ) -> Result<Report, BoardError> {
+    let described = describe(request, placed, tools.versions(work)?);
     let picked_seed = placed.fastest().filter(|_| placed.is_met());
     let bitstream = picked_seed.map(|seed| pack(request, tools, work, seed)).transpose()?;
-    let report = Report { picked_seed, bitstream, missed, ..describe(request, placed, tools.versions(work)?) };
+    let report = Report { picked_seed, bitstream, missed, ..described };
     let file = request.out.join(REPORT);
     report.write(&file)?;
     if report.met {

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::Builder;
 
-use super::{points_of, Done, JOBS_PER_LOOK, MAX_JOB_POINTS};
+use super::{points_of, Done, Single, JOBS_PER_LOOK, MAX_JOB_POINTS};
 use crate::cpu::CpuJob;
 use crate::error::Error;
 use crate::link::Limit;
@@ -21,9 +21,8 @@ pub(crate) fn on_threads(
 ) -> Result<Done, Error> {
     let total = points_of(jobs);
     let mut done = Done::nothing_of(jobs);
-    let (small, large) = (0..jobs.len()).partition(|&job: &usize| jobs[job].len() <= MAX_JOB_POINTS);
-    done.singles = large;
-    let small: Vec<usize> = small;
+    let (small, large): (Vec<usize>, Vec<usize>) = (0..jobs.len()).partition(|&job| jobs[job].len() <= MAX_JOB_POINTS);
+    done.singles = large.into_iter().map(|job| Single { job, contexts: options.contexts }).collect();
     let order = options.order;
     for look in small.chunks(JOBS_PER_LOOK * threads as usize) {
         tell(options, Stage::Insert, done.passed, total)?;

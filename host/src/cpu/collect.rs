@@ -2,7 +2,7 @@
 //!
 //! The list is sorted by smallest corner, then by the second one. Each edge knows one triangle of which its end with the smaller id may be the
 //! smallest corner: the one to its left, seen from there. So a pass over the edges finds every triangle once, in the order of the curve. They are
-//! dealt to buckets of neighbouring ids, and each bucket is sorted while it is in the cache: nothing is ever fetched from all over the memory.
+//! dealt to buckets of neighbouring ids, and each bucket is sorted while it is in the cache: no list is walked in an order far from that of the curve or of the ids.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -13,7 +13,7 @@ use crate::pages::{self, shared};
 
 /// Marks the end of a half-edge that has the outside to its left.
 const GAP: u32 = 1 << 31;
-/// Ids of a bucket, as a power of two: with its triangles and their copy it stays in the second-level cache.
+/// Least ids of a bucket, as a power of two: with its triangles and their copy it stays in the second-level cache, up to four million points.
 const BUCKET_BITS: u32 = 11;
 /// Most buckets, as a power of two: so many places can be written to at a time.
 const MOST_BUCKETS_BITS: u32 = 11;
@@ -246,4 +246,28 @@ fn split<'a>(triangles: &'a mut [[u32; 3]], ends: &[usize], count: usize) -> Vec
             (own, std::mem::replace(&mut first, last)..last)
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::edges::HALVES;
+    use super::super::sites::{sort, Sites};
+    use super::super::{conquer, view::Narrow};
+    use super::*;
+    use crate::order::mix;
+    use crate::point::Point;
+
+    #[test]
+    fn a_stretch_may_have_more_triangles_than_expected() {
+        let points: Vec<Point> = (0..4000).map(mix).map(|k| Point::new(k as u32 & 0xffff, k as u32 >> 16)).collect();
+        let Sites { sites, ids, .. } = sort(&points, 1);
+        let mut halves = pages::zeros(HALVES * sites.len());
+        let whole = conquer::triangulate::<Narrow>(&sites, &mut halves, 1, &mut |_| true).expect("points");
+        let hull = hull(&mut halves, &ids, whole.leftmost());
+        let buckets = Buckets::of(points.len());
+        let found = [0, 8000].map(|expected| buckets.find(&halves, &halves, &ids, expected));
+        assert_eq!(found[0].triangles.len(), 2 * ids.len() - 2 - hull.len());
+        assert!(found[0].triangles == found[1].triangles && found[0].places == found[1].places);
+        assert_eq!(found[0].places.iter().sum::<u32>() as usize, found[0].triangles.len());
+    }
 }

@@ -6,10 +6,12 @@
 //! work of all merges is O(n) on even sets; there are at most `2 w` cuts above a point, so it is O(n w) on any.
 
 use std::ops::Range;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, PoisonError};
+use std::thread::Builder;
 
 use super::edges::{Edges, Half, HALVES};
 use super::merge::{Cut, Part};
+use super::parallel::lock;
 use super::view::{Site, Width};
 
 /// Most parts that wait at a time: one for each bit of both coordinates, and the one that comes.
@@ -130,16 +132,14 @@ fn conquer_all<W: Width>(
     };
     std::thread::scope(|scope| {
         for _ in 1..threads {
-            scope.spawn(|| work(&mut |_| true));
+            // What threads cannot be had for the others do.
+            if Builder::new().spawn_scoped(scope, || work(&mut |_| true)).is_err() {
+                break;
+            }
         }
         work(go_on);
     });
     parts.into_inner().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// A thread that panics ends the whole, so nobody sees what it left.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Triangulates a subtree on this thread.

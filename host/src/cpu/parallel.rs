@@ -1,17 +1,30 @@
 //! Work on several threads.
 
 use std::panic::resume_unwind;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::Builder;
 
-/// The results of all items, in their order, each worked out on a thread of its own; a single one on this.
-pub(super) fn in_parallel<T: Send, R: Send>(
-    items: impl ExactSizeIterator<Item = T>,
-    work: impl Fn(T) -> R + Sync,
-) -> Vec<R> {
-    if items.len() < 2 {
-        return items.map(work).collect();
-    }
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = items.map(|item| scope.spawn(|| work(item))).collect();
-        workers.into_iter().map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
-    })
+/// The results of all items, in their order, worked out on as many threads as there are items, this one among them. What threads cannot be had
+/// for the others do.
+pub(super) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let tasks: Vec<(usize, T)> = items.enumerate().collect();
+    let threads = tasks.len();
+    let tasks = Mutex::new(tasks);
+    let next = || lock(&tasks).pop();
+    let work = || std::iter::from_fn(next).map(|(place, item)| (place, work(item))).collect::<Vec<_>>();
+    let mut results = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map_while(|_| Builder::new().spawn_scoped(scope, work).ok()).collect();
+        let mut results = work();
+        for other in others {
+            results.extend(other.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        }
+        results
+    });
+    results.sort_unstable_by_key(|(place, _)| *place);
+    results.into_iter().map(|(_, result)| result).collect()
+}
+
+/// A thread that panics ends the whole, so nobody sees what it left.
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

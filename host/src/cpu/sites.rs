@@ -3,6 +3,7 @@
 use super::parallel::in_parallel;
 use super::view::Site;
 use crate::mesh::Duplicate;
+use crate::order::mix;
 use crate::pages;
 use crate::point::Point;
 use crate::sort::{sort_by_key, Entry as _, Keyed as _, Narrow};
@@ -158,8 +159,11 @@ fn deal(points: &[Point], window: Window, threads: usize) -> Vec<Vec<Narrow>> {
 
 /// The first keys of all ranges but the first, which hold about as many points each.
 fn bounds(points: &[Point], window: Window, count: usize) -> Vec<u32> {
+    let stride = points.len() / SAMPLE + 1;
+    // Not evenly: rows of a lattice may be as long as a stride.
+    let from_stride = |(place, own): (u64, &[Point])| own.get((mix(place) % stride as u64) as usize).copied();
     let mut sample: Vec<u32> =
-        points.iter().step_by(points.len() / SAMPLE + 1).map(|&point| window.key(point)).collect();
+        (0..).zip(points.chunks(stride)).filter_map(from_stride).map(|point| window.key(point)).collect();
     sample.sort_unstable();
     (1..count).filter_map(|k| sample.get(k * sample.len() / count).copied()).collect()
 }

@@ -38,7 +38,7 @@ pub enum Distribution {
     Clusters,
     /// On a parabola
     Parabola,
-    /// The same, with the vertex where a Hilbert curve ends: the worst order there is
+    /// The same, with the vertex where a Hilbert curve ends
     ParabolaInward,
     /// Two convex chains that face each other
     TwoChains,

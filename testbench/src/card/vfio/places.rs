@@ -56,9 +56,9 @@ pub fn find(client: &mut Client) -> Result<Places, DriverError> {
     if (vendor, device) != (VENDOR, DEVICE) {
         return Err(DriverError::Other { vendor, device });
     }
+    let bars: Vec<(u32, u64)> = (0..=VFIO_PCI_BAR5_REGION_INDEX).map(|bar| (bar, bar_size(client, bar))).collect();
     // The windows answer from now on.
     write_config(client, config::COMMAND as u64, config::COMMAND_MEMORY.into());
-    let bars: Vec<(u32, u64)> = (0..=VFIO_PCI_BAR5_REGION_INDEX).map(|bar| (bar, bar_size(client, bar))).collect();
     let has_bridge = |client: &mut Client, bar, size| {
         size > u64::from(block::PENDING) && BLOCKS.iter().all(|&(at, who)| read(client, bar, at.into()) >> 16 == who)
     };
