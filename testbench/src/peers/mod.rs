@@ -13,6 +13,7 @@ use std::io::Write;
 
 use clap::Parser;
 use incircle::Point;
+use incircle_cli::generate::SplitMix64;
 
 use contestant::{Contestant, Run};
 pub use points::Set;
@@ -124,9 +125,11 @@ fn measure(
     };
     for repetition in 0..arguments.repetitions.unwrap_or(usual).max(1) {
         let points: Vec<Point> = set.points(n, arguments.bits, arguments.seed + repetition as u64)?;
-        // Each is the first of a repetition in turn.
-        for turn in 0..contestants.len() {
-            let place = (turn + repetition) % contestants.len();
+        // By chance: whoever always came after a program that has just given its memory back would wait for the system each time.
+        let mut random = SplitMix64::new(arguments.seed + repetition as u64);
+        let mut turns: Vec<usize> = (0..contestants.len()).collect();
+        turns.sort_by_cached_key(|_| random.next_u64());
+        for place in turns {
             let run = contestants[place].run(&points)?;
             outcome.points = points.len();
             if place == 0 {
