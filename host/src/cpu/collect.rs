@@ -44,12 +44,14 @@ pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: us
     let buckets = Buckets::of(points);
     let stretch = (halves.len() / 2).div_ceil(threads).max(1) * 2;
     let mut found = in_parallel(halves.chunks(stretch), |own| buckets.find(&halves, own, ids, count / threads));
-    drop(halves);
     let ends = buckets.give_places(&mut found);
-    let mut triangles: Vec<[u32; 3]> = pages::zeros(count);
+    // They take the room of the half-edges, which the system has given already.
+    let mut triangles: Vec<[u32; 3]> = bytemuck::cast_vec(halves);
+    triangles.truncate(count);
     let corners = shared(triangles.as_flattened_mut());
     in_parallel(found.into_iter(), |found| found.deal(buckets, corners));
     in_parallel(split(&mut triangles, &ends, threads).into_iter(), |own| buckets.sort(own, &ends));
+    triangles.shrink_to_fit();
     triangles
 }
 

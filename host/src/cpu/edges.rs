@@ -4,7 +4,7 @@
 //! `previous` the next one clockwise. `n` points never have more than `3 n` edges, so vertex `v` brings the six half-edges from `6 v`
 //! on: a part of the plane owns a stretch of the list, nothing is allocated, and neighbours in the plane are neighbours in memory.
 
-use bytemuck::Zeroable;
+use bytemuck::{Pod, Zeroable};
 
 use super::view::Site;
 
@@ -18,7 +18,8 @@ const NONE: u32 = u32::MAX;
 const UNUSED: u32 = u32::MAX;
 
 /// One half of an edge.
-#[derive(Clone, Copy, Zeroable)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
 pub(super) struct Half {
     /// The next half-edge of this origin, counter-clockwise; of an unused pair, the next unused pair.
     pub(super) next: u32,
