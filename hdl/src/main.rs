@@ -4,6 +4,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use incircle_hdl::board::{self, Board, BoardError, Clock, Origin, Report, Request, BOARDS};
 use incircle_hdl::committed::{self, Top};
 use incircle_protocol::{Config, LinkConfig, BEAT_BITS, NAMED, SILENCE_MS};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -136,7 +137,8 @@ fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
         return committed::write(config, top, probe, out);
     }
     for file in committed::renew()? {
-        println!("{}", file.display());
+        print(&file.display().to_string())
+            .map_err(|error| committed::WriteError::File("standard output".into(), error))?;
     }
     Ok(())
 }
@@ -158,7 +160,7 @@ fn boards(arguments: &BoardArguments) -> Vec<BoardError> {
 }
 
 fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(), BoardError> {
-    let say = |what: &str| eprintln!("{}: {what}", board.name);
+    let say = |what: &str| complain(&format!("{}: {what}", board.name));
     let request = Request {
         board,
         config: arguments.config.unwrap_or(board.config),
@@ -178,9 +180,23 @@ fn one_board(arguments: &BoardArguments, board: Board, out: &Path) -> Result<(),
     }
     let report = built?;
     if let Some(bitstream) = report.bitstream {
-        println!("{}: {} MHz, {}", out.join(bitstream.file).display(), report.clock_mhz, bitstream.sha256);
+        let line = format!("{}: {} MHz, {}", out.join(bitstream.file).display(), report.clock_mhz, bitstream.sha256);
+        print(&line).map_err(BoardError::Print)?;
     }
     Ok(())
+}
+
+/// Prints a line; a reader that has seen enough is no error.
+fn print(line: &str) -> std::io::Result<()> {
+    match writeln!(std::io::stdout(), "{line}") {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
+}
+
+/// Says a line on standard error. Where that is gone nobody can be told.
+fn complain(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// Exit code if the tools cannot be fetched, so that a script can tell that from a fault.
@@ -191,14 +207,14 @@ fn main() -> ExitCode {
         Command::Export(arguments) => match export(arguments) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => {
-                eprintln!("incircle-hdl: {error}");
+                complain(&format!("incircle-hdl: {error}"));
                 ExitCode::FAILURE
             }
         },
         Command::Board(arguments) => {
             let errors = boards(&arguments);
             for error in &errors {
-                eprintln!("incircle-hdl: {error}");
+                complain(&format!("incircle-hdl: {error}"));
             }
             match errors.first() {
                 None => ExitCode::SUCCESS,

@@ -82,10 +82,11 @@ fn without_a_clock_a_lower_one_is_tried() {
         assert_eq!((report.clock_mhz, report.picked_seed), (110, Some(3)));
         assert_eq!(report.missed, [Attempt { clock_mhz: missed, fmax_mhz }]);
         assert!(out.join("colorlight-i5.bit").exists());
-        let placed = std::fs::read_to_string(out.join("work").join("placed.txt")).unwrap();
-        let expected =
-            [missed, 110].map(|clock| [1, 2, 3].map(|seed| format!("clock {clock}, seed {seed}\n")).concat());
-        assert_eq!(placed, expected.concat());
+        for clock in [missed, 110] {
+            let placed = out.join("work").join(format!("{clock}-mhz")).join("placed.txt");
+            let expected = [1, 2, 3].map(|seed| format!("clock {clock}, seed {seed}\n"));
+            assert_eq!(std::fs::read_to_string(placed).unwrap(), expected.concat());
+        }
     }
 }
 
@@ -106,6 +107,10 @@ fn whatever_a_tool_does_wrong_ends_without_a_bitstream() {
         ("placer-fails", "nextpnr-ecp5 ends with exit status: 1"),
         ("wrong-clock", "the clock is to be 120 MHz, and is 125 MHz"),
         ("packer-fails", "ecppack ends with exit status: 1"),
+        ("packs-nothing", "it is empty"),
+        ("places-nothing", "ecppack ends with exit status: 1"),
+        ("no-measurement", "which is no measurement"),
+        ("more-than-there-is", "it does not say what is used"),
     ];
     for (fault, sentence) in faults {
         let out = folder(fault);
@@ -124,6 +129,47 @@ fn a_bitstream_of_an_earlier_run_does_not_outlive_a_failure() {
     assert!(build(&out, &["--seeds", "1"], "130.0", "").status.success());
     refusal(&build(&out, &["--seeds", "1"], "130.0", "packer-fails"));
     assert!(!out.join("report.json").exists() && !out.join("colorlight-i5.bit").exists());
+}
+
+#[test]
+fn a_folder_of_somebody_else_is_left_alone() {
+    let out = folder("foreign");
+    std::fs::create_dir_all(out.join("work")).unwrap();
+    std::fs::write(out.join("work").join("thesis.tex"), "years").unwrap();
+    let said = refusal(&build(&out, &["--seeds", "1"], "130.0", ""));
+    assert!(said.contains("work is not of this command, which would empty it"), "{said}");
+    assert_eq!(std::fs::read_to_string(out.join("work").join("thesis.tex")).unwrap(), "years");
+}
+
+#[test]
+fn two_runs_do_not_share_a_folder() {
+    let out = folder("shared");
+    assert!(build(&out, &["--seeds", "1"], "130.0", "").status.success());
+    let lock = std::fs::File::open(out.join("work").join(".incircle-board")).unwrap();
+    lock.lock().unwrap();
+    let said = refusal(&build(&out, &["--seeds", "1"], "130.0", ""));
+    assert!(said.contains("another run works in "), "{said}");
+    assert!(report(&out).met && out.join("colorlight-i5.bit").exists());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_is_no_plain_file_is_written_to_as_it_is() {
+    let out = folder("export");
+    std::fs::create_dir_all(&out).unwrap();
+    std::os::unix::fs::symlink("target.v", out.join("link.v")).unwrap();
+    std::fs::write(out.join("target.v"), "old").unwrap();
+    let export = |path: &Path| {
+        let arguments = ["export", "--config", "tiny", "--out"];
+        Command::new(env!("CARGO_BIN_EXE_incircle-hdl")).args(arguments).arg(path).output().unwrap()
+    };
+    assert!(export(&out.join("link.v")).status.success());
+    assert!(out.join("link.v").is_symlink());
+    assert!(std::fs::read_to_string(out.join("target.v")).unwrap().starts_with("// incircle core"));
+    assert!(export(Path::new("/dev/null")).status.success() && !Path::new("/dev/null").is_file());
+    let full = export(Path::new("/dev/full"));
+    assert!(!Path::new("/dev/full").is_file());
+    assert!(refusal(&full).contains("cannot write /dev/full"), "{full:?}");
 }
 
 #[test]

@@ -52,6 +52,15 @@ pub enum BoardError {
         /// The warnings.
         warnings: String,
     },
+    /// The result cannot be printed.
+    #[error("cannot write to standard output: {0}")]
+    Print(std::io::Error),
+    /// A folder that the command would empty, and did not make.
+    #[error("{} is not of this command, which would empty it: choose another folder for --out", .0.display())]
+    Foreign(PathBuf),
+    /// Two runs at once.
+    #[error("another run works in {}: wait for it, or choose another folder for --out", .0.display())]
+    Busy(PathBuf),
     /// A file of a tool, or of the repository, is not in the form known.
     #[error("{} cannot be understood: {reason}", path.display())]
     Form {
@@ -74,7 +83,8 @@ pub enum BoardError {
     },
     /// No clock asked for is met.
     #[error(
-        "{board} does not meet {clock_mhz} MHz: the median of {seeds} seeds reaches {median_mhz:.1} MHz; {} says more, and {}",
+        "{board} does not meet {clock_mhz} MHz: the median of {seeds} seeds reaches {:.1} MHz; {} says more, and {}",
+        (10.0 * median_mhz).floor() / 10.0,
         report.display(),
         within_reach(*possible_mhz)
     )]

@@ -7,6 +7,7 @@ use super::mapping::{mapping, placer, FLOORPLAN};
 use super::readings;
 use super::report::dividers;
 use super::tools::{run_strictly, Origin, Tools};
+use super::workshop;
 use super::{
     constraints, date, Attempt, Bitstream, Board, BoardError, Cells, Parts, Report, Seed, Serial, Summary, Versions,
 };
@@ -79,8 +80,10 @@ impl Placed {
 /// A tool fails or warns, or no clock asked for is met; then the report is there all the same.
 pub fn build(request: &Request) -> Result<Report, BoardError> {
     let clocks = clocks(request)?;
-    let work = emptied(request)?;
+    let (work, _lock) = workshop::take(request.out)?;
     let tools = Tools::find(request.tools, request.say)?;
+    let versions = tools.versions(&work)?;
+    forget_earlier(request)?;
     let mut missed = Vec::new();
     let mut rest = clocks.as_slice();
     loop {
@@ -88,30 +91,28 @@ pub fn build(request: &Request) -> Result<Report, BoardError> {
             // The list of clocks is never empty, and the loop ends with its last.
             return Err(BoardError::form(&work, "no clock is left to try"));
         };
+        // A folder for each clock: what a tool leaves out is missing then, and not of the clock before.
+        let work = work.join(format!("{clock_mhz}-mhz"));
+        std::fs::create_dir(&work).map_err(BoardError::file(&work))?;
         let placed = place(request, &tools, &work, *clock_mhz)?;
         let median = placed.summary().median;
         let within_reach = lower.partition_point(|&clock| f64::from(clock) > median);
         rest = lower.get(within_reach..).unwrap_or_default();
         if placed.is_met() || rest.is_empty() {
-            return finish(request, &tools, &work, &placed, missed);
+            return finish(request, &tools, &work, describe(request, &placed, versions), missed, &placed);
         }
         missed.push(Attempt { clock_mhz: placed.clock_mhz, fmax_mhz: placed.summary() });
     }
 }
 
-/// The folder for what the tools say, empty. Nothing of an earlier run stays: nobody shall flash it for this one.
-fn emptied(request: &Request) -> Result<PathBuf, BoardError> {
-    let work = request.out.join("work");
-    if work.exists() {
-        std::fs::remove_dir_all(&work).map_err(BoardError::file(&work))?;
-    }
+/// Nothing of an earlier run stays: nobody shall flash it for this one.
+fn forget_earlier(request: &Request) -> Result<(), BoardError> {
     for file in [request.out.join(REPORT), request.out.join(bitstream(request.board))] {
         if file.exists() {
             std::fs::remove_file(&file).map_err(BoardError::file(&file))?;
         }
     }
-    std::fs::create_dir_all(&work).map_err(BoardError::file(&work))?;
-    Ok(work)
+    Ok(())
 }
 
 /// Name of the bitstream's file.
@@ -207,15 +208,19 @@ fn finish(
     request: &Request,
     tools: &Tools,
     work: &Path,
-    placed: &Placed,
+    described: Report,
     missed: Vec<Attempt>,
+    placed: &Placed,
 ) -> Result<Report, BoardError> {
-    let described = describe(request, placed, tools.versions(work)?);
     let picked_seed = placed.fastest().filter(|_| placed.is_met());
     let bitstream = picked_seed.map(|seed| pack(request, tools, work, seed)).transpose()?;
     let report = Report { picked_seed, bitstream, missed, ..described };
     let file = request.out.join(REPORT);
-    report.write(&file)?;
+    if let Err(error) = report.write(&file) {
+        // A bitstream without its report is none; that it cannot be removed changes nothing.
+        let _ = forget_earlier(request);
+        return Err(error);
+    }
     if report.met {
         return Ok(report);
     }
@@ -272,8 +277,10 @@ fn pack(request: &Request, tools: &Tools, work: &Path, seed: u32) -> Result<Bits
     run_strictly(&tools.ecppack, &["--compress", "--input", &config, "--bit", &file], work, "pack.log")?;
     let packed: PathBuf = work.join(&file);
     let bytes = std::fs::read(&packed).map_err(BoardError::file(&packed))?;
-    let to = request.out.join(&file);
-    std::fs::copy(&packed, &to).map_err(BoardError::file(to))?;
+    if bytes.is_empty() {
+        return Err(BoardError::form(&packed, "it is empty"));
+    }
+    workshop::replace(&request.out.join(&file), &bytes)?;
     let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     Ok(Bitstream { file, bytes: bytes.len() as u64, sha256 })
 }

@@ -13,6 +13,7 @@ mod readings;
 mod report;
 mod table;
 mod tools;
+mod workshop;
 
 pub use error::BoardError;
 pub use flow::{build, Clock, Request};

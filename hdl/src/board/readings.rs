@@ -4,6 +4,9 @@ use super::{BoardError, Cells};
 use serde_json::Value;
 use std::path::Path;
 
+/// No device has such a clock.
+const MOST_MHZ: f64 = 1e5;
+
 /// Cells that are counted after synthesis.
 pub(super) const COUNTED: [&str; 6] = ["LUT4", "CCU2C", "TRELLIS_DPR16X4", "TRELLIS_FF", "MULT18X18D", "DP16KD"];
 
@@ -15,8 +18,9 @@ pub(super) fn counts(path: &Path) -> Result<(Cells, Cells), BoardError> {
 
 /// For each of [`COUNTED`] a line with all, and one with those of the core.
 fn counts_of(text: &str) -> Result<(Cells, Cells), String> {
-    let counts: Vec<u64> =
-        text.lines().filter_map(|line| line.strip_suffix(" objects.")?.trim().parse().ok()).collect();
+    // No device has as many cells as 32 bits count.
+    let count = |line: &str| line.strip_suffix(" objects.")?.trim().parse::<u32>().ok();
+    let counts: Vec<u64> = text.lines().filter_map(count).map(u64::from).collect();
     let [luts, core_luts, carries, core_carries, memories, core_memories, ffs, core_ffs, dsps, core_dsps, ebrs, core_ebrs] =
         counts[..]
     else {
@@ -25,7 +29,11 @@ fn counts_of(text: &str) -> Result<(Cells, Cells), String> {
     // A carry cell has two tables, a distributed memory keeps its bits in two.
     let lut = |luts: u64, carries: u64, memories: u64| luts + 2 * carries + 2 * memories;
     let core = Cells { lut: lut(core_luts, core_carries, core_memories), ff: core_ffs, dsp: core_dsps, ebr: core_ebrs };
-    Ok((core, Cells { lut: lut(luts, carries, memories), ff: ffs, dsp: dsps, ebr: ebrs }))
+    let all = Cells { lut: lut(luts, carries, memories), ff: ffs, dsp: dsps, ebr: ebrs };
+    if !core.is_within(all) {
+        return Err(format!("the core has more cells than there are: {core:?}, {all:?}"));
+    }
+    Ok((core, all))
 }
 
 fn json(path: &Path) -> Result<Value, BoardError> {
@@ -51,7 +59,11 @@ fn fmax_of(report: &Value, clock_mhz: u32) -> Result<f64, String> {
     if (constraint / f64::from(clock_mhz) - 1.0).abs() > 1e-3 {
         return Err(format!("the clock is to be {clock_mhz} MHz, and is {constraint} MHz"));
     }
-    number("achieved").ok_or_else(|| "its clock has no achieved frequency".into())
+    let achieved = number("achieved").ok_or("its clock has no achieved frequency")?;
+    if !(achieved > 0.0 && achieved < MOST_MHZ) {
+        return Err(format!("its clock achieves {achieved:e} MHz, which is no measurement"));
+    }
+    Ok(achieved)
 }
 
 /// Cells after placement, and those of the device.
@@ -69,7 +81,7 @@ fn cells_of(report: &Value) -> Option<(Cells, Cells)> {
             ebr: count("DP16KD")?,
         })
     };
-    cells("used").zip(cells("available"))
+    cells("used").zip(cells("available")).filter(|(used, available)| used.is_within(*available))
 }
 
 #[cfg(test)]

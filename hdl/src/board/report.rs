@@ -144,6 +144,13 @@ impl Summary {
     }
 }
 
+impl Cells {
+    /// There are as many of each kind.
+    pub(super) fn is_within(self, all: Self) -> bool {
+        self.lut <= all.lut && self.ff <= all.ff && self.dsp <= all.dsp && self.ebr <= all.ebr
+    }
+}
+
 impl Report {
     /// The report in a file.
     ///
@@ -160,7 +167,7 @@ impl Report {
     /// It cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), BoardError> {
         let text = serde_json::to_string_pretty(self).map_err(|error| BoardError::form(path, error))?;
-        std::fs::write(path, text + "\n").map_err(BoardError::file(path))
+        super::workshop::replace(path, (text + "\n").as_bytes())
     }
 }
 

@@ -1,0 +1,53 @@
+//! The folder in which the tools work, and files that are there whole or not at all.
+
+use super::BoardError;
+use std::fs::{File, TryLockError};
+use std::path::{Path, PathBuf};
+
+/// What shows that a folder is of this command: whoever has one of this name and without it loses nothing.
+const MARK: &str = ".incircle-board";
+
+/// The folder `work`, emptied, which no other run has until the file is closed.
+///
+/// # Errors
+/// There is one that is not of this command, or another run works in it, or it cannot be made.
+pub(super) fn take(out: &Path) -> Result<(PathBuf, File), BoardError> {
+    let work = out.join("work");
+    let mark = work.join(MARK);
+    if work.exists() && !mark.exists() {
+        return Err(BoardError::Foreign(work));
+    }
+    std::fs::create_dir_all(&work).map_err(BoardError::file(&work))?;
+    let lock = File::create(&mark).map_err(BoardError::file(&mark))?;
+    match lock.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => return Err(BoardError::Busy(work)),
+        Err(TryLockError::Error(source)) => return Err(BoardError::file(mark)(source)),
+    }
+    for entry in std::fs::read_dir(&work).map_err(BoardError::file(&work))? {
+        let entry = entry.map_err(BoardError::file(&work))?;
+        let path = entry.path();
+        if path == mark {
+            continue;
+        }
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        let removed = if is_folder { std::fs::remove_dir_all(&path) } else { std::fs::remove_file(&path) };
+        removed.map_err(BoardError::file(path))?;
+    }
+    Ok((work, lock))
+}
+
+/// Puts a file there in one step, in place of the one that is there.
+///
+/// # Errors
+/// It cannot be written; then nothing of it stays.
+pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), BoardError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let beside = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
+    let written = std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path));
+    written.map_err(|source| {
+        // That it cannot be removed either changes nothing for the user.
+        let _ = std::fs::remove_file(&beside);
+        BoardError::file(path)(source)
+    })
+}
