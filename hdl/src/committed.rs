@@ -1,6 +1,7 @@
 //! The Verilog files that the repository holds, so that the core can be synthesised without Rust.
 
 use crate::export::{self, ExportError};
+use crate::files::replace;
 use incircle_protocol::{Config, LinkConfig, FULL, SMALL};
 use std::fmt;
 use std::io::{self, Write};
@@ -108,17 +109,4 @@ pub fn write(config: Config, top: Top, with_probe: bool, path: Option<PathBuf>) 
         }
         Some(path) => replace(&path, text.as_bytes()).map_err(|error| WriteError::File(path, error)),
     }
-}
-
-/// Writes a file in one step. What is no plain file, a device or a pipe, is written to as it is; a link stays, and leads to what is written.
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let path = &path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    if path.metadata().is_ok_and(|data| !data.is_file()) {
-        return std::fs::OpenOptions::new().write(true).open(path)?.write_all(bytes);
-    }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let beside = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
-    let written = std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path));
-    // Nothing half-written stays; that the removal may fail too changes nothing for the user.
-    written.inspect_err(|_| _ = std::fs::remove_file(&beside))
 }

@@ -4,6 +4,7 @@ pub mod board;
 pub mod committed;
 pub mod engine;
 pub mod export;
+mod files;
 pub mod leaf;
 pub mod link;
 pub mod mesh;

@@ -3,7 +3,6 @@
 //! Lists are read and written all over, in the order of the input along the curve and back. In pages of 4 kB nearly every such access
 //! first has to find its page; in pages of 2 MB the processor knows them all, and the system hands out far fewer.
 
-use std::alloc::{handle_alloc_error, Layout};
 use std::sync::atomic::AtomicU32;
 
 use bytemuck::Zeroable;
@@ -23,8 +22,10 @@ pub(crate) fn with_room<T>(count: usize) -> Vec<T> {
 /// A list of so many zeros, which the system gives as they are needed: to whichever thread needs them first.
 pub(crate) fn zeros<T: Zeroable>(count: usize) -> Vec<T> {
     let list = bytemuck::try_zeroed_vec(count).unwrap_or_else(|()| {
-        Layout::array::<T>(count)
-            .map_or_else(|_| panic!("{count} items are no list"), |layout| handle_alloc_error(layout))
+        // There is no memory, and the standard library says so in its own way.
+        let mut list = Vec::with_capacity(count);
+        list.resize_with(count, T::zeroed);
+        list
     });
     if size_of::<T>() * count >= LARGE {
         advise(&list);

@@ -1,8 +1,8 @@
 //! Stable radix sort of keyed entries.
 
-use crate::pages;
-
 use bytemuck::Zeroable;
+
+use crate::pages;
 
 /// Most bits of a radix digit: 2048 counters stay in the first-level cache.
 const DIGIT_BITS: u32 = 11;

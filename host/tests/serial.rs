@@ -31,6 +31,12 @@ fn triangulate(rig: Rig, points: &[Point]) -> Result<Mesh, Error> {
     session.triangulate(points)
 }
 
+/// A whole job, which must end in this list of triangles; `what` says of which one that was not so.
+fn ends_right(rig: Rig, points: &[Point], expected: &[[u32; 3]], what: &str) {
+    let mesh = triangulate(rig, points).unwrap_or_else(|error| panic!("{what}: {error}"));
+    assert_eq!(mesh.triangles, expected, "{what}");
+}
+
 fn expected(points: &[Point]) -> Mesh {
     incircle::triangulate(points).expect("the model")
 }
@@ -107,9 +113,7 @@ fn a_fault_of_any_frame_leaves_no_trace() {
                 let mut rig = rig();
                 rig.faults =
                     Box::new(move |to_host, frame| if to_host == way && frame == place { fate } else { Fate::Passes });
-                let mesh = triangulate(rig, &points);
-                let mesh = mesh.unwrap_or_else(|error| panic!("{fate:?} {way} {place}: {error}"));
-                assert_eq!(mesh.triangles, expected, "{fate:?} {way} {place}");
+                ends_right(rig, &points, &expected, &format!("{fate:?} {way} {place}"));
             }
         }
     }
@@ -124,8 +128,7 @@ fn a_lost_frame_goes_again_also_where_answers_come_sooner_than_the_rate_allows()
         let mut rig = rig();
         (rig.is_instant, rig.delay) = (true, Duration::ZERO);
         rig.faults = Box::new(move |to_host, frame| if !to_host && frame == place { Fate::Lost } else { Fate::Passes });
-        let mesh = triangulate(rig, &points).unwrap_or_else(|error| panic!("{place}: {error}"));
-        assert_eq!(mesh.triangles, expected, "{place}");
+        ends_right(rig, &points, &expected, &format!("frame {place}"));
     }
 }
 
@@ -144,8 +147,7 @@ fn many_faults_leave_no_trace_either() {
             3 => Fate::Overtaken,
             _ => Fate::Passes,
         });
-        let mesh = triangulate(rig, &points).unwrap_or_else(|error| panic!("{seed}: {error}"));
-        assert_eq!(mesh.triangles, expected, "{seed}");
+        ends_right(rig, &points, &expected, &format!("seed {seed}"));
     }
 }
 

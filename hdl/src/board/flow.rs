@@ -12,6 +12,7 @@ use super::{
     constraints, date, Attempt, Bitstream, Board, BoardError, Cells, Parts, Report, Seed, Serial, Summary, Versions,
 };
 use crate::export;
+use crate::files::replace;
 use incircle_protocol::Config;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -280,7 +281,8 @@ fn pack(request: &Request, tools: &Tools, work: &Path, seed: u32) -> Result<Bits
     if bytes.is_empty() {
         return Err(BoardError::form(&packed, "it is empty"));
     }
-    workshop::replace(&request.out.join(&file), &bytes)?;
+    let to = request.out.join(&file);
+    replace(&to, &bytes).map_err(BoardError::file(&to))?;
     let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     Ok(Bitstream { file, bytes: bytes.len() as u64, sha256 })
 }

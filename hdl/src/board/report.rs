@@ -1,6 +1,7 @@
 //! What is said of a board after place and route, as JSON.
 
 use super::{BoardError, Pll};
+use crate::files::replace;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -167,7 +168,7 @@ impl Report {
     /// It cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), BoardError> {
         let text = serde_json::to_string_pretty(self).map_err(|error| BoardError::form(path, error))?;
-        super::workshop::replace(path, (text + "\n").as_bytes())
+        replace(path, (text + "\n").as_bytes()).map_err(BoardError::file(path))
     }
 }
 

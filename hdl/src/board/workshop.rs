@@ -1,4 +1,4 @@
-//! The folder in which the tools work, and files that are there whole or not at all.
+//! The folder in which the tools work.
 
 use super::BoardError;
 use std::fs::{File, TryLockError};
@@ -35,19 +35,4 @@ pub(super) fn take(out: &Path) -> Result<(PathBuf, File), BoardError> {
         removed.map_err(BoardError::file(path))?;
     }
     Ok((work, lock))
-}
-
-/// Puts a file there in one step, in place of the one that is there.
-///
-/// # Errors
-/// It cannot be written; then nothing of it stays.
-pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), BoardError> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let beside = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
-    let written = std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path));
-    written.map_err(|source| {
-        // That it cannot be removed either changes nothing for the user.
-        let _ = std::fs::remove_file(&beside);
-        BoardError::file(path)(source)
-    })
 }

@@ -2,7 +2,8 @@
 //!
 //! The list is sorted by smallest corner, then by the second one. Each edge knows one triangle of which its end with the smaller id may be the
 //! smallest corner: the one to its left, seen from there. So a pass over the edges finds every triangle once, in the order of the curve. They are
-//! dealt to buckets of neighbouring ids, and each bucket is sorted while it is in the cache: no list is walked in an order far from that of the curve or of the ids.
+//! dealt to buckets of neighbouring ids, and each bucket is sorted while it is in the cache: no list is walked in an order far from that of the curve
+//! or of the ids.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
