@@ -3,8 +3,6 @@
 //! Lists are read and written all over, in the order of the input along the curve and back. In pages of 4 kB nearly every such access
 //! first has to find its page; in pages of 2 MB the processor knows them all, and the system hands out far fewer.
 
-use std::sync::atomic::AtomicU32;
-
 use bytemuck::Zeroable;
 
 /// Bytes from which on a list is worth large pages: two of them.
@@ -31,14 +29,6 @@ pub(crate) fn zeros<T: Zeroable>(count: usize) -> Vec<T> {
         advise(&list);
     }
     list
-}
-
-/// A list of numbers as several threads can write it at once, each number by one of them.
-#[allow(unsafe_code)] // the standard library's own function for it is not stable yet
-pub(crate) fn shared(list: &mut [u32]) -> &[AtomicU32] {
-    const { assert!(align_of::<u32>() == align_of::<AtomicU32>()) };
-    // SAFETY: an `AtomicU32` has the size and every value of a `u32`, here also its alignment, and the list is borrowed for as long as the result.
-    unsafe { &*(std::ptr::from_mut(list) as *const [AtomicU32]) }
 }
 
 /// Asks for large pages for the room of a list. Where they cannot be had, nothing happens: it is a matter of speed only.

@@ -6,11 +6,12 @@
 //! or of the ids.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
+use bytemuck::Zeroable;
+
+use super::deal::{ends, runs, stretch, Dealt};
 use super::edges::Half;
 use super::parallel::in_parallel;
-use crate::pages::{self, shared};
 
 /// Marks the end of a half-edge that has the outside to its left.
 const GAP: u32 = 1 << 31;
@@ -18,7 +19,9 @@ const GAP: u32 = 1 << 31;
 const BUCKET_BITS: u32 = 11;
 /// Most buckets, as a power of two: so many places can be written to at a time.
 const MOST_BUCKETS_BITS: u32 = 11;
-/// Edges between two looks at the room that is left.
+/// Most triangles of an id that are sorted without branches.
+const FEW: usize = 4;
+/// Edges that are looked at together.
 const BLOCK: usize = 512;
 
 /// The hull, counter-clockwise from its lowest id on; marks its half-edges.
@@ -43,25 +46,77 @@ pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
 /// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The half-edges are not needed any more.
 pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: usize, threads: usize) -> Vec<[u32; 3]> {
     let buckets = Buckets::of(points);
-    let stretch = (halves.len() / 2).div_ceil(threads).max(1) * 2;
-    let mut found = in_parallel(halves.chunks(stretch), |own| buckets.find(&halves, own, ids, count / threads));
-    let ends = buckets.give_places(&mut found);
-    // They take the room of the half-edges, which the system has given already.
-    let mut triangles: Vec<[u32; 3]> = bytemuck::cast_vec(halves);
-    triangles.truncate(count);
-    let corners = shared(triangles.as_flattened_mut());
-    in_parallel(found.into_iter(), |found| found.deal(buckets, corners));
-    in_parallel(split(&mut triangles, &ends, threads).into_iter(), |own| buckets.sort(own, &ends));
-    triangles.shrink_to_fit();
-    triangles
+    if buckets.bits + 2 * buckets.id_bits <= u64::BITS {
+        buckets.sorted::<Word>(halves, ids, count, threads)
+    } else {
+        buckets.sorted::<[u32; 3]>(halves, ids, count, threads)
+    }
 }
 
-/// Triangles by their smallest corner: those of so many ids are together.
+/// Triangles by their smallest corner: neighbouring ids are together.
 #[derive(Clone, Copy)]
 struct Buckets {
     /// Ids of a bucket, as a power of two.
     bits: u32,
+    /// Bits of an id.
+    id_bits: u32,
     count: usize,
+}
+
+/// A triangle in a bucket. The order is that of the corners.
+trait Triangle: Copy + Ord + Zeroable + Send + Sync {
+    /// After all others of its bucket.
+    const LAST: Self;
+
+    fn of(corners: [u32; 3], buckets: Buckets) -> Self;
+
+    /// The smallest corner, counted from the first id of the bucket.
+    fn smallest(self, buckets: Buckets) -> usize;
+
+    /// The corners, in a bucket whose ids begin with `first`.
+    fn corners(self, first: u32, buckets: Buckets) -> [u32; 3];
+}
+
+/// Any number of points.
+impl Triangle for [u32; 3] {
+    const LAST: Self = [u32::MAX; 3];
+
+    fn of(corners: [u32; 3], _: Buckets) -> Self {
+        corners
+    }
+
+    fn smallest(self, buckets: Buckets) -> usize {
+        (self[0] & buckets.mask()) as usize
+    }
+
+    fn corners(self, _: u32, _: Buckets) -> [u32; 3] {
+        self
+    }
+}
+
+/// All corners in one word, the smallest one at the top, where the bucket says its leading bits: up to 2^25 points.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
+struct Word(u64);
+
+impl Triangle for Word {
+    const LAST: Self = Self(u64::MAX);
+
+    #[inline(always)]
+    fn of([smallest, second, third]: [u32; 3], buckets: Buckets) -> Self {
+        let pair = u64::from(second) << buckets.id_bits | u64::from(third);
+        Self(u64::from(smallest & buckets.mask()) << (2 * buckets.id_bits) | pair)
+    }
+
+    #[inline(always)]
+    fn smallest(self, buckets: Buckets) -> usize {
+        (self.0 >> (2 * buckets.id_bits)) as usize
+    }
+
+    #[inline(always)]
+    fn corners(self, first: u32, buckets: Buckets) -> [u32; 3] {
+        let id = |word: u64| word as u32 & ((1 << buckets.id_bits) - 1);
+        [first + self.smallest(buckets) as u32, id(self.0 >> buckets.id_bits), id(self.0)]
+    }
 }
 
 /// An edge, seen from its end with the smaller id.
@@ -90,165 +145,122 @@ fn look_at(halves: &[Half], ids: &[u32], edges: &mut [Edge; BLOCK]) -> usize {
     count
 }
 
-/// Triangles of a stretch of half-edges.
-struct Found {
-    triangles: Vec<[u32; 3]>,
-    /// Of each bucket: first how many of the triangles are its own, then the place in the list of all where the next of them goes.
-    places: Vec<u32>,
-}
-
 impl Buckets {
     fn of(points: usize) -> Self {
-        let bits = BUCKET_BITS.max((points.max(1).ilog2() + 1).saturating_sub(MOST_BUCKETS_BITS));
-        Self { bits, count: (points >> bits) + 1 }
+        let id_bits = usize::BITS - points.leading_zeros();
+        let bits = BUCKET_BITS.max(id_bits.saturating_sub(MOST_BUCKETS_BITS));
+        Self { bits, id_bits, count: (points >> bits) + 1 }
     }
 
-    fn at(self, id: u32) -> usize {
-        (id >> self.bits) as usize
+    /// The bits of an id that say which one of its bucket it is.
+    #[inline(always)]
+    fn mask(self) -> u32 {
+        (1 << self.bits) - 1
     }
 
-    /// The triangles of which an edge in a stretch of the half-edges knows. There should be about `expected`.
-    fn find(self, halves: &[Half], own: &[Half], ids: &[u32], expected: usize) -> Found {
-        let mut triangles: Vec<[u32; 3]> = pages::zeros(expected + expected / 8 + BLOCK);
-        let mut sizes = vec![0; self.count];
-        let mut found = 0;
+    fn sorted<T: Triangle>(self, halves: Vec<Half>, ids: &[u32], count: usize, threads: usize) -> Vec<[u32; 3]> {
+        let own = (halves.len() / 2).div_ceil(threads).max(1) * 2;
+        let found: Vec<Dealt<T>> = in_parallel(halves.chunks(own), |own| self.find(&halves, own, ids, count / threads));
+        // They take the room of the half-edges, which the system has given already.
+        let mut triangles: Vec<[u32; 3]> = bytemuck::cast_vec(halves);
+        triangles.truncate(count);
+        let ends = ends(&found, self.count);
+        let mut rest = triangles.as_mut_slice();
+        let runs = runs(&ends, threads).into_iter().map(|run| {
+            let own = rest.split_off_mut(..stretch(&run, &ends).len()).unwrap_or_default();
+            (own, run)
+        });
+        in_parallel(runs, |(own, run)| self.sort(&found, own, run));
+        triangles.shrink_to_fit();
+        triangles
+    }
+
+    /// Deals out the triangles of which an edge in a stretch of the half-edges knows. There should be about `expected`.
+    fn find<T: Triangle>(self, halves: &[Half], own: &[Half], ids: &[u32], expected: usize) -> Dealt<T> {
+        let mut dealt = Dealt::new(self.count, expected);
         let mut edges = [Edge::default(); BLOCK];
+        let mut triangles = [[0; 3]; BLOCK];
         for block in own.chunks(2 * BLOCK) {
-            if triangles.len() < found + BLOCK {
-                triangles.resize(2 * (found + BLOCK), [0; 3]);
-            }
             let count = look_at(block, ids, &mut edges);
             let edges = &mut edges[..count];
             // A loop of its own, with so little in it that the processor waits for many of these at a time.
             for edge in &mut *edges {
                 edge.next = halves[edge.next as usize].end & !GAP;
             }
+            let mut found = 0;
             for &Edge { smaller, larger, next, is_inside } in &*edges {
                 let third = ids[next as usize];
                 // Written in any case and kept in some: no processor predicts which.
                 triangles[found] = [smaller, larger, third];
-                let is_one = is_inside & (smaller < third);
-                sizes[self.at(smaller)] += u32::from(is_one);
-                found += usize::from(is_one);
+                found += usize::from(is_inside & (smaller < third));
+            }
+            for &triangle in &triangles[..found] {
+                dealt.put((triangle[0] >> self.bits) as usize, T::of(triangle, self));
             }
         }
-        triangles.truncate(found);
-        Found { triangles, places: sizes }
+        dealt
     }
 
-    /// Gives the triangles of all stretches their places in the list, bucket by bucket; returns where each bucket ends.
-    fn give_places(self, found: &mut [Found]) -> Vec<usize> {
-        let mut end = 0;
-        (0..self.count)
-            .map(|bucket| {
-                for found in &mut *found {
-                    let size = std::mem::replace(&mut found.places[bucket], end as u32);
-                    end += size as usize;
-                }
-                end
-            })
-            .collect()
-    }
-
-    /// Sorts some buckets, which are a stretch of the list.
-    fn sort(self, (own, buckets): (&mut [[u32; 3]], Range<usize>), ends: &[usize]) {
-        let mut rest = own;
-        let mut start = buckets.start.checked_sub(1).map_or(0, |before| ends[before]);
-        let mut room = Room { ends: vec![0; 1 << self.bits], pairs: Vec::new() };
-        for bucket in buckets {
-            let size = ends[bucket] - std::mem::replace(&mut start, ends[bucket]);
-            let (own, after) = rest.split_at_mut(size);
-            room.sort(own, (bucket << self.bits) as u32);
-            rest = after;
+    /// Sorts a run of buckets into its stretch of the list.
+    fn sort<T: Triangle>(self, found: &[Dealt<T>], mut rest: &mut [[u32; 3]], run: Range<usize>) {
+        let (mut ends, mut sorted) = (vec![0; 1 << self.bits], Vec::new());
+        for bucket in run {
+            ends.fill(0);
+            self.sort_bucket(
+                || found.iter().flat_map(|found| found.chunks(bucket)).flatten().copied(),
+                &mut ends,
+                &mut sorted,
+            );
+            let count = ends.last().map_or(0, |&end| end as usize);
+            let first = (bucket << self.bits) as u32;
+            for (slot, triangle) in rest.iter_mut().zip(&sorted[..count]) {
+                *slot = triangle.corners(first, self);
+            }
+            rest = rest.split_off_mut(count..).unwrap_or_default();
         }
     }
-}
 
-impl Found {
-    /// Writes the triangles to their places, corner by corner.
-    fn deal(mut self, buckets: Buckets, corners: &[AtomicU32]) {
-        for &triangle in &self.triangles {
-            let place = &mut self.places[buckets.at(triangle[0])];
-            let slots = &corners[3 * *place as usize..][..3];
-            slots.iter().zip(triangle).for_each(|(slot, corner)| slot.store(corner, Relaxed));
-            *place += 1;
+    /// Sorts the triangles of a bucket. For each id there must be a zero, which becomes the place where its triangles end.
+    fn sort_bucket<T: Triangle, I: Iterator<Item = T>>(
+        self,
+        triangles: impl Fn() -> I,
+        ends: &mut [u32],
+        sorted: &mut Vec<T>,
+    ) {
+        triangles().for_each(|triangle| ends[triangle.smallest(self)] += 1);
+        let mut count = 0;
+        for end in &mut *ends {
+            count += std::mem::replace(end, count);
         }
-    }
-}
-
-/// What sorting a bucket takes.
-struct Room {
-    /// Of each id, where its triangles end.
-    ends: Vec<u32>,
-    /// The two larger corners of each triangle, in one word.
-    pairs: Vec<u64>,
-}
-
-impl Room {
-    /// Sorts the triangles of a bucket, whose ids begin with `first`.
-    fn sort(&mut self, own: &mut [[u32; 3]], first: u32) {
-        self.ends.fill(0);
-        for [smallest, ..] in &*own {
-            self.ends[(smallest - first) as usize] += 1;
-        }
-        let mut sum = 0;
-        for end in &mut self.ends {
-            sum += std::mem::replace(end, sum);
-        }
-        self.pairs.resize(self.pairs.len().max(own.len()), 0);
-        for &[smallest, second, third] in &*own {
-            let end = &mut self.ends[(smallest - first) as usize];
-            self.pairs[*end as usize] = u64::from(second) << 32 | u64::from(third);
+        let count = count as usize;
+        sorted.resize(sorted.len().max(count + FEW), T::LAST);
+        sorted[count..][..FEW].fill(T::LAST);
+        triangles().for_each(|triangle| {
+            let end = &mut ends[triangle.smallest(self)];
+            sorted[*end as usize] = triangle;
             *end += 1;
-        }
+        });
         let mut start = 0;
-        for (id, &end) in (first..).zip(&self.ends) {
-            let range = std::mem::replace(&mut start, end as usize)..end as usize;
-            let pairs = &mut self.pairs[range.clone()];
-            sort_few(pairs);
-            for (slot, &mut pair) in own[range].iter_mut().zip(pairs) {
-                *slot = [id, (pair >> 32) as u32, pair as u32];
+        for &end in &*ends {
+            let own = std::mem::replace(&mut start, end as usize);
+            if start - own > FEW {
+                sorted[own..start].sort_unstable();
+            } else if let Some(few) = sorted[own..].first_chunk_mut() {
+                sort_few(few);
             }
         }
     }
 }
 
-/// Sorts a few words. Up to four without branches on them.
+/// Sorts a few triangles, of which some at the end may be of larger ids, without branches: no processor predicts how many there are.
 #[inline(always)]
-fn sort_few(words: &mut [u64]) {
-    let order = |a: &mut u64, b: &mut u64| (*a, *b) = ((*a).min(*b), (*a).max(*b));
-    match words {
-        [] | [_] => {}
-        [a, b] => order(a, b),
-        [a, b, c] => {
-            order(a, b);
-            order(b, c);
-            order(a, b);
-        }
-        [a, b, c, d] => {
-            order(a, b);
-            order(c, d);
-            order(a, c);
-            order(b, d);
-            order(b, c);
-        }
-        more => more.sort_unstable(),
-    }
-}
-
-/// The list in stretches of whole buckets with about as many triangles each, and which buckets these are.
-fn split<'a>(triangles: &'a mut [[u32; 3]], ends: &[usize], count: usize) -> Vec<(&'a mut [[u32; 3]], Range<usize>)> {
-    let all = triangles.len();
-    let (mut rest, mut first, mut start) = (triangles, 0, 0);
-    (1..=count)
-        .map(|k| {
-            let last = if k == count { ends.len() } else { ends.partition_point(|&end| end <= k * all / count) };
-            let end = last.checked_sub(1).map_or(0, |last| ends[last]);
-            let (own, after) = std::mem::take(&mut rest).split_at_mut(end - start);
-            (rest, start) = (after, end);
-            (own, std::mem::replace(&mut first, last)..last)
-        })
-        .collect()
+fn sort_few<T: Ord + Copy>([a, b, c, d]: &mut [T; FEW]) {
+    let order = |a: &mut T, b: &mut T| (*a, *b) = ((*a).min(*b), (*a).max(*b));
+    order(a, b);
+    order(c, d);
+    order(a, c);
+    order(b, d);
+    order(b, c);
 }
 
 #[cfg(test)]
@@ -258,19 +270,22 @@ mod tests {
     use super::super::{conquer, view::Narrow};
     use super::*;
     use crate::order::mix;
+    use crate::pages;
     use crate::point::Point;
 
     #[test]
-    fn a_stretch_may_have_more_triangles_than_expected() {
-        let points: Vec<Point> = (0..4000).map(mix).map(|k| Point::new(k as u32 & 0xffff, k as u32 >> 16)).collect();
+    fn both_forms_of_triangles_sort_alike() {
+        let points: Vec<Point> = (0..6000).map(mix).map(|k| Point::new(k as u32 & 0xffff, k as u32 >> 16)).collect();
         let Sites { sites, ids, .. } = sort(&points, 1);
         let mut halves = pages::zeros(HALVES * sites.len());
         let whole = conquer::triangulate::<Narrow>(&sites, &mut halves, 1, &mut |_| true).expect("points");
         let hull = hull(&mut halves, &ids, whole.leftmost());
-        let buckets = Buckets::of(points.len());
-        let found = [0, 8000].map(|expected| buckets.find(&halves, &halves, &ids, expected));
-        assert_eq!(found[0].triangles.len(), 2 * ids.len() - 2 - hull.len());
-        assert!(found[0].triangles == found[1].triangles && found[0].places == found[1].places);
-        assert_eq!(found[0].places.iter().sum::<u32>() as usize, found[0].triangles.len());
+        let (buckets, count) = (Buckets::of(points.len()), 2 * ids.len() - 2 - hull.len());
+        let words = buckets.sorted::<Word>(halves.clone(), &ids, count, 1);
+        assert_eq!(words.len(), count);
+        assert!(words.is_sorted());
+        for threads in [1, 3] {
+            assert!(words == buckets.sorted::<[u32; 3]>(halves.clone(), &ids, count, threads));
+        }
     }
 }

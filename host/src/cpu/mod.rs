@@ -10,6 +10,7 @@
 
 mod collect;
 mod conquer;
+mod deal;
 mod edges;
 mod job;
 mod merge;

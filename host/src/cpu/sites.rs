@@ -1,17 +1,23 @@
 //! The distinct points along the Z-curve, which is what the engine divides by.
 
+use bytemuck::Zeroable;
+
+use super::deal::{ends, runs, stretch, Dealt};
 use super::parallel::in_parallel;
 use super::view::Site;
 use crate::mesh::Duplicate;
-use crate::order::mix;
 use crate::pages;
 use crate::point::Point;
-use crate::sort::{sort_by_key, Entry as _, Keyed as _, Narrow};
+use crate::sort::{sort_by_key, Keyed};
 
-/// Below this length points of equal leading bits are sorted by comparison.
+/// Below this number words are sorted by comparison.
 const SMALL: usize = 256;
-/// Points of which the ranges of threads are guessed.
-const SAMPLE: usize = 1024;
+/// Bits of a word that are sorted at a time: two digits of the radix sort, enough to tell nearly all points of a bucket apart.
+const KEY_BITS: u32 = 22;
+/// Least points of a bucket on average, where there are several: half of what stays in the first-level cache.
+const BUCKET: usize = 2048;
+/// Most buckets, as a power of two: so many places can be written to at a time.
+const MOST_BUCKETS_BITS: u32 = 11;
 
 /// The distinct points, sorted.
 pub(super) struct Sites {
@@ -25,17 +31,53 @@ pub(super) struct Sites {
     pub(super) bits: u32,
 }
 
-/// The window onto the grid that the points are in: curve positions count from its corner.
+/// A point of the grid as a word to sort by, and where it comes from.
+///
+/// From the top: the position on the curve without the bits that the bucket says, as many as there is room for; the index of the point.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
+struct Word(u64);
+
+impl Keyed for Word {
+    fn key(&self) -> u64 {
+        self.0 >> (u64::BITS - KEY_BITS)
+    }
+}
+
+/// Sorts words by their leading bits, then those that agree in them by the others.
+fn sort_words(words: &mut Vec<Word>) {
+    if words.len() < SMALL {
+        return words.sort_unstable();
+    }
+    sort_by_key(words);
+    for group in words.chunk_by_mut(|one, other| one.key() == other.key()) {
+        if group.len() < SMALL {
+            group.sort_unstable();
+            continue;
+        }
+        let leading = group[0].key() << (u64::BITS - KEY_BITS);
+        let mut rest: Vec<Word> = group.iter().map(|word| Word(word.0 << KEY_BITS)).collect();
+        sort_words(&mut rest);
+        for (slot, word) in group.iter_mut().zip(rest) {
+            *slot = Word(leading | word.0 >> KEY_BITS);
+        }
+    }
+}
+
+/// The window onto the grid that the points are in, and the curve through it: positions count from its lower left corner.
 #[derive(Clone, Copy)]
-struct Window {
+struct Curve {
     corner: Point,
     /// Bits of a coordinate seen from the corner.
     bits: u32,
-    /// How far a position must be shifted so that its 32 leading bits stay.
-    shift: u32,
+    /// Leading bits of a position, which say the bucket.
+    bucket_bits: u32,
+    /// The other bits of a position: one at least.
+    rest_bits: u32,
+    /// The bits of a word that are an index.
+    indices: u64,
 }
 
-impl Window {
+impl Curve {
     fn of(points: &[Point]) -> Self {
         let none = (Point::new(u32::MAX, u32::MAX), Point::new(0, 0));
         let (corner, far) = points.iter().fold(none, |(low, high), p| {
@@ -43,7 +85,20 @@ impl Window {
         });
         let extent = far.x.saturating_sub(corner.x) | far.y.saturating_sub(corner.y);
         let bits = u32::BITS - extent.leading_zeros();
-        Self { corner, bits, shift: 2 * bits.saturating_sub(16) }
+        let bucket_bits = (points.len() / BUCKET).max(1).ilog2().min(MOST_BUCKETS_BITS).min(2 * bits);
+        let rest_bits = (2 * bits - bucket_bits).max(1);
+        let index_bits = usize::BITS - points.len().saturating_sub(1).leading_zeros();
+        Self { corner, bits, bucket_bits, rest_bits, indices: (1 << index_bits) - 1 }
+    }
+
+    fn buckets(&self) -> usize {
+        1 << self.bucket_bits
+    }
+
+    /// The position of a point: its coordinates' bits in turn, x first.
+    #[inline(always)]
+    fn position(&self, point: Point) -> u64 {
+        spread(point.x - self.corner.x) << 1 | spread(point.y - self.corner.y)
     }
 
     /// The point, seen from the corner.
@@ -52,21 +107,26 @@ impl Window {
         Point::new(point.x - self.corner.x, point.y - self.corner.y).into()
     }
 
-    /// The position of a point on the curve: its coordinates' bits in turn, x first.
+    /// The bits of a position below those of the bucket, at the top of a word.
     #[inline(always)]
-    fn position(&self, point: Point) -> u64 {
-        spread(point.x - self.corner.x) << 1 | spread(point.y - self.corner.y)
+    fn rest(&self, position: u64) -> u64 {
+        position << (u64::BITS - self.rest_bits)
     }
 
-    /// The leading bits of a position.
-    #[inline(always)]
-    fn key(&self, point: Point) -> u32 {
-        (self.position(point) >> self.shift) as u32
+    /// Positions stand whole in the words.
+    fn is_exact(&self) -> bool {
+        self.rest(u64::MAX) & self.indices == 0
     }
 
-    /// The bits below those of [`Window::key`]: 30 at most.
-    fn rest(&self, point: Point) -> u32 {
-        (self.position(point) & ((1 << self.shift) - 1)) as u32
+    /// Deals points, the first of which has this index, to the squares that their leading bits name.
+    fn deal(&self, points: &[Point], first: usize) -> Dealt<Word> {
+        let mut dealt = Dealt::new(self.buckets(), points.len());
+        for (&point, index) in points.iter().zip(first as u64..) {
+            let position = self.position(point);
+            let word = Word(self.rest(position) & !self.indices | index);
+            dealt.put((position >> self.rest_bits) as usize, word);
+        }
+        dealt
     }
 }
 
@@ -92,83 +152,46 @@ fn gather(bits: u64) -> u32 {
     (bits | bits >> 16) as u32
 }
 
-/// Sorts the points along the curve and takes duplicates out, on so many threads. O(n): a radix sort of the 32 leading bits of the
-/// positions, and another one of the rest inside long stretches that they leave undecided.
+/// Sorts the points along the curve and takes duplicates out, on so many threads. O(n): points are dealt to squares of about [`BUCKET`] points,
+/// and each square has a radix sort of its own.
 pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
-    let window = Window::of(points);
+    let curve = Curve::of(points);
     let mut all = Sites {
         sites: pages::zeros(points.len()),
         ids: pages::zeros(points.len()),
         duplicates: Vec::new(),
-        bits: window.bits,
+        bits: curve.bits,
     };
-    let ranges = if threads < 2 { vec![entries(points, window)] } else { deal(points, window, threads) };
+    let own = points.len().div_ceil(threads).max(1);
+    let dealt = in_parallel(points.chunks(own).enumerate(), |(place, points)| curve.deal(points, own * place));
+    let ends = ends(&dealt, curve.buckets());
     let (mut sites, mut ids) = (all.sites.as_mut_slice(), all.ids.as_mut_slice());
-    let parts: Vec<_> = ranges
-        .into_iter()
-        .map(|range| {
-            let (own_sites, own_ids) = (
-                sites.split_off_mut(..range.len()).unwrap_or_default(),
-                ids.split_off_mut(..range.len()).unwrap_or_default(),
-            );
-            (range, Kept { sites: own_sites, ids: own_ids, count: 0, duplicates: Vec::new() })
-        })
-        .collect();
-    let kept = in_parallel(parts.into_iter(), |(mut range, mut kept)| {
-        sort_by_key(&mut range);
-        if window.shift == 0 {
-            kept.take_narrow(&range);
-        } else {
-            kept.take_wide(&mut range, points, window);
+    let runs = runs(&ends, threads).into_iter().map(|run| {
+        let room = stretch(&run, &ends).len();
+        let (own_sites, own_ids) =
+            (sites.split_off_mut(..room).unwrap_or_default(), ids.split_off_mut(..room).unwrap_or_default());
+        (run, Kept { sites: own_sites, ids: own_ids, count: 0, duplicates: Vec::new() })
+    });
+    let kept = in_parallel(runs, |(run, mut kept)| {
+        let room = kept.sites.len();
+        let mut words = Vec::new();
+        for bucket in run {
+            words.clear();
+            dealt.iter().flat_map(|own| own.chunks(bucket)).for_each(|chunk| words.extend_from_slice(chunk));
+            sort_words(&mut words);
+            if curve.is_exact() {
+                kept.take_exact(&words, bucket as u64, curve);
+            } else {
+                kept.take_rounded(&mut words, points, curve);
+            }
         }
-        (range.len(), kept.count, kept.duplicates)
+        (room, kept.count, kept.duplicates)
     });
     all.close_up(kept);
     all
 }
 
-/// Each point with its key, in the order of the input.
-fn entries(points: &[Point], window: Window) -> Vec<Narrow> {
-    let mut entries = pages::with_room(points.len());
-    entries.extend(points.iter().zip(0..=u32::MAX).map(|(&point, index)| Narrow::new(window.key(point), index)));
-    entries
-}
-
-/// The points with their keys in ranges of keys, one for each thread; in each range in the order of the input.
-fn deal(points: &[Point], window: Window, threads: usize) -> Vec<Vec<Narrow>> {
-    let bounds = bounds(points, window, threads);
-    let chunk = points.len().div_ceil(threads).max(1);
-    let dealt = in_parallel(points.chunks(chunk).enumerate(), |(place, points)| {
-        let room = points.len() / threads + points.len() / (4 * threads);
-        let mut ranges: Vec<Vec<Narrow>> = (0..threads).map(|_| pages::with_room(room)).collect();
-        for (&point, index) in points.iter().zip((chunk * place) as u32..) {
-            let key = window.key(point);
-            // Counted rather than searched for: no processor predicts which range it is.
-            let range: usize = bounds.iter().map(|&bound| usize::from(key >= bound)).sum();
-            ranges[range].push(Narrow::new(key, index));
-        }
-        ranges
-    });
-    in_parallel(0..threads, |range| {
-        let own = || dealt.iter().map(|ranges| &ranges[range]);
-        let mut entries = pages::with_room(own().map(Vec::len).sum());
-        own().for_each(|range| entries.extend_from_slice(range));
-        entries
-    })
-}
-
-/// The first keys of all ranges but the first, which hold about as many points each.
-fn bounds(points: &[Point], window: Window, count: usize) -> Vec<u32> {
-    let stride = points.len() / SAMPLE + 1;
-    // Not evenly: rows of a lattice may be as long as a stride.
-    let from_stride = |(place, own): (u64, &[Point])| own.get((mix(place) % stride as u64) as usize).copied();
-    let mut sample: Vec<u32> =
-        (0..).zip(points.chunks(stride)).filter_map(from_stride).map(|point| window.key(point)).collect();
-    sample.sort_unstable();
-    (1..count).filter_map(|k| sample.get(k * sample.len() / count).copied()).collect()
-}
-
-/// What is kept of a range of the curve: room for all its points.
+/// What is kept of a run of buckets: room for all its points.
 struct Kept<'a> {
     sites: &'a mut [Site],
     ids: &'a mut [u32],
@@ -177,35 +200,38 @@ struct Kept<'a> {
 }
 
 impl Kept<'_> {
-    /// Takes entries whose 32 bits are the whole position.
-    fn take_narrow(&mut self, entries: &[Narrow]) {
+    /// Takes the words of a bucket, sorted, which have the whole position.
+    fn take_exact(&mut self, words: &[Word], bucket: u64, curve: Curve) {
         let mut before = None;
-        for entry in entries {
-            let position = entry.key();
-            if before == Some(position) {
-                self.drop_onto_last(entry.value());
+        for &Word(word) in words {
+            let index = (word & curve.indices) as u32;
+            let rest = word & !curve.indices;
+            if before == Some(rest) {
+                self.drop_onto_last(index);
                 continue;
             }
-            before = Some(position);
-            self.keep(Point::new(gather(position >> 1), gather(position)).into(), entry.value());
+            before = Some(rest);
+            let position = bucket << curve.rest_bits | rest >> (u64::BITS - curve.rest_bits);
+            self.keep(Point::new(gather(position >> 1), gather(position)).into(), index);
         }
     }
 
-    /// Takes entries whose 32 bits are the leading ones.
-    fn take_wide(&mut self, entries: &mut [Narrow], points: &[Point], window: Window) {
-        for group in entries.chunk_by_mut(|one, other| one.key() == other.key()) {
+    /// Takes the words of a bucket, sorted, which have the leading bits of the position.
+    fn take_rounded(&mut self, words: &mut [Word], points: &[Point], curve: Curve) {
+        let point = |word: &Word| points[(word.0 & curve.indices) as usize];
+        for group in words.chunk_by_mut(|one, other| (one.0 ^ other.0) & !curve.indices == 0) {
             if group.len() > 1 {
-                sort_by_rest(group, points, window);
+                group.sort_unstable_by_key(|word| (curve.position(point(word)), *word));
             }
             let mut before = None;
-            for entry in &*group {
-                let point = points[entry.value() as usize];
+            for word in &*group {
+                let (point, index) = (point(word), (word.0 & curve.indices) as u32);
                 if before == Some(point) {
-                    self.drop_onto_last(entry.value());
+                    self.drop_onto_last(index);
                     continue;
                 }
                 before = Some(point);
-                self.keep(window.site(point), entry.value());
+                self.keep(curve.site(point), index);
             }
         }
     }
@@ -223,10 +249,10 @@ impl Kept<'_> {
 }
 
 impl Sites {
-    /// Takes ranges together: of each its room, how much of that is used, and its duplicates.
-    fn close_up(&mut self, ranges: Vec<(usize, usize, Vec<Duplicate>)>) {
+    /// Takes runs together: of each its room, how much of that is used, and its duplicates.
+    fn close_up(&mut self, runs: Vec<(usize, usize, Vec<Duplicate>)>) {
         let (mut from, mut to) = (0, 0);
-        for (room, count, duplicates) in ranges {
+        for (room, count, duplicates) in runs {
             if from > to {
                 self.sites.copy_within(from..from + count, to);
                 self.ids.copy_within(from..from + count, to);
@@ -236,20 +262,5 @@ impl Sites {
         }
         self.sites.truncate(to);
         self.ids.truncate(to);
-    }
-}
-
-/// Sorts entries of equal leading bits by the others, equal points by index.
-fn sort_by_rest(group: &mut [Narrow], points: &[Point], window: Window) {
-    let rest = |entry: &Narrow| window.rest(points[entry.value() as usize]);
-    if group.len() < SMALL {
-        group.sort_unstable_by_key(|entry| (rest(entry), entry.value()));
-        return;
-    }
-    let key = group[0].key() as u32;
-    let mut by_rest: Vec<Narrow> = group.iter().map(|entry| Narrow::new(rest(entry), entry.value())).collect();
-    sort_by_key(&mut by_rest);
-    for (slot, entry) in group.iter_mut().zip(by_rest) {
-        *slot = Narrow::new(key, entry.value());
     }
 }

@@ -113,6 +113,34 @@ fn a_crowd_beside_a_far_point_is_sorted() {
     assert!(sites.iter().zip(&ids).all(|(&site, &id)| site == Site::from(points[id as usize])));
 }
 
+/// Several buckets, positions that fit a word and those that do not, and many points of one place.
+#[test]
+fn many_points_are_sorted_with_their_duplicates() {
+    for bits in [1, 5, 11, 16, 24, 31] {
+        let random = |k: u64| mix(k) >> 8 & ((1 << bits) - 1);
+        let points: Vec<Point> = (0..10_000u64)
+            .map(|k| if k % 10 == 7 { 1 << 40 } else { k })
+            .map(|k| Point::new(random(2 * k) as u32, random(2 * k + 1) as u32))
+            .collect();
+        let corner =
+            Point::new(points.iter().map(|p| p.x).min().unwrap_or(0), points.iter().map(|p| p.y).min().unwrap_or(0));
+        let seen = |id: u32| {
+            let point = points[id as usize];
+            Point::new(point.x - corner.x, point.y - corner.y)
+        };
+        let mut expected: Vec<u32> = (0..points.len() as u32).collect();
+        expected.sort_by_key(|&id| position(seen(id)));
+        expected.dedup_by_key(|id| seen(*id));
+        for threads in 1..=4 {
+            let sorted = sort(&points, threads);
+            assert!(sorted.ids == expected, "{bits} bits, {threads} threads");
+            assert!(sorted.sites.iter().zip(&expected).all(|(&site, &id)| site == Site::from(seen(id))));
+            assert_eq!(sorted.duplicates.len(), points.len() - expected.len());
+            assert!(sorted.duplicates.iter().all(|d| points[d.index as usize] == points[d.of as usize]));
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
