@@ -97,7 +97,7 @@ fn without_a_clock_a_lower_one_is_tried() {
 fn the_lowest_clock_of_the_board_is_the_last() {
     let out = folder("lowest");
     let said = refusal(&build(&out, &["--seeds", "1"], "49.0", ""));
-    assert!(said.contains("does not meet 120 MHz: the median of 1 seeds reaches 49.0 MHz"), "{said}");
+    assert!(said.contains("does not meet 120 MHz: the median of 1 seed reaches 49.0 MHz"), "{said}");
     assert!(said.ends_with("no clock of the board is within reach"), "{said}");
     assert!(!report(&out).met);
 }

@@ -83,7 +83,8 @@ pub enum BoardError {
     },
     /// No clock asked for is met.
     #[error(
-        "{board} does not meet {clock_mhz} MHz: the median of {seeds} seeds reaches {:.1} MHz; {} says more, and {}",
+        "{board} does not meet {clock_mhz} MHz: the median of {} reaches {:.1} MHz; {} says more, and {}",
+        seeds_in_words(*seeds),
         (10.0 * median_mhz).floor() / 10.0,
         report.display(),
         within_reach(*possible_mhz)
@@ -105,6 +106,11 @@ pub enum BoardError {
 }
 
 /// What a missed clock leaves to try.
+/// How many seeds.
+pub(super) fn seeds_in_words(count: usize) -> String {
+    format!("{count} {}", if count == 1 { "seed" } else { "seeds" })
+}
+
 fn within_reach(possible_mhz: Option<u32>) -> String {
     possible_mhz.map_or("no clock of the board is within reach".into(), |mhz| format!("--clock {mhz} is within reach"))
 }

@@ -1,5 +1,6 @@
 //! The tables of the documents, from the reports in the boards' folders and the table of cycles. No figure in them is typed.
 
+use super::error::seeds_in_words;
 use super::{constraints, repository, Board, BoardError, Cells, Parts, Report, Summary, BOARDS, MHZ};
 use std::path::PathBuf;
 
@@ -145,7 +146,8 @@ fn overview(measured: &[(Board, Option<Measurement>)]) -> String {
         .iter()
         .filter_map(|(board, measurement)| {
             let report = &measurement.as_ref()?.report;
-            Some(format!("{} {}, {} seeds, {}", board.title, report.date, report.seeds.len(), tools(report)))
+            let seeds = seeds_in_words(report.seeds.len());
+            Some(format!("{} {}, {seeds}, {}", board.title, report.date, tools(report)))
         })
         .collect();
     measurements.push(format!("cycles of {POINT_SET} points to the brim: testbench/cycles.md"));

@@ -160,6 +160,11 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
         let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
         assert_eq!((bench.get("mhz"), bench["sets"][0].get("cycles")), (None, None));
     }
+    // No job reaches the core: there is nothing to count.
+    let run = scratch.run("bench uniform --batch 2 -n 1 --backend clock").ok();
+    let row: Vec<&str> = run.stdout.lines().last().expect("a row").split_whitespace().collect();
+    assert_eq!(row[3..], ["-"; 7], "{}", run.stdout);
+    scratch.run("bench --batch 1000000 -n 2000").fails(2, &["2000000000 points", "at most 67108864"]);
     scratch.run("bench --batch 2 -n 2000 --backend clock --config small").fails(7, &["2000", "--config full"]);
 }
 

@@ -1,6 +1,8 @@
 //! Triangulators beside each other: what each takes for the same points, in one run, in turn, with fresh points each time.
 //!
 //! Times are of the whole call, from a list of points to a mesh in the form of the library; each must have as many triangles as ours.
+//! Each does other points just before, untimed: what the system takes to hand out memory says much of a machine and little of an algorithm. Four million
+//! points take some 10 ns longer each without that, and more than 200 where a virtual machine has lent its free memory to others.
 //! Ratios are medians over the repetitions of times taken next to each other, so that what else the machine does touches both; objects
 //! also have the processor's time on the calling thread ("busy"), which others disturb less.
 
@@ -42,6 +44,9 @@ pub struct Arguments {
     /// Seed of the first repetition
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Leave out what each does just before, untimed: other points of the same set, so that it finds memory at hand
+    #[arg(long)]
+    cold: bool,
     /// Print one JSON object a line for each set and number of points
     #[arg(long)]
     json: bool,
@@ -73,6 +78,7 @@ pub enum PeerError {
 struct Outcome {
     set: Set,
     bits: u32,
+    cold: bool,
     /// Points of a repetition; distinct ones of the last.
     points: usize,
     distinct: usize,
@@ -92,7 +98,7 @@ pub fn compare(arguments: &Arguments) -> Result<(), PeerError> {
     let names: Vec<_> = contestants.iter().map(|contestant| contestant.name()).collect();
     let mut out = std::io::stdout().lock();
     if !arguments.json {
-        out.write_all(table::header(arguments.bits, &names, &missing).as_bytes())?;
+        out.write_all(table::header(arguments, &names, &missing).as_bytes())?;
     }
     let sets = if arguments.dist.is_empty() { Set::usual() } else { arguments.dist.clone() };
     for &n in &arguments.n {
@@ -117,6 +123,7 @@ fn measure(
     let mut outcome = Outcome {
         set,
         bits: arguments.bits,
+        cold: arguments.cold,
         points: 0,
         distinct: 0,
         order_share: Vec::new(),
@@ -125,11 +132,15 @@ fn measure(
     };
     for repetition in 0..arguments.repetitions.unwrap_or(usual).max(1) {
         let points: Vec<Point> = set.points(n, arguments.bits, arguments.seed + repetition as u64)?;
+        let before: Vec<Point> = set.points(n, arguments.bits, !arguments.seed - repetition as u64)?;
         // By chance: whoever always came after a program that has just given its memory back would wait for the system each time.
         let mut random = SplitMix64::new(arguments.seed + repetition as u64);
         let mut turns: Vec<usize> = (0..contestants.len()).collect();
         turns.sort_by_cached_key(|_| random.next_u64());
         for place in turns {
+            if !arguments.cold {
+                contestants[place].run(&before)?;
+            }
             let run = contestants[place].run(&points)?;
             outcome.points = points.len();
             if place == 0 {

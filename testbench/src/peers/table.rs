@@ -3,7 +3,7 @@
 use serde_json::{json, Map, Value};
 
 use super::process::Missing;
-use super::{Outcome, Run};
+use super::{Arguments, Outcome, Run};
 
 /// Widths of the set and of a column.
 const SET: usize = 16;
@@ -44,8 +44,12 @@ impl Outcome {
 }
 
 /// The lines above the rows.
-pub(super) fn header(bits: u32, names: &[&str], missing: &[Missing]) -> String {
-    let mut text = format!("ns per point, medians; {bits} bits; in brackets: cpu with one thread by it\n");
+pub(super) fn header(arguments: &Arguments, names: &[&str], missing: &[Missing]) -> String {
+    let memory = if arguments.cold { "as the system gives it" } else { "at hand" };
+    let mut text = format!(
+        "ns per point, medians; {} bits; memory: {memory}; in brackets: cpu with one thread by it\n",
+        arguments.bits
+    );
     text += "an asterisk: not always as many triangles as ours; order: share of the ordering in cpu with one thread\n";
     for Missing { name, reason } in missing {
         text += &format!("{name}: {reason}\n");
@@ -97,6 +101,7 @@ pub(super) fn json(outcome: &Outcome, missing: &[Missing]) -> String {
         "distinct": outcome.distinct,
         "bits": outcome.bits,
         "repetitions": outcome.runs[0].len(),
+        "cold": outcome.cold,
         "order_share": median(outcome.order_share.clone()),
         "contestants": contestants.collect::<Vec<_>>(),
         "missing": missing,

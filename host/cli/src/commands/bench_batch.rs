@@ -34,7 +34,7 @@ struct Measured {
     /// Distinct points of all jobs.
     distinct: usize,
     triangles: usize,
-    /// Clocks of all jobs, where they are counted.
+    /// Clocks of all jobs, where they are counted and there are any.
     cycles: Option<u64>,
     /// Those of the longest job, where each job had the whole memory.
     longest: Option<u64>,
@@ -55,8 +55,18 @@ struct Table<'a> {
     contexts: u32,
 }
 
+/// Most points of all jobs together: they and their meshes are in memory at once, some 60 bytes a point.
+const MOST_POINTS: u64 = 1 << 26;
+
 /// Runs so many jobs of each set: a row as soon as they are done, or one JSON object at the end.
 pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
+    let points = u64::from(jobs) * u64::from(arguments.n);
+    if points > MOST_POINTS {
+        return Err(Failure::usage(format!(
+            "--batch {jobs} with -n {} is {points} points, which are in memory at once: ask for at most {MOST_POINTS}",
+            arguments.n
+        )));
+    }
     let mut backend = backend::open_with_room(
         &arguments.backend,
         arguments.coord_bits,
@@ -134,7 +144,8 @@ fn run_once(
     };
     let before = session.clocks();
     let (meshes, seconds) = timed(|| session.triangulate_batch(jobs, &options))?;
-    let cycles = session.clocks().zip(before).map(|(after, before)| after - before);
+    // None at all where no job has reached the core.
+    let cycles = session.clocks().zip(before).map(|(after, before)| after - before).filter(|&cycles| cycles > 0);
     let distinct = meshes.iter().map(|mesh| mesh.report.distinct).sum();
     let triangles = meshes.iter().map(|mesh| mesh.report.triangles).sum();
     let (longest, engine) = (longest_of(&meshes), engine_of(&meshes));
@@ -184,16 +195,19 @@ impl Table<'_> {
             cell(measured.per_point(measured.engine), 2),
             cell(self.cycles_per_job(measured), 0),
             cell(measured.longest.map(|cycles| cycles as f64), 0),
-            cell(Some(1e3 * seconds), 3),
-            cell(Some(1e6 * seconds / f64::from(self.jobs)), 2),
-            cell(Some(1e9 * seconds / measured.distinct as f64), 1),
+            cell(seconds.map(|seconds| 1e3 * seconds), 3),
+            cell(seconds.map(|seconds| 1e6 * seconds / f64::from(self.jobs)), 2),
+            cell(seconds.map(|seconds| 1e9 * seconds / measured.distinct as f64), 1),
         ];
         line(&measured.set.to_string(), cells)
     }
 
-    /// Time of all jobs: of the clocks at the frequency that is assumed, or of the call where there are none.
-    fn device_seconds(&self, measured: &Measured) -> f64 {
-        measured.cycles.map_or(measured.seconds, |cycles| cycles as f64 / (self.mhz * 1e6))
+    /// Time of all jobs: of the clocks at the frequency that is assumed, or of the call where nothing counts clocks.
+    fn device_seconds(&self, measured: &Measured) -> Option<f64> {
+        if self.config.is_none() {
+            return Some(measured.seconds);
+        }
+        measured.cycles.map(|cycles| cycles as f64 / (self.mhz * 1e6))
     }
 
     /// From the first word in to the last triangle out, in the mean.
