@@ -11,7 +11,7 @@ const SMALL_DIGIT_BITS: u32 = 8;
 /// Below this length digits are small.
 const FEW: usize = 4096;
 /// Below this length a comparison sort is faster than all passes.
-const SMALL: usize = 256;
+pub(crate) const SMALL: usize = 256;
 /// Bytes from which on entries do not stay in a second-level cache, and are sorted in parts.
 const LARGE: usize = 1 << 20;
 /// Bytes of a part, about: it and its copy stay in the first-level cache, or nearly.

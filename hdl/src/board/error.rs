@@ -105,12 +105,12 @@ pub enum BoardError {
     },
 }
 
-/// What a missed clock leaves to try.
 /// How many seeds.
 pub(super) fn seeds_in_words(count: usize) -> String {
     format!("{count} {}", if count == 1 { "seed" } else { "seeds" })
 }
 
+/// What a missed clock leaves to try.
 fn within_reach(possible_mhz: Option<u32>) -> String {
     possible_mhz.map_or("no clock of the board is within reach".into(), |mhz| format!("--clock {mhz} is within reach"))
 }

@@ -251,7 +251,7 @@ pub struct BenchArguments {
     #[arg(short, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
     pub n: u32,
     /// Do so many jobs of such sets in one call, each with a seed of its own, and tell the time from the first word in to the last triangle
-    /// out; a core is taken in the configuration full unless chosen
+    /// out; a core is taken in the configuration full unless chosen. At most 67,108,864 points in all
     #[arg(long, value_name = "JOBS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub batch: Option<u32>,
     /// Bits of a coordinate

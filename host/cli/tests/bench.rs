@@ -160,12 +160,28 @@ fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
         let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
         assert_eq!((bench.get("mhz"), bench["sets"][0].get("cycles")), (None, None));
     }
-    // No job reaches the core: there is nothing to count.
+    scratch.run("bench --batch 2 -n 2000 --backend clock --config small").fails(7, &["2000", "--config full"]);
+}
+
+#[test]
+fn a_batch_of_which_no_job_reaches_the_core_has_no_cycles() {
+    let scratch = Scratch::new();
     let run = scratch.run("bench uniform --batch 2 -n 1 --backend clock").ok();
     let row: Vec<&str> = run.stdout.lines().last().expect("a row").split_whitespace().collect();
     assert_eq!(row[3..], ["-"; 7], "{}", run.stdout);
+    let run = scratch.run("bench uniform --batch 2 -n 1 --backend clock --json").ok();
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    assert_eq!((&bench["sets"][0]["distinct"], bench["sets"][0].get("cycles")), (&Value::from(2), None));
+}
+
+/// All points are in memory at once.
+#[test]
+fn a_batch_of_too_many_points_is_refused() {
+    let scratch = Scratch::new();
     scratch.run("bench --batch 1000000 -n 2000").fails(2, &["2000000000 points", "at most 67108864"]);
-    scratch.run("bench --batch 2 -n 2000 --backend clock --config small").fails(7, &["2000", "--config full"]);
+    scratch.run("bench --batch 4096 -n 16385").fails(2, &["67112960 points"]);
+    // As many as may be: the next thing that is wrong is said.
+    scratch.run("bench --batch 4096 -n 16384 --backend clock --config small").fails(7, &["16384"]);
 }
 
 /// As many as fit, but for jobs of 1,200 points, of which 6 would: those are frames.

@@ -9,19 +9,17 @@ use std::ops::Range;
 
 use bytemuck::Zeroable;
 
-use super::deal::{ends, runs, stretch, Dealt};
+use super::deal::{bucket_ends, runs, stretch, Dealt, CHUNK, MOST_BUCKETS_BITS};
 use super::edges::Half;
 use super::parallel::in_parallel;
 
 /// Marks the end of a half-edge that has the outside to its left.
 const GAP: u32 = 1 << 31;
-/// Least ids of a bucket, as a power of two: with its triangles and their copy it stays in the second-level cache, up to four million points.
+/// Ids of a bucket, as a power of two, where there are several buckets and few enough: two triangles an id make 64 kB with their copy.
 const BUCKET_BITS: u32 = 11;
-/// Most buckets, as a power of two: so many places can be written to at a time.
-const MOST_BUCKETS_BITS: u32 = 11;
-/// Most triangles of an id that are sorted without branches.
+/// Triangles of an id that are sorted without branches: it is the smallest corner of two on average, and of more than four one time in ten.
 const FEW: usize = 4;
-/// Edges that are looked at together.
+/// Edges that are looked at together: they and their triangles, 14 kB, stay in the first-level cache.
 const BLOCK: usize = 512;
 
 /// The hull, counter-clockwise from its lowest id on; marks its half-edges.
@@ -45,9 +43,9 @@ pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
 
 /// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The half-edges are not needed any more.
 pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: usize, threads: usize) -> Vec<[u32; 3]> {
-    let buckets = Buckets::of(points);
-    if buckets.bits + 2 * buckets.id_bits <= u64::BITS {
-        buckets.sorted::<Word>(halves, ids, count, threads)
+    let buckets = Buckets::of(points, threads);
+    if buckets.fit_a_word() {
+        buckets.sorted::<Packed>(halves, ids, count, threads)
     } else {
         buckets.sorted::<[u32; 3]>(halves, ids, count, threads)
     }
@@ -96,9 +94,9 @@ impl Triangle for [u32; 3] {
 
 /// All corners in one word, the smallest one at the top, where the bucket says its leading bits: up to 2^25 points.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
-struct Word(u64);
+struct Packed(u64);
 
-impl Triangle for Word {
+impl Triangle for Packed {
     const LAST: Self = Self(u64::MAX);
 
     #[inline(always)]
@@ -146,10 +144,19 @@ fn look_at(halves: &[Half], ids: &[u32], edges: &mut [Edge; BLOCK]) -> usize {
 }
 
 impl Buckets {
-    fn of(points: usize) -> Self {
-        let id_bits = usize::BITS - points.leading_zeros();
-        let bits = BUCKET_BITS.max(id_bits.saturating_sub(MOST_BUCKETS_BITS));
-        Self { bits, id_bits, count: (points >> bits) + 1 }
+    /// For ids below `points`, and triangles that so many threads find.
+    fn of(points: usize, threads: usize) -> Self {
+        let last = points.saturating_sub(1);
+        let id_bits = usize::BITS - last.leading_zeros();
+        // Two triangles an id: a chunk of them at least for each thread and bucket.
+        let least = BUCKET_BITS.max((CHUNK * threads / 2).next_power_of_two().ilog2());
+        let bits = least.min(id_bits).max(id_bits.saturating_sub(MOST_BUCKETS_BITS));
+        Self { bits, id_bits, count: (last >> bits) + 1 }
+    }
+
+    /// Triangles can be packed.
+    fn fit_a_word(self) -> bool {
+        self.bits + 2 * self.id_bits <= u64::BITS
     }
 
     /// The bits of an id that say which one of its bucket it is.
@@ -164,13 +171,15 @@ impl Buckets {
         // They take the room of the half-edges, which the system has given already.
         let mut triangles: Vec<[u32; 3]> = bytemuck::cast_vec(halves);
         triangles.truncate(count);
-        let ends = ends(&found, self.count);
+        let ends = bucket_ends(&found, self.count);
+        // Euler's formula says how many there are.
+        debug_assert_eq!(ends.last(), Some(&count));
         let mut rest = triangles.as_mut_slice();
-        let runs = runs(&ends, threads).into_iter().map(|run| {
+        let tasks = runs(&ends, threads).into_iter().map(|run| {
             let own = rest.split_off_mut(..stretch(&run, &ends).len()).unwrap_or_default();
             (own, run)
         });
-        in_parallel(runs, |(own, run)| self.sort(&found, own, run));
+        in_parallel(tasks, |(own, run)| self.sort(&found, own, run));
         triangles.shrink_to_fit();
         triangles
     }
@@ -203,56 +212,62 @@ impl Buckets {
 
     /// Sorts a run of buckets into its stretch of the list.
     fn sort<T: Triangle>(self, found: &[Dealt<T>], mut rest: &mut [[u32; 3]], run: Range<usize>) {
-        let (mut ends, mut sorted) = (vec![0; 1 << self.bits], Vec::new());
+        let mut room = Room { id_ends: vec![0; 1 << self.bits], sorted: Vec::new() };
         for bucket in run {
-            ends.fill(0);
-            self.sort_bucket(
-                || found.iter().flat_map(|found| found.chunks(bucket)).flatten().copied(),
-                &mut ends,
-                &mut sorted,
-            );
-            let count = ends.last().map_or(0, |&end| end as usize);
+            let triangles = || found.iter().flat_map(|found| found.chunks(bucket)).flatten().copied();
+            let sorted = room.sort(triangles, self);
             let first = (bucket << self.bits) as u32;
-            for (slot, triangle) in rest.iter_mut().zip(&sorted[..count]) {
+            for (slot, triangle) in rest.iter_mut().zip(sorted) {
                 *slot = triangle.corners(first, self);
             }
-            rest = rest.split_off_mut(count..).unwrap_or_default();
+            rest = rest.split_off_mut(sorted.len()..).unwrap_or_default();
         }
+        debug_assert!(rest.is_empty());
     }
+}
 
-    /// Sorts the triangles of a bucket. For each id there must be a zero, which becomes the place where its triangles end.
-    fn sort_bucket<T: Triangle, I: Iterator<Item = T>>(
-        self,
-        triangles: impl Fn() -> I,
-        ends: &mut [u32],
-        sorted: &mut Vec<T>,
-    ) {
-        triangles().for_each(|triangle| ends[triangle.smallest(self)] += 1);
+/// What sorting a bucket takes.
+struct Room<T> {
+    /// Of each id, where its triangles end.
+    id_ends: Vec<u32>,
+    /// The triangles of the bucket, then a few more places.
+    sorted: Vec<T>,
+}
+
+impl<T: Triangle> Room<T> {
+    /// Sorts the triangles of a bucket: by counting for the smallest corner, then the few of each id.
+    fn sort<I: Iterator<Item = T>>(&mut self, triangles: impl Fn() -> I, buckets: Buckets) -> &[T] {
+        let Self { id_ends, sorted } = self;
+        id_ends.fill(0);
+        triangles().for_each(|triangle| id_ends[triangle.smallest(buckets)] += 1);
         let mut count = 0;
-        for end in &mut *ends {
+        for end in &mut *id_ends {
             count += std::mem::replace(end, count);
         }
         let count = count as usize;
         sorted.resize(sorted.len().max(count + FEW), T::LAST);
         sorted[count..][..FEW].fill(T::LAST);
         triangles().for_each(|triangle| {
-            let end = &mut ends[triangle.smallest(self)];
+            let end = &mut id_ends[triangle.smallest(buckets)];
             sorted[*end as usize] = triangle;
             *end += 1;
         });
         let mut start = 0;
-        for &end in &*ends {
+        for &end in &*id_ends {
             let own = std::mem::replace(&mut start, end as usize);
             if start - own > FEW {
                 sorted[own..start].sort_unstable();
             } else if let Some(few) = sorted[own..].first_chunk_mut() {
+                // There are so many: `sorted` has a few places behind the triangles.
                 sort_few(few);
             }
         }
+        &sorted[..count]
     }
 }
 
-/// Sorts a few triangles, of which some at the end may be of larger ids, without branches: no processor predicts how many there are.
+/// Sorts a few triangles without branches: no processor predicts how many an id has. Those at the end may be of larger ids. They are larger, and so are
+/// what is behind them, so that each id's stay together.
 #[inline(always)]
 fn sort_few<T: Ord + Copy>([a, b, c, d]: &mut [T; FEW]) {
     let order = |a: &mut T, b: &mut T| (*a, *b) = ((*a).min(*b), (*a).max(*b));
@@ -272,6 +287,7 @@ mod tests {
     use crate::order::mix;
     use crate::pages;
     use crate::point::Point;
+    use proptest::prelude::*;
 
     #[test]
     fn both_forms_of_triangles_sort_alike() {
@@ -280,12 +296,68 @@ mod tests {
         let mut halves = pages::zeros(HALVES * sites.len());
         let whole = conquer::triangulate::<Narrow>(&sites, &mut halves, 1, &mut |_| true).expect("points");
         let hull = hull(&mut halves, &ids, whole.leftmost());
-        let (buckets, count) = (Buckets::of(points.len()), 2 * ids.len() - 2 - hull.len());
-        let words = buckets.sorted::<Word>(halves.clone(), &ids, count, 1);
+        let (buckets, count) = (Buckets::of(points.len(), 1), 2 * ids.len() - 2 - hull.len());
+        let words = buckets.sorted::<Packed>(halves.clone(), &ids, count, 1);
         assert_eq!(words.len(), count);
         assert!(words.is_sorted());
         for threads in [1, 3] {
             assert!(words == buckets.sorted::<[u32; 3]>(halves.clone(), &ids, count, threads));
+        }
+    }
+
+    #[test]
+    fn words_hold_all_corners_up_to_2_to_the_25_points() {
+        for points in [3, 4, 2047, 2048, 2049, 1 << 22, (1 << 22) + 1, (1 << 25) - 1, 1 << 25] {
+            let buckets = Buckets::of(points, 1);
+            assert!(buckets.fit_a_word(), "{points}");
+            let last = points as u32 - 1;
+            let mut before = None;
+            for corners in
+                [[0, 1, 2], [0, 2, 1], [0, last - 1, last], [last - 2, last - 1, last], [last - 2, last, last - 1]]
+            {
+                let packed = Packed::of(corners, buckets);
+                let bucket = corners[0] >> buckets.bits;
+                assert!((bucket as usize) < buckets.count && packed < Packed::LAST);
+                assert_eq!(packed.smallest(buckets) as u32, corners[0] & buckets.mask());
+                assert_eq!(packed.corners(bucket << buckets.bits, buckets), corners);
+                let place = (bucket, packed);
+                assert!(before.is_none_or(|before| before < place) || points == 3, "{corners:?}");
+                before = Some(place);
+            }
+        }
+        assert!(!Buckets::of((1 << 25) + 1, 1).fit_a_word());
+    }
+
+    #[test]
+    fn threads_and_buckets_have_a_chunk_of_triangles_each() {
+        for threads in 1..=300 {
+            for points in [1, 16_384 * threads, 1 << 22, (1 << 29) - 1] {
+                let Buckets { bits, count, .. } = Buckets::of(points, threads);
+                assert!(count == 1 || (2 << bits) >= CHUNK * threads, "{threads} threads, {points} points");
+                assert!(count <= 1 << MOST_BUCKETS_BITS);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_bucket_is_sorted(counts in prop::collection::vec(0u32..10, 1 << 8), full in 0u32..10, seed in any::<u64>()) {
+            let buckets = Buckets::of(1 << 8, 1);
+            let mut triangles: Vec<[u32; 3]> = Vec::new();
+            let counts = counts.into_iter().chain([full]).rev().take(1 << 8);
+            for (id, count) in (0..1u32 << 8).rev().zip(counts) {
+                triangles.extend((0..count).map(|k| [id, mix(seed ^ u64::from(k + 10 * id)) as u32 & 255, k]));
+            }
+            triangles.sort_by_key(|&[a, b, c]| mix(seed ^ u64::from(a << 16 | b << 8 | c)));
+            let mut room = Room { id_ends: vec![0; 1 << 8], sorted: Vec::new() };
+            // The second time there is something in the room.
+            for part in [&triangles[..], &triangles[triangles.len() / 2..]] {
+                let mut expected = part.to_vec();
+                expected.sort_unstable();
+                let packed = || part.iter().map(|&corners| Packed::of(corners, buckets));
+                let sorted: Vec<_> = room.sort(packed, buckets).iter().map(|found| found.corners(0, buckets)).collect();
+                prop_assert_eq!(sorted, expected);
+            }
         }
     }
 }

@@ -20,6 +20,8 @@ const DEPTH: usize = 64;
 const TOP: u32 = u32::MAX;
 /// Stretches for each thread: enough that all are done at about the same time.
 const STRETCHES: usize = 8;
+/// Least vertices of a subtree that is cut further. Fewer are not worth it, and a single vertex must never meet another: two are an edge from the start.
+const LEAST: usize = 64;
 /// Vertices between two looks at the clock.
 const SLICE: usize = 1 << 15;
 
@@ -76,7 +78,7 @@ pub(super) fn triangulate<W: Width>(
         return conquer::<W>(sites, halves, go_on);
     }
     let mut stretches = Vec::new();
-    divide(sites, 0..sites.len(), sites.len() / (STRETCHES * threads) + 1, &mut stretches);
+    divide(sites, 0..sites.len(), (sites.len() / (STRETCHES * threads)).max(LEAST), &mut stretches);
     let parts = conquer_all::<W>(sites, halves, &stretches, threads, go_on);
     let mut edges = Edges { sites, halves };
     let mut waiting = Waiting::new();

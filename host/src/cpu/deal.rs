@@ -1,7 +1,8 @@
 //! Items dealt to buckets in one pass, before it is known how many each will get.
 //!
 //! A bucket is a chain of chunks. Those of all buckets are pieces of one list, taken from it in the order of need, so that dealing writes to
-//! one place per bucket, and all these places stay in the second-level cache.
+//! one place per bucket, and all these places stay in the second-level cache. The last chunk of each bucket is half empty on average, of each
+//! thread: so there should be a chunk of items at least for each thread and bucket.
 
 use std::ops::Range;
 
@@ -9,8 +10,10 @@ use bytemuck::Zeroable;
 
 use crate::pages;
 
-/// Items of a chunk: the last one of each bucket is half empty, about.
-const CHUNK: usize = 256;
+/// Items of a chunk: 2 kB of words, so that a chunk is read in one go and rarely taken.
+pub(super) const CHUNK: usize = 256;
+/// Most buckets, as a power of two: the 2048 lines of 64 bytes that are written to are an eighth of a second-level cache of 1 MB.
+pub(super) const MOST_BUCKETS_BITS: u32 = 11;
 
 /// What one thread has dealt.
 pub(super) struct Dealt<T> {
@@ -23,12 +26,13 @@ pub(super) struct Dealt<T> {
 }
 
 impl<T: Copy + Zeroable> Dealt<T> {
-    /// No items yet in so many buckets; there should be about so many items. Room that is not needed costs nothing.
+    /// No items yet in so many buckets; there should be about so many items. Room behind the last chunk costs nothing.
     pub(super) fn new(buckets: usize, items: usize) -> Self {
         let chunks = (items + items / 8) / CHUNK + buckets;
         Self { list: pages::zeros(CHUNK * chunks), before: Vec::with_capacity(chunks), ends: vec![0; buckets] }
     }
 
+    /// Puts an item into a bucket. O(1).
     #[inline(always)]
     pub(super) fn put(&mut self, bucket: usize, item: T) {
         let mut place = self.ends[bucket] as usize;
@@ -63,7 +67,7 @@ impl<T: Copy + Zeroable> Dealt<T> {
 }
 
 /// Where each bucket ends in the list of all items, bucket by bucket.
-pub(super) fn ends<T: Copy + Zeroable>(dealt: &[Dealt<T>], buckets: usize) -> Vec<usize> {
+pub(super) fn bucket_ends<T: Copy + Zeroable>(dealt: &[Dealt<T>], buckets: usize) -> Vec<usize> {
     let size = |bucket| dealt.iter().flat_map(|own| own.chunks(bucket)).map(<[T]>::len).sum::<usize>();
     (0..buckets)
         .scan(0, |end, bucket| {
@@ -73,7 +77,7 @@ pub(super) fn ends<T: Copy + Zeroable>(dealt: &[Dealt<T>], buckets: usize) -> Ve
         .collect()
 }
 
-/// All buckets in `count` runs with about as many items each.
+/// All buckets in `count` runs with about as many items each, as far as whole buckets allow.
 pub(super) fn runs(ends: &[usize], count: usize) -> Vec<Range<usize>> {
     let all = ends.last().map_or(0, |&end| end);
     let mut first = 0;
@@ -108,7 +112,7 @@ mod tests {
                     dealt
                 })
                 .collect();
-            let ends = ends(&dealt, 5);
+            let ends = bucket_ends(&dealt, 5);
             for bucket in 0..5 {
                 let mut own: Vec<u32> = dealt.iter().flat_map(|own| own.chunks(bucket)).flatten().copied().collect();
                 own.sort_unstable();
@@ -117,6 +121,9 @@ mod tests {
                 prop_assert_eq!(own, expected);
             }
             let runs = runs(&ends, threads);
+            let largest = (0..5).map(|bucket| stretch(&(bucket..bucket + 1), &ends).len()).max().unwrap_or(0);
+            let lengths: Vec<usize> = runs.iter().map(|run| stretch(run, &ends).len()).collect();
+            prop_assert!(lengths.iter().all(|&own| own <= items.len() / threads + 1 + largest), "{:?}", lengths);
             prop_assert_eq!(runs.iter().cloned().flatten().collect::<Vec<_>>(), (0..5).collect::<Vec<_>>());
             prop_assert_eq!(runs.iter().map(|run| stretch(run, &ends).len()).sum::<usize>(), items.len());
         }

@@ -120,6 +120,7 @@ impl Edges<'_> {
 
     /// Joins two parts, of which one at least has an edge.
     pub(super) fn merge<W: Width>(&mut self, one: Part, other: Part, cut: Cut) -> Part {
+        debug_assert!(!(one.is_vertex && other.is_vertex), "the pair of one would be lost");
         let mut free = self.join(one.free, other.free);
         let first = self.lower_tangent(&one, &other, cut, &mut free);
         // Their half-edges may be gone after the next line, where they are the ends of the first or the last base edge.

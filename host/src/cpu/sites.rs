@@ -1,23 +1,24 @@
 //! The distinct points along the Z-curve, which is what the engine divides by.
+//!
+//! The leading bits of a point's position on the curve name its bucket, a cell of the plane. The other bits and the index of the point make one word, and
+//! each bucket of words is sorted by itself. Where both do not fit 64 bits the last bits of the position are left out: words that agree in the others are
+//! sorted by those once more, for which their points are looked up.
 
 use bytemuck::Zeroable;
 
-use super::deal::{ends, runs, stretch, Dealt};
+use super::deal::{bucket_ends, runs, stretch, Dealt, CHUNK, MOST_BUCKETS_BITS};
 use super::parallel::in_parallel;
 use super::view::Site;
 use crate::mesh::Duplicate;
 use crate::pages;
 use crate::point::Point;
-use crate::sort::{sort_by_key, Keyed};
+use crate::sort::{sort_by_key, Keyed, SMALL};
 
-/// Below this number words are sorted by comparison.
-const SMALL: usize = 256;
-/// Bits of a word that are sorted at a time: two digits of the radix sort, enough to tell nearly all points of a bucket apart.
-const KEY_BITS: u32 = 22;
-/// Least points of a bucket on average, where there are several: half of what stays in the first-level cache.
+/// Bits of a word that are sorted at a time: three digits of the radix sort of a usual bucket, enough to tell nearly all its points apart.
+const KEY_BITS: u32 = 24;
+/// Points of a bucket, where there are several, as many to twice as many on average if points are even: 16 to 32 kB, and as much again to sort
+/// them, which is near what a first-level cache holds.
 const BUCKET: usize = 2048;
-/// Most buckets, as a power of two: so many places can be written to at a time.
-const MOST_BUCKETS_BITS: u32 = 11;
 
 /// The distinct points, sorted.
 pub(super) struct Sites {
@@ -35,16 +36,16 @@ pub(super) struct Sites {
 ///
 /// From the top: the position on the curve without the bits that the bucket says, as many as there is room for; the index of the point.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
-struct Word(u64);
+struct Placed(u64);
 
-impl Keyed for Word {
+impl Keyed for Placed {
     fn key(&self) -> u64 {
         self.0 >> (u64::BITS - KEY_BITS)
     }
 }
 
 /// Sorts words by their leading bits, then those that agree in them by the others.
-fn sort_words(words: &mut Vec<Word>) {
+fn sort_words(words: &mut Vec<Placed>) {
     if words.len() < SMALL {
         return words.sort_unstable();
     }
@@ -55,10 +56,10 @@ fn sort_words(words: &mut Vec<Word>) {
             continue;
         }
         let leading = group[0].key() << (u64::BITS - KEY_BITS);
-        let mut rest: Vec<Word> = group.iter().map(|word| Word(word.0 << KEY_BITS)).collect();
+        let mut rest: Vec<Placed> = group.iter().map(|word| Placed(word.0 << KEY_BITS)).collect();
         sort_words(&mut rest);
         for (slot, word) in group.iter_mut().zip(rest) {
-            *slot = Word(leading | word.0 >> KEY_BITS);
+            *slot = Placed(leading | word.0 >> KEY_BITS);
         }
     }
 }
@@ -71,24 +72,27 @@ struct Curve {
     bits: u32,
     /// Leading bits of a position, which say the bucket.
     bucket_bits: u32,
-    /// The other bits of a position: one at least.
+    /// The other bits of a position. At least one, which is zero where all points are at one place.
     rest_bits: u32,
-    /// The bits of a word that are an index.
-    indices: u64,
+    /// Bits of an index.
+    index_bits: u32,
 }
 
 impl Curve {
-    fn of(points: &[Point]) -> Self {
+    /// For points that so many threads deal.
+    fn of(points: &[Point], threads: usize) -> Self {
         let none = (Point::new(u32::MAX, u32::MAX), Point::new(0, 0));
         let (corner, far) = points.iter().fold(none, |(low, high), p| {
             (Point::new(low.x.min(p.x), low.y.min(p.y)), Point::new(high.x.max(p.x), high.y.max(p.y)))
         });
         let extent = far.x.saturating_sub(corner.x) | far.y.saturating_sub(corner.y);
         let bits = u32::BITS - extent.leading_zeros();
-        let bucket_bits = (points.len() / BUCKET).max(1).ilog2().min(MOST_BUCKETS_BITS).min(2 * bits);
+        let average = BUCKET.max(CHUNK * threads);
+        let most = MOST_BUCKETS_BITS.min((2 * bits).saturating_sub(1));
+        let bucket_bits = (points.len() / average).max(1).ilog2().min(most);
         let rest_bits = (2 * bits - bucket_bits).max(1);
         let index_bits = usize::BITS - points.len().saturating_sub(1).leading_zeros();
-        Self { corner, bits, bucket_bits, rest_bits, indices: (1 << index_bits) - 1 }
+        Self { corner, bits, bucket_bits, rest_bits, index_bits }
     }
 
     fn buckets(&self) -> usize {
@@ -113,18 +117,35 @@ impl Curve {
         position << (u64::BITS - self.rest_bits)
     }
 
-    /// Positions stand whole in the words.
-    fn is_exact(&self) -> bool {
-        self.rest(u64::MAX) & self.indices == 0
+    /// The bits of a word that are an index.
+    #[inline(always)]
+    fn indices(&self) -> u64 {
+        (1 << self.index_bits) - 1
     }
 
-    /// Deals points, the first of which has this index, to the squares that their leading bits name.
-    fn deal(&self, points: &[Point], first: usize) -> Dealt<Word> {
+    /// Positions stand whole in the words.
+    fn is_exact(&self) -> bool {
+        self.rest_bits + self.index_bits <= u64::BITS
+    }
+
+    /// The word of a point that has this position.
+    #[inline(always)]
+    fn placed(&self, position: u64, index: u64) -> Placed {
+        Placed(self.rest(position) & !self.indices() | index)
+    }
+
+    /// The same where words are not exact, with the bits of the position that those leave out. They fit: `rest_bits` is at most 62, an index has 29.
+    fn placed_finely(&self, position: u64, index: u64) -> Placed {
+        let missing = self.rest_bits + self.index_bits - u64::BITS;
+        Placed(position << (u64::BITS - missing) | index)
+    }
+
+    /// Deals points, the first of which has this index, to the cells that their leading bits name.
+    fn deal(&self, points: &[Point], first: usize) -> Dealt<Placed> {
         let mut dealt = Dealt::new(self.buckets(), points.len());
         for (&point, index) in points.iter().zip(first as u64..) {
             let position = self.position(point);
-            let word = Word(self.rest(position) & !self.indices | index);
-            dealt.put((position >> self.rest_bits) as usize, word);
+            dealt.put((position >> self.rest_bits) as usize, self.placed(position, index));
         }
         dealt
     }
@@ -152,27 +173,27 @@ fn gather(bits: u64) -> u32 {
     (bits | bits >> 16) as u32
 }
 
-/// Sorts the points along the curve and takes duplicates out, on so many threads. O(n): points are dealt to squares of about [`BUCKET`] points,
-/// and each square has a radix sort of its own.
+/// Sorts the points along the curve and takes duplicates out, on so many threads. O(n), by radix: points are dealt to cells of [`BUCKET`] points or some
+/// more, if they are even, and each cell is sorted by itself. A thread has whole cells, so threads help less where most points are in few of them.
 pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
-    let curve = Curve::of(points);
+    let curve = Curve::of(points, threads);
     let mut all = Sites {
         sites: pages::zeros(points.len()),
         ids: pages::zeros(points.len()),
         duplicates: Vec::new(),
         bits: curve.bits,
     };
-    let own = points.len().div_ceil(threads).max(1);
-    let dealt = in_parallel(points.chunks(own).enumerate(), |(place, points)| curve.deal(points, own * place));
-    let ends = ends(&dealt, curve.buckets());
+    let share = points.len().div_ceil(threads).max(1);
+    let dealt = in_parallel(points.chunks(share).enumerate(), |(place, own)| curve.deal(own, share * place));
+    let ends = bucket_ends(&dealt, curve.buckets());
     let (mut sites, mut ids) = (all.sites.as_mut_slice(), all.ids.as_mut_slice());
-    let runs = runs(&ends, threads).into_iter().map(|run| {
-        let room = stretch(&run, &ends).len();
-        let (own_sites, own_ids) =
-            (sites.split_off_mut(..room).unwrap_or_default(), ids.split_off_mut(..room).unwrap_or_default());
-        (run, Kept { sites: own_sites, ids: own_ids, count: 0, duplicates: Vec::new() })
+    let tasks = runs(&ends, threads).into_iter().map(|run| {
+        let room = ..stretch(&run, &ends).len();
+        let sites = sites.split_off_mut(room).unwrap_or_default();
+        let ids = ids.split_off_mut(room).unwrap_or_default();
+        (run, Kept { sites, ids, count: 0, duplicates: Vec::new() })
     });
-    let kept = in_parallel(runs, |(run, mut kept)| {
+    let kept = in_parallel(tasks, |(run, mut kept)| {
         let room = kept.sites.len();
         let mut words = Vec::new();
         for bucket in run {
@@ -201,11 +222,11 @@ struct Kept<'a> {
 
 impl Kept<'_> {
     /// Takes the words of a bucket, sorted, which have the whole position.
-    fn take_exact(&mut self, words: &[Word], bucket: u64, curve: Curve) {
+    fn take_exact(&mut self, words: &[Placed], bucket: u64, curve: Curve) {
         let mut before = None;
-        for &Word(word) in words {
-            let index = (word & curve.indices) as u32;
-            let rest = word & !curve.indices;
+        for &Placed(word) in words {
+            let index = (word & curve.indices()) as u32;
+            let rest = word & !curve.indices();
             if before == Some(rest) {
                 self.drop_onto_last(index);
                 continue;
@@ -217,15 +238,21 @@ impl Kept<'_> {
     }
 
     /// Takes the words of a bucket, sorted, which have the leading bits of the position.
-    fn take_rounded(&mut self, words: &mut [Word], points: &[Point], curve: Curve) {
-        let point = |word: &Word| points[(word.0 & curve.indices) as usize];
-        for group in words.chunk_by_mut(|one, other| (one.0 ^ other.0) & !curve.indices == 0) {
+    fn take_rounded(&mut self, words: &mut [Placed], points: &[Point], curve: Curve) {
+        for group in words.chunk_by_mut(|one, other| (one.0 ^ other.0) & !curve.indices() == 0) {
             if group.len() > 1 {
-                group.sort_unstable_by_key(|word| (curve.position(point(word)), *word));
+                for word in &mut *group {
+                    let index = word.0 & curve.indices();
+                    *word = curve.placed_finely(curve.position(points[index as usize]), index);
+                }
+                let mut sorted = group.to_vec();
+                sort_words(&mut sorted);
+                group.copy_from_slice(&sorted);
             }
             let mut before = None;
             for word in &*group {
-                let (point, index) = (point(word), (word.0 & curve.indices) as u32);
+                let index = (word.0 & curve.indices()) as u32;
+                let point = points[index as usize];
                 if before == Some(point) {
                     self.drop_onto_last(index);
                     continue;

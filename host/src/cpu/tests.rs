@@ -81,7 +81,7 @@ fn triangles(points: &[Point], threads: usize) -> Vec<[u32; 3]> {
 
 /// Points that come in an order of their own are in few buckets at a time, and the lowest ids have most of the triangles.
 #[test]
-fn threads_share_the_triangles_whatever_the_order_of_the_points() {
+fn threads_find_the_same_triangles_whatever_the_order_of_the_points() {
     let mut points: Vec<Point> =
         (0..9000u64).map(mix).map(|random| Point::new(random as u32 >> 16, random as u32 & 0xffff)).collect();
     for _ in 0..3 {
@@ -96,6 +96,27 @@ fn threads_share_the_triangles_whatever_the_order_of_the_points() {
             points.reverse();
         } else {
             points.sort_by_key(|&p| position(p));
+        }
+    }
+}
+
+/// Fewer places than stretches: no stretch may be a single vertex beside another.
+#[test]
+fn many_threads_share_few_places() {
+    for side in 2..=12 {
+        let points: Vec<Point> = (0..side * side + 5).map(|k| Point::new(k % side, k / side % side)).collect();
+        let expected = triangles(&points, 1);
+        assert_eq!(expected.len() as u32, 2 * (side - 1) * (side - 1));
+        for threads in [2, 3, 4, 5, 9, 16, 64] {
+            assert!(triangles(&points, threads) == expected, "{side}, {threads}");
+        }
+    }
+    for seed in 0..200 {
+        let random = |k: u64| mix(seed << 32 | k) as u32 & 63;
+        let points: Vec<Point> = (0..24 + seed % 40).map(|k| Point::new(random(2 * k), random(2 * k + 1))).collect();
+        let expected = triangles(&points, 1);
+        for threads in [2, 4, 6, 9] {
+            assert!(triangles(&points, threads) == expected, "{seed}, {threads}");
         }
     }
 }
@@ -138,6 +159,21 @@ fn many_points_are_sorted_with_their_duplicates() {
             assert_eq!(sorted.duplicates.len(), points.len() - expected.len());
             assert!(sorted.duplicates.iter().all(|d| points[d.index as usize] == points[d.of as usize]));
         }
+    }
+}
+
+/// Words leave bits of the position out, and hundreds of points agree in the others, in several buckets.
+#[test]
+fn a_dense_lattice_beside_a_far_point_is_sorted() {
+    let far = Point::new((1 << 31) - 1, (1 << 31) - 1);
+    let mut points: Vec<Point> = (0..250 * 250).map(|k| Point::new(k % 250, k / 250)).collect();
+    points.sort_by_key(|point| mix(u64::from(point.x) << 32 | u64::from(point.y)));
+    points.insert(777, far);
+    for threads in 1..=4 {
+        let sorted = sort(&points, threads);
+        assert!(sorted.duplicates.is_empty() && sorted.ids.len() == points.len());
+        assert!(sorted.ids.is_sorted_by_key(|&id| position(points[id as usize])), "{threads}");
+        assert!(sorted.sites.iter().zip(&sorted.ids).all(|(&site, &id)| site == Site::from(points[id as usize])));
     }
 }
 

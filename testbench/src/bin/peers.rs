@@ -1,10 +1,16 @@
 //! Triangulators beside each other, in one run: `cargo run --release -p incircle-testbench --bin peers -- --help`.
 
-use std::error::Error;
+use std::process::ExitCode;
 
 use clap::Parser;
 use incircle_testbench::peers::{compare, Arguments};
 
-fn main() -> Result<(), Box<dyn Error>> {
-    Ok(compare(&Arguments::parse())?)
+fn main() -> ExitCode {
+    match compare(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("peers: {error}");
+            ExitCode::FAILURE
+        }
+    }
 }

@@ -1,8 +1,8 @@
 //! Triangulators beside each other: what each takes for the same points, in one run, in turn, with fresh points each time.
 //!
 //! Times are of the whole call, from a list of points to a mesh in the form of the library; each must have as many triangles as ours.
-//! Each does other points just before, untimed: what the system takes to hand out memory says much of a machine and little of an algorithm. Four million
-//! points take some 10 ns longer each without that, and more than 200 where a virtual machine has lent its free memory to others.
+//! Each does other points of the set just before (the airports: the same in another order), untimed: what the system takes to hand out memory says much of a machine and little of an algorithm. Four million
+//! points take some 10 ns longer each without the untimed run, and more than 200 where a virtual machine has lent its free memory to others.
 //! Ratios are medians over the repetitions of times taken next to each other, so that what else the machine does touches both; objects
 //! also have the processor's time on the calling thread ("busy"), which others disturb less.
 
@@ -20,8 +20,10 @@ use incircle_cli::generate::SplitMix64;
 use contestant::{Contestant, Run};
 pub use points::Set;
 
-/// Points of all repetitions together, unless their number is given.
+/// Timed points of all repetitions together, unless their number is given.
 const POINTS: usize = 6_000_000;
+/// Makes a seed one of the untimed points, which no repetition has.
+const OTHERS: u64 = 1 << 63;
 /// Fewest and most repetitions unless their number is given.
 const REPETITIONS: std::ops::RangeInclusive<usize> = 3..=101;
 
@@ -32,8 +34,9 @@ pub struct Arguments {
     /// The sets (default: the five distributions of the literature, the lattice, and the airports of the world)
     #[arg(long, value_name = "SET", value_delimiter = ',')]
     dist: Vec<Set>,
-    /// Numbers of points
-    #[arg(short, value_name = "N", value_delimiter = ',', default_values_t = [1000, 16_384, 65_536, 1_000_000])]
+    /// Numbers of points, each at least 3: not all peers take fewer
+    #[arg(short, value_name = "N", value_delimiter = ',', default_values_t = [1000, 16_384, 65_536, 1_000_000],
+        value_parser = clap::value_parser!(u32).range(3..))]
     n: Vec<u32>,
     /// Bits of a coordinate
     #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
@@ -131,15 +134,16 @@ fn measure(
         runs: vec![Vec::new(); contestants.len()],
     };
     for repetition in 0..arguments.repetitions.unwrap_or(usual).max(1) {
-        let points: Vec<Point> = set.points(n, arguments.bits, arguments.seed + repetition as u64)?;
-        let before: Vec<Point> = set.points(n, arguments.bits, !arguments.seed - repetition as u64)?;
-        // By chance: whoever always came after a program that has just given its memory back would wait for the system each time.
-        let mut random = SplitMix64::new(arguments.seed + repetition as u64);
+        let seed = arguments.seed.wrapping_add(repetition as u64);
+        let points = set.points(n, arguments.bits, seed)?;
+        let before = if arguments.cold { None } else { Some(set.points(n, arguments.bits, seed ^ OTHERS)?) };
+        // By chance: whoever always came after a program that has just given its memory back would wait for the system each time, most of all when cold.
+        let mut random = SplitMix64::new(seed);
         let mut turns: Vec<usize> = (0..contestants.len()).collect();
         turns.sort_by_cached_key(|_| random.next_u64());
         for place in turns {
-            if !arguments.cold {
-                contestants[place].run(&before)?;
+            if let Some(before) = &before {
+                contestants[place].run(before)?;
             }
             let run = contestants[place].run(&points)?;
             outcome.points = points.len();
@@ -151,4 +155,51 @@ fn measure(
         }
     }
     Ok(outcome)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::RefCell;
+    use std::rc::Rc;
+
+    /// It keeps what it is given.
+    struct Listener(Rc<RefCell<Vec<Vec<Point>>>>);
+
+    impl Contestant for Listener {
+        fn name(&self) -> &'static str {
+            "listener"
+        }
+
+        fn run(&mut self, points: &[Point]) -> Result<Run, PeerError> {
+            let mut heard = self.0.borrow_mut();
+            heard.push(points.to_vec());
+            Ok(Run { seconds: heard.len() as f64, busy: 0.0, triangles: 0, distinct: None, order_share: None })
+        }
+    }
+
+    #[test]
+    fn each_run_follows_an_untimed_one_of_other_points_unless_it_is_cold() {
+        for (option, kept) in [(None, [2.0, 4.0, 6.0].as_slice()), (Some("--cold"), &[1.0, 2.0, 3.0])] {
+            let arguments = Arguments::parse_from(
+                ["peers", "--repetitions", "3", "--seed", "18446744073709551615"].into_iter().chain(option),
+            );
+            let heard = Rc::new(RefCell::new(Vec::new()));
+            // Ours are two.
+            let mut field: Vec<Box<dyn Contestant>> =
+                vec![Box::new(Listener(heard.clone())), Box::new(Listener(Rc::default()))];
+            let outcome = measure(&mut field, Set::usual()[0], 50, &arguments).expect("a set");
+            let seconds: Vec<f64> = outcome.runs[0].iter().map(|run| run.seconds).collect();
+            assert_eq!(seconds, kept);
+            let heard = heard.take();
+            let mut distinct = heard.clone();
+            distinct.sort();
+            distinct.dedup();
+            assert_eq!(distinct.len(), heard.len(), "points come again");
+            let header = table::header(&arguments, &["listener"], &[]);
+            assert_eq!(header.contains("as the system gives it"), option.is_some(), "{header}");
+            let object: serde_json::Value = serde_json::from_str(&table::json(&outcome, &[])).expect("an object");
+            assert_eq!(object["cold"], option.is_some());
+        }
+    }
 }

@@ -33,7 +33,11 @@ pub(super) struct Process {
 pub(super) fn cgal() -> Result<Process, Missing> {
     let absent = |reason: String| Missing { name: "cgal", reason };
     let folder = std::env::temp_dir().join(format!("incircle-peers-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).map_err(|error| absent(error.to_string()))?;
+    // What is compiled there is run: it must be a new folder that is ours alone.
+    let mut builder = std::fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.create(&folder).map_err(|error| absent(format!("{}: {error}", folder.display())))?;
     let program = compile(&folder).map_err(absent);
     let started = program.and_then(|program| Process::start("cgal", Command::new(program)));
     // The running program needs its file no more.

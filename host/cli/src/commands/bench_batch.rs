@@ -55,7 +55,7 @@ struct Table<'a> {
     contexts: u32,
 }
 
-/// Most points of all jobs together: they and their meshes are in memory at once, some 60 bytes a point.
+/// Most points of all jobs together: they and their meshes are in memory at once, 40 bytes a point and some hundred a job, so 3 to 10 GB.
 const MOST_POINTS: u64 = 1 << 26;
 
 /// Runs so many jobs of each set: a row as soon as they are done, or one JSON object at the end.
