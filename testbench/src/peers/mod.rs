@@ -14,7 +14,6 @@ mod table;
 use std::io::Write;
 
 use clap::Parser;
-use incircle::Point;
 use incircle_cli::generate::SplitMix64;
 
 use contestant::{Contestant, Run};
@@ -160,6 +159,7 @@ fn measure(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use incircle::Point;
     use std::cell::RefCell;
     use std::rc::Rc;
 
