@@ -13,7 +13,7 @@ mod curve;
 #[cfg(test)]
 mod drawing;
 mod median;
-mod morton;
+pub(crate) mod morton;
 mod peano;
 mod pieces;
 mod random;

@@ -10,6 +10,7 @@ use super::deal::{bucket_ends, runs, stretch, Dealt, CHUNK, MOST_BUCKETS_BITS};
 use super::parallel::in_parallel;
 use super::view::Site;
 use crate::mesh::Duplicate;
+use crate::order::morton::{point_at, position};
 use crate::pages;
 use crate::point::Point;
 use crate::sort::{sort_by_key, Keyed, SMALL};
@@ -102,7 +103,7 @@ impl Curve {
     /// The position of a point: its coordinates' bits in turn, x first.
     #[inline(always)]
     fn position(&self, point: Point) -> u64 {
-        spread(point.x - self.corner.x) << 1 | spread(point.y - self.corner.y)
+        position(point.x - self.corner.x, point.y - self.corner.y)
     }
 
     /// The point, seen from the corner.
@@ -149,28 +150,6 @@ impl Curve {
         }
         dealt
     }
-}
-
-/// The bits of a number, each with a zero above it.
-#[inline(always)]
-fn spread(value: u32) -> u64 {
-    let mut bits = u64::from(value);
-    bits = (bits | bits << 16) & 0x0000_ffff_0000_ffff;
-    bits = (bits | bits << 8) & 0x00ff_00ff_00ff_00ff;
-    bits = (bits | bits << 4) & 0x0f0f_0f0f_0f0f_0f0f;
-    bits = (bits | bits << 2) & 0x3333_3333_3333_3333;
-    (bits | bits << 1) & 0x5555_5555_5555_5555
-}
-
-/// The number whose bits [`spread`] gave these.
-#[inline(always)]
-fn gather(bits: u64) -> u32 {
-    let mut bits = bits & 0x5555_5555_5555_5555;
-    bits = (bits | bits >> 1) & 0x3333_3333_3333_3333;
-    bits = (bits | bits >> 2) & 0x0f0f_0f0f_0f0f_0f0f;
-    bits = (bits | bits >> 4) & 0x00ff_00ff_00ff_00ff;
-    bits = (bits | bits >> 8) & 0x0000_ffff_0000_ffff;
-    (bits | bits >> 16) as u32
 }
 
 /// Sorts the points along the curve and takes duplicates out, on so many threads. O(n), by radix: points are dealt to cells of [`BUCKET`] points or some
@@ -233,7 +212,7 @@ impl Kept<'_> {
             }
             before = Some(rest);
             let position = bucket << curve.rest_bits | rest >> (u64::BITS - curve.rest_bits);
-            self.keep(Point::new(gather(position >> 1), gather(position)).into(), index);
+            self.keep(point_at(position).into(), index);
         }
     }
 

@@ -13,16 +13,19 @@ pub(super) fn order(points: &[Point]) -> Vec<u32> {
 }
 
 /// The position of a cell.
-pub(super) fn position(x: u32, y: u32) -> u64 {
+#[inline(always)]
+pub(crate) fn position(x: u32, y: u32) -> u64 {
     spread(x) << 1 | spread(y)
 }
 
 /// The cell at a position.
-pub(super) fn point_at(position: u64) -> Point {
+#[inline(always)]
+pub(crate) fn point_at(position: u64) -> Point {
     Point::new(gather(position >> 1), gather(position))
 }
 
 /// The even bits of a number, side by side.
+#[inline(always)]
 fn gather(bits: u64) -> u32 {
     let fold = |bits: u64, shift: u32, mask: u64| (bits | bits >> shift) & mask;
     let bits = fold(bits & 0x5555_5555_5555_5555, 1, 0x3333_3333_3333_3333);
@@ -33,6 +36,7 @@ fn gather(bits: u64) -> u32 {
 }
 
 /// The bits of a number, each with a zero above it.
+#[inline(always)]
 fn spread(value: u32) -> u64 {
     let fold = |bits: u64, shift: u32, mask: u64| (bits | bits << shift) & mask;
     let bits = fold(value.into(), 16, 0x0000_ffff_0000_ffff);
