@@ -29,6 +29,24 @@ impl SplitMix64 {
         (wide >> 64) as u64
     }
 
+    /// The same with 32 bits.
+    pub fn below_u32(&mut self, bound: u32) -> u32 {
+        self.below(bound.into()) as u32
+    }
+
+    /// One of these, each alike.
+    ///
+    /// # Panics
+    /// Without items.
+    pub fn pick<T: Copy>(&mut self, items: &[T]) -> T {
+        items[self.below(items.len() as u64) as usize]
+    }
+
+    /// Points of the square `[0, side)`, each place alike, as any type that pairs of coordinates turn into.
+    pub fn points<P: From<[u32; 2]>>(&mut self, count: usize, side: u32) -> Vec<P> {
+        (0..count).map(|_| P::from([self.below_u32(side), self.below_u32(side)])).collect()
+    }
+
     /// A number in `[0, 1)`, a multiple of 2^-53.
     pub fn unit(&mut self) -> f64 {
         const STEP: f64 = 1.0 / (1u64 << 53) as f64;
@@ -61,6 +79,16 @@ mod tests {
         let words: Vec<u64> = (0..3).map(|_| random.next_u64()).collect();
         let published = [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423];
         assert_eq!(words, published);
+    }
+
+    #[test]
+    fn numbers_stay_below_their_bound() {
+        let mut random = SplitMix64::new(2);
+        assert!((0..1000).all(|_| random.below(7) < 7 && random.below_u32(3) < 3));
+        assert_eq!((random.below(0), random.below_u32(1)), (0, 0));
+        assert_eq!(random.pick(&[5]), 5);
+        let points: Vec<[u32; 2]> = random.points(100, 4);
+        assert!(points.len() == 100 && points.iter().flatten().all(|&value| value < 4));
     }
 
     #[test]

@@ -1,12 +1,12 @@
 //! Sets that are samples of a distribution.
 //!
-//! The first five are those of G. E. Blelloch, G. L. Miller, D. Talmor, "Developing a practical projection-based parallel
-//! Delaunay algorithm", SCG 1996 (uniform, normal, Kuzmin, line singularity), and of K. Buchin, "Constructing Delaunay
-//! triangulations along space-filling curves", ESA 2009, with O. Schrijvers, F. van Bommel, K. Buchin, EuroCG 2012
-//! (checkers).
+//! The first five are those of G. E. Blelloch, G. L. Miller, D. Talmor, "Developing a practical projection-based
+//! parallel Delaunay algorithm", SCG 1996 (uniform, normal, Kuzmin, line singularity), and of K. Buchin, "Constructing
+//! Delaunay triangulations along space-filling curves", ESA 2009, with O. Schrijvers, F. van Bommel, K. Buchin, EuroCG
+//! 2012 (checkers).
 
-use super::random::SplitMix64;
 use super::{room, Grid, Points};
+use crate::random::SplitMix64;
 
 /// Standard deviations from the centre of the grid to its sides.
 const NORMAL_DEVIATIONS: f64 = 4.0;

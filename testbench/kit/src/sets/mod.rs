@@ -1,67 +1,125 @@
 //! Point sets by name: the distributions of the literature, and the hard cases.
 //!
 //! Every set is a list of exactly `n` points with integer coordinates in `[0, 2^bits)`, and depends on nothing but its
-//! name, `n`, `bits` and the seed: the random numbers are SplitMix64 and the elementary functions those of `libm`, so all
-//! machines give the same points. Points may fall together; where a definition has room for fewer distinct points than
-//! asked for, they do. Sets with a fixed shape are shuffled, so that the seed chooses their order.
+//! name, `n`, `bits` and the seed: the random numbers are SplitMix64 and the elementary functions those of `libm`, so
+//! all machines give the same points. Points may fall together; where a definition has room for fewer distinct points
+//! than asked for, they do. Sets with a fixed shape are shuffled, so that the seed chooses their order.
 
-mod random;
 mod sampled;
 mod shaped;
 
 use std::fmt;
+use std::str::FromStr;
 
-use clap::ValueEnum;
-
-pub use random::SplitMix64;
+use crate::random::SplitMix64;
 
 /// The sets that can be generated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Distribution {
-    /// Every grid point alike
+    /// Every grid point alike.
     Uniform,
-    /// Gaussian around the centre
+    /// Gaussian around the centre.
     Normal,
-    /// Kuzmin's disc, crowded in the centre with long tails
+    /// Kuzmin's disc, crowded in the centre with long tails.
     Kuzmin,
-    /// Crowded towards a vertical line
+    /// Crowded towards a vertical line.
     Line,
-    /// A chequered board, 7/8 of the points on black squares
+    /// A chequered board, 7/8 of the points on black squares.
     Checkers,
-    /// A square lattice
+    /// A square lattice.
     Lattice,
-    /// A square lattice, turned by an exact rotation
+    /// A square lattice, turned by an exact rotation.
     RotatedLattice,
-    /// Near a circle
+    /// Near a circle.
     Circle,
-    /// Gaussian clusters
+    /// Gaussian clusters.
     Clusters,
-    /// On a parabola
+    /// On a parabola.
     Parabola,
-    /// The same, with the vertex where a Hilbert curve ends
+    /// The same, with the vertex where a Hilbert curve ends.
     ParabolaInward,
-    /// Two convex chains that face each other
+    /// Two convex chains that face each other.
     TwoChains,
-    /// On a spiral
+    /// On a spiral.
     Spiral,
-    /// All points of a small box, each about four times
+    /// All points of a small box, each about four times.
     Box,
 }
 
+/// Each distribution with its name and what it is, in a few words.
+const NAMED: [(Distribution, &str, &str); 14] = [
+    (Distribution::Uniform, "uniform", "Every grid point alike"),
+    (Distribution::Normal, "normal", "Gaussian around the centre"),
+    (Distribution::Kuzmin, "kuzmin", "Kuzmin's disc, crowded in the centre with long tails"),
+    (Distribution::Line, "line", "Crowded towards a vertical line"),
+    (Distribution::Checkers, "checkers", "A chequered board, 7/8 of the points on black squares"),
+    (Distribution::Lattice, "lattice", "A square lattice"),
+    (Distribution::RotatedLattice, "rotated-lattice", "A square lattice, turned by an exact rotation"),
+    (Distribution::Circle, "circle", "Near a circle"),
+    (Distribution::Clusters, "clusters", "Gaussian clusters"),
+    (Distribution::Parabola, "parabola", "On a parabola"),
+    (Distribution::ParabolaInward, "parabola-inward", "The same, with the vertex where a Hilbert curve ends"),
+    (Distribution::TwoChains, "two-chains", "Two convex chains that face each other"),
+    (Distribution::Spiral, "spiral", "On a spiral"),
+    (Distribution::Box, "box", "All points of a small box, each about four times"),
+];
+
 impl Distribution {
-    /// All distributions.
-    pub fn all() -> &'static [Self] {
-        Self::value_variants()
-    }
+    /// All distributions, in the order of [`Distribution`].
+    pub const ALL: [Self; NAMED.len()] = {
+        let mut all = [Self::Uniform; NAMED.len()];
+        let mut place = 0;
+        while place < NAMED.len() {
+            all[place] = NAMED[place].0;
+            place += 1;
+        }
+        all
+    };
 
     /// The five distributions of the literature.
     pub const LITERATURE: [Self; 5] = [Self::Uniform, Self::Normal, Self::Kuzmin, Self::Line, Self::Checkers];
+
+    /// All distributions.
+    pub fn all() -> &'static [Self] {
+        &Self::ALL
+    }
+
+    /// The name, as the command line takes it: lower case, words joined by hyphens.
+    pub fn name(self) -> &'static str {
+        NAMED[self as usize].1
+    }
+
+    /// What the set is, in a few words.
+    pub fn description(self) -> &'static str {
+        NAMED[self as usize].2
+    }
 }
 
 impl fmt::Display for Distribution {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let value = self.to_possible_value();
-        f.write_str(value.as_ref().map_or("hidden", |value| value.get_name()))
+        f.write_str(self.name())
+    }
+}
+
+/// No distribution has this name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownName(pub String);
+
+impl fmt::Display for UnknownName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = Distribution::ALL.map(Distribution::name).join(", ");
+        write!(f, "there is no point set '{}': choose one of {names}", self.0)
+    }
+}
+
+impl std::error::Error for UnknownName {}
+
+impl FromStr for Distribution {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        let named = Self::ALL.into_iter().find(|distribution| distribution.name() == name);
+        named.ok_or_else(|| UnknownName(name.to_owned()))
     }
 }
 
@@ -179,6 +237,17 @@ mod tests {
                 assert!(inside, "{distribution} {n} {bits}");
             }
         }
+    }
+
+    #[test]
+    fn every_distribution_has_its_name() {
+        for (place, distribution) in Distribution::ALL.into_iter().enumerate() {
+            assert_eq!(NAMED[place].0 as usize, place);
+            assert_eq!(distribution.name().parse(), Ok(distribution));
+        }
+        assert_eq!(Distribution::TwoChains.to_string(), "two-chains");
+        let refused = "gauss".parse::<Distribution>().map_err(|error| error.to_string());
+        assert!(refused.is_err_and(|error| error.contains("'gauss'") && error.contains("rotated-lattice")));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Sets of a fixed shape, shuffled.
 
-use super::random::SplitMix64;
 use super::{room, Grid, Points};
+use crate::random::SplitMix64;
 
 /// Copies of each point of a box, on average.
 const BOX_COPIES: usize = 4;
@@ -42,8 +42,9 @@ pub fn parabola(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     shuffled(n, place, random)
 }
 
-/// The same, mirrored: a Hilbert curve over an even number of bits ends in the lower right corner, at the vertex. A point nearer to the vertex than all
-/// before it lies in the circles of all their triangles, so tests and cavities along the curve grow with n.
+/// The same, mirrored: a Hilbert curve over an even number of bits ends in the lower right corner, at the vertex. A
+/// point nearer to the vertex than all before it lies in the circles of all their triangles, so tests and cavities
+/// along the curve grow with n.
 pub fn parabola_inward(n: usize, grid: Grid, random: &mut SplitMix64) -> Points {
     let mut points = parabola(n, grid, random)?;
     let last = (grid.size - 1) as u32;
