@@ -1,4 +1,7 @@
 //! What blocks show each other within a clock: functions of registers and inputs.
+//!
+//! The one module that may stand in a circle of imports: every block reads these wires and drives some of them, with types of its own, as
+//! the blocks of the core do. `testbench/tests/it/project/import_circles` allows no other.
 
 use super::attempts::{Around, Outcome};
 use super::command_port::State as CommandState;
