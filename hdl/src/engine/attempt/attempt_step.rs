@@ -14,7 +14,8 @@
 //! | `passes_root` | out | 1 | the second edge of the root is passed |
 //!
 //! 1. A test is one visit less; if it passes through its edge, two more and one more entry.
-//! 2. A cavity triangle brings two open edges, the root three; when the last is passed it is an inner one.
+//! 2. A failed attempt drains: it is over when its last visit is, not before, because a visit that is out may take a lock (L1).
+//! 3. A cavity triangle brings two open edges, the root three; when the last is passed it is an inner one.
 //!
 //! Latency: none (combinational).
 
@@ -79,6 +80,7 @@ impl Logic for AttemptStep {
         self.logged.next = self.attempt.val().logged;
         self.half_open.next = self.attempt.val().half_open;
 
+        // L1: a failed attempt is over when its last visit is in.
         self.fails.next = self.attempt.val().drains | self.gives_up.val() | self.overflows.val();
         self.ends_here.next = self.is_test.val() & self.is_last.val() & (!self.splits.val()) & (!self.repeats.val());
         self.is_over.next = self.ends_here.val();

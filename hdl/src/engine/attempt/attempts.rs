@@ -25,7 +25,7 @@
 //!
 //! 1. A visit changes the state of its own context only, which is read a clock ahead, and changed and written back in one clock; so
 //!    visits of all contexts complete in any order, one a clock.
-//! 2. A failed attempt drains: its visits run out, locks that they take are logged, and then all its locks are released.
+//! 2. A failed attempt drains: its visits run out, locks that they take are logged, and then all its locks are released (L1).
 //! 3. All outputs belong to the visit of this clock. `seeded`, `busy` and the waiting token are looked at a clock ahead.
 //!
 //! Latency: 1 clock from the early inputs to the outputs; the state is there for the visit of the next clock.

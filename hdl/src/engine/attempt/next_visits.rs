@@ -102,6 +102,7 @@ impl Logic for NextVisits {
         self.halves.d.next = self.splits.val();
 
         self.bundle.next = self.prepared.q.val();
+        // L5: the same record again, this time under its lock.
         if self.locates.val() {
             self.bundle.next.locks = true;
         }

@@ -23,10 +23,10 @@
 //! | `asks` | out | 1 | visits follow: it repeats, walks on, locates, opens or splits |
 //! | `may_ask` | out | 1 | they may, as far as is known soon: it is no test that finds its edge final |
 //!
-//! 1. Who meets a lock of another context gives up, unless it holds the waiting token: then it asks again.
-//! 2. A walk holds no locks. It looks again at a record that is not written yet or being written, and at its goal while the context
-//!    still has locks of its last point.
-//! 3. The located triangle is visited again under its lock, so what the walk saw need not be true any more.
+//! 1. Who meets a lock of another context gives up (L1), unless it holds the waiting token: then it asks again (L2).
+//! 2. A walk holds no locks. It looks again at a record that is not written yet or being written (L7), and at its goal while the
+//!    context still has locks of its last point (L6).
+//! 3. The located triangle is visited again under its lock, so what the walk saw need not be true any more (L5).
 //! 4. At most one of `looks` to `root_duplicate` is high; none is for a test of an attempt that drains.
 //! 5. What does not depend on the verdict is decided a clock ahead; so are `is_busy` and `is_waiter`.
 //!
@@ -177,7 +177,7 @@ impl Logic for VisitCase {
         self.is_test.next = self.tested.q.val();
         self.looks.next = self.looked.q.val();
 
-        // A walk.
+        // A walk. L7: a torn record says nothing. L6: a commit still reads what the next cavity would overwrite.
         self.is_located.next = self.verdict.val().located & (!self.verdict.val().falls_onto_corner);
         self.is_corner.next = self.verdict.val().located & self.verdict.val().falls_onto_corner;
         self.looks_again.next = self.walk_is_torn.q.val()
@@ -186,13 +186,13 @@ impl Logic for VisitCase {
         self.walk_duplicate.next = self.walk_counts.q.val() & self.is_corner.val();
         self.locates.next = self.walk_counts.q.val() & self.is_located.val() & (!self.context_is_busy.q.val());
 
-        // The visit of the root.
+        // The visit of the root. L5: only what is seen under the lock counts.
         self.gives_up_root.next = self.root_is_refused.q.val();
         self.opens.next = self.root_is_held.q.val() & self.is_located.val();
         self.root_duplicate.next = self.root_is_held.q.val() & self.is_corner.val();
         self.retries.next = self.root_is_held.q.val() & (!self.verdict.val().located);
 
-        // A test.
+        // A test. L1: a foreign lock fails the attempt, whatever the verdict.
         self.is_live.next = self.test_counts.q.val() & (!self.drains.val());
         self.passes.next = self.is_live.val() & self.verdict.val().conflict & (!self.is_full.val());
         self.gives_up.next = self.test_is_refused.q.val() & (!self.drains.val());
@@ -200,7 +200,7 @@ impl Logic for VisitCase {
         self.overflows.next = self.is_live.val() & self.verdict.val().conflict & self.is_full.val();
         self.splits.next = self.passes.val();
 
-        // Visits that follow.
+        // Visits that follow. L2: the holder of the waiting token asks again instead of failing.
         self.asks_again.next = self.root_is_awaited.q.val() | (self.test_is_awaited.q.val() & (!self.drains.val()));
         self.waits.next = self.asks_again.val();
         self.repeats.next = self.looks_again.val() | self.asks_again.val();

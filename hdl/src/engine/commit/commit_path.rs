@@ -18,7 +18,8 @@
 //! | `released`, `released_owner` | out | 1, 5 | the last lock of a context is cleared |
 //! | `sweeps` | out | 1 | the lock memory is being cleared after reset |
 //!
-//! 1. The locks of a ring are released when its last record is on its way to the memory: it is there before the first lock is clear.
+//! 1. The locks of a ring are released when its last record is on its way to the memory: it is there before the first lock is
+//!    clear (L4).
 //! 2. Locks are logged a clock after they come: the log lies far from the logic that finds them. The job that comes with the last of
 //!    them is not read from until two clocks later.
 //!
@@ -170,6 +171,7 @@ impl Logic for CommitPath {
         self.lock_release.lock_owner.next = self.list_owner.q.val();
         self.lock_release.lock_place.next = self.lock_at.q.val();
         self.lock_release.lock_id.next = self.lock.q.val();
+        // L4: a ring's locks are due at its last write, not when the ring is finished.
         self.lock_release.commit_enable.next = self.commit.ends.val();
         self.lock_release.commit_job.next.owner = self.commit.job.val().owner;
         self.lock_release.commit_job.next.locks = self.commit.job.val().locks;

@@ -11,7 +11,7 @@
 //! | `fresh` | out | 15 | the next new id |
 //! | `records` | out | 15 | ids from here on are not written yet |
 //!
-//! 1. New ids of a ring count as written when its last record has passed the write port and stands in the memory.
+//! 1. New ids of a ring count as written when its last record has passed the write port and stands in the memory (L7).
 //! 2. At most one of `takes`, `ends`, `solo_inserts`, `seeds`, `clears` at a time, and the last three only while all new ids are
 //!    written: `fresh` and `records` are equal then.
 //! 3. A ring ends at the earliest three clocks after the one before it.
@@ -90,7 +90,7 @@ impl Logic for FreshIds {
             self.taken.d.next = self.raised.val();
         }
 
-        // The write port takes a clock, the memory another.
+        // L7: the ids count once their records are in the memory: the write port takes a clock, the memory another.
         self.ended_before_1.d.next = self.ends.val();
         self.ended_before_2.d.next = self.ended_before_1.q.val();
         if self.ends.val() {

@@ -5,8 +5,8 @@
 //! | `clock`, `reset` | in | 1 | reset forgets all that is due and starts the sweep |
 //! | `last_id` | in | 15 | the highest record id, a constant |
 //! | `lock_enable`, `lock_owner`, `lock_place`, `lock_id` | in | 1, 5, 7, 15 | a lock joins the log of a context |
-//! | `commit_enable`, `commit_job` | in | 1, ReleaseJob | the last record of a ring is written: its locks are due |
-//! | `failure_enable`, `failure_job` | in | 1, ReleaseJob | a failed attempt has run out: its locks are due |
+//! | `commit_enable`, `commit_job` | in | 1, ReleaseJob | the last record of a ring is written: its locks are due (L4) |
+//! | `failure_enable`, `failure_job` | in | 1, ReleaseJob | a failed attempt has run out: its locks are due (L1) |
 //! | `sweeps` | out | 1 | the lock memory is being cleared after reset |
 //! | `clear_enable`, `clear_id` | out | 1, 15 | a lock to clear at this edge |
 //! | `released`, `released_owner` | out | 1, 5 | it is the last one of this context |

@@ -20,9 +20,9 @@
 //! | `all_rest` | out | 1 | no visit is out and no lock held; said a clock after it has come true |
 //! | `takes_token` | out | 1 | event: the waiting token is taken |
 //!
-//! 1. One waiting token: whoever gives up while it is free takes it, and keeps it until its point is in. Nobody else ever waits while
-//!    it holds locks. But others that fail again and again could keep it from its locks for ever, in step with it: when it has met
-//!    8 foreign locks, nobody else tries again until its point is in. New points may start: they finish, or fail and then rest, so
+//! 1. One waiting token: whoever gives up while it is free takes it, and keeps it until its point is in (L2). Nobody else ever waits
+//!    while it holds locks. But others that fail again and again could keep it from its locks for ever, in step with it: when it has met
+//!    8 foreign locks, nobody else tries again until its point is in (L3). New points may start: they finish, or fail and then rest, so
 //!    something is always finished in the end.
 //! 2. The first to overflow is alone first; another that overflows meanwhile tries again later.
 //! 3. `sleeps` to `overflows` are of one visit: who asks for the token neither waits nor gives it back. None of them comes with `solo_ends`,
@@ -220,7 +220,7 @@ impl Logic for ContextFlags {
         self.had_point.d.next = self.had_point.q.val() | self.starting.val();
         self.had_commit.d.next = self.had_commit.q.val() | self.committed.val();
 
-        // The waiting token, and the wish to be alone.
+        // L2: the waiting token goes to who asks while it is free. And the wish to be alone.
         self.takes.next = self.asks_to_wait.val() & (!self.token_is_held.q.val());
         self.takes_token.next = self.takes.val();
         self.is_holder.next = (self.stops_waiting.val() & (self.token_holder.q.val() == self.owner.val()))
@@ -229,6 +229,7 @@ impl Logic for ContextFlags {
             self.token_is_held.d.next = true;
             self.token_holder.d.next = self.owner.val();
         }
+        // L3: who has met 8 foreign locks with the token keeps all others from trying again.
         self.has_waited_long.next = self.waited.q.val().get_bit(3);
         self.is_urgent.next = self.token_is_held.q.val() & self.has_waited_long.val();
         if self.waits.val() & (!self.has_waited_long.val()) {

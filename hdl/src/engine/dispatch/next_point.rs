@@ -12,7 +12,7 @@
 //! | `after_taken` | out | 15 | the vertex that it takes after that |
 //! | `first_record` | out | 15 | the first record of that context's mesh |
 //!
-//! 1. Context 0 takes vertex 2, whose arrival completes the first triangle, and then those below 16 one by one.
+//! 1. Context 0 takes vertex 2, whose arrival completes the first triangle, and then those below 16 one by one (L8).
 //! 2. From there on points are dealt: vertex `j` belongs to context `(j - 16) mod contexts`.
 //! 3. In a batch context `c` takes vertex `3c + 2`, the third of its own first triangle, whose first record is `4c`. From
 //!    `dealt_from = 3 contexts` on vertex `j` belongs to context `(j - dealt_from) mod contexts`. That a vertex is such a third is known when
@@ -87,6 +87,7 @@ impl Logic for NextPoint {
         self.rounds.next = self.taken.val().get_bits::<11>(4);
         self.is_dealt.next = self.rounds.val().any();
         self.taken_is_dealt.next = self.is_dealt.val();
+        // L8: below the first round the next vertex is context 0's again.
         self.is_early.next = (!self.is_dealt.val()) & (!self.is_batch.val());
         self.from.next = self.taken.val();
         self.step.next = bit_cast::<15, 5>(self.deal.val().contexts);

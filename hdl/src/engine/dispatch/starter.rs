@@ -19,8 +19,8 @@
 //! | `solo_starts`, `solo_p` | out | 1, 15 | it inserts its point alone, from `u` on |
 //!
 //! 1. A context starts if it sleeps and has a point to try again, no commit or release is due, and it has rested: contexts that try again
-//!    start in every fourth round of the pointer only, which spreads them.
-//! 2. Or if it sleeps and its next point has come. Until context 0 has taken vertex 16, no other context works, but in a batch.
+//!    start in every fourth round of the pointer only, which spreads them (L1), and not beside one that has waited for long (L3).
+//! 2. Or if it sleeps and its next point has come. Until context 0 has taken vertex 16, no other context works, but in a batch (L8).
 //!    A start that may find the queue taken, or the vertex memory's port, is made in the next clock. The pointer waits, and does so
 //!    whenever a visit completes: what that asks for is known late.
 //! 3. The walk of a new point starts at the star of the context's last commit, at the first record of its mesh if there is none.
@@ -230,9 +230,11 @@ impl Logic for Starter {
             | ((self.wants_again.q.val() | self.wants_new.q.val()) & (self.contexts.val() == self.one_turn.val()));
         self.is_asleep.next = self.asleep.val().get_bit(self.index.val().index()) & (!self.is_barred.val());
         self.tries_again.next = self.keeping.val().get_bit(self.index.val().index());
+        // L1: who has failed rests until a fourth round. L3: and while another is urgent.
         self.is_rested.next =
             (!self.busy.val().get_bit(self.index.val().index())) & (self.round.q.val() == self.resting_round.val());
         self.may_try.next = (!self.is_urgent.val()) | (self.passed.q.val() == self.waiter.val());
+        // L8: the first points are context 0's.
         self.may_work.next = self.all_work.q.val();
         if self.passed.q.val() == self.first_context.val() {
             self.may_work.next = self.seeded.val() | (!self.began.val().get_bit(0));

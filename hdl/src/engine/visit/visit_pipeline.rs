@@ -19,7 +19,7 @@
 //! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear |
 //!
 //! 1. Every visit takes the same time, so visits complete in the order of their issue, at most one a clock.
-//! 2. A visit whose record is written in the clock in which it is issued, or is not written yet, completes with `turned.again`. Then
+//! 2. A visit whose record is written in the clock in which it is issued, or is not written yet, completes with `turned.again` (L7). Then
 //!    vertices, links and slot of `turned` and the whole `verdict` are arbitrary; `took` and `foreign` hold all the same.
 //! 3. A visit is judged against the point that its context has 4 clocks after its issue. The user changes that point only while none
 //!    of the context's visits is out.
@@ -219,7 +219,7 @@ impl Logic for VisitPipeline {
         self.issue.read_id.next = self.read_id.val();
         self.is_issuing.next = self.issue.token_valid.val();
 
-        // Clock 0: does the record count?
+        // Clock 0, L7: a record that is not written yet, or being written, does not count.
         self.is_written.next = self.issue.token.val().u < self.records.val();
         self.is_torn.next = self.write.val().valid & (self.write.val().id == self.issue.token.val().u);
         self.again1.d.next = self.is_torn.val() | (!self.is_written.val());
