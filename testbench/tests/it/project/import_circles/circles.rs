@@ -6,7 +6,8 @@ use super::imports::Graph;
 
 /// All circles, each sorted. A node that leads to itself alone is none.
 pub fn circles(graph: &Graph) -> Vec<Vec<String>> {
-    let reached: BTreeMap<&str, BTreeSet<&str>> = graph.keys().map(|node| (node.as_str(), reach(graph, node))).collect();
+    let reached: BTreeMap<&str, BTreeSet<&str>> =
+        graph.keys().map(|node| (node.as_str(), reach(graph, node))).collect();
     let mut found = BTreeSet::new();
     for (node, others) in &reached {
         let comes_back = |other: &&&str| reached.get(**other).is_some_and(|back| back.contains(node));

@@ -1,7 +1,7 @@
 //! Which module imports which: paths are followed to the modules that define what they name.
 //!
-//! A module that hands on items of others (`pub use`) is two nodes: its own code, and its face, which imports all that it hands on. Handing
-//! on is no import of the code.
+//! A module that hands on items of others (`pub use`) is two nodes: its own code, and its face, which imports all that
+//! it hands on. Handing on is no import of the code.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -50,7 +50,8 @@ impl<'a> Crate<'a> {
     fn of(tree: &'a Tree) -> Self {
         let mut found = Self { tree, globs: BTreeMap::new(), names: BTreeMap::new() };
         for (name, module) in &tree.modules {
-            let children = tree.modules.keys().filter(|child| child.split_last().is_some_and(|(_, of)| of == &name[..]));
+            let children =
+                tree.modules.keys().filter(|child| child.split_last().is_some_and(|(_, of)| of == &name[..]));
             let names = children.filter_map(|child| child.last()).chain(&module.items);
             let names = names.chain(module.uses.iter().filter_map(|used| used.name.as_ref()));
             found.names.insert(name, names.cloned().collect());
@@ -102,14 +103,9 @@ impl<'a> Crate<'a> {
         imported
     }
 
-    /// Adds the modules that a path, written in this module, takes something from. Gives the module that the path ends at, if at one.
-    fn follow(
-        &self,
-        from: &Segments,
-        path: &[String],
-        hops: u32,
-        imported: &mut BTreeSet<String>,
-    ) -> Option<Segments> {
+    /// Adds the modules that a path, written in this module, takes something from. Gives the module that the path ends
+    /// at, if at one.
+    fn follow(&self, from: &Segments, path: &[String], hops: u32, imported: &mut BTreeSet<String>) -> Option<Segments> {
         let mut here = from.clone();
         for word in path {
             match word.as_str() {

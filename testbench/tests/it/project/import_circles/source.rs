@@ -79,7 +79,13 @@ impl Tree {
         Ok(())
     }
 
-    fn add_child(&mut self, module: &syn::ItemMod, folder: &Path, name: Segments, read: Read<'_>) -> Result<(), String> {
+    fn add_child(
+        &mut self,
+        module: &syn::ItemMod,
+        folder: &Path,
+        name: Segments,
+        read: Read<'_>,
+    ) -> Result<(), String> {
         let inner = folder.join(module.ident.to_string());
         if let Some((_, items)) = &module.content {
             return self.add(items, &inner, name, read);
