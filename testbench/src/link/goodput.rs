@@ -7,7 +7,8 @@ use std::time::Duration;
 use incircle_protocol::{answer_status, clear_word, command_word, Config, Opcode, Status, FULL};
 use incircle_sim::faults::FaultSpec;
 
-use super::{Detail, VirtualLine};
+use super::virtual_line::VirtualLine;
+use super::Detail;
 
 /// Rates of the table.
 pub const RATES: [u32; 2] = [3_000_000, 12_000_000];
