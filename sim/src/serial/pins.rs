@@ -47,7 +47,7 @@ impl PinBoard {
     pub fn new(config: Config) -> Result<Self, SimError> {
         let description = description(config)?;
         let model = Model::new(description);
-        let link = super::board_link(config);
+        let link = super::board::board_link(config);
         let mut board = Self {
             link,
             reset: model.port("reset")?,
