@@ -32,7 +32,7 @@ const KNOWN: [(&str, usize); 6] = [
     ("incircle-cli", 18),
     ("incircle-hdl", 43),
     ("incircle-model", 21),
-    ("incircle-testbench", 11),
+    ("incircle-testbench", 7),
     ("verilated", 5),
 ];
 
