@@ -1,7 +1,7 @@
 //! Runs jobs on a pair of core and model, compares the answers with the model by commands, and on a mismatch leaves a waveform.
 
 use incircle::Point;
-use incircle_cli::generate::{generate, Distribution, SplitMix64};
+use incircle_testkit::{generate, Distribution, SplitMix64};
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{
     command_word, Config, Counter, Layout, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS,

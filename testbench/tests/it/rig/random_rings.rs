@@ -4,7 +4,7 @@
 
 use std::collections::{btree_map::Entry, BTreeMap};
 
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 
 use crate::rig::stepper::bundles::{commit_job, Edge};
 

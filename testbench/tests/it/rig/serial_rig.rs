@@ -4,7 +4,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::export::QUICK_LINK;
 use incircle_hdl::serial::SerialLink;
 use incircle_protocol::{DeviceFrame, HostFrame, FIRST_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN};

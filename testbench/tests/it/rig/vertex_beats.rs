@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{NamedPorts, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
 
 /// The layout of the largest core.

@@ -3,7 +3,7 @@
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_rig::{rise, Clocks, PERIODS};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::leaf::DualClockMemory;
 
 named_ports!([const A: usize, const D: usize] DualClockMemory<A, D>,

@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, NamedPorts, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::leaf::Synchroniser;
 use rust_hdl_core::prelude::*;
 

@@ -1,7 +1,7 @@
 //! `PointSlot`: Rust, Verilog and lists of what must happen agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::link::PointSlot;
 
 named_ports!(

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::vertex_beats::{beats_of, columns, Beat, LAYOUT};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::link::RecordReads;
 
 named_ports!(

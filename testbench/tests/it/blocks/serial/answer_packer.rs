@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::serial::AnswerPacker;
 
 named_ports!(

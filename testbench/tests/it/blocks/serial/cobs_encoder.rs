@@ -3,7 +3,7 @@
 use super::cobs_decoder::bytes;
 use crate::rig::serial_host::reverse_cobs;
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::serial::CobsEncoder;
 
 named_ports!(

@@ -1,7 +1,7 @@
 //! `FrameBytes`: Rust, Verilog and plain code agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::serial::FrameBytes;
 
 named_ports!(

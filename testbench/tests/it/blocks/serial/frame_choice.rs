@@ -1,7 +1,7 @@
 //! `FrameChoice`: Rust, Verilog and plain code agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::serial::FrameChoice;
 
 named_ports!(

@@ -2,7 +2,7 @@
 
 use crate::rig::asked::{CLOSES, DROPS, GAP, HEARS, HELLO, NO_SESSION, OPENS, POLLS, RATE, REPEATS, TAKES};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::serial::{Asked, FrameJudge};
 
 named_ports!(

@@ -1,7 +1,7 @@
 //! `LineTimers`: Rust, Verilog and plain code agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::export::HASTY_LINK;
 use incircle_hdl::serial::LineTimers;
 

@@ -2,7 +2,7 @@
 
 use crate::rig::asked::{CLOSES, GAP, HEARS, OPENS, POLLS, REPEATS, TAKES};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::serial::SessionState;
 
 named_ports!(

@@ -2,7 +2,7 @@
 
 use crate::rig::serial_host::Talker;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::serial::UartReceiver;
 use incircle_protocol::MAX_STEP;
 

@@ -3,7 +3,7 @@
 use super::uart_receiver::clocks_per_bit;
 use crate::rig::serial_host::Listener;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::serial::UartTransmitter;
 use incircle_protocol::MAX_STEP;
 

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_bits::set_bits;
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::AnswerBeats;
 
 named_ports!([const W: usize] AnswerBeats<W>,

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use crate::rig::stream_bits::wide;
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::AnswerPairs;
 
 named_ports!([] AnswerPairs,

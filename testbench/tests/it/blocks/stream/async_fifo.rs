@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_rig::{rise, Clocks, PERIODS};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::AsyncFifo;
 
 named_ports!([const P: usize, const D: usize] AsyncFifo<P, D>,

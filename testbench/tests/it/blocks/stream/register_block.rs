@@ -1,7 +1,7 @@
 //! `RegisterBlock`: Rust, Verilog and plain code agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::RegisterBlock;
 use incircle_protocol::{
     StreamRegister, CORE_COORD_BITS, CORE_VERSION, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, MAGIC, PROTOCOL_VERSION,

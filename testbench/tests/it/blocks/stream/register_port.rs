@@ -1,7 +1,7 @@
 //! `RegisterPort`: Rust, Verilog and plain code agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::RegisterPort;
 
 named_ports!([] RegisterPort,

@@ -1,7 +1,7 @@
 //! `ResetReply`: Rust, Verilog and plain code agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::ResetReply;
 
 named_ports!([] ResetReply, [request], [resets, reply, beat], clock);

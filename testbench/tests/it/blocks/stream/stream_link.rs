@@ -3,7 +3,7 @@
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_rig::{answer, command, Pins, Rig, StandIn, Verilog, PERIODS};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::StreamLink;
 use incircle_protocol::{
     StreamRegister, CONTROL_RESET, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, MAGIC, SMALL, STREAM_FIFO_BEATS,

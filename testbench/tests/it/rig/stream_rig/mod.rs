@@ -7,7 +7,7 @@ mod stand_in;
 
 use std::collections::BTreeMap;
 
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_protocol::{StreamRegister, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS};
 use incircle_testbench::blocks;
 use verilated::{Model, PortId};

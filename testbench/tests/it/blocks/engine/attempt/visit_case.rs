@@ -3,7 +3,7 @@
 
 use crate::rig::stepper::bundles::{flip, id, turned, Finding, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::engine::VisitCase;
 
 named_ports!(

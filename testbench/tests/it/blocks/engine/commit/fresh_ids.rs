@@ -2,7 +2,7 @@
 
 use crate::rig::record_count::{Count, Event};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::engine::FreshIds;
 
 named_ports!(FreshIds, [reset, takes, ends, solo_inserts, seeds, clears], [fresh, records], clock);

@@ -1,7 +1,7 @@
 //! `InnerList`: Rust, Verilog and plain lists agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::engine::InnerList;
 use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
 

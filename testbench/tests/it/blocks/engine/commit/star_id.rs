@@ -2,7 +2,7 @@
 
 use crate::rig::stepper::bundles::Edge;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::engine::StarId;
 
 named_ports!(

@@ -1,7 +1,7 @@
 //! `LatencyRange`: Rust, Verilog and a table of 64-bit sums agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::engine::LatencyRange;
 use incircle_protocol::LATENCY_BITS;
 

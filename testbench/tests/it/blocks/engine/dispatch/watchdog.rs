@@ -1,7 +1,7 @@
 //! `Watchdog`: Rust, Verilog and lists of what must happen agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::engine::Watchdog;
 use incircle_protocol::{patience, MAX_POINTS};
 

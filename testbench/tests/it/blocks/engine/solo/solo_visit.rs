@@ -2,7 +2,7 @@
 
 use crate::rig::stepper::bundles::{flip, id, turned, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::engine::SoloVisit;
 
 named_ports!(SoloVisit, [owner, is_locate, is_mend, is_second, is_fetch, root_id, root, id, outer, back], [bundle]);

@@ -2,7 +2,7 @@
 
 use crate::rig::stepper::bundles::{link_write, record_write, turned, LockFinding};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 use incircle_hdl::engine::SoloWrites;
 
 named_ports!(
