@@ -18,7 +18,7 @@ pub type Expected = Option<u128>;
 
 /// A block to compare, and the names of its inputs (without the clock) and outputs.
 pub struct Cosimulation<'a, U> {
-    /// Its name in `incircle_hdl::export::blocks`.
+    /// Its name in `incircle_blocks::blocks`.
     pub name: &'a str,
     pub rust: U,
     pub inputs: &'a [&'a str],

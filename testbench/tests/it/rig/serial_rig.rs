@@ -4,11 +4,11 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use incircle_testkit::SplitMix64;
-use incircle_hdl::export::QUICK_LINK;
+use incircle_blocks::QUICK_LINK;
 use incircle_hdl::serial::SerialLink;
 use incircle_protocol::{DeviceFrame, HostFrame, FIRST_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN};
 use incircle_testbench::blocks;
+use incircle_testkit::SplitMix64;
 use verilated::{Model, PortId};
 
 use crate::rig::serial_host::{cobs, crc32, host_frame, Heard, Listener, Talker};

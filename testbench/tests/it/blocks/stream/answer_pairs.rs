@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use crate::rig::stream_bits::wide;
-use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::AnswerPairs;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] AnswerPairs,
     [reset, response_valid, response_data, response_both, response_last, is_stalled],

@@ -1,13 +1,13 @@
 //! `RegisterBlock`: Rust, Verilog and plain code agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::RegisterBlock;
 use incircle_protocol::{
     StreamRegister, CORE_COORD_BITS, CORE_VERSION, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, MAGIC, PROTOCOL_VERSION,
     SMALL, STREAM_FIFO_BEATS, STREAM_STATUS_BUSY, STREAM_STATUS_ERROR, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS,
     STREAM_VERSION,
 };
+use incircle_testkit::SplitMix64;
 
 named_ports!([] RegisterBlock,
     [reset, s_axi_awvalid, s_axi_awaddr, s_axi_wvalid, s_axi_wdata, s_axi_wstrb, s_axi_bready,

@@ -1,8 +1,8 @@
 //! `RegisterPort`: Rust, Verilog and plain code agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::RegisterPort;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] RegisterPort,
     [reset, s_axi_awvalid, s_axi_awaddr, s_axi_wvalid, s_axi_wdata, s_axi_wstrb, s_axi_bready,

@@ -3,12 +3,12 @@
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_rig::{answer, command, Pins, Rig, StandIn, Verilog, PERIODS};
-use incircle_testkit::SplitMix64;
 use incircle_hdl::stream::StreamLink;
 use incircle_protocol::{
     StreamRegister, CONTROL_RESET, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, MAGIC, SMALL, STREAM_FIFO_BEATS,
     STREAM_STATUS_BUSY, STREAM_STATUS_ERROR, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS,
 };
+use incircle_testkit::SplitMix64;
 
 named_ports!([const W: usize, const K: usize, const E: usize] StreamLink<W, K, E>,
     [bus_clock, bus_reset_n, s_axis_tvalid, s_axis_tdata, s_axis_tkeep, m_axis_tready,

@@ -30,7 +30,7 @@ pub struct Stepper<U> {
 }
 
 impl<U: NamedPorts> Stepper<U> {
-    /// The block of this name in `incircle_hdl::export::blocks`. Its Verilog starts with random registers and memories, which
+    /// The block of this name in `incircle_blocks::blocks`. Its Verilog starts with random registers and memories, which
     /// shows where an output depends on what nobody wrote.
     pub fn new(name: &'static str, mut rust: U, seed: u32) -> Self {
         rust.connect_all();

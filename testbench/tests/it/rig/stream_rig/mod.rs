@@ -7,9 +7,9 @@ mod stand_in;
 
 use std::collections::BTreeMap;
 
-use incircle_testkit::SplitMix64;
 use incircle_protocol::{StreamRegister, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS};
 use incircle_testbench::blocks;
+use incircle_testkit::SplitMix64;
 use verilated::{Model, PortId};
 
 use crate::rig::block_ports::{number, set_number};

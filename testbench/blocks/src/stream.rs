@@ -2,20 +2,18 @@
 
 use incircle_protocol::SMALL;
 
-use super::{block, stream_link};
-use crate::leaf::{DualClockMemory, Synchroniser};
-use crate::stream::{
+use crate::{block, named};
+use incircle_hdl::export::stream_link;
+use incircle_hdl::leaf::{DualClockMemory, Synchroniser};
+use incircle_hdl::stream::{
     AnswerBeats, AnswerPairs, AnswerWatch, AsyncFifo, BeatGate, BeatWords, Progress, RegisterBlock, RegisterPort,
     ResetReply, ResetRequest,
 };
 use rust_hdl_core::prelude::*;
 
 /// The name of each root module, and its Verilog.
-pub(super) fn stream_blocks() -> Vec<(String, String)> {
-    let link = |name: &str, beat_bits| match stream_link(SMALL, beat_bits, name) {
-        Ok(text) => (name.to_string(), text),
-        Err(error) => panic!("block {name}: {error}"),
-    };
+pub(crate) fn blocks() -> Vec<(String, String)> {
+    let link = |name: &str, beat_bits| named(name, stream_link(SMALL, beat_bits, name));
     vec![
         block(Synchroniser::<Bit>::default(), "synchroniser_1"),
         block(Synchroniser::<Bits<10>>::default(), "synchroniser_10"),

@@ -2,19 +2,19 @@
 
 use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
-use super::block;
-use crate::engine::{
+use crate::block;
+use incircle_hdl::engine::{
     AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FreshIds,
     InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, PlanTable, Progress, PushPort,
     Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
-use crate::link::{
+use incircle_hdl::link::{
     AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordBuffer, RecordReads, RecordWords,
     Responder, VertexPacker, VertexStream,
 };
 
 /// The name of each root module, and its Verilog.
-pub(super) fn control_blocks() -> Vec<(String, String)> {
+pub(crate) fn blocks() -> Vec<(String, String)> {
     // `context` and `release` alone are words of SystemVerilog.
     let longest_list = Config { ring: MAX_RING, contexts: 24, ..TINY };
     vec![

@@ -1,26 +1,18 @@
 //! The blocks of the serial link, and the whole of it.
 
-use incircle_protocol::{LinkConfig, SMALL};
+use incircle_protocol::SMALL;
 
-use super::{block, serial_link};
-use crate::serial::{
+use crate::{block, named, HASTY_LINK, QUICK_LINK};
+use incircle_hdl::export::serial_link;
+use incircle_hdl::serial::{
     AnswerPacker, BitClock, CobsDecoder, CobsEncoder, CommandProgress, CommandWords, Crc32, FrameBytes, FrameChoice,
     FrameHeader, FrameJudge, FramePart, FrameReader, FrameSender, Greeting, LineTimers, PayloadDigest, RateControl,
     ReceiveFifo, Replies, SessionState, UartReceiver, UartTransmitter, WordNarrower,
 };
 
-/// A link that is quick to simulate: under nine clocks a bit at the first rate, short silence, and the smallest FIFO.
-pub const QUICK_LINK: LinkConfig = LinkConfig { clock_hz: 1_000_000, fifo_bytes: 2_048, silence_ms: 400 };
-
-/// The same, and forgets its session at once.
-pub const HASTY_LINK: LinkConfig = LinkConfig { silence_ms: 20, ..QUICK_LINK };
-
 /// The name of each root module, and its Verilog.
-pub(super) fn serial_blocks() -> Vec<(String, String)> {
-    let link = |name: &str| match serial_link(SMALL, QUICK_LINK, name) {
-        Ok(text) => (name.to_string(), text),
-        Err(error) => panic!("block {name}: {error}"),
-    };
+pub(crate) fn blocks() -> Vec<(String, String)> {
+    let link = |name: &str| named(name, serial_link(SMALL, QUICK_LINK, name));
     vec![
         block(BitClock::at_ends(), "serial_bit_ends"),
         block(BitClock::in_middles(), "serial_bit_middles"),

@@ -2,14 +2,14 @@
 
 use incircle_protocol::{SMALL, TINY};
 
-use super::block;
-use crate::engine::{
+use crate::block;
+use incircle_hdl::engine::{
     Issue, LinkWrite, RecordWrite, SeedWrites, VerdictLogic, VisitJudge, VisitPipeline, VisitReader, WritePort,
 };
-use crate::mesh::{LockStore, TriangleStore, VertexStore};
+use incircle_hdl::mesh::{LockStore, TriangleStore, VertexStore};
 
 /// The name of each root module, and its Verilog.
-pub(super) fn visit_blocks() -> Vec<(String, String)> {
+pub(crate) fn blocks() -> Vec<(String, String)> {
     vec![
         block(LockStore::new(4, 2), "lock_store_4_2"),
         block(LockStore::new(15, 5), "lock_store_15_5"),
