@@ -1,7 +1,5 @@
 //! The state of an attempt in plain numbers.
 
-#![allow(dead_code)] // Every test that includes this uses a part of it.
-
 use super::stepper::bundles::pack;
 use incircle_testkit::SplitMix64;
 

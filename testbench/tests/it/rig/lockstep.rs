@@ -69,7 +69,6 @@ impl Rig {
     }
 
     /// Out of the state that an ECP5 has after configuration.
-    #[allow(dead_code, reason = "only netlists have that state")]
     pub fn configured(name: &'static str, config: Config) -> Self {
         Self { pair: Lockstep::configured(name, config), ..Self::new(name, config, 1) }
     }

@@ -1,7 +1,5 @@
 //! A serial link at its pins, with a host on the line and a stand-in for the core.
 
-#![allow(dead_code)] // Every test that includes this uses a part of it.
-
 use std::collections::{BTreeMap, VecDeque};
 
 use incircle_blocks::QUICK_LINK;
