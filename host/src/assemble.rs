@@ -6,7 +6,7 @@
 
 use incircle_protocol::{infinite_vertex, Layout, NARROW_ID_BITS};
 
-use crate::fault::DeviceFault;
+use crate::error::DeviceFault;
 use crate::point::Point;
 use crate::prepare::doubled_area;
 

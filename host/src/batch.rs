@@ -17,8 +17,8 @@ use std::thread::{Builder, Scope};
 
 use incircle_protocol::Identity;
 
+use crate::commands::{Limit, Link};
 use crate::error::Error;
-use crate::link::{Limit, Link};
 use crate::mesh::Mesh;
 use crate::options::{Options, Order, Stage};
 use crate::point::Point;

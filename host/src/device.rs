@@ -5,15 +5,15 @@ use std::time::Duration;
 
 use incircle_protocol::{Config, CORE_COORD_BITS, LARGE, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_COORD_BITS, NAMED};
 
-use crate::clock::{ClockTransport, CLOCK_NAME};
+use crate::commands::{Limit, Link};
 use crate::cpu::{self, CPU_NAME};
 use crate::error::Error;
-use crate::link::{Limit, Link};
-use crate::model::{ModelTransport, MODEL_NAME};
-use crate::pcie::{CardAddress, PcieTransport};
-use crate::serial::{Address, SerialTransport, LONGEST};
 use crate::session::Session;
-use crate::transport::Transport;
+use crate::transports::clock::{ClockTransport, CLOCK_NAME};
+use crate::transports::model::{ModelTransport, MODEL_NAME};
+use crate::transports::pcie::{CardAddress, PcieTransport};
+use crate::transports::serial::{Address, SerialTransport, LONGEST};
+use crate::transports::Transport;
 
 /// Time for the greeting unless chosen otherwise.
 const GREETING_TIMEOUT: Duration = Duration::from_secs(15);

@@ -33,47 +33,39 @@
 
 mod assemble;
 mod batch;
-mod clock;
+mod commands;
 mod counters;
 mod cpu;
 mod device;
 mod edges;
 mod error;
-mod fault;
 mod hierarchy;
 mod hilbert;
-mod link;
 mod mesh;
-mod model;
 mod options;
 pub mod order;
 mod pages;
-pub mod pcie;
 mod point;
 mod prepare;
 pub mod quantize;
 mod report;
-pub mod serial;
 mod session;
 mod sort;
-mod transport;
+pub mod transports;
 pub mod verify;
 
-pub use clock::ClockTransport;
 pub use counters::{Counters, Latencies};
 pub use device::Device;
-pub use error::{Error, ErrorKind, Shown};
-pub use fault::DeviceFault;
+pub use error::{DeviceFault, Error, ErrorKind, Shown};
 pub use hierarchy::Hierarchy;
 pub use incircle_protocol::{Config, Identity};
 pub use mesh::{Duplicate, Mesh, EMPTY};
-pub use model::ModelTransport;
 pub use options::{Options, Order, Progress, ProgressListener, Stage, INSERT_CHUNK};
 pub use point::Point;
 pub use quantize::{Quantization, Quantize};
 pub use report::Report;
 pub use session::{Session, MAX_POINTS};
-pub use transport::{Pace, Transport, TransportError};
+pub use transports::{pcie, serial, ClockTransport, ModelTransport, Pace, Transport, TransportError};
 pub use verify::{verify, VerifyError, VerifySummary};
 
 /// Triangulates in this process with the fast engine: coordinates up to 31 bits, default [`Options`], all processors for large sets.

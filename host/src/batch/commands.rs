@@ -7,7 +7,7 @@ use incircle_protocol::{
 use super::group::{Group, Ordered};
 use super::Batch;
 use crate::assemble::{check_last_half, checked_record, Assembly};
-use crate::fault::DeviceFault;
+use crate::error::DeviceFault;
 
 /// A command of a group: its words, and the words of the payload of its answer.
 pub(super) struct Command {

@@ -2,7 +2,7 @@
 
 use incircle_protocol::InsertReport;
 
-use crate::fault::DeviceFault;
+use crate::error::DeviceFault;
 use crate::point::Point;
 use crate::prepare::Prepared;
 

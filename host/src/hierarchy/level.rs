@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use incircle_model::Mesh;
 use incircle_protocol::MAX_MODEL_POINTS;
 
-use crate::model::RING_CAPACITY;
 use crate::point::Point;
 use crate::prepare::doubled_area;
+use crate::transports::model::RING_CAPACITY;
 
 /// A sample of the points of the level below.
 #[derive(Debug)]

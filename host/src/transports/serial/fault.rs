@@ -1,7 +1,7 @@
 //! What can go wrong on a serial link, a sentence each that says what to do.
 
+use crate::error::DeviceFault;
 use crate::error::ErrorKind;
-use crate::fault::DeviceFault;
 
 /// Why the link gave up. Noise is repaired, or ends in [`Silent`](Self::Silent), [`Noise`](Self::Noise), [`Lost`](Self::Lost),
 /// [`Reset`](Self::Reset), or the deadline.

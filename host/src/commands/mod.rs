@@ -11,8 +11,8 @@ use incircle_protocol::{
 
 use crate::counters::Counters;
 use crate::error::Error;
-use crate::fault::{DeviceFault, MAX_DEVICE_CONTEXTS};
-use crate::transport::{Pace, Transport, TransportError};
+use crate::error::{DeviceFault, MAX_DEVICE_CONTEXTS};
+use crate::transports::{Pace, Transport, TransportError};
 
 /// Until when a job may run, and how long that was at its start.
 #[derive(Clone, Copy)]

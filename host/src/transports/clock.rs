@@ -7,7 +7,7 @@ use incircle_model::{ClockModel, Inputs};
 use incircle_protocol::Config;
 
 use crate::error::Error;
-use crate::transport::{Transport, TransportError};
+use crate::transports::{Transport, TransportError};
 
 /// Name in reports, before the name of the configuration.
 pub(crate) const CLOCK_NAME: &str = "clock";

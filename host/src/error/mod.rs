@@ -1,12 +1,16 @@
 //! Everything that can go wrong, as typed errors: one sentence each, with the numbers and what to do.
 
+mod device_fault;
+
 use std::fmt;
 use std::time::Duration;
 
-use crate::fault::DeviceFault;
-use crate::pcie::CardFault;
-use crate::serial::PortFault;
-use crate::transport::TransportError;
+use crate::transports::pcie::CardFault;
+use crate::transports::serial::PortFault;
+use crate::transports::TransportError;
+
+pub use device_fault::DeviceFault;
+pub(crate) use device_fault::MAX_DEVICE_CONTEXTS;
 
 /// What kind of error it is, for exit codes and for callers that only want to know whose fault it was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

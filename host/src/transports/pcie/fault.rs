@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use incircle_protocol::{MAGIC, STREAM_VERSION};
 
+use crate::error::DeviceFault;
 use crate::error::ErrorKind;
-use crate::fault::DeviceFault;
 
 /// Why a card cannot be opened.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use crate::pcie::PcieFault;
-use crate::serial::SerialFault;
+use crate::transports::pcie::PcieFault;
+use crate::transports::serial::SerialFault;
 
 /// A way to a device: commands go out as words, answers come back as words.
 ///

@@ -8,9 +8,9 @@ use super::address::Address;
 use super::engine::{Engine, Params, Statistics};
 use super::fault::SerialFault;
 use super::port::Port;
+use crate::commands::Limit;
 use crate::error::Error;
-use crate::link::Limit;
-use crate::transport::{Pace, Transport, TransportError};
+use crate::transports::{Pace, Transport, TransportError};
 
 /// Bytes read at once.
 const READ_BYTES: usize = 16 * 1024;

@@ -5,9 +5,9 @@ use std::time::Duration;
 use incircle_protocol::{HostFrame, CRC_BYTES, FIRST_RATE, FRAME_END, HOST_HEADER_BYTES, MAX_PAYLOAD};
 
 use super::{Engine, Polled, Stage};
-use crate::serial::codec::{encode, MOST_OVERHEAD};
-use crate::serial::fault::SerialFault;
-use crate::serial::timing::POLL_EVERY;
+use crate::transports::serial::codec::{encode, MOST_OVERHEAD};
+use crate::transports::serial::fault::SerialFault;
+use crate::transports::serial::timing::POLL_EVERY;
 
 /// Bytes are handed out so far ahead of the line: enough to keep it busy, and little to wait for when frames must go again.
 const AHEAD: Duration = Duration::from_millis(4);

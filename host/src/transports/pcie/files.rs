@@ -39,8 +39,8 @@ mod system {
     use std::sync::Arc;
 
     use super::{CardFiles, RegisterFile};
-    use crate::pcie::address::{cards, CardAddress};
-    use crate::pcie::fault::CardFault;
+    use crate::transports::pcie::address::{cards, CardAddress};
+    use crate::transports::pcie::fault::CardFault;
 
     /// The driver answers so for a card that has left the bus, or was never there.
     const NO_CARD: [i32; 3] = [libc::ENODEV, libc::ENXIO, libc::EIO];

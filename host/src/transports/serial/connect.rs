@@ -11,7 +11,7 @@ use incircle_protocol::{
 use super::codec::{encode, Message};
 use super::fault::SerialFault;
 use super::timing::Line;
-use crate::link::check_identity;
+use crate::commands::check_identity;
 
 const fn ms(milliseconds: u64) -> Duration {
     Duration::from_millis(milliseconds)

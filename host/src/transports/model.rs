@@ -5,7 +5,7 @@ use std::time::Instant;
 use incircle_model::CommandModel;
 
 use crate::error::Error;
-use crate::transport::{Transport, TransportError};
+use crate::transports::{Transport, TransportError};
 
 /// Boundary edges of one cavity that the model keeps; the standard cores keep as many.
 pub(crate) const RING_CAPACITY: u32 = 32;

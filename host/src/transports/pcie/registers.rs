@@ -9,7 +9,7 @@ use incircle_protocol::{Identity, StreamRegister, MAGIC, STREAM_VERSION};
 use super::fault::PcieFault;
 use super::files::RegisterFile;
 use super::transport::LeftBehind;
-use crate::link::check_identity;
+use crate::commands::check_identity;
 
 /// What a card that is gone reads as.
 const ALL_ONES: u32 = u32::MAX;

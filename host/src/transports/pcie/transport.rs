@@ -14,7 +14,7 @@ use super::files::{self, CardFiles};
 use super::registers::{CardRegisters, Registers};
 use super::streams::{Streams, MOST_MOVED, WORD};
 use crate::error::Error;
-use crate::transport::{Transport, TransportError};
+use crate::transports::{Transport, TransportError};
 
 /// Time for opening the files, and for a reset.
 const OPEN: Duration = Duration::from_secs(5);

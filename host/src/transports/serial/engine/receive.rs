@@ -5,10 +5,10 @@ use std::time::Duration;
 use incircle_protocol::{DeviceFrame, Layout, FIRST_RATE, STATUS_OPEN};
 
 use super::{Engine, Polled, Stage};
-use crate::serial::codec::{words_of, Decoded, Message};
-use crate::serial::fault::SerialFault;
-use crate::serial::reader::Reader;
-use crate::serial::sender::Sender;
+use crate::transports::serial::codec::{words_of, Decoded, Message};
+use crate::transports::serial::fault::SerialFault;
+use crate::transports::serial::reader::Reader;
+use crate::transports::serial::sender::Sender;
 
 /// Frames of one kind that prove that the session is gone; a single one may have been on its way from before.
 const PROOF: u32 = 2;
