@@ -17,8 +17,9 @@ use std::thread::{Builder, Scope};
 
 use incircle_protocol::Identity;
 
-use crate::commands::{Limit, Link};
+use crate::commands::Link;
 use crate::error::Error;
+use crate::limit::Limit;
 use crate::mesh::Mesh;
 use crate::options::{Options, Order, Stage};
 use crate::point::Point;

@@ -5,9 +5,10 @@ use std::time::Duration;
 
 use incircle_protocol::{Config, CORE_COORD_BITS, LARGE, MAX_COORD_BITS, MAX_MODEL_POINTS, MIN_COORD_BITS, NAMED};
 
-use crate::commands::{Limit, Link};
+use crate::commands::Link;
 use crate::cpu::{self, CPU_NAME};
 use crate::error::Error;
+use crate::limit::Limit;
 use crate::session::Session;
 use crate::transports::clock::{ClockTransport, CLOCK_NAME};
 use crate::transports::model::{ModelTransport, MODEL_NAME};

@@ -41,6 +41,7 @@ mod edges;
 mod error;
 mod hierarchy;
 mod hilbert;
+mod limit;
 mod mesh;
 mod options;
 pub mod order;
@@ -56,7 +57,7 @@ pub mod verify;
 
 pub use counters::{Counters, Latencies};
 pub use device::Device;
-pub use error::{DeviceFault, Error, ErrorKind, Shown};
+pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
 pub use hierarchy::Hierarchy;
 pub use incircle_protocol::{Config, Identity};
 pub use mesh::{Duplicate, Mesh, EMPTY};
@@ -65,7 +66,7 @@ pub use point::Point;
 pub use quantize::{Quantization, Quantize};
 pub use report::Report;
 pub use session::{Session, MAX_POINTS};
-pub use transports::{pcie, serial, ClockTransport, ModelTransport, Pace, Transport, TransportError};
+pub use transports::{pcie, serial, ClockTransport, ModelTransport, Pace, Transport};
 pub use verify::{verify, VerifyError, VerifySummary};
 
 /// Triangulates in this process with the fast engine: coordinates up to 31 bits, default [`Options`], all processors for large sets.

@@ -6,11 +6,12 @@ use incircle_protocol::{command_word, Identity, InsertReport, Layout, Opcode};
 
 use crate::assemble::Assembly;
 use crate::batch::{on_threads, points_of, Batch, Done, PartListener, Single};
-use crate::commands::{Limit, Link};
+use crate::commands::Link;
 use crate::counters::Latencies;
 use crate::cpu::{CpuJob, CPU_NAME};
 use crate::error::DeviceFault;
 use crate::error::Error;
+use crate::limit::Limit;
 use crate::mesh::Mesh;
 use crate::options::{Options, Progress, Stage};
 use crate::pages;

@@ -103,8 +103,8 @@ pub const ANSWER_HEAD_WORDS: usize = 2;
 /// Most words of a command in front of its points.
 pub const COMMAND_HEAD_WORDS: usize = 3;
 
-/// A command with its arguments. `P` is what stands for the points of an `Insert`: their words, in a slice or a list, as
-/// [`Layout::point_to_words`] packs them; or their number, where only the head of a command is known.
+/// A command with its arguments. `P` is what holds the points of an `Insert`: a slice or a list of words, as
+/// [`Layout::point_to_words`] packs them, or `()` where they are elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command<P> {
     /// [`Opcode::Hello`].
@@ -117,7 +117,12 @@ pub enum Command<P> {
         is_batch: bool,
     },
     /// [`Opcode::Insert`].
-    Insert(P),
+    Insert {
+        /// How many points.
+        count: u32,
+        /// The words of the points.
+        points: P,
+    },
     /// [`Opcode::Read`].
     Read(RecordRange),
     /// [`Opcode::Counters`].
@@ -143,7 +148,7 @@ impl<P> Command<P> {
         match self {
             Self::Hello => Opcode::Hello,
             Self::Clear { .. } => Opcode::Clear,
-            Self::Insert(_) => Opcode::Insert,
+            Self::Insert { .. } => Opcode::Insert,
             Self::Read(_) => Opcode::Read,
             Self::Counters => Opcode::Counters,
             Self::Latencies => Opcode::Latencies,
@@ -151,16 +156,36 @@ impl<P> Command<P> {
         }
     }
 
-    /// The same command with the points in another form.
+    /// The same command with its points in another form.
     pub fn map<Q>(self, form: impl FnOnce(P) -> Q) -> Command<Q> {
         match self {
             Self::Hello => Command::Hello,
             Self::Clear { contexts, is_batch } => Command::Clear { contexts, is_batch },
-            Self::Insert(points) => Command::Insert(form(points)),
+            Self::Insert { count, points } => Command::Insert { count, points: form(points) },
             Self::Read(range) => Command::Read(range),
             Self::Counters => Command::Counters,
             Self::Latencies => Command::Latencies,
             Self::Triangles(range) => Command::Triangles(range),
+        }
+    }
+
+    /// The words in front of the points, and how many there are.
+    pub const fn head(&self) -> ([u32; COMMAND_HEAD_WORDS], usize) {
+        let word = command_word(self.opcode());
+        match self {
+            Self::Clear { contexts, is_batch: false } => ([clear_word(*contexts), 0, 0], 1),
+            Self::Clear { contexts, is_batch: true } => ([batch_word(*contexts), 0, 0], 1),
+            Self::Insert { count, .. } => ([word, *count, 0], 2),
+            Self::Read(range) | Self::Triangles(range) => ([word, range.first, range.count], 3),
+            Self::Hello | Self::Counters | Self::Latencies => ([word, 0, 0], 1),
+        }
+    }
+
+    /// Words of points that belong behind the head.
+    pub const fn point_words(&self, layout: Layout) -> u64 {
+        match self {
+            Self::Insert { count, .. } => *count as u64 * layout.point_words as u64,
+            _ => 0,
         }
     }
 
@@ -169,79 +194,45 @@ impl<P> Command<P> {
         match self {
             Self::Hello => IDENTITY_WORDS as u64,
             Self::Clear { .. } => 0,
-            Self::Insert(_) => INSERT_REPORT_WORDS as u64,
+            Self::Insert { .. } => INSERT_REPORT_WORDS as u64,
             Self::Read(range) => range.count as u64 * layout.record_words as u64,
             Self::Counters => COUNTER_WORDS as u64,
             Self::Latencies => LATENCY_BUCKETS as u64,
             Self::Triangles(range) => layout.packed_words(range.count),
         }
     }
-
-    /// What the answer begins with, if the device does what it is asked for: the header and the number of payload words. More of them
-    /// than 32 bits can say are said to be as many as they can.
-    pub const fn answer_head(&self, layout: Layout) -> [u32; ANSWER_HEAD_WORDS] {
-        let words = self.payload_words(layout);
-        let words = if words > u32::MAX as u64 { u32::MAX } else { words as u32 };
-        [answer_header(self.opcode() as u8, Status::Ok), words]
-    }
 }
 
 impl<P: AsRef<[u32]>> Command<P> {
-    /// The same command with the words of its points as a slice.
-    pub fn borrowed(&self) -> Command<&[u32]> {
-        match self {
-            Self::Insert(points) => Command::Insert(points.as_ref()),
-            Self::Hello => Command::Hello,
-            &Self::Clear { contexts, is_batch } => Command::Clear { contexts, is_batch },
-            &Self::Read(range) => Command::Read(range),
-            Self::Counters => Command::Counters,
-            Self::Latencies => Command::Latencies,
-            &Self::Triangles(range) => Command::Triangles(range),
-        }
-    }
-
-    /// Words of the whole command.
-    pub fn words(&self, layout: Layout) -> usize {
-        let (_, head) = self.head(layout);
-        head + self.points().len()
-    }
-
-    /// Appends the words of the whole command.
-    pub fn encode(&self, layout: Layout, words: &mut impl Extend<u32>) {
-        let (head, count) = self.head(layout);
-        words.extend(head.into_iter().take(count));
-        words.extend(self.points().iter().copied());
-    }
-
-    /// The words in front of the points, and how many there are.
-    pub fn head(&self, layout: Layout) -> ([u32; COMMAND_HEAD_WORDS], usize) {
-        let word = command_word(self.opcode());
-        match self {
-            Self::Clear { contexts, is_batch: false } => ([clear_word(*contexts), 0, 0], 1),
-            Self::Clear { contexts, is_batch: true } => ([batch_word(*contexts), 0, 0], 1),
-            Self::Insert(points) => ([word, (points.as_ref().len() / layout.point_words) as u32, 0], 2),
-            Self::Read(range) | Self::Triangles(range) => ([word, range.first, range.count], 3),
-            Self::Hello | Self::Counters | Self::Latencies => ([word, 0, 0], 1),
-        }
+    /// An `Insert` of points in these words.
+    pub fn insert(points: P, layout: Layout) -> Self {
+        Self::Insert { count: (points.as_ref().len() / layout.point_words) as u32, points }
     }
 
     /// The words of the points.
     pub fn points(&self) -> &[u32] {
         match self {
-            Self::Insert(points) => points.as_ref(),
+            Self::Insert { points, .. } => points.as_ref(),
             _ => &[],
         }
     }
+
+    /// Words of the whole command.
+    pub fn words(&self) -> usize {
+        self.head().1 + self.points().len()
+    }
+
+    /// Appends the words of the whole command.
+    pub fn encode(&self, words: &mut impl Extend<u32>) {
+        let (head, count) = self.head();
+        words.extend(head.into_iter().take(count));
+        words.extend(self.points().iter().copied());
+    }
 }
 
-impl Command<u32> {
-    /// Words of points behind the head of the command.
-    pub const fn point_words(&self, layout: Layout) -> u64 {
-        match self {
-            Self::Insert(points) => *points as u64 * layout.point_words as u64,
-            _ => 0,
-        }
-    }
+/// What an answer begins with that is no error: the header, and the number of payload words.
+pub const fn answer_head(opcode: Opcode, payload_words: u32) -> [u32; ANSWER_HEAD_WORDS] {
+    [answer_header(opcode as u8, Status::Ok), payload_words]
 }
 
 /// Reads the heads of commands from a stream, word by word. Whoever reads an `Insert` takes its points from the stream before the next word
@@ -253,14 +244,8 @@ pub struct CommandReader {
 }
 
 impl CommandReader {
-    /// At the beginning of a command.
-    pub const fn new() -> Self {
-        Self { words: [0; COMMAND_HEAD_WORDS], count: 0 }
-    }
-
-    /// Takes the next word. Gives a command when its head is whole, with the number of points in the place of points; an opcode that is none is
-    /// an error, and the next word begins a command.
-    pub fn take(&mut self, word: u32) -> Option<Result<Command<u32>, u8>> {
+    /// Takes the next word. Gives a command when its head is whole; an opcode that is none is an error, and the next word begins a command.
+    pub fn take(&mut self, word: u32) -> Option<Result<Command<()>, u8>> {
         if self.count == 0 && word == PADDING {
             return None;
         }
@@ -271,7 +256,7 @@ impl CommandReader {
         Some(read)
     }
 
-    fn read(words: &[u32]) -> Option<Result<Command<u32>, u8>> {
+    fn read(words: &[u32]) -> Option<Result<Command<()>, u8>> {
         let (&word, arguments) = words.split_first()?;
         let number = command_opcode(word);
         let Some(opcode) = Opcode::from_u8(number) else {
@@ -284,7 +269,7 @@ impl CommandReader {
             }
             (Opcode::Counters, _) => Command::Counters,
             (Opcode::Latencies, _) => Command::Latencies,
-            (Opcode::Insert, &[points]) => Command::Insert(points),
+            (Opcode::Insert, &[count]) => Command::Insert { count, points: () },
             (Opcode::Read, &[first, count]) => Command::Read(RecordRange { first, count }),
             (Opcode::Triangles, &[first, count]) => Command::Triangles(RecordRange { first, count }),
             (Opcode::Insert | Opcode::Read | Opcode::Triangles, _) => return None,
@@ -304,13 +289,13 @@ mod tests {
     const WIDE: Layout = Layout { point_words: 2, record_words: 6 };
     const RANGE: RecordRange = RecordRange { first: 7, count: 11 };
 
-    fn commands() -> [Command<Vec<u32>>; 9] {
+    fn commands(layout: Layout) -> [Command<Vec<u32>>; 9] {
         [
             Command::Hello,
             Command::Clear { contexts: 3, is_batch: false },
             Command::Clear { contexts: 255, is_batch: true },
-            Command::Insert(vec![0x0400_0000, 0, 5, 6]),
-            Command::Insert(vec![]),
+            Command::insert(vec![0x0400_0000, 0, 5, 6], layout),
+            Command::insert(vec![], layout),
             Command::Read(RANGE),
             Command::Counters,
             Command::Latencies,
@@ -318,32 +303,28 @@ mod tests {
         ]
     }
 
+    fn words(command: &Command<Vec<u32>>) -> Vec<u32> {
+        let mut words = Vec::new();
+        command.encode(&mut words);
+        words
+    }
+
     #[test]
     fn what_is_written_is_read() {
         for layout in [NARROW, WIDE] {
-            for command in commands() {
-                let mut words = vec![PADDING];
-                command.encode(layout, &mut words);
-                assert_eq!(words.len(), 1 + command.words(layout));
-                let points = command.points().len();
-                let mut reader = CommandReader::new();
-                let read: Vec<_> = words[..words.len() - points].iter().filter_map(|&word| reader.take(word)).collect();
-                let head = command.clone().map(|points| (points.len() / layout.point_words) as u32);
-                assert_eq!(read, [Ok(head)]);
-                assert_eq!(head.point_words(layout), points as u64);
-                assert_eq!(command.borrowed().map(<[u32]>::to_vec), command);
+            for command in commands(layout) {
+                let (words, points) = (words(&command), command.points().len());
+                assert_eq!((words.len(), points as u64), (command.words(), command.point_words(layout)));
+                let mut reader = CommandReader::default();
+                let heads = [PADDING].iter().chain(&words[..words.len() - points]);
+                let read: Vec<_> = heads.filter_map(|&word| reader.take(word)).collect();
+                assert_eq!(read, [Ok(command.map(drop))]);
             }
         }
     }
 
     #[test]
     fn every_command_has_the_words_of_the_page() {
-        let words = |command: &Command<Vec<u32>>, layout| {
-            let mut words = Vec::new();
-            command.encode(layout, &mut words);
-            words
-        };
-        let written: Vec<Vec<u32>> = commands().iter().map(|command| words(command, NARROW)).collect();
         let page: [&[u32]; 9] = [
             &[0x0100_0000],
             &[0x0200_0003],
@@ -355,25 +336,24 @@ mod tests {
             &[0x0600_0000],
             &[0x0700_0000, 7, 11],
         ];
-        assert_eq!(written, page);
-        assert_eq!(words(&commands()[3], WIDE)[..2], [0x0300_0000, 2]);
+        assert_eq!(commands(NARROW).map(|command| words(&command)), page);
+        assert_eq!(words(&commands(WIDE)[3])[..2], [0x0300_0000, 2]);
     }
 
     #[test]
     fn every_answer_has_its_length() {
-        let lengths = |layout| commands().map(|command| command.answer_head(layout)[1]);
+        let lengths = |layout| commands(layout).map(|command| command.payload_words(layout));
         assert_eq!(lengths(NARROW), [7, 0, 0, 5, 5, 33, 25, 128, 17]);
         assert_eq!(lengths(WIDE), [7, 0, 0, 5, 5, 66, 25, 128, 33]);
         let all = RecordRange { first: 0, count: u32::MAX };
-        let commands = [Command::<&[u32]>::Read(all), Command::Triangles(all)];
+        let commands = [Command::<()>::Read(all), Command::Triangles(all)];
         assert_eq!(commands.map(|command| command.payload_words(WIDE)), [6, 3].map(|ids| ids * u64::from(u32::MAX)));
-        assert_eq!(commands.map(|command| command.answer_head(WIDE)[1]), [u32::MAX; 2]);
-        assert_eq!(commands.map(|command| command.answer_head(WIDE)[0]), [0x0400_0000, 0x0700_0000]);
+        assert_eq!(answer_head(Opcode::Read, 9), [0x0400_0000, 9]);
     }
 
     #[test]
     fn an_unknown_opcode_has_no_arguments() {
-        let mut reader = CommandReader::new();
+        let mut reader = CommandReader::default();
         assert_eq!(reader.take(0x2a00_0000), Some(Err(42)));
         assert_eq!(reader.take(1), Some(Err(0)));
         assert_eq!(reader.take(0x0100_0000), Some(Ok(Command::Hello)));

@@ -17,7 +17,7 @@ mod status;
 mod stream;
 
 pub use command::{
-    answer_header, answer_opcode, answer_status, batch_word, clear_word, command_contexts, command_opcode,
+    answer_head, answer_header, answer_opcode, answer_status, batch_word, clear_word, command_contexts, command_opcode,
     command_starts_batch, command_word, Command, CommandReader, Opcode, RecordRange, ANSWER_HEAD_WORDS, CLEAR_BATCH,
     COMMAND_HEAD_WORDS, PADDING,
 };

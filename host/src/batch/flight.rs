@@ -8,9 +8,9 @@ use incircle_protocol::{InsertReport, Opcode, COUNTER_WORDS};
 use super::commands::{Command, Load};
 use super::group::{Group, Ordered};
 use super::{points_of, Batch, Done};
-use crate::commands::Limit;
 use crate::counters::Counters;
 use crate::error::Error;
+use crate::limit::Limit;
 use crate::options::{Options, Stage};
 use crate::session::tell;
 

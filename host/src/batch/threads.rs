@@ -4,9 +4,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::Builder;
 
 use super::{points_of, Done, Single, JOBS_PER_LOOK, MAX_JOB_POINTS};
-use crate::commands::Limit;
 use crate::cpu::CpuJob;
 use crate::error::Error;
+use crate::limit::Limit;
 use crate::mesh::Mesh;
 use crate::options::{Options, Order, Stage};
 use crate::point::Point;

@@ -2,8 +2,8 @@
 
 use incircle_protocol::{Identity, MAGIC, MAX_COORD_BITS, PROTOCOL_VERSION};
 
-use crate::commands::Limit;
 use crate::error::Error;
+use crate::limit::Limit;
 use crate::mesh::{Duplicate, Mesh};
 use crate::options::{Options, Stage};
 use crate::pages;

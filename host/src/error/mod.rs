@@ -1,60 +1,18 @@
 //! Everything that can go wrong, as typed errors: one sentence each, with the numbers and what to do.
 
 mod device_fault;
+mod kind;
+mod shown;
+mod transport_error;
 
-use std::fmt;
+use std::error::Error as StdError;
 use std::time::Duration;
-
-use crate::transports::pcie::CardFault;
-use crate::transports::serial::PortFault;
-use crate::transports::TransportError;
 
 pub use device_fault::DeviceFault;
 pub(crate) use device_fault::MAX_DEVICE_CONTEXTS;
-
-/// What kind of error it is, for exit codes and for callers that only want to know whose fault it was.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum ErrorKind {
-    /// The points cannot be used as they are.
-    BadInput,
-    /// A choice that does not exist, such as 32 coordinate bits, or more contexts than the device has.
-    BadChoice,
-    /// There is no device at the address, or it may not be opened.
-    DeviceNotFound,
-    /// Words did not get through.
-    Link,
-    /// The device answered nonsense or reported a failure.
-    Device,
-    /// The device did not answer in time.
-    Timeout,
-    /// More points, or wider coordinates, than the device holds.
-    Capacity,
-    /// The progress listener ended the job.
-    Cancelled,
-}
-
-/// A value as messages show it: in scientific form where plain digits would be a long row of zeros, below 1e-6 and from
-/// 1e15 on.
-///
-/// ```
-/// use incircle::Shown;
-/// assert_eq!(Shown(-0.5).to_string(), "-0.5");
-/// assert_eq!(Shown(1e300).to_string(), "1e300");
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown(pub f64);
-
-impl fmt::Display for Shown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(value) = self;
-        if *value == 0.0 || !value.is_finite() || (1e-6..1e15).contains(&value.abs()) {
-            write!(f, "{value}")
-        } else {
-            write!(f, "{value:e}")
-        }
-    }
-}
+pub use kind::ErrorKind;
+pub use shown::Shown;
+pub use transport_error::TransportError;
 
 /// An error of the library.
 #[derive(Debug, thiserror::Error)]
@@ -168,21 +126,13 @@ pub enum Error {
         /// What is wrong and what would be right.
         reason: String,
     },
-    /// A port cannot be opened.
-    #[error("{port} cannot be opened: {fault}")]
-    Port {
-        /// Name of the port.
-        port: String,
-        /// Why, and what to do.
-        fault: PortFault,
-    },
-    /// A card cannot be opened.
-    #[error("{card} cannot be opened: {fault}")]
-    Card {
-        /// Address of the card.
-        card: String,
-        /// Why, and what to do.
-        fault: CardFault,
+    /// There is a device at the address, or should be, and it cannot be opened.
+    #[error("{device} cannot be opened: {source}")]
+    Open {
+        /// The port or the card.
+        device: String,
+        /// Why, and what to do: a [`PortFault`](crate::serial::PortFault) or a [`CardFault`](crate::pcie::CardFault).
+        source: Box<dyn StdError + Send + Sync>,
     },
     /// Words did not get through.
     #[error("the link to {device} failed during {during}: {source}")]
@@ -259,9 +209,8 @@ impl Error {
             | Self::OutOfGrid { .. }
             | Self::Extent { .. } => ErrorKind::BadInput,
             Self::Scale { .. } | Self::CoordBits(_) | Self::Contexts { .. } | Self::Model(_) => ErrorKind::BadChoice,
-            Self::Address { .. } | Self::Port { .. } | Self::Card { .. } => ErrorKind::DeviceNotFound,
-            Self::Link { source: TransportError::Serial(fault), .. } => fault.kind(),
-            Self::Link { source: TransportError::Pcie(fault), .. } => fault.kind(),
+            Self::Address { .. } | Self::Open { .. } => ErrorKind::DeviceNotFound,
+            Self::Link { source: TransportError::Other { kind, .. }, .. } => *kind,
             Self::TooManyPoints { .. } | Self::Capacity { .. } => ErrorKind::Capacity,
             Self::Link { .. } | Self::OutOfStep { .. } => ErrorKind::Link,
             Self::Timeout { .. } => ErrorKind::Timeout,

@@ -4,10 +4,10 @@ use std::collections::VecDeque;
 use std::time::Instant;
 
 use incircle_model::{ClockModel, Inputs};
-use incircle_protocol::Config;
+use incircle_protocol::{Command, Config};
 
-use crate::error::Error;
-use crate::transports::{Transport, TransportError};
+use super::transport::{receive_in_pieces, AnswerHead, Capabilities, DeviceClocks, Transport};
+use crate::error::{Error, TransportError};
 
 /// Name in reports, before the name of the configuration.
 pub(crate) const CLOCK_NAME: &str = "clock";
@@ -54,7 +54,8 @@ impl ClockTransport {
     }
 }
 
-impl Transport for ClockTransport {
+impl ClockTransport {
+    /// Hands the core a word after the other.
     fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
         let mut left = SLICE;
         for (done, &word) in words.iter().enumerate() {
@@ -67,7 +68,8 @@ impl Transport for ClockTransport {
         Ok(())
     }
 
-    fn receive(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError> {
+    /// Fills the whole of `words` with the next words of the core.
+    fn fill(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError> {
         let mut left = SLICE;
         while self.answers.len() < words.len() {
             self.clock(None);
@@ -80,21 +82,34 @@ impl Transport for ClockTransport {
         }
         Ok(())
     }
+}
 
-    fn answer_clock(&self) -> Option<u64> {
-        self.answer_clock
-    }
-
-    fn clocks(&self) -> Option<u64> {
-        Some(self.clocks)
-    }
-
-    fn takes_ahead(&self) -> bool {
-        true
-    }
-
+impl Transport for ClockTransport {
     fn name(&self) -> String {
         format!("{CLOCK_NAME}:{}", self.config.name)
+    }
+
+    fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError> {
+        let mut words = Vec::with_capacity(commands.iter().map(Command::words).sum());
+        commands.iter().for_each(|command| command.encode(&mut words));
+        self.send(&words, deadline)
+    }
+
+    fn receive(
+        &mut self,
+        head: AnswerHead,
+        payload: &mut [u32],
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        receive_in_pieces(head, payload, |words| self.fill(words, deadline))
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        Capabilities { takes_ahead: true, ..Capabilities::default() }
+    }
+
+    fn clocks(&self) -> Option<DeviceClocks> {
+        Some(DeviceClocks { now: self.clocks, answer: self.answer_clock })
     }
 }
 
@@ -113,7 +128,7 @@ fn go_on(left: &mut u32, deadline: Instant, done: usize, wanted: usize) -> Resul
 #[cfg(test)]
 mod tests {
     use super::*;
-    use incircle_protocol::{command_word, Opcode, IDENTITY_WORDS, MAGIC, SMALL, TINY};
+    use incircle_protocol::{answer_head, Opcode, IDENTITY_WORDS, MAGIC, SMALL, TINY};
     use std::time::Duration;
 
     #[test]
@@ -121,10 +136,13 @@ mod tests {
         let mut transport = ClockTransport::new(TINY).expect("a named configuration");
         let deadline = Instant::now() + Duration::from_secs(60);
         // Two commands in one go: the first answer is kept meanwhile.
-        transport.send(&[command_word(Opcode::Hello); 2], deadline).expect("in time");
-        let mut answers = [0; 2 * (2 + IDENTITY_WORDS)];
-        transport.receive(&mut answers, deadline).expect("in time");
-        assert_eq!((answers[2], answers[2 + IDENTITY_WORDS + 2]), (MAGIC, MAGIC));
+        transport.submit(&[Command::Hello; 2], deadline).expect("in time");
+        let head = answer_head(Opcode::Hello, IDENTITY_WORDS as u32);
+        for _ in 0..2 {
+            let mut identity = [0; IDENTITY_WORDS];
+            assert_eq!(transport.receive(head, &mut identity, deadline).expect("in time"), head);
+            assert_eq!(identity[0], MAGIC);
+        }
         assert_eq!(transport.name(), "clock:tiny");
     }
 
@@ -132,9 +150,9 @@ mod tests {
     fn silence_ends_at_the_deadline() {
         let mut transport = ClockTransport::new(SMALL).expect("a named configuration");
         let error =
-            transport.receive(&mut [0], Instant::now() + Duration::from_millis(20)).expect_err("nothing was asked");
-        assert!(matches!(error, TransportError::Timeout { done: 0, wanted: 1 }), "{error}");
-        let error = transport.send(&[command_word(Opcode::Hello); 100_000], Instant::now()).expect_err("too late");
+            transport.receive([0; 2], &mut [], Instant::now() + Duration::from_millis(20)).expect_err("nothing was asked");
+        assert!(matches!(error, TransportError::Timeout { done: 0, wanted: 2 }), "{error}");
+        let error = transport.submit(&[Command::Hello; 100_000], Instant::now()).expect_err("too late");
         assert!(matches!(error, TransportError::Timeout { wanted: 100_000, .. }), "{error}");
     }
 

@@ -1,6 +1,7 @@
 //! Ways to a device.
 
 pub(crate) mod clock;
+pub(crate) mod identity;
 pub(crate) mod model;
 pub mod pcie;
 pub mod serial;
@@ -8,4 +9,4 @@ mod transport;
 
 pub use clock::ClockTransport;
 pub use model::ModelTransport;
-pub use transport::{Pace, Transport, TransportError};
+pub use transport::{receive_in_pieces, AnswerHead, Capabilities, DeviceClocks, Pace, Transport};

@@ -1,11 +1,12 @@
-//! The embedded device: the software model, fed with words like any other.
+//! The embedded device: the software model, fed with commands like any other.
 
 use std::time::Instant;
 
 use incircle_model::CommandModel;
+use incircle_protocol::Command;
 
-use crate::error::Error;
-use crate::transports::{Transport, TransportError};
+use super::transport::{receive_in_pieces, AnswerHead, Capabilities, Transport};
+use crate::error::{Error, TransportError};
 
 /// Boundary edges of one cavity that the model keeps; the standard cores keep as many.
 pub(crate) const RING_CAPACITY: u32 = 32;
@@ -29,13 +30,9 @@ impl ModelTransport {
     }
 }
 
-impl Transport for ModelTransport {
-    fn send(&mut self, words: &[u32], _deadline: Instant) -> Result<(), TransportError> {
-        self.model.send(words);
-        Ok(())
-    }
-
-    fn receive(&mut self, words: &mut [u32], _deadline: Instant) -> Result<(), TransportError> {
+impl ModelTransport {
+    /// Fills the whole of `words` with the next words of the model.
+    fn fill(&mut self, words: &mut [u32]) -> Result<(), TransportError> {
         let wanted = words.len();
         let mut done = 0;
         while let Some(rest) = words.get_mut(done..).filter(|rest| !rest.is_empty()) {
@@ -46,20 +43,32 @@ impl Transport for ModelTransport {
         }
         Ok(())
     }
+}
 
-    fn takes_ahead(&self) -> bool {
-        true
-    }
-
-    fn takes_guides(&self) -> bool {
-        true
-    }
-
-    fn guide(&mut self, guides: &[u32]) {
-        self.model.guide(guides);
-    }
-
+impl Transport for ModelTransport {
     fn name(&self) -> String {
         MODEL_NAME.to_owned()
+    }
+
+    fn submit(&mut self, commands: &[Command<&[u32]>], _deadline: Instant) -> Result<(), TransportError> {
+        for command in commands {
+            let (head, count) = command.head();
+            self.model.send(&head[..count]);
+            self.model.send(command.points());
+        }
+        Ok(())
+    }
+
+    fn receive(
+        &mut self,
+        head: AnswerHead,
+        payload: &mut [u32],
+        _deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        receive_in_pieces(head, payload, |words| self.fill(words))
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        Capabilities { takes_ahead: true, ..Capabilities::default() }
     }
 }

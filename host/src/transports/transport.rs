@@ -1,69 +1,46 @@
-//! The way to a device: two streams of 32-bit words.
+//! The way to a device: commands go out, answers come back.
 
 use std::time::Instant;
 
-use crate::transports::pcie::PcieFault;
-use crate::transports::serial::SerialFault;
+use incircle_protocol::{Command, ANSWER_HEAD_WORDS};
 
-/// A way to a device: commands go out as words, answers come back as words.
+use crate::error::TransportError;
+
+/// What an answer begins with: its header, and the number of words of its payload.
+pub type AnswerHead = [u32; ANSWER_HEAD_WORDS];
+
+/// A way to a device.
 ///
-/// The trait is object-safe; `Box<dyn Transport>` is what [`Device::from_transport`](crate::Device::from_transport)
-/// takes. An implementation only carries words: everything a device says is checked above it. After an error the
-/// stream is out of step, and the session that saw it refuses further work.
+/// The trait is object-safe; `Box<dyn Transport>` is what [`Device::from_transport`](crate::Device::from_transport) takes. A way carries whole
+/// commands and whole answers, in their order, and judges no answer: what a device says is checked above it. After an error the streams are out
+/// of step, and the session that saw it refuses further work, unless [`recover`](Self::recover) helps.
 pub trait Transport {
-    /// Sends all `words`, or fails by `deadline`.
-    fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError>;
-
-    /// Fills the whole of `words` with the next words of the device, or fails by `deadline`.
-    fn receive(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError>;
-
-    /// Words of commands may be sent before the answers to earlier ones are received. False, unless a way says otherwise: each call of
-    /// `send` is one command, whose answer is received before the next. Say true only if `send` never waits until answers are received: what
-    /// comes meanwhile is kept, up to the answers of two jobs.
-    fn takes_ahead(&self) -> bool {
-        false
-    }
-
-    /// Clocks of the device since it was made, where they are counted.
-    fn clocks(&self) -> Option<u64> {
-        None
-    }
-
-    /// The clock of the device, counted as [`Transport::clocks`] does, in which it gave the word that was received last. None where that is not
-    /// known: the device may be far ahead of what was received.
-    fn answer_clock(&self) -> Option<u64> {
-        None
-    }
-
     /// Short name for reports: `model`, `sim:full`.
     fn name(&self) -> String;
 
-    /// Meshes are read with `Triangles`, which leaves out the links: half the words. False where this way knows `Read` alone, as one does
-    /// that asks again for parts of an answer.
-    fn packs_records(&self) -> bool {
-        true
+    /// Hands over commands whose answers are received later, or fails by `deadline`. It is one command, all answers to earlier ones have been
+    /// received, and this call may wait for the answer, unless the way [takes commands ahead](Capabilities::takes_ahead).
+    fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError>;
+
+    /// Receives the answer to the first command whose answer has not been received, or fails by `deadline`. `head` is what that answer begins
+    /// with if the device did what it was asked for: then the payload, which is as long as that says, is filled. Of any other answer the payload
+    /// is left alone. Gives what the answer begins with; [`receive_in_pieces`] does all that for a stream of words.
+    ///
+    /// A way whose device may be reset by others has an error for an answer that must be somebody else's.
+    fn receive(
+        &mut self,
+        head: AnswerHead,
+        payload: &mut [u32],
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError>;
+
+    /// What this way can do, and how fast it is.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities::default()
     }
 
-    /// [`Transport::guide`] helps. Only the software model says so: the core keeps no triangle of each vertex.
-    fn takes_guides(&self) -> bool {
-        false
-    }
-
-    /// Names for each of the next points a vertex near it, by number of arrival, or the point itself where there is none. They are a help, and
-    /// no word of the protocol: the mesh is the same without.
-    fn guide(&mut self, guides: &[u32]) {
-        let _ = guides;
-    }
-
-    /// How fast this way is, as far as that matters to whoever uses it.
-    fn pace(&self) -> Pace {
-        Pace::default()
-    }
-
-    /// An answer has come to a command that nobody gave, or one that says that what was there is not, as when others reset the device: what
-    /// follows in a command is then taken for commands. The error to tell, if that may have happened here and [`recover`](Self::recover) may
-    /// help; `None` distrusts the device.
-    fn lost_step(&mut self) -> Option<TransportError> {
+    /// The clock of the device, where it is counted.
+    fn clocks(&self) -> Option<DeviceClocks> {
         None
     }
 
@@ -76,6 +53,34 @@ pub trait Transport {
         let _ = deadline;
         Ok(false)
     }
+}
+
+/// What a way to a device can do. The default suits one that is plain: a command at a time, `Triangles`, and no time lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Capabilities {
+    /// Commands may be submitted before the answers to earlier ones are received. Only for a way on which
+    /// [`submit`](Transport::submit) never waits until answers are received: what comes meanwhile is kept, up to the answers of two jobs.
+    pub takes_ahead: bool,
+    /// Meshes are read with `Triangles`, which leaves out the links: half the words. False where a way knows `Read` alone, as one does that
+    /// asks again for parts of an answer.
+    pub packs_records: bool,
+    /// How fast the way is.
+    pub pace: Pace,
+}
+
+impl Default for Capabilities {
+    fn default() -> Self {
+        Self { takes_ahead: false, packs_records: true, pace: Pace::default() }
+    }
+}
+
+/// Clocks of a device since it was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DeviceClocks {
+    /// Until now.
+    pub now: u64,
+    /// Until the word that was received last; `None` before the first. The device may be far ahead of what was received.
+    pub answer: Option<u64>,
 }
 
 /// How fast a way to a device is: times and lengths that the library chooses itself follow it.
@@ -105,36 +110,19 @@ impl Pace {
     }
 }
 
-/// Why words did not get through.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum TransportError {
-    /// The deadline passed with this many words of the call done.
-    #[error("the deadline passed after {done} of {wanted} words")]
-    Timeout {
-        /// Words carried before the deadline.
-        done: usize,
-        /// Words the call asked for.
-        wanted: usize,
-    },
-    /// The device has nothing more to say, and more was expected.
-    #[error("the device ended its answer after {done} of {wanted} words")]
-    Closed {
-        /// Words carried before the end.
-        done: usize,
-        /// Words the call asked for.
-        wanted: usize,
-    },
-    /// The operating system refused.
-    #[error("{0}")]
-    Io(#[from] std::io::Error),
-    /// The serial link gave up.
-    #[error("{0}")]
-    Serial(#[from] SerialFault),
-    /// The card failed.
-    #[error("{0}")]
-    Pcie(#[from] PcieFault),
-    /// Anything else, in one sentence.
-    #[error("{0}")]
-    Other(String),
+/// Receives an answer as [`Transport::receive`] must, from a stream of words: `fill` fills the whole of a list with the next words.
+///
+/// # Errors
+/// Those of `fill`.
+pub fn receive_in_pieces(
+    head: AnswerHead,
+    payload: &mut [u32],
+    mut fill: impl FnMut(&mut [u32]) -> Result<(), TransportError>,
+) -> Result<AnswerHead, TransportError> {
+    let mut came = [0; ANSWER_HEAD_WORDS];
+    fill(&mut came)?;
+    if came == head && !payload.is_empty() {
+        fill(payload)?;
+    }
+    Ok(came)
 }

@@ -4,8 +4,7 @@ use std::time::Duration;
 
 use incircle_protocol::{MAGIC, STREAM_VERSION};
 
-use crate::error::DeviceFault;
-use crate::error::ErrorKind;
+use crate::error::{DeviceFault, ErrorKind, TransportError};
 
 /// Why a card cannot be opened.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -187,5 +186,11 @@ impl PcieFault {
     /// True if a reset may help.
     pub(super) const fn is_passing(&self) -> bool {
         matches!(self, Self::EngineTimedOut { .. } | Self::Forgotten)
+    }
+}
+
+impl From<PcieFault> for TransportError {
+    fn from(fault: PcieFault) -> Self {
+        Self::other(fault.kind(), fault)
     }
 }

@@ -9,9 +9,9 @@
 
 mod address;
 mod buffer;
-mod commands;
 mod fault;
 mod files;
+mod left_behind;
 mod registers;
 mod streams;
 mod transport;
@@ -19,5 +19,6 @@ mod transport;
 pub use address::{cards, CardAddress, CardInfo};
 pub use fault::{CardFault, PcieFault};
 pub use files::{CardFiles, RegisterFile};
+pub use left_behind::calls_left_behind;
 pub use registers::CardRegisters;
-pub use transport::{calls_left_behind, PcieTransport};
+pub use transport::PcieTransport;

@@ -8,8 +8,8 @@ use incircle_protocol::{Identity, StreamRegister, MAGIC, STREAM_VERSION};
 
 use super::fault::PcieFault;
 use super::files::RegisterFile;
-use super::transport::LeftBehind;
-use crate::commands::check_identity;
+use super::left_behind;
+use crate::transports::identity::check_identity;
 
 /// What a card that is gone reads as.
 const ALL_ONES: u32 = u32::MAX;
@@ -68,7 +68,7 @@ impl Registers {
         }
         self.values.recv_timeout(ACCESS).unwrap_or_else(|_| {
             self.hangs = true;
-            LeftBehind::count();
+            left_behind::note_call();
             Err(hangs)
         })
     }

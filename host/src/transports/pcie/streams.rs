@@ -5,8 +5,9 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use incircle_protocol::ANSWER_HEAD_WORDS;
+
 use super::buffer::{PageBuffer, Pool};
-use super::commands::HEAD_WORDS;
 use super::fault::PcieFault;
 
 /// Most bytes of a transfer.
@@ -372,5 +373,5 @@ impl Reader {
 fn announced(bytes: &[u8]) -> Option<u64> {
     let word = bytes.get(WORD..2 * WORD)?;
     let payload = u32::from_le_bytes([word[0], word[1], word[2], word[3]]);
-    Some(HEAD_WORDS + u64::from(payload))
+    Some(ANSWER_HEAD_WORDS as u64 + u64::from(payload))
 }

@@ -1,20 +1,22 @@
 //! A card as a transport.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{channel, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use incircle_protocol::{command_word, Identity, Layout, Opcode, StreamRegister, IDENTITY_WORDS, STREAM_STATUS_BUSY};
+use incircle_protocol::{
+    answer_opcode, answer_status, Command, Identity, Layout, Status, StreamRegister, ANSWER_HEAD_WORDS, IDENTITY_WORDS,
+    STREAM_STATUS_BUSY,
+};
 
 use super::address::CardAddress;
 use super::buffer::PageBuffer;
-use super::commands::{CommandScan, HEAD_WORDS};
 use super::fault::{CardFault, PcieFault};
 use super::files::{self, CardFiles};
+use super::left_behind;
 use super::registers::{CardRegisters, Registers};
 use super::streams::{Streams, MOST_MOVED, WORD};
-use crate::error::Error;
-use crate::transports::{Transport, TransportError};
+use crate::error::{Error, TransportError};
+use crate::transports::transport::{receive_in_pieces, AnswerHead, Capabilities, Transport};
 
 /// Time for opening the files, and for a reset.
 const OPEN: Duration = Duration::from_secs(5);
@@ -31,27 +33,9 @@ const GOODBYE: Duration = Duration::from_millis(300);
 /// What reads as all ones is gone.
 const ALL_ONES: u32 = u32::MAX;
 
-/// Calls of the system that were given up on.
-static LEFT_BEHIND: AtomicUsize = AtomicUsize::new(0);
-
-/// Counts them.
-pub(super) struct LeftBehind;
-
-impl LeftBehind {
-    pub fn count() {
-        LEFT_BEHIND.fetch_add(1, Ordering::Relaxed);
-    }
-}
-
-/// Calls of the system that had not returned when this process gave up on them, so far. Each has a thread that waits for it, and keeps its
-/// card locked until it returns; a call to a sound driver returns after its own timeout, 10 seconds unless its module was loaded with another.
-pub fn calls_left_behind() -> usize {
-    LEFT_BEHIND.load(Ordering::Relaxed)
-}
-
 /// A device in a PCIe slot.
 ///
-/// Commands are written while answers are read: `send` returns when its words wait for the card, so the next may be sent before the answer
+/// Commands are written while answers are read: `submit` returns when its commands wait for the card, so the next may be sent before the answer
 /// to the last is taken. The card is reset when it is opened.
 pub struct PcieTransport {
     name: String,
@@ -60,11 +44,7 @@ pub struct PcieTransport {
     identity: Identity,
     /// Bytes of a beat.
     beat: usize,
-    scan: CommandScan,
-    /// Words of a command that do not fill a beat yet.
-    held: Vec<u32>,
-    /// Answers that a call asks for; kept for its memory.
-    due: Vec<u64>,
+    layout: Layout,
     /// Words that came and were not taken, and bytes of them that were.
     piece: Option<PageBuffer>,
     taken: usize,
@@ -83,11 +63,11 @@ impl PcieTransport {
         std::thread::spawn(move || sender.send(files::open(&of)));
         let opened = opened.recv_timeout(OPEN).unwrap_or_else(|error| {
             if error == RecvTimeoutError::Timeout {
-                LeftBehind::count();
+                left_behind::note_call();
             }
             Err(CardFault::Hangs { within: OPEN })
         });
-        let files = opened.map_err(|fault| Error::Card { card: address.to_string(), fault })?;
+        let files = opened.map_err(|fault| Error::Open { device: address.to_string(), source: fault.into() })?;
         Self::new(address.to_string(), files)
     }
 
@@ -113,9 +93,7 @@ impl PcieTransport {
             streams: Streams::new(commands, answers, beat),
             identity,
             beat,
-            scan: CommandScan::new(Layout::of(identity.coord_bits, identity.capacity)),
-            held: Vec::new(),
-            due: Vec::new(),
+            layout: Layout::of(identity.coord_bits, identity.capacity),
             piece: None,
             taken: 0,
             fault: None,
@@ -192,26 +170,20 @@ impl PcieTransport {
         }
     }
 
-    /// Puts what is held and these words into whole beats; a rest stays held, unless a command ends in it.
-    fn beats(&mut self, words: &[u32]) -> Option<PageBuffer> {
-        let width = self.beat / WORD;
-        let all = self.held.len() + words.len();
-        let is_end = self.scan.is_between_commands();
-        let now = if is_end { all } else { all / width * width };
-        if now == 0 {
-            self.held.extend_from_slice(words);
-            return None;
+    /// Commands in whole beats: padding fills the last.
+    fn beats(&self, commands: &[Command<&[u32]>], words: usize) -> PageBuffer {
+        let mut buffer = self.streams.buffer((words * WORD).next_multiple_of(self.beat));
+        let mut rest = buffer.bytes_mut();
+        for command in commands {
+            let (head, count) = command.head();
+            for words in [&head[..count], command.points()] {
+                let (here, after) = rest.split_at_mut(words.len() * WORD);
+                fill(here, words);
+                rest = after;
+            }
         }
-        let mut buffer = self.streams.buffer(now.next_multiple_of(width) * WORD);
-        let (here, rest) = words.split_at(now - self.held.len());
-        let (head, tail) = buffer.bytes_mut().split_at_mut(self.held.len() * WORD);
-        let (body, padding) = tail.split_at_mut(here.len() * WORD);
-        fill(head, &self.held);
-        fill(body, here);
-        padding.fill(0);
-        self.held.clear();
-        self.held.extend_from_slice(rest);
-        Some(buffer)
+        rest.fill(0);
+        buffer
     }
 
     /// Copies words that came; says how many.
@@ -240,9 +212,7 @@ impl PcieTransport {
     /// Resets the card, gets both streams out of their calls, and begins anew.
     fn restart(&mut self, deadline: Instant) -> Result<(), PcieFault> {
         let begun = Instant::now();
-        self.held.clear();
         (self.piece, self.taken) = (None, 0);
-        self.scan = CommandScan::new(Layout::of(self.identity.coord_bits, self.identity.capacity));
         if !self.still(deadline)? {
             return Err(PcieFault::Hangs { call: self.streams.lock().call(), within: begun.elapsed() });
         }
@@ -293,7 +263,8 @@ impl PcieTransport {
         let mut buffer = self.streams.buffer(self.beat);
         let bytes = buffer.bytes_mut();
         bytes.fill(0);
-        fill(&mut bytes[..WORD], &[command_word(Opcode::Hello)]);
+        let (hello, count) = Command::<()>::Hello.head();
+        fill(&mut bytes[..WORD], &hello[..count]);
         self.streams.queue(Some(buffer), []);
     }
 }
@@ -305,27 +276,20 @@ fn fill(bytes: &mut [u8], words: &[u32]) {
     }
 }
 
-impl Transport for PcieTransport {
-    fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
-        if let Some(fault) = &self.fault {
-            return Err(fault.clone().into());
-        }
-        let wanted = words.len();
-        let bytes = wanted * WORD;
-        let has_room = |queued: usize| queued == 0 || queued + bytes <= MOST_QUEUED;
-        if self.wait(deadline, |card| has_room(card.streams.queued()).then_some(()))?.is_none() {
-            return Err(TransportError::Timeout { done: 0, wanted });
-        }
-        let mut due = std::mem::take(&mut self.due);
-        due.clear();
-        self.scan.take(words, &mut due);
-        let beats = self.beats(words);
-        self.streams.queue(beats, due.drain(..));
-        self.due = due;
-        Ok(())
+/// An answer to another command, or one that says that records which were there are not: the card has been reset, and the rest of a command
+/// was taken for others. A host asks for no records that the card has not told of.
+fn is_out_of_step(awaited: AnswerHead, came: AnswerHead) -> bool {
+    let ([awaited, _], [came, _]) = (awaited, came);
+    match Status::from_u8(answer_status(came)) {
+        Some(status) if answer_opcode(came) == answer_opcode(awaited) => status == Status::BadRange,
+        Some(_) => came & 0xffff == 0,
+        None => false,
     }
+}
 
-    fn receive(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError> {
+impl PcieTransport {
+    /// Fills the whole of `words` with the next words of answers.
+    fn fill(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError> {
         if let Some(fault) = &self.fault {
             return Err(fault.clone().into());
         }
@@ -346,17 +310,44 @@ impl Transport for PcieTransport {
             None => Err(TransportError::Timeout { done, wanted }),
         }
     }
+}
 
-    fn takes_ahead(&self) -> bool {
-        true
-    }
-
+impl Transport for PcieTransport {
     fn name(&self) -> String {
         self.name.clone()
     }
 
-    fn lost_step(&mut self) -> Option<TransportError> {
-        Some(self.fail(PcieFault::Forgotten))
+    fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError> {
+        if let Some(fault) = &self.fault {
+            return Err(fault.clone().into());
+        }
+        let wanted = commands.iter().map(Command::words).sum();
+        let bytes = wanted * WORD;
+        let has_room = |queued: usize| queued == 0 || queued + bytes <= MOST_QUEUED;
+        if self.wait(deadline, |card| has_room(card.streams.queued()).then_some(()))?.is_none() {
+            return Err(TransportError::Timeout { done: 0, wanted });
+        }
+        let beats = (wanted > 0).then(|| self.beats(commands, wanted));
+        let most = |command: &Command<_>| ANSWER_HEAD_WORDS as u64 + command.payload_words(self.layout);
+        self.streams.queue(beats, commands.iter().map(most));
+        Ok(())
+    }
+
+    fn receive(
+        &mut self,
+        head: AnswerHead,
+        payload: &mut [u32],
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        let came = receive_in_pieces(head, payload, |words| self.fill(words, deadline))?;
+        if is_out_of_step(head, came) {
+            return Err(self.fail(PcieFault::Forgotten));
+        }
+        Ok(came)
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        Capabilities { takes_ahead: true, ..Capabilities::default() }
     }
 
     fn recover(&mut self, deadline: Instant) -> Result<bool, TransportError> {
@@ -376,11 +367,11 @@ impl Drop for PcieTransport {
             state.is_all_written() && state.is_all_read()
         };
         if !is_at_rest && self.restart(Instant::now() + GOODBYE).is_err() {
-            LeftBehind::count();
+            left_behind::note_call();
         }
         self.streams.end();
     }
 }
 
 /// A sound card's answer to the `Hello` that wakes a read is longer than a beat; the rest goes with the reset that follows.
-const _: () = assert!(HEAD_WORDS as usize + IDENTITY_WORDS > 4);
+const _: () = assert!(ANSWER_HEAD_WORDS + IDENTITY_WORDS > 4);

@@ -4,7 +4,7 @@ use std::fmt;
 
 use incircle_protocol::FIRST_RATE;
 
-use super::engine::DEFAULT_RATE;
+use super::protocol::DEFAULT_RATE;
 
 /// Before the name of the port.
 const PREFIX: &str = "serial:";

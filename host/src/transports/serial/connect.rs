@@ -11,7 +11,7 @@ use incircle_protocol::{
 use super::codec::{encode, Message};
 use super::fault::SerialFault;
 use super::timing::Line;
-use crate::commands::check_identity;
+use crate::transports::identity::check_identity;
 
 const fn ms(milliseconds: u64) -> Duration {
     Duration::from_millis(milliseconds)

@@ -1,7 +1,6 @@
 //! What can go wrong on a serial link, a sentence each that says what to do.
 
-use crate::error::DeviceFault;
-use crate::error::ErrorKind;
+use crate::error::{DeviceFault, ErrorKind, TransportError};
 
 /// Why the link gave up. Noise is repaired, or ends in [`Silent`](Self::Silent), [`Noise`](Self::Noise), [`Lost`](Self::Lost),
 /// [`Reset`](Self::Reset), or the deadline.
@@ -176,5 +175,11 @@ impl SerialFault {
             | Self::Endless { .. }
             | Self::AnswerLength { .. } => ErrorKind::Device,
         }
+    }
+}
+
+impl From<SerialFault> for TransportError {
+    fn from(fault: SerialFault) -> Self {
+        Self::other(fault.kind(), fault)
     }
 }

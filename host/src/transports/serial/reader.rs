@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use incircle_protocol::{
-    answer_header, command_opcode, command_word, Layout, Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS,
+    answer_head, Command, Layout, Opcode, RecordRange, ANSWER_HEAD_WORDS as HEADER, COUNTER_WORDS, IDENTITY_WORDS,
     INSERT_REPORT_WORDS, LATENCY_BUCKETS,
 };
 
@@ -11,8 +11,6 @@ use super::codec::{words_of, AnswerPart};
 use super::fault::SerialFault;
 use super::sender::Sender;
 
-/// Words of an answer before its payload.
-const HEADER: usize = 2;
 /// Most words of an answer's payload to a range: with the header they fill three frames.
 const RANGE_WORDS: usize = 3 * 256 - HEADER;
 /// First ranges, in words: they grow on a clean line.
@@ -53,8 +51,7 @@ enum Question {
 #[derive(Debug)]
 struct Exchange {
     /// The command that brings the same answer again.
-    again: [u32; 2],
-    again_words: usize,
+    again: Command<[u32; 0]>,
     /// Header, length, payload.
     answer: Vec<u32>,
     /// Ranges still to be asked for.
@@ -118,11 +115,11 @@ impl Reader {
         Some(exchange.answer)
     }
 
-    /// Begins a command; it must be one whole command.
-    pub fn begin(&mut self, command: &[u32], sender: &mut Sender) -> Result<(), SerialFault> {
+    /// Begins a command.
+    pub fn begin(&mut self, command: &Command<impl AsRef<[u32]>>, sender: &mut Sender) -> Result<(), SerialFault> {
         let exchange = Exchange::of(command, self.layout)?;
         if exchange.todo.is_empty() {
-            let end = sender.push(command);
+            let end = sender.push_command(command);
             self.asked.push_back(Asked::new(Question::Whole, end));
         }
         self.exchange = Some(exchange);
@@ -140,7 +137,7 @@ impl Reader {
             if count > now {
                 exchange.todo.push_front((first + now, count - now));
             }
-            let end = sender.push(&[command_word(Opcode::Read), first, now]);
+            let end = sender.push_command(&Command::<[u32; 0]>::Read(RecordRange { first, count: now }));
             self.asked.push_back(Asked::new(Question::Range { first, count: now }, end));
         }
     }
@@ -215,7 +212,7 @@ impl Reader {
         match asked.what {
             Question::Nothing => return,
             Question::Whole => {
-                let end = sender.push(&exchange.again[..exchange.again_words]);
+                let end = sender.push_command(&exchange.again);
                 self.asked.push_back(Asked::new(Question::Whole, end));
             }
             Question::Range { first, count } => exchange.todo.push_front((first, count)),
@@ -314,39 +311,45 @@ const _: () =
     assert!(COUNTER_WORDS <= LONGEST_WHOLE && IDENTITY_WORDS <= LONGEST_WHOLE && INSERT_REPORT_WORDS <= LONGEST_WHOLE);
 
 impl Exchange {
-    fn of(command: &[u32], layout: Layout) -> Result<Self, SerialFault> {
-        let width = layout.record_words;
-        const NOT_WHOLE: SerialFault = SerialFault::Command("the serial link takes one whole command at a time");
-        let (&first, arguments) = command.split_first().ok_or(NOT_WHOLE)?;
-        let opcode = Opcode::from_u8(command_opcode(first)).ok_or(NOT_WHOLE)?;
+    fn of(command: &Command<impl AsRef<[u32]>>, layout: Layout) -> Result<Self, SerialFault> {
+        let again = match command {
+            Command::Insert { .. } if command.points().len() as u64 != command.point_words(layout) => {
+                return Err(SerialFault::Command("the points of this command are of another device"));
+            }
+            // Its answer comes in parts that are asked for again, and those of packed triangles do not end with words.
+            Command::Triangles(_) => return Err(SerialFault::Command("the serial link reads whole records")),
+            // No points have the report of those before them.
+            Command::Insert { .. } => Command::Insert { count: 0, points: [] },
+            Command::Hello => Command::Hello,
+            &Command::Clear { contexts, is_batch } => Command::Clear { contexts, is_batch },
+            &Command::Read(range) => Command::Read(range),
+            Command::Counters => Command::Counters,
+            Command::Latencies => Command::Latencies,
+        };
         let whole = Self {
-            again: [first, 0],
-            again_words: 1,
-            answer: vec![0; HEADER + LONGEST_WHOLE],
+            again,
+            answer: Vec::new(),
             todo: VecDeque::new(),
             origin: 0,
-            width,
+            width: layout.record_words,
             missing: 0,
             is_done: false,
         };
-        match (opcode, arguments) {
-            // No points have the report of those before them.
-            (Opcode::Insert, [count, points @ ..]) if points.len() == *count as usize * layout.point_words => {
-                Ok(Self { again_words: 2, ..whole })
-            }
-            (Opcode::Read, &[origin, count]) => {
-                let words = HEADER + count as usize * width;
-                let mut answer = Vec::new();
-                let no_room = SerialFault::Command("there is no memory for an answer of this length");
-                answer.try_reserve_exact(words).map_err(|_| no_room)?;
-                answer.resize(words, 0);
-                let todo = VecDeque::from([(origin, count)]);
-                origin.checked_add(count).ok_or(SerialFault::Command("the range passes the last record number"))?;
-                Ok(Self { answer, todo, origin, missing: count, ..whole })
-            }
-            (Opcode::Hello | Opcode::Clear | Opcode::Counters | Opcode::Latencies, []) => Ok(whole),
-            _ => Err(NOT_WHOLE),
+        match again {
+            Command::Read(range) => whole.in_ranges(range, command.payload_words(layout)),
+            _ => Ok(Self { answer: vec![0; HEADER + LONGEST_WHOLE], ..whole }),
         }
+    }
+
+    /// The answer is asked for in ranges of these records.
+    fn in_ranges(self, RecordRange { first, count }: RecordRange, payload: u64) -> Result<Self, SerialFault> {
+        const NO_ROOM: SerialFault = SerialFault::Command("there is no memory for an answer of this length");
+        let words = usize::try_from(payload).ok().and_then(|payload| payload.checked_add(HEADER)).ok_or(NO_ROOM)?;
+        let mut answer = Vec::new();
+        answer.try_reserve_exact(words).map_err(|_| NO_ROOM)?;
+        answer.resize(words, 0);
+        first.checked_add(count).ok_or(SerialFault::Command("the range passes the last record number"))?;
+        Ok(Self { answer, todo: VecDeque::from([(first, count)]), origin: first, missing: count, ..self })
     }
 
     /// Takes a whole answer to a question. True if nothing is missing any more.
@@ -360,8 +363,8 @@ impl Exchange {
                 true
             }
             Question::Range { count, .. } => {
-                let is_right = header == answer_header(Opcode::Read as u8, Status::Ok)
-                    && length as usize == count as usize * self.width;
+                let due = u32::try_from(count as usize * self.width).unwrap_or(u32::MAX);
+                let is_right = [header, length] == answer_head(Opcode::Read, due);
                 // A refusal, or a wrong length, is the answer to the whole range.
                 self.missing = if is_right { self.missing - count.min(self.missing) } else { 0 };
                 if is_right {

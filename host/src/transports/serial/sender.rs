@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use incircle_protocol::{MAX_PAYLOAD, WINDOW};
+use incircle_protocol::{Command, MAX_PAYLOAD, WINDOW};
 
 use super::fault::SerialFault;
 
@@ -85,8 +85,15 @@ impl Sender {
         }
     }
 
+    /// Takes a command to be sent: the bytes of the session up to its end.
+    pub fn push_command(&mut self, command: &Command<impl AsRef<[u32]>>) -> u64 {
+        let (head, count) = command.head();
+        self.push(&head[..count]);
+        self.push(command.points())
+    }
+
     /// Takes words to be sent: the bytes of the session up to their end.
-    pub fn push(&mut self, words: &[u32]) -> u64 {
+    fn push(&mut self, words: &[u32]) -> u64 {
         self.stream.extend(words.iter().flat_map(|word| word.to_le_bytes()));
         self.pushed_bytes += 4 * words.len() as u64;
         self.pushed_bytes

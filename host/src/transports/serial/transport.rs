@@ -1,16 +1,16 @@
-//! The engine over a port of the operating system, in real time.
+//! The serial protocol over a port of the operating system, in real time.
 
 use std::time::{Duration, Instant};
 
-use incircle_protocol::{Greeting, FIRST_RATE};
+use incircle_protocol::{Command, Greeting, FIRST_RATE};
 
 use super::address::Address;
-use super::engine::{Engine, Params, Statistics};
+use super::protocol::{SerialProtocol, Params, Statistics};
 use super::fault::SerialFault;
 use super::port::Port;
-use crate::commands::Limit;
-use crate::error::Error;
-use crate::transports::{Pace, Transport, TransportError};
+use crate::error::{Error, TransportError};
+use crate::limit::Limit;
+use crate::transports::transport::{receive_in_pieces, AnswerHead, Capabilities, Pace, Transport};
 
 /// Bytes read at once.
 const READ_BYTES: usize = 16 * 1024;
@@ -30,7 +30,7 @@ const WORD_BITS: u32 = 40;
 /// stretched by the address's `slow`; those of the caller are the caller's.
 pub struct SerialTransport {
     port: Port,
-    engine: Engine,
+    protocol: SerialProtocol,
     name: String,
     slow: u32,
     origin: Instant,
@@ -48,11 +48,12 @@ impl SerialTransport {
     /// [`Error::Port`] where the system refuses, with what to do about it.
     pub fn open(address: &Address) -> Result<Self, Error> {
         let name = address.to_string();
-        let port = Port::open(&address.port).map_err(|fault| Error::Port { port: address.port.clone(), fault })?;
+        let port = Port::open(&address.port)
+            .map_err(|fault| Error::Open { device: address.port.clone(), source: fault.into() })?;
         let origin = Instant::now();
         let mut transport = Self {
             port,
-            engine: Engine::new(Params::default()),
+            protocol: SerialProtocol::new(Params::default()),
             name,
             slow: address.slow.max(1),
             origin,
@@ -61,7 +62,7 @@ impl SerialTransport {
             taken: 0,
         };
         let params = transport.params(address.baud).map_err(|fault| transport.failed(fault))?;
-        transport.engine = Engine::new(params);
+        transport.protocol = SerialProtocol::new(params);
         Ok(transport)
     }
 
@@ -82,11 +83,11 @@ impl SerialTransport {
     /// # Errors
     /// [`Error::Link`] and [`Error::Timeout`] where nobody answers, or no sound device.
     pub fn connect(&mut self, timeout: Duration) -> Result<(), Error> {
-        self.engine.open(self.now());
-        self.drive_for(timeout, |engine| engine.is_open().then_some(()))
+        self.protocol.open(self.now());
+        self.drive_for(timeout, |protocol| protocol.is_open().then_some(()))
     }
 
-    fn drive_for<T>(&mut self, timeout: Duration, ready: impl FnMut(&mut Engine) -> Option<T>) -> Result<T, Error> {
+    fn drive_for<T>(&mut self, timeout: Duration, ready: impl FnMut(&mut SerialProtocol) -> Option<T>) -> Result<T, Error> {
         const DURING: &str = "the greeting";
         let limit = Limit::of(timeout.saturating_mul(self.slow));
         let result = self.drive(limit.deadline(), 0, ready);
@@ -100,17 +101,17 @@ impl SerialTransport {
 
     /// What the device said of itself, once it did.
     pub fn greeting(&self) -> Option<&Greeting> {
-        self.engine.greeting()
+        self.protocol.greeting()
     }
 
     /// Bits per second now.
     pub fn rate(&self) -> u32 {
-        self.engine.rate()
+        self.protocol.rate()
     }
 
     /// What the link has done so far.
     pub fn statistics(&self) -> Statistics {
-        self.engine.statistics()
+        self.protocol.statistics()
     }
 
     /// The time of the link.
@@ -123,11 +124,11 @@ impl SerialTransport {
         &mut self,
         deadline: Instant,
         wanted: usize,
-        mut ready: impl FnMut(&mut Engine) -> Option<T>,
+        mut ready: impl FnMut(&mut SerialProtocol) -> Option<T>,
     ) -> Result<T, TransportError> {
         loop {
-            self.engine.check()?;
-            if let Some(result) = ready(&mut self.engine) {
+            self.protocol.check()?;
+            if let Some(result) = ready(&mut self.protocol) {
                 return Ok(result);
             }
             if Instant::now() >= deadline {
@@ -142,7 +143,7 @@ impl SerialTransport {
         if self.out.is_empty() {
             self.follow_rate()?;
             let now = self.now();
-            self.engine.transmit(now, &mut self.out);
+            self.protocol.transmit(now, &mut self.out);
             if self.out.is_empty() {
                 self.follow_rate()?;
             }
@@ -152,14 +153,14 @@ impl SerialTransport {
         let wait = self.time_to_wait(deadline);
         let mut bytes = [0; READ_BYTES];
         let read = self.port.read(&mut bytes, wait)?;
-        self.engine.receive(&bytes[..read], self.now());
+        self.protocol.receive(&bytes[..read], self.now());
         Ok(())
     }
 
-    /// Gives the port the engine's rate.
+    /// Gives the port the rate of the link.
     fn follow_rate(&mut self) -> Result<(), SerialFault> {
-        if self.port.rate() != self.engine.rate() {
-            self.port.set_rate(self.engine.rate())?;
+        if self.port.rate() != self.protocol.rate() {
+            self.port.set_rate(self.protocol.rate())?;
         }
         Ok(())
     }
@@ -168,24 +169,15 @@ impl SerialTransport {
         if !self.out.is_empty() {
             return WRITE_AGAIN;
         }
-        let wake = self.engine.next_wake().unwrap_or(Duration::MAX);
+        let wake = self.protocol.next_wake().unwrap_or(Duration::MAX);
         let wait = wake.saturating_sub(self.now()).min(LONGEST_WAIT).saturating_mul(self.slow);
         wait.min(LONGEST_WAIT).min(deadline.saturating_duration_since(Instant::now()))
     }
 }
 
-impl Transport for SerialTransport {
-    fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
-        self.engine.ask(words, self.now())?;
-        let wanted = words.len();
-        self.answer.clear();
-        self.taken = 0;
-        // The link knows when a command is through by its answer, and asks again for what is lost of that.
-        self.answer = self.drive(deadline, wanted, Engine::take_answer)?;
-        Ok(())
-    }
-
-    fn receive(&mut self, words: &mut [u32], _deadline: Instant) -> Result<(), TransportError> {
+impl SerialTransport {
+    /// Hands on the next words of the answer.
+    fn hand_on(&mut self, words: &mut [u32]) -> Result<(), TransportError> {
         let rest = self.answer.get(self.taken..).unwrap_or_default();
         let Some(next) = rest.get(..words.len()) else {
             return Err(TransportError::Closed { done: rest.len(), wanted: words.len() });
@@ -194,18 +186,38 @@ impl Transport for SerialTransport {
         self.taken += words.len();
         Ok(())
     }
+}
 
+impl Transport for SerialTransport {
     fn name(&self) -> String {
         self.name.clone()
     }
 
-    fn packs_records(&self) -> bool {
-        false
+    fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError> {
+        let [command] = commands else {
+            return Err(SerialFault::Command("the serial link takes one command at a time").into());
+        };
+        self.protocol.ask(*command, self.now())?;
+        self.answer.clear();
+        self.taken = 0;
+        // The link knows when a command is through by its answer, and asks again for what is lost of that.
+        self.answer = self.drive(deadline, command.words(), SerialProtocol::take_answer)?;
+        Ok(())
     }
 
-    fn pace(&self) -> Pace {
-        let words = self.engine.rate() / WORD_BITS / self.slow;
-        Pace { slow: self.slow, words_per_second: Some(words.max(1)) }
+    fn receive(
+        &mut self,
+        head: AnswerHead,
+        payload: &mut [u32],
+        _deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        receive_in_pieces(head, payload, |words| self.hand_on(words))
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        let words = self.protocol.rate() / WORD_BITS / self.slow;
+        let pace = Pace { slow: self.slow, words_per_second: Some(words.max(1)) };
+        Capabilities { packs_records: false, pace, ..Capabilities::default() }
     }
 }
 
@@ -213,9 +225,9 @@ impl Drop for SerialTransport {
     /// Says goodbye, so that the next program finds the device at the first rate without waiting.
     fn drop(&mut self) {
         self.out.clear();
-        self.engine.close(self.now());
+        self.protocol.close(self.now());
         let deadline = Instant::now() + GOODBYE.saturating_mul(self.slow).min(LONGEST_GOODBYE);
-        while !self.engine.is_closed() && Instant::now() < deadline {
+        while !self.protocol.is_closed() && Instant::now() < deadline {
             if self.step(deadline).is_err() {
                 return;
             }
@@ -231,6 +243,6 @@ impl Drop for SerialTransport {
 pub fn greet(address: &Address, timeout: Duration) -> Result<Greeting, Error> {
     let mut transport = SerialTransport::open(&Address { baud: FIRST_RATE, ..address.clone() })?;
     let now = transport.now();
-    transport.engine.greet(now);
-    transport.drive_for(timeout, |engine| engine.greeting().copied())
+    transport.protocol.greet(now);
+    transport.drive_for(timeout, |protocol| protocol.greeting().copied())
 }

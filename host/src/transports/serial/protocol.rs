@@ -5,7 +5,7 @@ mod transmit;
 
 use std::time::Duration;
 
-use incircle_protocol::{answer_header, command_opcode, Greeting, Layout, Opcode, Status, FIRST_RATE, IDENTITY_WORDS};
+use incircle_protocol::{answer_head, Command, Greeting, Layout, Opcode, ANSWER_HEAD_WORDS, FIRST_RATE, IDENTITY_WORDS};
 
 use super::codec::Decoder;
 use super::connect::Connect;
@@ -14,13 +14,10 @@ use super::reader::Reader;
 use super::sender::Sender;
 use super::timing::{Line, RoundTrip};
 
-/// Words of an answer before its payload.
-const ANSWER_HEADER_WORDS: usize = 2;
-
 /// Rate that is wished for unless chosen otherwise: what every newer USB adapter does.
 pub const DEFAULT_RATE: u32 = 3_000_000;
 
-/// Choices for an [`Engine`].
+/// Choices for an [`SerialProtocol`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Params {
     /// Rates to try after the first one, the best first: see [`Params::with_rate`]. Empty: the first rate stays.
@@ -59,7 +56,7 @@ pub struct Statistics {
     pub polls: u64,
 }
 
-/// What the engine is at.
+/// What the host is at.
 #[derive(Debug)]
 enum Stage {
     /// Nothing was asked for, or the session is closed.
@@ -90,11 +87,11 @@ struct Polled {
 
 /// The host's half of the link.
 ///
-/// Whoever drives it hands over what came ([`Engine::receive`]), sends what is due ([`Engine::transmit`]) at the rate that
-/// [`Engine::rate`] says, and comes back when something came or at [`Engine::next_wake`]. Times count from any origin, never go
-/// back, and may be virtual. The engine has no deadline for a command: its driver gives up when it wants to.
+/// Whoever drives it hands over what came ([`SerialProtocol::receive`]), sends what is due ([`SerialProtocol::transmit`]) at the rate that
+/// [`SerialProtocol::rate`] says, and comes back when something came or at [`SerialProtocol::next_wake`]. Times count from any origin, never go
+/// back, and may be virtual. There is no deadline for a command: its driver gives up when it wants to.
 #[derive(Debug)]
-pub struct Engine {
+pub struct SerialProtocol {
     params: Params,
     stage: Stage,
     fault: Option<SerialFault>,
@@ -108,7 +105,7 @@ pub struct Engine {
     /// Number of the session, or of the last one: the next has another.
     session: u8,
     /// A command that waits for the session.
-    queued: Option<Vec<u32>>,
+    queued: Option<Command<Vec<u32>>>,
     last_heard: Duration,
     last_said: Duration,
     polled: Option<Polled>,
@@ -121,7 +118,7 @@ pub struct Engine {
     repeated_before: u64,
 }
 
-impl Engine {
+impl SerialProtocol {
     /// Without a session; nothing is sent until something is asked.
     pub fn new(params: Params) -> Self {
         Self {
@@ -148,37 +145,34 @@ impl Engine {
         }
     }
 
-    /// Asks the device who it is, without a session: [`Engine::greeting`] has its answer.
+    /// Asks the device who it is, without a session: [`SerialProtocol::greeting`] has its answer.
     pub fn greet(&mut self, now: Duration) {
         self.connect(now, true);
     }
 
-    /// Begins a command, which must be one whole command. Opens a session if there is none; one that the device has
+    /// Begins a command. Opens a session if there is none; one that the device has
     /// forgotten because nobody asked anything is opened again for a command that needs nothing of it.
     ///
     /// # Errors
     /// The fault the link has, or a command that cannot be sent.
-    pub fn ask(&mut self, command: &[u32], now: Duration) -> Result<(), SerialFault> {
+    pub fn ask(&mut self, command: Command<&[u32]>, now: Duration) -> Result<(), SerialFault> {
         if let Some(fault) = &self.fault {
             return Err(fault.clone());
         }
         if self.queued.is_some() || self.reader.is_waiting() || self.reader.has_answer() {
             return Err(SerialFault::Command("the answer to the command before was not taken yet"));
         }
-        let needs_nothing = command
-            .first()
-            .and_then(|&word| Opcode::from_u8(command_opcode(word)))
-            .is_some_and(|opcode| matches!(opcode, Opcode::Hello | Opcode::Clear));
+        let needs_nothing = matches!(command, Command::Hello | Command::Clear { .. });
         match self.stage {
             // The device knows us still, or what it forgot is lost: the first answer tells.
             Stage::Open if !needs_nothing || now.saturating_sub(self.last_said) < self.silence * 3 / 4 => {
                 self.last_heard = now;
-                return self.reader.begin(command, &mut self.sender);
+                return self.reader.begin(&command, &mut self.sender);
             }
             Stage::Connecting(ref connect) if !connect.only_greets() => {}
             _ => self.connect(now, false),
         }
-        self.queued = Some(command.to_vec());
+        self.queued = Some(command.map(<[u32]>::to_vec));
         Ok(())
     }
 
@@ -224,7 +218,7 @@ impl Engine {
         self.fault.is_none().then_some(answer)
     }
 
-    /// Ends the session, so that the next host finds the device at the first rate, and gives up a command under way. [`Engine::is_closed`]
+    /// Ends the session, so that the next host finds the device at the first rate, and gives up a command under way. [`SerialProtocol::is_closed`]
     /// tells when it is done: after three tries at most, each of which waits for twice the mean round trip, and for 60 ms at least.
     pub fn close(&mut self, now: Duration) {
         self.queued = None;
@@ -274,8 +268,8 @@ impl Engine {
 
 /// What the core says of itself must be what the greeting said: by that the link knows how long points and records are.
 fn contradiction(answer: &[u32], greeting: &Greeting) -> Option<SerialFault> {
-    let (&[header, _], identity) = answer.split_first_chunk::<ANSWER_HEADER_WORDS>()?;
-    let is_identity = header == answer_header(Opcode::Hello as u8, Status::Ok) && identity.len() == IDENTITY_WORDS;
+    let (head, identity) = answer.split_first_chunk::<ANSWER_HEAD_WORDS>()?;
+    let is_identity = *head == answer_head(Opcode::Hello, IDENTITY_WORDS as u32);
     let mut words = identity.iter().copied().zip(greeting.identity.to_words()).zip(0..);
     let ((found, expected), word) = words.find(|((found, expected), _)| is_identity && found != expected)?;
     Some(SerialFault::Contradiction { word, found, expected })

@@ -1,10 +1,10 @@
-//! What the engine says, and when.
+//! What the host says, and when.
 
 use std::time::Duration;
 
 use incircle_protocol::{HostFrame, CRC_BYTES, FIRST_RATE, FRAME_END, HOST_HEADER_BYTES, MAX_PAYLOAD};
 
-use super::{Engine, Polled, Stage};
+use super::{SerialProtocol, Polled, Stage};
 use crate::transports::serial::codec::{encode, MOST_OVERHEAD};
 use crate::transports::serial::fault::SerialFault;
 use crate::transports::serial::timing::POLL_EVERY;
@@ -22,7 +22,7 @@ const CLOSE_EVERY: Duration = Duration::from_millis(60);
 /// Bytes of a frame on the line besides its payload: header, check sum, a length byte, the closing zero.
 const FRAME_BYTES: usize = HOST_HEADER_BYTES + CRC_BYTES + 2;
 
-impl Engine {
+impl SerialProtocol {
     /// Appends the bytes that are due.
     pub fn transmit(&mut self, now: Duration, out: &mut Vec<u8>) {
         let before = out.len();
@@ -37,7 +37,7 @@ impl Engine {
         self.statistics.bytes_sent += (out.len() - before) as u64;
     }
 
-    /// When to call [`Engine::transmit`] again if nothing comes; `None` if there is nothing to wait for.
+    /// When to call [`SerialProtocol::transmit`] again if nothing comes; `None` if there is nothing to wait for.
     pub fn next_wake(&self) -> Option<Duration> {
         match &self.stage {
             Stage::Closing { due, .. } => Some(*due),

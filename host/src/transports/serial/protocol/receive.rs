@@ -1,10 +1,10 @@
-//! What the engine makes of frames.
+//! What the host makes of frames.
 
 use std::time::Duration;
 
 use incircle_protocol::{DeviceFrame, Layout, FIRST_RATE, STATUS_OPEN};
 
-use super::{Engine, Polled, Stage};
+use super::{SerialProtocol, Polled, Stage};
 use crate::transports::serial::codec::{words_of, Decoded, Message};
 use crate::transports::serial::fault::SerialFault;
 use crate::transports::serial::reader::Reader;
@@ -12,7 +12,7 @@ use crate::transports::serial::sender::Sender;
 
 /// Frames of one kind that prove that the session is gone; a single one may have been on its way from before.
 const PROOF: u32 = 2;
-impl Engine {
+impl SerialProtocol {
     /// Takes what came from the line.
     pub fn receive(&mut self, bytes: &[u8], now: Duration) {
         self.statistics.bytes_received += bytes.len() as u64;

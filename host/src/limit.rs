@@ -1,0 +1,45 @@
+//! The time that work may take.
+
+use std::time::{Duration, Instant};
+
+use crate::error::Error;
+
+/// Until when a job may run, and how long that was at its start.
+#[derive(Clone, Copy)]
+pub(crate) struct Limit {
+    deadline: Instant,
+    timeout: Duration,
+}
+
+impl Limit {
+    /// From now on for `timeout`, or for a year if that is longer: no clock overflows.
+    pub(crate) fn of(timeout: Duration) -> Self {
+        const YEAR: Duration = Duration::from_secs(365 * 24 * 3600);
+        let timeout = timeout.min(YEAR);
+        Self { deadline: Instant::now() + timeout, timeout }
+    }
+
+    /// Until when.
+    pub(crate) fn deadline(self) -> Instant {
+        self.deadline
+    }
+
+    /// How long that was at the start.
+    pub(crate) fn timeout(self) -> Duration {
+        self.timeout
+    }
+
+    /// For so much longer.
+    pub(crate) fn longer(self, time: Duration) -> Self {
+        let more = Self::of(time).timeout;
+        Self { deadline: self.deadline + more, timeout: self.timeout + more }
+    }
+
+    /// An error once the deadline has passed.
+    pub(crate) fn check(&self, device: &str, during: &'static str) -> Result<(), Error> {
+        if Instant::now() <= self.deadline {
+            return Ok(());
+        }
+        Err(Error::Timeout { device: device.to_owned(), during, timeout: self.timeout })
+    }
+}
