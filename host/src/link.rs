@@ -77,17 +77,6 @@ impl Link {
         self.transport.packs_records()
     }
 
-    pub(crate) fn takes_guides(&self) -> bool {
-        self.transport.takes_guides()
-    }
-
-    /// Tells a device that takes guides those of the next points.
-    pub(crate) fn guide(&mut self, guides: &[u32]) {
-        if self.takes_guides() && !guides.is_empty() {
-            self.transport.guide(guides);
-        }
-    }
-
     pub(crate) fn takes_ahead(&self) -> bool {
         self.transport.takes_ahead()
     }

@@ -51,14 +51,6 @@ impl Transport for ModelTransport {
         true
     }
 
-    fn takes_guides(&self) -> bool {
-        true
-    }
-
-    fn guide(&mut self, guides: &[u32]) {
-        self.model.guide(guides);
-    }
-
     fn name(&self) -> String {
         MODEL_NAME.to_owned()
     }

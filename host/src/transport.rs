@@ -44,17 +44,6 @@ pub trait Transport {
         true
     }
 
-    /// [`Transport::guide`] helps. Only the software model says so: the core keeps no triangle of each vertex.
-    fn takes_guides(&self) -> bool {
-        false
-    }
-
-    /// Names for each of the next points a vertex near it, by number of arrival, or the point itself where there is none. They are a help, and
-    /// no word of the protocol: the mesh is the same without.
-    fn guide(&mut self, guides: &[u32]) {
-        let _ = guides;
-    }
-
     /// How fast this way is, as far as that matters to whoever uses it.
     fn pace(&self) -> Pace {
         Pace::default()
