@@ -21,7 +21,8 @@ use crate::commands::Link;
 use crate::error::Error;
 use crate::limit::Limit;
 use crate::mesh::Mesh;
-use crate::options::{Options, Order, Stage};
+use crate::options::{Options, Stage};
+use crate::order::Order;
 use crate::point::Point;
 use crate::prepare::{prepare, Prepared};
 use crate::report::Report;
@@ -78,8 +79,8 @@ pub(crate) struct Batch<'b> {
 }
 
 impl Batch<'_> {
-    /// All jobs but those that must go one by one: those that share the memory with none on a link that takes nothing ahead, very large
-    /// ones on any, and those with guides.
+    /// All jobs but those that must go one by one: those that share the memory with none on a link that takes nothing ahead, and very
+    /// large ones on any.
     pub(crate) fn run(mut self) -> Result<Done, Error> {
         let mut done = Done::nothing_of(self.jobs);
         let plan = Plan::new(self.contexts, self.identity.capacity);
@@ -98,9 +99,7 @@ impl Batch<'_> {
     fn divide(&self, plan: &Plan, done: &mut Done) -> (Vec<usize>, Vec<usize>) {
         let (mut small, mut frames) = (Vec::new(), Vec::new());
         for (job, points) in self.jobs.iter().enumerate() {
-            if self.wants_guides() {
-                done.singles.push(Single { job, contexts: self.options.contexts });
-            } else if points.len() <= MAX_JOB_POINTS && plan.shares(points.len()) {
+            if points.len() <= MAX_JOB_POINTS && plan.shares(points.len()) {
                 small.push(job);
             } else {
                 self.leave_alone(plan, job, &mut frames, done);
@@ -117,11 +116,6 @@ impl Batch<'_> {
         } else {
             done.singles.push(Single { job, contexts: Some(plan.frame_contexts(points)) });
         }
-    }
-
-    /// The order has guides, and the device takes them, but for one job at a time.
-    fn wants_guides(&self) -> bool {
-        self.link.takes_guides() && matches!(self.options.order, Order::BrioDc(_))
     }
 
     /// Puts the small jobs in order and into groups; those that are better off alone join the frames. What needs no device is answered here.

@@ -3,93 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::order::{self, Alpha, BrioDc, Curve};
-use crate::point::Point;
-
-/// The order in which points reach the device. The mesh does not depend on it, the time does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Order {
-    /// Rounds of growing random samples (a quarter of the points in all rounds but the last), each along a Hilbert
-    /// curve. Good for every distribution: the default. See [`order::brio_hilbert`](crate::order::brio_hilbert).
-    #[default]
-    BrioHilbert,
-    /// One pass along a Hilbert curve: fast on even distributions, without a guarantee on others.
-    Hilbert,
-    /// As the points come.
-    Input,
-    /// Random, in an order that follows from the coordinates.
-    Random,
-    /// One pass along a curve.
-    Along(Curve),
-    /// Rounds of growing random samples, each along a curve.
-    Brio(Curve, Alpha),
-    /// Rounds in which each point comes after its nearest neighbour, at which the software model then begins to look for it; no
-    /// other device does. See [`order::brio_dc`](crate::order::brio_dc()).
-    BrioDc(BrioDc),
-}
-
-/// Every order once: Hilbert's curve has names of its own.
-const ALL: [Order; 3 + 1 + (Curve::ALL.len() - 1) + (3 * Curve::ALL.len() - 1) + 2] = {
-    let mut all = [Order::BrioHilbert; 3 + 1 + (Curve::ALL.len() - 1) + (3 * Curve::ALL.len() - 1) + 2];
-    all[1] = Order::Hilbert;
-    all[2] = Order::Input;
-    all[3] = Order::Random;
-    all[4] = Order::BrioDc(BrioDc::Linear);
-    all[5] = Order::BrioDc(BrioDc::LogU);
-    let (mut place, mut which) = (6, 0);
-    while which < Curve::ALL.len() {
-        let curve = Curve::ALL[which];
-        let is_hilbert = matches!(curve, Curve::Hilbert);
-        if !is_hilbert {
-            all[place] = Order::Along(curve);
-            all[place + 1] = Order::Brio(curve, Alpha::Quarter);
-            place += 2;
-        }
-        all[place] = Order::Brio(curve, Alpha::Half);
-        all[place + 1] = Order::Brio(curve, Alpha::Eighth);
-        place += 2;
-        which += 1;
-    }
-    all
-};
-
-impl Order {
-    /// All orders.
-    pub const ALL: [Self; ALL.len()] = ALL;
-    /// The best, the plainest curve, and none.
-    pub const BASIC: [Self; 3] = [Self::BrioHilbert, Self::Hilbert, Self::Input];
-
-    /// The name in reports and on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::BrioHilbert => "brio-hilbert",
-            Self::Hilbert => "hilbert",
-            Self::Input => "input",
-            Self::Random => "random",
-            Self::Along(curve) => curve.name(),
-            Self::Brio(curve, alpha) => curve.brio_name(alpha),
-            Self::BrioDc(by) => by.name(),
-        }
-    }
-
-    /// The points in this order: a permutation of `0..points.len()`.
-    pub fn order(self, points: &[Point]) -> Vec<u32> {
-        match self {
-            Self::BrioHilbert => order::brio_hilbert(points),
-            Self::Hilbert => order::hilbert(points),
-            Self::Input => (0..=u32::MAX).take(points.len()).collect(),
-            Self::Random => order::random(points),
-            Self::Along(curve) => curve.order(points),
-            Self::Brio(curve, alpha) => order::brio(points, curve, alpha),
-            Self::BrioDc(by) => order::brio_dc(points, by).order,
-        }
-    }
-
-    /// The order of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|order| order.name() == name)
-    }
-}
+use crate::order::Order;
 
 /// A part of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -182,17 +96,6 @@ impl std::fmt::Debug for Options<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn every_order_is_found_by_its_name() {
-        for order in Order::ALL {
-            assert_eq!(Order::named(order.name()), Some(order));
-        }
-        assert_eq!(Order::named("brio-half-squarified-peano"), Some(Order::Brio(Curve::SquarifiedPeano, Alpha::Half)));
-        assert_eq!(Order::named("briodc-log-u"), Some(Order::BrioDc(BrioDc::LogU)));
-        assert_eq!(Order::ALL.iter().collect::<std::collections::HashSet<_>>().len(), Order::ALL.len());
-        assert_eq!(Order::named("spiral"), None);
-    }
 
     #[test]
     fn default_timeout_grows_with_the_points() {

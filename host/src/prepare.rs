@@ -2,8 +2,7 @@
 //! collinear.
 
 use crate::mesh::Duplicate;
-use crate::options::Order;
-use crate::order::{along_curve, brio_dc, brio_rounds, random, rounds, Hilbert, Rounds};
+use crate::order::{along_curve, deal, random, rounds, Hilbert, Order, Rounds};
 use crate::point::Point;
 use crate::sort::Entry;
 
@@ -12,9 +11,6 @@ use crate::sort::Entry;
 pub(crate) struct Prepared {
     /// Input index of each vertex, in the order of insertion: one index, the lowest, per distinct point.
     pub(crate) order: Vec<u32>,
-    /// For each vertex an earlier one that lies near, or itself; empty where the order has no guides, and where points are dealt to
-    /// several contexts, of which one need not be as far as another.
-    pub(crate) guides: Vec<u32>,
     /// Points that fell onto an earlier one, by index.
     pub(crate) duplicates: Vec<Duplicate>,
     /// Fewer than three distinct points, or all on one line; `order` is then lexicographic.
@@ -30,15 +26,9 @@ pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared
         Hilbert::Wide(entries) => remove_duplicates(entries),
     };
     duplicates.sort_unstable();
-    let single = |choose: &dyn Fn(&[Point]) -> Vec<u32>, curve: Hilbert| {
-        chosen(points, curve.into_indices(), |distinct| Rounds::single(choose(distinct)))
-    };
     let mut rounds = match order {
         Order::BrioHilbert => rounds(&curve),
-        Order::Random => single(&random, curve),
-        Order::Along(by) => single(&|distinct| by.order(distinct), curve),
-        Order::Brio(by, alpha) => chosen(points, curve.into_indices(), |distinct| brio_rounds(distinct, by, alpha)),
-        Order::BrioDc(by) => chosen(points, curve.into_indices(), |distinct| brio_dc(distinct, by).into_rounds()),
+        Order::Random => Rounds::single(at_random(points, curve.into_indices())),
         Order::Hilbert => Rounds::single(curve.into_indices()),
         Order::Input => {
             let mut indices = curve.into_indices();
@@ -47,23 +37,20 @@ pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared
         }
     };
     let collinear = !start_with_a_triangle(&mut rounds, points);
-    let guides = if contexts > 1 || collinear { Vec::new() } else { std::mem::take(&mut rounds.guides) };
     let mut order = match order {
         Order::Input => rounds.order,
-        _ => rounds.deal(contexts),
+        _ => deal(rounds, contexts),
     };
     if collinear {
         order.sort_unstable_by_key(|&index| points[index as usize]);
     }
-    Prepared { order, guides, duplicates, collinear }
+    Prepared { order, duplicates, collinear }
 }
 
-/// The rounds of the points with these indices, in which their places are replaced by the indices.
-fn chosen(points: &[Point], indices: Vec<u32>, rounds: impl FnOnce(&[Point]) -> Rounds) -> Rounds {
+/// The points with these indices in random order, as indices.
+fn at_random(points: &[Point], indices: Vec<u32>) -> Vec<u32> {
     let distinct: Vec<Point> = indices.iter().map(|&index| points[index as usize]).collect();
-    let mut rounds = rounds(&distinct);
-    rounds.order.iter_mut().for_each(|place| *place = indices[*place as usize]);
-    rounds
+    random(&distinct).into_iter().map(|place| indices[place as usize]).collect()
 }
 
 /// Keeps the first entry of each key, which has the lowest index because the sort was stable.
@@ -94,17 +81,6 @@ fn start_with_a_triangle(rounds: &mut Rounds, points: &[Point]) -> bool {
     // What stood before the point is a place further on, and so are the rounds that began there.
     for start in rounds.starts.iter_mut().filter(|start| (2..=found + 2).contains(*start)) {
         *start += 1;
-    }
-    let moved = |place: u32| match place as usize {
-        place if place == found + 2 => 2,
-        place if (2..found + 2).contains(&place) => place as u32 + 1,
-        _ => place,
-    };
-    if let Some(stretch) = rounds.guides.get_mut(2..=found + 2) {
-        stretch.rotate_right(1);
-        // A guide that now comes after the point it guided does so no more.
-        let guides = (0..).zip(&mut rounds.guides);
-        guides.for_each(|(place, guide)| *guide = moved(*guide).min(place));
     }
     true
 }
@@ -154,13 +130,11 @@ mod tests {
     fn rounds_keep_their_points_when_the_third_is_found() {
         // Points 0 to 4 lie on a line; the rounds begin at points 0, 2, 4, 6.
         let line = points(&[(0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (5, 0), (6, 6), (7, 7)]);
-        let guides = vec![0, 0, 0, 1, 2, 4, 5, 3];
-        let mut rounds = Rounds { order: (0..8).collect(), starts: vec![0, 2, 4, 6], guides };
+        let mut rounds = Rounds { order: (0..8).collect(), starts: vec![0, 2, 4, 6] };
         assert!(start_with_a_triangle(&mut rounds, &line));
         assert_eq!(rounds.order, [0, 1, 5, 2, 3, 4, 6, 7]);
         assert_eq!(rounds.starts, [0, 3, 5, 6]);
-        assert_eq!(rounds.guides, [0, 0, 2, 0, 1, 3, 2, 4]);
-        let mut rounds = Rounds { order: vec![0, 1, 2, 5], starts: vec![0, 1, 3], guides: Vec::new() };
+        let mut rounds = Rounds { order: vec![0, 1, 2, 5], starts: vec![0, 1, 3] };
         assert!(start_with_a_triangle(&mut rounds, &line));
         assert_eq!((rounds.order, rounds.starts), (vec![0, 1, 5, 2], vec![0, 1, 4]));
     }
@@ -181,22 +155,6 @@ mod tests {
                 sorted.iter_mut().for_each(|order| order.sort_unstable());
                 assert_eq!(sorted[0], sorted[1]);
             }
-        }
-    }
-
-    #[test]
-    fn guides_are_vertices_before_and_near() {
-        let points: Vec<Point> = (0..900).map(|k| Point::new(k * 7919 % 10_007, k * 104_729 % 9973)).collect();
-        for by in crate::order::BrioDc::ALL {
-            let prepared = prepare(&points, Order::BrioDc(by), 1);
-            let at = |place: usize| points[prepared.order[place] as usize];
-            let apart = |p: Point, q: Point| p.x.abs_diff(q.x).max(p.y.abs_diff(q.y));
-            assert!((3..900).all(|place| (prepared.guides[place] as usize) < place));
-            // A nearest of 899 vertices is far nearer than any.
-            let last = 800..900;
-            assert!(last.clone().all(|place| apart(at(place), at(prepared.guides[place] as usize)) < 1000));
-            assert!(last.clone().any(|place| apart(at(place), at(place - 700)) > 3000));
-            assert!(prepare(&points, Order::BrioDc(by), 2).guides.is_empty());
         }
     }
 
@@ -234,9 +192,6 @@ mod tests {
             all.extend(prepared.duplicates.iter().map(|d| d.index));
             all.sort_unstable();
             prop_assert!(all.iter().copied().eq(0..points.len() as u32));
-            let is_guided = matches!(Order::ALL[which], Order::BrioDc(_)) && contexts == 1 && !prepared.collinear;
-            prop_assert_eq!(prepared.guides.len(), if is_guided { prepared.order.len() } else { 0 });
-            prop_assert!((0..).zip(&prepared.guides).all(|(place, &guide)| guide <= place));
             if let ([a, b, c, ..], false) = (&prepared.order[..], prepared.collinear) {
                 let at = |index: u32| points[index as usize];
                 prop_assert!(doubled_area(at(*a), at(*b), at(*c)) != 0);

@@ -237,7 +237,7 @@ impl<'j> Job<'j> {
         let (triangles, hull) = if prepared.collinear {
             (Vec::new(), prepared.order)
         } else {
-            self.insert(&prepared.order, &prepared.guides)?;
+            self.insert(&prepared.order)?;
             let assembly = self.read(&prepared.order)?;
             let counters = self.link.counters(self.limit)?;
             report.counters = Some(counters);
@@ -274,9 +274,8 @@ impl<'j> Job<'j> {
     }
 
     /// Clears the device and inserts all points, a chunk per command.
-    fn insert(&mut self, order: &[u32], guides: &[u32]) -> Result<(), Error> {
+    fn insert(&mut self, order: &[u32]) -> Result<(), Error> {
         self.link.clear(self.contexts, self.limit)?;
-        self.link.guide(guides);
         let most = self.options.insert_chunk.max(MIN_INSERT_CHUNK);
         let chunk = self.link.pace().chunk(most, self.layout.point_words);
         let mut words = Vec::with_capacity(2 + chunk.min(order.len()) * self.layout.point_words);

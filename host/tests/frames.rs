@@ -13,7 +13,6 @@ use std::time::Duration;
 use card::{MemoryCard, Mischief};
 use common::batches::{alone, bare, batch, check_cancelled};
 use common::Random;
-use incircle::order::BrioDc;
 use incircle::pcie::PcieTransport;
 use incircle::{Device, Error, ErrorKind, Options, Order, Point, Progress, Stage};
 use incircle_model::stream::ModelCore;
@@ -49,24 +48,10 @@ fn watched_card(beat_bits: u32, mischief: Mischief) -> (Device, MemoryCard) {
 fn frames_go_in_any_order() {
     let jobs = mixed(&mut Random(78), 12);
     let right = alone(&jobs);
-    for order in [Order::Input, Order::Random, Order::BrioDc(BrioDc::Linear)] {
+    for order in [Order::Input, Order::Random, Order::Hilbert] {
         let (mut device, _) = Mock::watched(true, true, (0, 0));
         let options = Options { order, ..Options::default() };
         assert!(batch(&mut device, &jobs, &options).expect("meshes") == right, "{order:?}");
-    }
-}
-
-#[test]
-fn guides_are_kept_in_a_batch() {
-    let jobs: Vec<Vec<Point>> = [40, 3000].map(|count| Random(79).points(count, 1 << 16)).into();
-    let options = Options { order: Order::BrioDc(BrioDc::Linear), ..Options::default() };
-    let walks = |mesh: &incircle::Mesh| mesh.report.counters.expect("counted").walk_visits;
-    let mut device = Device::model(16, 4096).expect("possible");
-    let mut session = device.session().expect("a sound device");
-    let meshes = session.triangulate_batch(&jobs, &options).expect("meshes");
-    for (mesh, job) in meshes.iter().zip(&jobs) {
-        let alone = session.triangulate_with(job, &options).expect("a mesh");
-        assert_eq!(walks(mesh), walks(&alone));
     }
 }
 

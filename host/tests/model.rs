@@ -7,7 +7,6 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use common::{assert_right, by_model, Random};
-use incircle::order::BrioDc;
 use incircle::{triangulate, Device, Error, ErrorKind, Mesh, Options, Order, Point, Stage};
 
 /// By the model, and by the engine in this process, which must agree.
@@ -200,28 +199,4 @@ fn counters_count_the_insertions() {
     assert_eq!(counters.insertions as usize, mesh.report.distinct);
     assert_eq!((counters.duplicates, counters.refused), (0, 0));
     assert!(counters.walk_visits > 0 && counters.tests > 0);
-}
-
-#[test]
-fn guides_shorten_walks_whatever_the_points_and_change_nothing_else() {
-    let mut random = Random(12);
-    let even = random.points(4000, 1 << 24);
-    let long: Vec<Point> = random.points(4000, 1 << 20).iter().map(|p| Point::new(p.x, p.y >> 12)).collect();
-    let clusters: Vec<Point> = (0..4000u32)
-        .map(|k| Point::new(k % 7 * 1_000_003 + random.below(300), k % 11 * 777_777 + random.below(300)))
-        .collect();
-    let mut device = Device::open("model?coord-bits=24").expect("the model");
-    let mut session = device.session().expect("a session");
-    // In a thin strip and at the rims of clusters vertices have many triangles, and a walk goes round them.
-    for (points, most) in [(even, 2.9), (long, 4.5), (clusters, 4.5)] {
-        let mut walk = |order| {
-            let options = Options { order, insert_chunk: 1000, ..Options::default() };
-            let mesh = session.triangulate_with(&points, &options).expect("a mesh");
-            let counters = mesh.report.counters.expect("counters of the model");
-            (mesh.triangles, f64::from(counters.walk_visits) / f64::from(counters.insertions))
-        };
-        let (plain, guided) = (walk(Order::BrioHilbert), walk(Order::BrioDc(BrioDc::Linear)));
-        assert!(guided.1 < most && guided.1 < plain.1, "{} and {} triangles a walk", guided.1, plain.1);
-        assert_eq!(guided.0, plain.0);
-    }
 }

@@ -9,11 +9,10 @@ use incircle::pcie::CardAddress;
 use incircle::serial::Address;
 use incircle::{Order, Quantize};
 
-use crate::commands::bench_orders::Way;
 use crate::formats::{MeshFormat, PointFormat};
 use crate::generate::Distribution;
 use crate::values::{
-    backend_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser, seconds_from, way_parser,
+    backend_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser, seconds_from,
 };
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
@@ -204,46 +203,9 @@ pub struct GenerateArguments {
     pub output: PathBuf,
 }
 
-/// What else `bench` measures.
-#[derive(Debug, Subcommand)]
-pub enum BenchCommand {
-    /// Compare orders of insertion: time to order, walk steps, tests and cavity of an insertion, cycles of the core, time in all
-    Orders(OrdersArguments),
-}
-
-/// Arguments of `bench orders`.
-#[derive(Debug, Args)]
-pub struct OrdersArguments {
-    /// The sets (default: the five distributions of the literature, and two sets on which plain curves fail)
-    #[arg(value_enum, value_name = "SET")]
-    pub sets: Vec<Distribution>,
-    /// Points of a set, several numbers with commas; cycles are counted up to 16384
-    #[arg(short, value_name = "N", value_delimiter = ',', default_values_t = [4096])]
-    pub n: Vec<u32>,
-    /// Orders, several with commas (default: random, every curve, rounds along every curve, rounds with guides, points as they arrive)
-    #[arg(long = "order", value_name = "ORDER", value_delimiter = ',', value_parser = way_parser())]
-    pub orders: Vec<Way>,
-    /// Bits of a coordinate; cycles are counted up to 16
-    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
-    pub coord_bits: u32,
-    /// Seed of the sets: the same seed gives the same points on every machine
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// Write the figures as CSV, too
-    #[arg(long, value_name = "FILE.csv")]
-    pub csv: Option<PathBuf>,
-    /// Draw walk steps and time, too
-    #[arg(long, value_name = "FILE.svg")]
-    pub plot: Option<PathBuf>,
-}
-
 /// Arguments of `bench`.
 #[derive(Debug, Args)]
-#[command(args_conflicts_with_subcommands = true)]
 pub struct BenchArguments {
-    /// Something else than sets.
-    #[command(subcommand)]
-    pub command: Option<BenchCommand>,
     /// The sets (default: the five distributions of the literature, and the lattice)
     #[arg(value_enum, value_name = "SET")]
     pub sets: Vec<Distribution>,

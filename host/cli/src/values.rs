@@ -8,23 +8,33 @@ use incircle::serial::Address;
 use incircle::{Order, Quantize};
 
 use crate::arguments::BackendChoice;
-use crate::commands::bench_orders::Way;
 use crate::formats::MeshFormat;
 
-/// An order by its name.
+/// An order by its name. Help and completions show the names.
 pub fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
-    use clap::builder::{PossibleValuesParser, TypedValueParser};
-    let names = PossibleValuesParser::new(Order::ALL.map(Order::name));
-    // Only names of orders come through, so the default is never taken.
-    names.map(|name| Order::named(&name).unwrap_or_default())
+    OrderParser
 }
 
-/// A way to insert points, for `bench orders`.
-pub fn way_parser() -> impl clap::builder::TypedValueParser<Value = Way> {
-    use clap::builder::{PossibleValuesParser, TypedValueParser};
-    let names = PossibleValuesParser::new(Way::names());
-    // Only names of ways come through, so the last is never taken.
-    names.map(|name| Way::named(&name).unwrap_or(Way::Hierarchy))
+#[derive(Clone)]
+struct OrderParser;
+
+impl clap::builder::TypedValueParser for OrderParser {
+    type Value = Order;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &std::ffi::OsStr,
+    ) -> Result<Order, clap::Error> {
+        clap::builder::StringValueParser::new()
+            .try_map(|name| name.parse::<Order>())
+            .parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = clap::builder::PossibleValue> + '_>> {
+        Some(Box::new(Order::ALL.map(Order::name).into_iter().map(clap::builder::PossibleValue::new)))
+    }
 }
 
 /// A back end by its name or its address. Help and completions show the names.

@@ -8,7 +8,8 @@ use crate::cpu::CpuJob;
 use crate::error::Error;
 use crate::limit::Limit;
 use crate::mesh::Mesh;
-use crate::options::{Options, Order, Stage};
+use crate::options::{Options, Stage};
+use crate::order::Order;
 use crate::point::Point;
 use crate::session::{tell, Stopwatch};
 

@@ -10,7 +10,7 @@ use super::deal::{bucket_ends, runs, stretch, Dealt, CHUNK, MOST_BUCKETS_BITS};
 use super::parallel::in_parallel;
 use super::view::Site;
 use crate::mesh::Duplicate;
-use crate::order::morton::{point_at, position};
+use crate::order::z_curve::{point_at, position};
 use crate::pages;
 use crate::point::Point;
 use crate::sort::{sort_by_key, Keyed, SMALL};

@@ -4,11 +4,11 @@ use std::time::Instant;
 
 use incircle::{Options, Point, Session};
 
-use crate::arguments::{BackendChoice, BenchArguments, BenchCommand};
+use crate::arguments::{BackendChoice, BenchArguments};
 use crate::backend::{self, Backend};
 use crate::bench_report::{Bench, Measured};
+use crate::commands::bench_batch;
 use crate::commands::generate::{check_count, make};
-use crate::commands::{bench_batch, bench_orders};
 use crate::failure::Failure;
 use crate::fit::Fit;
 use crate::generate::Distribution;
@@ -27,9 +27,6 @@ pub(super) const DEFAULT_MHZ: f64 = 125.0;
 
 /// Runs the subcommand: a row as soon as its set is done, or one JSON object at the end.
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
-    if let Some(BenchCommand::Orders(orders)) = &arguments.command {
-        return bench_orders::run(orders);
-    }
     check_count(arguments.n)?;
     if let Some(jobs) = arguments.batch {
         return bench_batch::run(arguments, jobs);

@@ -2,7 +2,6 @@
 
 pub mod bench;
 pub mod bench_batch;
-pub mod bench_orders;
 pub mod completions;
 pub mod devices;
 pub mod generate;

@@ -120,7 +120,7 @@ fn jobs_of(lengths: &[usize]) -> (Vec<Vec<Point>>, Vec<Ordered>) {
     let sets: Vec<Vec<Point>> = lengths.iter().map(|&count| vec![Point::new(0, 0); count]).collect();
     let ordered = |(job, &count): (usize, &usize)| {
         let order = (0..count as u32).collect();
-        Ordered { job, prepared: Prepared { order, guides: Vec::new(), duplicates: Vec::new(), collinear: false } }
+        Ordered { job, prepared: Prepared { order, duplicates: Vec::new(), collinear: false } }
     };
     (sets, lengths.iter().enumerate().map(ordered).collect())
 }

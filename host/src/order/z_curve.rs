@@ -1,26 +1,19 @@
-//! The Z-curve: quadrants in the order lower left, upper left, lower right, upper right, each the same way.
+//! Positions along the Z-curve: quadrants in the order lower left, upper left, lower right, upper right, each the same way.
 //!
-//! Morton, *A computer oriented geodetic data base*, 1966. The position is the coordinates' bits in turn, so it is the cheapest of all
-//! curves; from one half to the other it jumps.
+//! Morton, *A computer oriented geodetic data base*, 1966. A position has the bits of x and y in turn, so no curve is cheaper to compute; from
+//! one half to the other the curve jumps.
 
-use super::curve::{by_key, square};
 use crate::point::Point;
 
-/// The points along the curve over the square around them.
-pub(super) fn order(points: &[Point]) -> Vec<u32> {
-    let (corner, _) = square(points);
-    by_key(points, |point| position(point.x - corner.x, point.y - corner.y))
-}
-
-/// The position of a cell.
+/// The position of the cell `(x, y)`. Takes any coordinates.
 #[inline(always)]
-pub(crate) fn position(x: u32, y: u32) -> u64 {
+pub fn position(x: u32, y: u32) -> u64 {
     spread(x) << 1 | spread(y)
 }
 
-/// The cell at a position.
+/// The cell at a position: the inverse of [`position`].
 #[inline(always)]
-pub(crate) fn point_at(position: u64) -> Point {
+pub fn point_at(position: u64) -> Point {
     Point::new(gather(position >> 1), gather(position))
 }
 
@@ -48,16 +41,12 @@ fn spread(value: u32) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::order::drawing::draw;
-    use crate::order::Curve;
-
-    #[test]
-    fn it_looks_like_a_z() {
-        assert_eq!(draw(Curve::Morton, 4), ["  5  7 13 15", "  4  6 12 14", "  1  3  9 11", "  0  2  8 10"]);
-    }
+    use super::{point_at, position};
+    use crate::point::Point;
 
     #[test]
     fn the_widest_coordinates_have_positions() {
-        assert_eq!(super::position(u32::MAX, u32::MAX), u64::MAX);
+        assert_eq!(position(u32::MAX, u32::MAX), u64::MAX);
+        assert_eq!(point_at(u64::MAX), Point::new(u32::MAX, u32::MAX));
     }
 }

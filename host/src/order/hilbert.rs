@@ -1,10 +1,13 @@
-//! Positions along the Hilbert curve.
+//! The order along the Hilbert curve.
 //!
 //! The curve of order 32 over the whole grid, so the order of two points does not depend on the coordinate bits. Four
 //! bits of each coordinate are taken at a time from a table that the compiler fills.
 //!
 //! A quadrant's copy of the curve is the first one with its axes swapped, or both turned round, or both: two flags
 //! are the whole state. Hilbert, Über die stetige Abbildung einer Linie auf ein Flächenstück, 1891.
+
+use crate::point::Point;
+use crate::sort::{sort_by_key, Entry, Narrow, Wide};
 
 /// Both axes run backwards in this copy of the curve.
 const TURNED: u8 = 1;
@@ -51,12 +54,12 @@ const fn four_steps(mut state: u8, xy: u8) -> u16 {
 }
 
 /// The position of `(x, y)` along the curve, for coordinates below 2^16. About 5 ns.
-pub(crate) fn position_16(x: u32, y: u32) -> u32 {
+fn position_16(x: u32, y: u32) -> u32 {
     position::<4>(x, y) as u32
 }
 
 /// The position of `(x, y)` along the curve, for any coordinates. Agrees with [`position_16`] below 2^16.
-pub(crate) fn position_32(x: u32, y: u32) -> u64 {
+fn position_32(x: u32, y: u32) -> u64 {
     position::<8>(x, y)
 }
 
@@ -72,6 +75,51 @@ fn position<const STEPS_DOWN: u32>(x: u32, y: u32) -> u64 {
         state = usize::from(entry >> STATE_SHIFT) & 3;
     }
     position
+}
+
+/// One pass along the Hilbert curve: a permutation of `0..points.len()`. Equal points stay together, in input order.
+pub fn hilbert(points: &[Point]) -> Vec<u32> {
+    along_curve(points).into_indices()
+}
+
+/// Points sorted along the curve, in the smallest form that holds them.
+pub enum Hilbert {
+    /// Coordinates below 2^16: 8 bytes per point.
+    Narrow(Vec<Narrow>),
+    /// Any: 16 bytes per point.
+    Wide(Vec<Wide>),
+}
+
+impl Hilbert {
+    /// The indices along the curve.
+    pub fn into_indices(self) -> Vec<u32> {
+        match self {
+            Self::Narrow(entries) => entries.iter().map(Entry::value).collect(),
+            Self::Wide(entries) => entries.iter().map(Entry::value).collect(),
+        }
+    }
+}
+
+/// Sorts indices by position along the curve; equal positions are equal points, and stay in input order.
+pub fn along_curve(points: &[Point]) -> Hilbert {
+    let all = points.iter().fold(0, |all, point| all | point.x | point.y);
+    if all < 1 << 16 {
+        let mut entries: Vec<Narrow> = points
+            .iter()
+            .zip(0..=u32::MAX)
+            .map(|(point, index)| Narrow::new(position_16(point.x, point.y), index))
+            .collect();
+        sort_by_key(&mut entries);
+        Hilbert::Narrow(entries)
+    } else {
+        let mut entries: Vec<Wide> = points
+            .iter()
+            .zip(0..=u32::MAX)
+            .map(|(point, index)| Wide::new(position_32(point.x, point.y), index))
+            .collect();
+        sort_by_key(&mut entries);
+        Hilbert::Wide(entries)
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,27 @@
+//! Orders of insertion.
+//!
+//! The mesh does not depend on the order, the time does: a point whose predecessor lies near is found in a few steps,
+//! and random rounds keep any input from making many triangles that do not last. The orders by name are [`Order`](crate::Order).
+//!
+//! Indices are 32 bits wide: points past the 2^32nd are left out.
+
+mod brio;
+mod deal;
+mod hilbert;
+mod keys;
+mod kind;
+mod random;
+#[cfg(test)]
+mod tests;
+pub(crate) mod z_curve;
+
+pub use brio::{brio_hilbert, Rounds};
+pub use deal::{brio_hilbert_dealt, deal};
+pub use hilbert::hilbert;
+pub use kind::{Order, UnknownOrder};
+pub use random::random;
+
+pub(crate) use brio::rounds;
+pub(crate) use hilbert::{along_curve, Hilbert};
+#[cfg(test)]
+pub(crate) use keys::mix;
