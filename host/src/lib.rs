@@ -16,55 +16,48 @@
 //! With a device that stays open, and choices for the job:
 //!
 //! ```
-//! use incircle::{Device, Options, Order, Point};
+//! use incircle::{Device, Options, Order, Point, Solution};
 //!
 //! let points: Vec<Point> = (0..100).map(|k| Point::new(k * k % 83, k * 7 % 89)).collect();
 //! let mut device = Device::open("model?coord-bits=12")?;
 //! let mut session = device.session()?;
 //! assert_eq!(session.identity().coord_bits, 12);
-//! let options = Options { order: Order::Hilbert, ..Options::default() };
-//! let mesh = session.triangulate_with(&points, &options)?;
-//! assert_eq!(mesh.triangles.len(), 2 * mesh.report.distinct - 2 - mesh.hull.len());
+//! let options = Options::default().order(Order::Hilbert);
+//! let Solution { mesh, report, .. } = session.triangulate_with(&points, &options)?;
+//! assert_eq!(mesh.triangles.len(), 2 * report.distinct - 2 - mesh.hull.len());
+//! assert_eq!(mesh, incircle::triangulate(&points)?);
 //! # Ok::<(), incircle::Error>(())
 //! ```
 //!
 //! Floating-point values pass [`quantize`] first, which reports what it did.
 #![warn(missing_docs)]
 
-mod assemble;
-mod batch;
 mod commands;
-mod counters;
 mod cpu;
 mod device;
 mod edges;
 mod error;
+mod job;
 mod limit;
 mod mesh;
-mod options;
 pub mod order;
 mod pages;
 mod point;
-mod prepare;
 pub mod quantize;
-mod report;
-mod session;
 mod sort;
 pub mod transports;
 pub mod verify;
 
-pub use counters::{Counters, Latencies};
-pub use device::Device;
+pub use device::{Device, DeviceAddress, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
 pub use incircle_protocol::{Config, Identity};
+pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Solution, Stage};
+pub use limit::MAX_POINTS;
 pub use mesh::{Duplicate, Mesh, EMPTY};
-pub use options::{Options, Progress, ProgressListener, Stage, INSERT_CHUNK};
 pub use order::{Order, UnknownOrder};
 pub use point::Point;
-pub use quantize::{Quantization, Quantize};
-pub use report::Report;
-pub use session::{Session, MAX_POINTS};
-pub use transports::{pcie, serial, ClockTransport, ModelTransport, Pace, Transport};
+pub use quantize::{quantize, Quantization, Quantize};
+pub use transports::{pcie, serial, Transport};
 pub use verify::{verify, VerifyError, VerifySummary};
 
 /// Triangulates in this process with the fast engine: coordinates up to 31 bits, default [`Options`], all processors for large sets.
@@ -72,6 +65,6 @@ pub use verify::{verify, VerifyError, VerifySummary};
 /// # Errors
 /// A coordinate of more than 31 bits, more than [`MAX_POINTS`] points, or a job that takes longer than
 /// [`Options::default_timeout`].
-pub fn triangulate<P: Into<Point> + Copy>(points: &[P]) -> Result<Mesh, Error> {
-    Device::cpu(None).session()?.triangulate(points)
+pub fn triangulate<P: Into<Point> + Copy>(points: impl AsRef<[P]>) -> Result<Mesh, Error> {
+    Device::cpu(None).session()?.triangulate(points).map(|solution| solution.mesh)
 }

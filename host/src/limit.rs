@@ -1,8 +1,22 @@
-//! The time that work may take.
+//! What bounds a job: time, points, bits of a coordinate.
 
 use std::time::{Duration, Instant};
 
+use incircle_protocol::{MAX_COORD_BITS, MIN_COORD_BITS};
+
 use crate::error::Error;
+
+/// Most points of one job: ids of triangles and half-edges must fit 32 bits.
+pub const MAX_POINTS: usize = (1 << 29) - 1;
+
+/// Coordinate bits must be possible.
+pub(crate) fn check_coord_bits(coord_bits: u32) -> Result<(), Error> {
+    if (MIN_COORD_BITS..=MAX_COORD_BITS).contains(&coord_bits) {
+        Ok(())
+    } else {
+        Err(Error::CoordBits(coord_bits))
+    }
+}
 
 /// Until when a job may run, and how long that was at its start.
 #[derive(Clone, Copy)]

@@ -2,7 +2,6 @@
 
 use crate::edges::EdgeList;
 use crate::point::Point;
-use crate::report::Report;
 use crate::verify::{self, VerifyError};
 
 /// "No half-edge": the other side of an edge on the hull, in [`Mesh::halfedges`].
@@ -32,8 +31,6 @@ pub struct Mesh {
     pub hull: Vec<u32>,
     /// Points that fell onto an earlier one, by index.
     pub duplicates: Vec<Duplicate>,
-    /// Counts, times, device.
-    pub report: Report,
 }
 
 impl Mesh {

@@ -3,13 +3,12 @@
 use incircle_protocol::{Identity, MAGIC, MAX_COORD_BITS, PROTOCOL_VERSION};
 
 use crate::error::Error;
-use crate::limit::Limit;
-use crate::mesh::{Duplicate, Mesh};
-use crate::options::{Options, Stage};
+use crate::job::answer::Answer;
+use crate::job::watch::{tell, Stopwatch};
+use crate::job::{Options, Report, Stage};
+use crate::limit::{Limit, MAX_POINTS};
 use crate::pages;
 use crate::point::Point;
-use crate::report::Report;
-use crate::session::{tell, Stopwatch, MAX_POINTS};
 
 use super::edges::{Half, HALVES};
 use super::sites::{sort, Sites};
@@ -49,25 +48,21 @@ pub(crate) struct CpuJob<'j> {
 
 impl CpuJob<'_> {
     /// Everything but the points of the mesh.
-    pub(crate) fn run(mut self) -> Result<Mesh, Error> {
+    pub(crate) fn run(mut self) -> Result<Answer, Error> {
         let threads = (self.contexts as usize).min(self.points.len() / THREAD_POINTS + 1);
         self.tell(Stage::Order, 0, self.points.len())?;
         let Sites { sites, ids, mut duplicates, bits } = sort(self.points, threads);
         duplicates.sort_unstable();
         self.watch.ended(Stage::Order);
-        let mut report = self.begin_report(ids.len(), &duplicates, threads as u32);
         let (triangles, hull) = if is_collinear(&sites) {
-            report.collinear = true;
             let mut hull = ids;
             hull.sort_unstable_by_key(|&id| self.points[id as usize]);
             (Vec::new(), hull)
         } else {
             self.triangulate(sites, &ids, bits, threads)?
         };
-        report.triangles = triangles.len();
-        report.hull = hull.len();
-        report.stages = self.watch.stages;
-        Ok(Mesh { points: Vec::new(), triangles, hull, duplicates, report })
+        let report = Report { stages: self.watch.stages, ..report(threads as u32) };
+        Ok(Answer { triangles, hull, duplicates, report })
     }
 
     /// The triangles and the hull of sites that are not all on one line.
@@ -108,24 +103,22 @@ impl CpuJob<'_> {
         Ok((triangles, hull))
     }
 
-    fn begin_report(&self, distinct: usize, duplicates: &[Duplicate], threads: u32) -> Report {
-        Report {
-            points: self.points.len(),
-            distinct,
-            duplicates: duplicates.len(),
-            backend: CPU_NAME.to_owned(),
-            order: ORDER,
-            coord_bits: MAX_COORD_BITS,
-            capacity: MAX_POINTS as u32,
-            contexts: threads,
-            ..Report::default()
-        }
-    }
-
     /// Tells the listener, which may cancel, and looks at the deadline.
     fn tell(&self, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
         tell(self.options, stage, done, total)?;
         self.limit.check(CPU_NAME, "the triangulation")
+    }
+}
+
+/// What is known of a job that so many threads do.
+fn report(threads: u32) -> Report {
+    Report {
+        backend: CPU_NAME.to_owned(),
+        order: ORDER,
+        coord_bits: MAX_COORD_BITS,
+        capacity: MAX_POINTS as u32,
+        contexts: threads,
+        ..Report::default()
     }
 }
 

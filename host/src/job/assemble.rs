@@ -4,20 +4,20 @@
 //! that close one hull, areas that sum to the hull's. Links, where they are read, are only checked to be in range, and not used. Not checked
 //! here: the Delaunay property and the tie rule, which [`Mesh::verify`](crate::Mesh::verify) proves.
 
+use std::ops::Range;
+
 use incircle_protocol::{infinite_vertex, Layout, NARROW_ID_BITS};
 
+use super::prepare::doubled_area;
 use crate::error::DeviceFault;
 use crate::point::Point;
-use crate::prepare::doubled_area;
 
 /// Takes records one after the other.
 pub(crate) struct Assembly<'a> {
     /// Input index of each vertex.
     order: &'a [u32],
     points: &'a [Point],
-    layout: Layout,
     infinite: u32,
-    records: usize,
     triangles: Vec<[u32; 3]>,
     /// Hull edges, counter-clockwise, as input indices.
     hull_edges: Vec<[u32; 2]>,
@@ -29,46 +29,21 @@ pub(crate) struct Assembly<'a> {
 const LOCK: u32 = 0b10;
 
 impl<'a> Assembly<'a> {
-    /// For the mesh of the points `order` names, on a device of this layout and capacity.
-    pub(crate) fn new(order: &'a [u32], points: &'a [Point], layout: Layout, capacity: u32) -> Self {
+    /// For the mesh of the points `order` names, on a device of this capacity.
+    pub(crate) fn new(order: &'a [u32], points: &'a [Point], capacity: u32) -> Self {
         let records = 2 * order.len() - 2;
         Self {
             order,
             points,
-            layout,
             infinite: infinite_vertex(capacity),
-            records,
             triangles: Vec::with_capacity(records),
             hull_edges: Vec::new(),
             area: 0,
         }
     }
 
-    /// How many records the device holds, ghosts included.
-    pub(crate) fn records(&self) -> usize {
-        self.records
-    }
-
-    /// Takes the words of whole records, the first of which has the number `first`.
-    pub(crate) fn take(&mut self, first: usize, words: &[u32]) -> Result<(), DeviceFault> {
-        for (record, words) in (first..).zip(words.chunks_exact(self.layout.record_words)) {
-            let [a, b, c] = checked_record(self.layout, record, words, self.records)?;
-            self.take_vertices(record, a, b, c)?;
-        }
-        Ok(())
-    }
-
-    /// Takes the words of a `Triangles` answer: the vertices of `count` records, the first of which has the number `first`.
-    pub(crate) fn take_packed(&mut self, first: usize, count: usize, words: &[u32]) -> Result<(), DeviceFault> {
-        for place in 0..count {
-            let [a, b, c] = self.layout.vertices_from_words(words, place);
-            self.take_vertices(first + place, a, b, c)?;
-        }
-        check_last_half(self.layout, first, count, words)
-    }
-
     /// Takes a record with these vertices, as this mesh counts them.
-    pub(crate) fn take_vertices(&mut self, record: usize, a: u32, b: u32, c: u32) -> Result<(), DeviceFault> {
+    pub(crate) fn take_vertices(&mut self, record: usize, [a, b, c]: [u32; 3]) -> Result<(), DeviceFault> {
         if (a == b) | (b == c) | (c == a) {
             return Err(DeviceFault::RepeatedVertex { record });
         }
@@ -143,12 +118,10 @@ pub(crate) fn checked_record(
 }
 
 /// The half word behind the last of these packed records, if there is one, must be 0.
-pub(crate) fn check_last_half(layout: Layout, first: usize, count: usize, words: &[u32]) -> Result<(), DeviceFault> {
-    let ends_in_half = layout.record_words == 3 && count % 2 == 1;
+pub(crate) fn check_last_half(layout: Layout, records: &Range<usize>, words: &[u32]) -> Result<(), DeviceFault> {
+    let ends_in_half = layout.record_words == 3 && records.len() % 2 == 1;
     match words.last() {
-        Some(&word) if ends_in_half && word >> 16 != 0 => {
-            Err(DeviceFault::SpareHalf { record: first + count - 1, word })
-        }
+        Some(&word) if ends_in_half && word >> 16 != 0 => Err(DeviceFault::SpareHalf { record: records.end - 1, word }),
         _ => Ok(()),
     }
 }
@@ -254,13 +227,15 @@ mod tests {
 
     #[test]
     fn packed_triangles_end_with_an_empty_half() {
-        let points = [(0, 0), (4, 0), (0, 4)].map(Point::from);
-        let assembly = || Assembly::new(&[0, 1, 2], &points, Layout::of(16, 8), 8);
-        assert_eq!(assembly().take_packed(0, 1, &[0x0001_0000, 2]), Ok(()));
+        let layout = Layout::of(16, 8);
         let word = 0x0007_0002;
-        let found = assembly().take_packed(0, 1, &[0x0001_0000, word]);
-        assert_eq!(found, Err(DeviceFault::SpareHalf { record: 0, word }));
-        let outside = assembly().take_packed(0, 2, &[0x0001_0000, word, 3]);
+        assert_eq!(check_last_half(layout, &(0..1), &[0x0001_0000, 2]), Ok(()));
+        let spare = Err(DeviceFault::SpareHalf { record: 4, word });
+        assert_eq!(check_last_half(layout, &(4..5), &[0x0001_0000, word]), spare);
+        assert_eq!(check_last_half(layout, &(0..2), &[0x0001_0000, word, word]), Ok(()));
+        assert_eq!(check_last_half(Layout::of(20, 8), &(0..2), &[0, 1, word, 0, 1, word]), Ok(()));
+        let points = [(0, 0), (4, 0), (0, 4)].map(Point::from);
+        let outside = Assembly::new(&[0, 1, 2], &points, 8).take_vertices(1, [7, 3, 0]);
         assert_eq!(outside, Err(DeviceFault::VertexOutOfRange { record: 1, vertex: 7, points: 3 }));
     }
 

@@ -5,6 +5,7 @@ use incircle_protocol::{latency_of_bucket, Counter, COUNTER_WORDS, LATENCY_BUCKE
 /// The device's event counters after a job. Cycle counts, and counts of what contexts do to each other, are 0 where there is no
 /// clock (the software model).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Counters {
     /// Clock cycles from the first point accepted to the last lock released.
     pub insert_cycles: u64,
@@ -118,6 +119,7 @@ impl Counters {
 /// How many clock cycles insertions took, each from its point taken by a context to its last record written. The first three
 /// points and those inserted alone are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Latencies {
     /// Insertions that were timed.
     pub insertions: u64,

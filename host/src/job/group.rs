@@ -1,46 +1,48 @@
 //! Jobs that are in the memory of a device at once: their points, and whose a record is.
 
+use std::ops::Range;
+
 use incircle_protocol::InsertReport;
 
+use super::prepare::Prepared;
 use crate::error::DeviceFault;
 use crate::point::Point;
-use crate::prepare::Prepared;
 
 /// A job in the order of insertion.
-pub(super) struct Ordered {
+pub(crate) struct Ordered {
     /// Its place in the list of the caller.
-    pub(super) job: usize,
-    pub(super) prepared: Prepared,
+    pub(crate) job: usize,
+    pub(crate) prepared: Prepared,
 }
 
 impl Ordered {
-    pub(super) fn vertices(&self) -> usize {
+    pub(crate) fn vertices(&self) -> usize {
         self.prepared.order.len()
     }
 }
 
-/// Jobs that go to the device in one go: those that share its memory, the longest first, or a frame.
-pub(super) struct Group {
-    pub(super) jobs: Vec<Ordered>,
-    /// Contexts that work on each of them: one, or more for a frame.
-    pub(super) contexts: u32,
-    /// It is one job that has the whole memory.
-    pub(super) is_frame: bool,
+/// Jobs that go to the device in one go: one that has the whole memory, or several that share it, the longest first.
+pub(crate) struct Group {
+    pub(crate) jobs: Vec<Ordered>,
+    /// Contexts that work on each of them: one where they share the memory.
+    pub(crate) contexts: u32,
+    /// The jobs share the memory; one alone may do so too.
+    pub(crate) is_shared: bool,
 }
 
 impl Group {
     /// Jobs that share the memory, the longest first, each with a context of its own.
-    pub(super) fn sharing(jobs: Vec<Ordered>) -> Self {
-        Self { jobs, contexts: 1, is_frame: false }
+    pub(crate) fn sharing(jobs: Vec<Ordered>) -> Self {
+        Self { jobs, contexts: 1, is_shared: true }
     }
 
     /// A job that has the whole memory and so many contexts.
-    pub(super) fn frame(job: Ordered, contexts: u32) -> Self {
-        Self { jobs: vec![job], contexts, is_frame: true }
+    pub(crate) fn alone(job: Ordered, contexts: u32) -> Self {
+        Self { jobs: vec![job], contexts, is_shared: false }
     }
 
     /// Where there is only one job: its place in the list of the caller.
-    pub(super) fn only_job(&self) -> Option<usize> {
+    pub(crate) fn only_job(&self) -> Option<usize> {
         match &self.jobs[..] {
             [ordered] => Some(ordered.job),
             _ => None,
@@ -48,41 +50,64 @@ impl Group {
     }
 
     /// Records of all jobs.
-    pub(super) fn records(&self) -> usize {
+    pub(crate) fn records(&self) -> usize {
         self.jobs.iter().map(|ordered| 2 * ordered.vertices() - 2).sum()
     }
 
-    /// The points in the order in which they are sent: three of each job, then one of each in turn. A job that has no more repeats its last
-    /// one, which is found at once, until the longest is over. For a frame that is its own order.
-    pub(super) fn points(&self, jobs: &[Vec<Point>]) -> Vec<Point> {
-        let at = |ordered: &Ordered, index: u32| jobs[ordered.job][index as usize];
-        let first = self
-            .jobs
-            .iter()
-            .flat_map(|ordered| ordered.prepared.order[..3].iter().map(move |&index| at(ordered, index)));
-        let mut points: Vec<Point> = first.collect();
-        let longest = self.jobs.iter().map(Ordered::vertices).max().unwrap_or(0);
-        // The jobs stand in the order of their lengths, so the last round ends with the last of the longest.
-        let last_round = self.jobs.iter().take_while(|ordered| ordered.vertices() == longest).count();
-        for place in 3..longest {
-            let takers = if place + 1 == longest { last_round } else { self.jobs.len() };
-            points.extend(self.jobs[..takers].iter().filter_map(|ordered| {
-                let order = &ordered.prepared.order;
-                order.get(place).or(order.last()).map(|&index| at(ordered, index))
-            }));
+    /// Points that are sent, repeated ones included.
+    pub(crate) fn sent(&self) -> usize {
+        let (longest, last_round) = self.longest();
+        // Each job has as many places as the longest, but for the last round.
+        if longest > 3 {
+            (longest - 1) * self.jobs.len() + last_round
+        } else {
+            3 * self.jobs.len()
         }
-        points
     }
 
-    /// All points must be in, and those that were repeated are duplicates.
-    pub(super) fn check_report(&self, report: &InsertReport, sent: usize) -> Result<(), DeviceFault> {
-        let vertices: usize = self.jobs.iter().map(Ordered::vertices).sum();
+    /// Vertices of the longest job, and how many jobs have as many: the first ones, since they stand in the order of their lengths.
+    fn longest(&self) -> (usize, usize) {
+        let longest = self.jobs.first().map_or(0, Ordered::vertices);
+        (longest, self.jobs.iter().take_while(|ordered| ordered.vertices() == longest).count())
+    }
+
+    /// Hands on a stretch of the points that are sent, in their order: three of each job, then one of each in turn. A job that has no more
+    /// repeats its last one, which is found at once, until the longest is over. For a job alone that is its own order.
+    pub(crate) fn for_points(&self, jobs: &[Vec<Point>], stretch: Range<usize>, mut take: impl FnMut(Point)) {
+        let at = |ordered: &Ordered, index: u32| jobs[ordered.job][index as usize];
+        if let [only] = &self.jobs[..] {
+            return only.prepared.order[stretch].iter().for_each(|&index| take(at(only, index)));
+        }
+        let first =
+            self.jobs.iter().flat_map(|ordered| ordered.prepared.order[..3].iter().map(move |&index| (ordered, index)));
+        let (longest, last_round) = self.longest();
+        let rounds = (3..longest).flat_map(|place| {
+            let takers = if place + 1 == longest { last_round } else { self.jobs.len() };
+            self.jobs[..takers].iter().filter_map(move |ordered| {
+                let order = &ordered.prepared.order;
+                order.get(place).or(order.last()).map(|&index| (ordered, index))
+            })
+        });
+        first
+            .chain(rounds)
+            .skip(stretch.start)
+            .take(stretch.len())
+            .for_each(|(ordered, index)| take(at(ordered, index)));
+    }
+
+    /// After so many points all of them must be in, and those that were repeated are duplicates. The points of jobs that share the memory are
+    /// sent at once.
+    pub(crate) fn check_report(&self, report: &InsertReport, sent: usize) -> Result<(), DeviceFault> {
+        let (vertices, records) = match &self.jobs[..] {
+            [_] => (sent, 2 * sent - 2),
+            jobs => (jobs.iter().map(Ordered::vertices).sum(), self.records()),
+        };
         let counts = [
             ("points arrived", report.arrived, sent),
             ("points inserted", report.inserted, vertices),
             ("duplicates", report.duplicates, sent - vertices),
             ("points refused", report.refused, 0),
-            ("records", report.records, self.records()),
+            ("records", report.records, records),
         ];
         match counts.into_iter().find(|&(_, found, expected)| found as usize != expected) {
             Some((what, found, expected)) => Err(DeviceFault::Count { what, found, expected: expected as u32 }),
@@ -91,7 +116,7 @@ impl Group {
     }
 
     /// The job that a record belongs to, and its vertices as that job counts them.
-    pub(super) fn own_vertices(
+    pub(crate) fn own_vertices(
         &self,
         record: usize,
         v: [u32; 3],

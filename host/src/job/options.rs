@@ -7,6 +7,7 @@ use crate::order::Order;
 
 /// A part of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Stage {
     /// The host removes duplicates and chooses the order.
     Order,
@@ -45,10 +46,18 @@ pub struct Progress {
 pub type ProgressListener<'a> = &'a dyn Fn(Progress) -> ControlFlow<()>;
 
 /// Points of one `Insert` command unless chosen otherwise.
-pub const INSERT_CHUNK: usize = 65_536;
+const INSERT_CHUNK: usize = 65_536;
 
 /// Choices for one job; [`Options::default`] suits most.
+///
+/// ```
+/// use incircle::{Options, Order};
+///
+/// let options = Options::default().order(Order::Hilbert).contexts(2);
+/// assert_eq!((options.order, options.contexts), (Order::Hilbert, Some(2)));
+/// ```
 #[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct Options<'a> {
     /// Time the device may take for the whole job. `None`: [`Options::default_timeout`].
     pub timeout: Option<Duration>,
@@ -64,7 +73,37 @@ pub struct Options<'a> {
     pub insert_chunk: usize,
 }
 
-impl Options<'_> {
+impl<'a> Options<'a> {
+    /// With another [`timeout`](Self::timeout).
+    #[must_use]
+    pub fn timeout(self, timeout: impl Into<Option<Duration>>) -> Self {
+        Self { timeout: timeout.into(), ..self }
+    }
+
+    /// With another [`order`](Self::order).
+    #[must_use]
+    pub fn order(self, order: Order) -> Self {
+        Self { order, ..self }
+    }
+
+    /// With a listener for [`progress`](Self::progress).
+    #[must_use]
+    pub fn progress(self, listener: ProgressListener<'a>) -> Self {
+        Self { progress: Some(listener), ..self }
+    }
+
+    /// With another number of [`contexts`](Self::contexts).
+    #[must_use]
+    pub fn contexts(self, contexts: impl Into<Option<u32>>) -> Self {
+        Self { contexts: contexts.into(), ..self }
+    }
+
+    /// With another [`insert_chunk`](Self::insert_chunk).
+    #[must_use]
+    pub fn insert_chunk(self, points: usize) -> Self {
+        Self { insert_chunk: points, ..self }
+    }
+
     /// The time a job of this many points may take when none is chosen: a minute and 2 ms per point.
     ///
     /// The simulated core with one context takes about 0.07 ms per uniform point: 120 clocks at two million a second. Choose more

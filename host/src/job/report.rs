@@ -2,11 +2,12 @@
 
 use std::time::Duration;
 
-use crate::counters::{Counters, Latencies};
-use crate::options::Stage;
+use super::counters::{Counters, Latencies};
+use super::options::Stage;
 
 /// What a job says about itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Report {
     /// Input points.
     pub points: usize,

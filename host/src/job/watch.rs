@@ -1,9 +1,47 @@
-//! Progress of a batch while one of its jobs goes by itself.
+//! Who hears how far a job is, and how long its stages took.
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
 
-use crate::options::{Options, Progress, Stage};
+use super::options::{Options, Progress, Stage};
+use crate::error::Error;
+
+/// Tells the listener, which may cancel.
+pub(crate) fn tell(options: &Options<'_>, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
+    let Some(listener) = options.progress else {
+        return Ok(());
+    };
+    if listener(Progress { stage, done, total }).is_break() {
+        return Err(Error::Cancelled { stage: stage.name(), done, total });
+    }
+    Ok(())
+}
+
+/// Times stages.
+#[derive(Debug)]
+pub(crate) struct Stopwatch {
+    since: Instant,
+    pub(crate) stages: Vec<(&'static str, Duration)>,
+}
+
+impl Stopwatch {
+    pub(crate) fn start() -> Self {
+        Self { since: Instant::now(), stages: Vec::with_capacity(4) }
+    }
+
+    /// From now on, as if what came after the first stage had not been.
+    pub(crate) fn again(&mut self) {
+        self.stages.truncate(1);
+        self.since = Instant::now();
+    }
+
+    pub(crate) fn ended(&mut self, stage: Stage) {
+        let now = Instant::now();
+        self.stages.push((stage.name(), now - self.since));
+        self.since = now;
+    }
+}
 
 /// Hears of a job that goes by itself, and tells how far all jobs are.
 pub(crate) struct PartListener<'a> {

@@ -149,8 +149,9 @@ mod tests {
     #[test]
     fn silence_ends_at_the_deadline() {
         let mut transport = ClockTransport::new(SMALL).expect("a named configuration");
-        let error =
-            transport.receive([0; 2], &mut [], Instant::now() + Duration::from_millis(20)).expect_err("nothing was asked");
+        let error = transport
+            .receive([0; 2], &mut [], Instant::now() + Duration::from_millis(20))
+            .expect_err("nothing was asked");
         assert!(matches!(error, TransportError::Timeout { done: 0, wanted: 2 }), "{error}");
         let error = transport.submit(&[Command::Hello; 100_000], Instant::now()).expect_err("too late");
         assert!(matches!(error, TransportError::Timeout { wanted: 100_000, .. }), "{error}");

@@ -1,132 +1,92 @@
-//! Many jobs in one call: on a device, or on the threads of this process.
+//! Many jobs on one device.
 //!
 //! A small mesh has no room for many insertions at once, so a device with several contexts gets a *group* of small jobs, a mesh for each
-//! context. A job too large for that, or one that is left over, is a *frame*: it has the whole memory ([`plan`]). Where the link takes words
-//! ahead, those of the next group or frame are sent before the answers of the last are received ([`flight`]), so that the device never waits
-//! for the host.
+//! context. A job too large for that, or one that is left over, is a *frame*: it has the whole memory ([`plan`]). Where the way to the device takes
+//! commands ahead, those of the next group or frame are sent before the answers of the last are received ([`super::flight`]), so that the device
+//! never waits for the host.
 
-mod commands;
-mod flight;
-mod group;
-mod part_listener;
 mod plan;
-mod threads;
 
 use std::sync::mpsc::sync_channel;
 use std::thread::{Builder, Scope};
+use std::time::Duration;
 
-use incircle_protocol::Identity;
-
-use crate::commands::Link;
-use crate::error::Error;
-use crate::limit::Limit;
-use crate::mesh::Mesh;
-use crate::options::{Options, Stage};
+use super::flight::{Carrier, Done, JobError};
+use super::group::{Group, Ordered};
+use super::load::Load;
+use super::options::{Options, Stage};
+use super::prepare::prepare;
+use super::watch::tell;
 use crate::order::Order;
 use crate::point::Point;
-use crate::prepare::{prepare, Prepared};
-use crate::report::Report;
-use crate::session::tell;
-
-use group::{Group, Ordered};
-pub(crate) use part_listener::PartListener;
 use plan::{Part, Plan};
-pub(crate) use threads::on_threads;
 
 /// Most points of a job that is one of a group: the records of a group are read at once.
 const MAX_JOB_POINTS: usize = 8192;
-/// Most points of a frame: its words are kept, and its records are read at once.
+/// Most points of a frame: its records are read at once.
 const MAX_FRAME_POINTS: usize = 65_536;
 /// Jobs that are taken between two looks at the listener.
 const JOBS_PER_LOOK: usize = 64;
 
-/// What becomes of the jobs: meshes without their points, in the order of the caller, and those that must go one by one.
-pub(crate) struct Done {
-    pub(crate) meshes: Vec<Option<Mesh>>,
-    pub(crate) singles: Vec<Single>,
-    /// Points of the jobs that have been begun or answered: what a listener hears is ahead by the jobs under way at most.
-    pub(crate) passed: usize,
-}
-
-/// A job that goes alone.
-pub(crate) struct Single {
-    pub(crate) job: usize,
-    /// As [`Options::contexts`].
-    pub(crate) contexts: Option<u32>,
-}
-
-impl Done {
-    fn nothing_of(jobs: &[Vec<Point>]) -> Self {
-        Self { meshes: jobs.iter().map(|_| None).collect(), singles: Vec::new(), passed: 0 }
-    }
-}
-
-/// Points of all jobs.
-pub(crate) fn points_of(jobs: &[Vec<Point>]) -> usize {
-    jobs.iter().map(Vec::len).sum()
-}
-
-/// A batch over a link.
+/// A batch on a device.
 pub(crate) struct Batch<'b> {
-    pub(crate) identity: Identity,
+    carrier: Carrier<'b>,
     /// Contexts that work.
-    pub(crate) contexts: u32,
-    /// For all jobs that share the memory.
-    pub(crate) limit: Limit,
-    pub(crate) link: &'b mut Link,
-    pub(crate) options: &'b Options<'b>,
-    pub(crate) jobs: &'b [Vec<Point>],
+    contexts: u32,
+    done: Done,
+    /// For each job that must go by itself how many contexts work on it.
+    left: Vec<Option<u32>>,
 }
 
-impl Batch<'_> {
-    /// All jobs but those that must go one by one: those that share the memory with none on a link that takes nothing ahead, and very
-    /// large ones on any.
-    pub(crate) fn run(mut self) -> Result<Done, Error> {
-        let mut done = Done::nothing_of(self.jobs);
-        let plan = Plan::new(self.contexts, self.identity.capacity);
-        let (small, mut frames) = self.divide(&plan, &mut done);
-        let groups = self.group(&plan, small, &mut frames, &mut done)?;
+impl<'b> Batch<'b> {
+    pub(crate) fn new(carrier: Carrier<'b>, contexts: u32) -> Self {
+        let (done, left) = (Done::nothing_of(carrier.jobs), vec![None; carrier.jobs.len()]);
+        Self { carrier, contexts, done, left }
+    }
+
+    /// Does all jobs but those that must go one by one: those that share the memory with none on a way that takes nothing ahead, and very large
+    /// ones on any. Of those it says how many contexts are to work on each.
+    pub(crate) fn run(mut self) -> Result<(Done, Vec<Option<u32>>), JobError> {
+        let (jobs, options) = (self.carrier.jobs, self.carrier.options);
+        let plan = Plan::new(self.contexts, self.carrier.identity.capacity);
+        let (small, mut frames) = self.divide(&plan);
+        let groups = self.group(&plan, small, &mut frames)?;
+        let Self { mut carrier, mut done, left, .. } = self;
         std::thread::scope(|scope| {
-            let contexts = |job: usize| plan.frame_contexts(self.jobs[job].len());
+            let contexts = |job: usize| plan.frame_contexts(jobs[job].len());
             let frames = frames.into_iter().map(|job| (job, contexts(job))).collect();
-            let ordered = order_frames(scope, self.jobs, frames, self.options.order);
-            self.carry(groups.into_iter().chain(ordered), &mut done)
+            let mut groups = groups.into_iter().chain(order_frames(scope, jobs, frames, options.order));
+            carrier.carry(&mut done, |carrier, done| next_load(carrier, &mut groups, done))
         })?;
-        Ok(done)
+        Ok((done, left))
     }
 
     /// The jobs that may share the memory, and the frames.
-    fn divide(&self, plan: &Plan, done: &mut Done) -> (Vec<usize>, Vec<usize>) {
+    fn divide(&mut self, plan: &Plan) -> (Vec<usize>, Vec<usize>) {
         let (mut small, mut frames) = (Vec::new(), Vec::new());
-        for (job, points) in self.jobs.iter().enumerate() {
+        for (job, points) in self.carrier.jobs.iter().enumerate() {
             if points.len() <= MAX_JOB_POINTS && plan.shares(points.len()) {
                 small.push(job);
             } else {
-                self.leave_alone(plan, job, &mut frames, done);
+                self.leave_alone(plan, job, &mut frames);
             }
         }
         (small, frames)
     }
 
     /// A job that shares the memory with none: a frame if it can be sent ahead.
-    fn leave_alone(&self, plan: &Plan, job: usize, frames: &mut Vec<usize>, done: &mut Done) {
-        let points = self.jobs[job].len();
-        if points <= MAX_FRAME_POINTS && self.link.takes_ahead() {
+    fn leave_alone(&mut self, plan: &Plan, job: usize, frames: &mut Vec<usize>) {
+        let points = self.carrier.jobs[job].len();
+        if points <= MAX_FRAME_POINTS && self.carrier.channel.capabilities().takes_ahead {
             frames.push(job);
         } else {
-            done.singles.push(Single { job, contexts: Some(plan.frame_contexts(points)) });
+            self.left[job] = Some(plan.frame_contexts(points));
         }
     }
 
     /// Puts the small jobs in order and into groups; those that are better off alone join the frames. What needs no device is answered here.
-    fn group(
-        &self,
-        plan: &Plan,
-        small: Vec<usize>,
-        frames: &mut Vec<usize>,
-        done: &mut Done,
-    ) -> Result<Vec<Group>, Error> {
-        let mut shared = self.in_order(small, done)?;
+    fn group(&mut self, plan: &Plan, small: Vec<usize>, frames: &mut Vec<usize>) -> Result<Vec<Group>, JobError> {
+        let mut shared = self.in_order(small)?;
         // Jobs of one length side by side: none waits long for another.
         shared.sort_by_key(|ordered| std::cmp::Reverse(ordered.vertices()));
         let lengths: Vec<usize> = shared.iter().map(Ordered::vertices).collect();
@@ -138,7 +98,7 @@ impl Batch<'_> {
                 // Put in order once more, for several contexts, when its turn comes.
                 Part::Frame => {
                     if let Some(own) = rest.next() {
-                        self.leave_alone(plan, own.job, frames, done);
+                        self.leave_alone(plan, own.job, frames);
                     }
                 }
             }
@@ -147,58 +107,53 @@ impl Batch<'_> {
     }
 
     /// These jobs in order, each for one context, but those that need no device: they are answered here.
-    fn in_order(&self, small: Vec<usize>, done: &mut Done) -> Result<Vec<Ordered>, Error> {
-        let total = small.iter().map(|&job| self.jobs[job].len()).sum();
+    fn in_order(&mut self, small: Vec<usize>) -> Result<Vec<Ordered>, JobError> {
+        let Carrier { jobs, options, .. } = self.carrier;
+        let total = small.iter().map(|&job| jobs[job].len()).sum();
         let (mut shared, mut seen) = (Vec::new(), 0);
         for (place, job) in small.into_iter().enumerate() {
             if place % JOBS_PER_LOOK == 0 {
-                tell(self.options, Stage::Order, seen, total)?;
+                tell(options, Stage::Order, seen, total)?;
             }
-            let points = &self.jobs[job];
+            let points = &jobs[job];
             seen += points.len();
-            let prepared = prepare(points, self.options.order, 1);
-            let is_answered = prepared.collinear;
-            shared.extend(self.answer_here(Ordered { job, prepared }, done)?);
-            if is_answered {
-                done.passed += points.len();
+            let ordered = Ordered { job, prepared: prepare(points, options.order, 1) };
+            match self.carrier.answer_here(ordered, 1, &mut self.done)? {
+                Some(ordered) => shared.push(ordered),
+                None => self.done.passed += points.len(),
             }
         }
         Ok(shared)
     }
+}
 
-    /// Answers a job that needs no device; gives back one that does. An error if the device cannot hold it.
-    fn answer_here(&self, ordered: Ordered, done: &mut Done) -> Result<Option<Ordered>, Error> {
-        let (distinct, capacity) = (ordered.vertices(), self.identity.capacity);
-        if distinct > capacity as usize {
-            let source = Box::new(Error::Capacity { distinct, capacity, device: self.link.name() });
-            return Err(Error::InJob { job: ordered.job, source });
+/// The commands of the next group that the device must do. A listener may end the batch here.
+fn next_load(
+    carrier: &Carrier<'_>,
+    groups: &mut impl Iterator<Item = Group>,
+    done: &mut Done,
+) -> Result<Option<Load>, JobError> {
+    for mut group in groups {
+        tell(carrier.options, Stage::Insert, done.passed, carrier.points())?;
+        done.passed += group.jobs.iter().map(|ordered| carrier.jobs[ordered.job].len()).sum::<usize>();
+        if group.is_shared {
+            return Ok(Some(Load::at_once(group, None)));
         }
-        if !ordered.prepared.collinear {
-            return Ok(Some(ordered));
+        let time = group.only_job().map(|job| frame_time(carrier, job));
+        let jobs = group.jobs.drain(..).map(|frame| carrier.answer_here(frame, 1, done)).collect::<Result<Vec<_>, _>>();
+        group.jobs = jobs?.into_iter().flatten().collect();
+        if !group.jobs.is_empty() {
+            return Ok(Some(Load::at_once(group, time)));
         }
-        let Ordered { job, prepared } = ordered;
-        done.meshes[job] = Some(self.mesh(job, Vec::new(), prepared.order.clone(), prepared));
-        Ok(None)
     }
+    Ok(None)
+}
 
-    /// Everything but the points.
-    fn mesh(&self, job: usize, triangles: Vec<[u32; 3]>, hull: Vec<u32>, prepared: Prepared) -> Mesh {
-        let report = Report {
-            points: self.jobs[job].len(),
-            distinct: self.jobs[job].len() - prepared.duplicates.len(),
-            duplicates: prepared.duplicates.len(),
-            triangles: triangles.len(),
-            hull: hull.len(),
-            collinear: prepared.collinear,
-            backend: self.link.name(),
-            order: self.options.order.name(),
-            coord_bits: self.identity.coord_bits,
-            capacity: self.identity.capacity,
-            contexts: 1,
-            ..Report::default()
-        };
-        Mesh { points: Vec::new(), triangles, hull, duplicates: prepared.duplicates, report }
-    }
+/// The time that a frame may take.
+fn frame_time(carrier: &Carrier<'_>, job: usize) -> Duration {
+    let slow = carrier.channel.capabilities().pace.slow;
+    let default = || Options::default_timeout(carrier.jobs[job].len()).saturating_mul(slow);
+    carrier.options.timeout.unwrap_or_else(default)
 }
 
 /// Puts frames in order in a thread of its own, each for so many contexts, so that it is done while the device works. It ends when nobody
@@ -212,7 +167,7 @@ fn order_frames<'s>(
     // It has one in hand until that is wanted: no more are kept.
     let (sender, ordered) = sync_channel(0);
     let in_order = move |(job, contexts): (usize, u32)| {
-        Group::frame(Ordered { job, prepared: prepare(&jobs[job], order, contexts) }, contexts)
+        Group::alone(Ordered { job, prepared: prepare(&jobs[job], order, contexts) }, contexts)
     };
     let kept = frames.clone();
     let has_thread = !frames.is_empty()

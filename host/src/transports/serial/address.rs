@@ -5,6 +5,7 @@ use std::fmt;
 use incircle_protocol::FIRST_RATE;
 
 use super::protocol::DEFAULT_RATE;
+use crate::transports::choices::Choices;
 
 /// Before the name of the port.
 const PREFIX: &str = "serial:";
@@ -43,21 +44,17 @@ impl Address {
     /// # Errors
     /// A sentence without the address.
     pub fn parse_port(text: &str) -> Result<Self, String> {
-        let (port, choices) = text.split_once('?').unwrap_or((text, ""));
+        let choices = Choices::of(text);
+        let port = choices.name;
         if port.is_empty() {
             return Err("it names no port; \"serial:/dev/ttyUSB0\" would".to_owned());
         }
         let mut address = Self::of_port(port);
-        for item in choices.split('&').filter(|item| !item.is_empty()) {
-            let (key, value) = item.split_once('=').unwrap_or((item, ""));
-            let number = |least: u32, most: u32| {
-                let parsed = value.parse::<u32>().ok().filter(|number| (least..=most).contains(number));
-                parsed.ok_or_else(|| format!("\"{key}\" wants a whole number from {least} to {most}, not \"{value}\""))
-            };
-            match key {
-                "baud" => address.baud = number(FIRST_RATE, MAX_RATE)?,
-                "slow" => address.slow = number(1, MAX_SLOW)?,
-                _ => return Err(format!("\"{key}\" is unknown; \"baud\" and \"slow\" are known")),
+        for choice in choices.items() {
+            match choice.key {
+                "baud" => address.baud = choice.number(FIRST_RATE..=MAX_RATE)?,
+                "slow" => address.slow = choice.number(1..=MAX_SLOW)?,
+                _ => return Err(choice.unknown(&["baud", "slow"])),
             }
         }
         Ok(address)

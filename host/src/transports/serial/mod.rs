@@ -23,7 +23,7 @@ mod transport;
 
 pub use address::Address;
 pub(crate) use connect::LONGEST;
-pub use protocol::{SerialProtocol, Params, Statistics, DEFAULT_RATE};
 pub use fault::SerialFault;
 pub use port::{ports, PortFault, PortInfo};
+pub use protocol::{Params, SerialProtocol, Statistics, DEFAULT_RATE};
 pub use transport::{greet, SerialTransport};

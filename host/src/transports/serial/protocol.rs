@@ -5,7 +5,9 @@ mod transmit;
 
 use std::time::Duration;
 
-use incircle_protocol::{answer_head, Command, Greeting, Layout, Opcode, ANSWER_HEAD_WORDS, FIRST_RATE, IDENTITY_WORDS};
+use incircle_protocol::{
+    answer_head, Command, Greeting, Layout, Opcode, ANSWER_HEAD_WORDS, FIRST_RATE, IDENTITY_WORDS,
+};
 
 use super::codec::Decoder;
 use super::connect::Connect;

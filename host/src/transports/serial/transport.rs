@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 use incircle_protocol::{Command, Greeting, FIRST_RATE};
 
 use super::address::Address;
-use super::protocol::{SerialProtocol, Params, Statistics};
 use super::fault::SerialFault;
 use super::port::Port;
+use super::protocol::{Params, SerialProtocol, Statistics};
 use crate::error::{Error, TransportError};
 use crate::limit::Limit;
 use crate::transports::transport::{receive_in_pieces, AnswerHead, Capabilities, Pace, Transport};
@@ -87,7 +87,11 @@ impl SerialTransport {
         self.drive_for(timeout, |protocol| protocol.is_open().then_some(()))
     }
 
-    fn drive_for<T>(&mut self, timeout: Duration, ready: impl FnMut(&mut SerialProtocol) -> Option<T>) -> Result<T, Error> {
+    fn drive_for<T>(
+        &mut self,
+        timeout: Duration,
+        ready: impl FnMut(&mut SerialProtocol) -> Option<T>,
+    ) -> Result<T, Error> {
         const DURING: &str = "the greeting";
         let limit = Limit::of(timeout.saturating_mul(self.slow));
         let result = self.drive(limit.deadline(), 0, ready);

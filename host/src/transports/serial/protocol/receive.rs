@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use incircle_protocol::{DeviceFrame, Layout, FIRST_RATE, STATUS_OPEN};
 
-use super::{SerialProtocol, Polled, Stage};
+use super::{Polled, SerialProtocol, Stage};
 use crate::transports::serial::codec::{words_of, Decoded, Message};
 use crate::transports::serial::fault::SerialFault;
 use crate::transports::serial::reader::Reader;

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use incircle_protocol::{HostFrame, CRC_BYTES, FIRST_RATE, FRAME_END, HOST_HEADER_BYTES, MAX_PAYLOAD};
 
-use super::{SerialProtocol, Polled, Stage};
+use super::{Polled, SerialProtocol, Stage};
 use crate::transports::serial::codec::{encode, MOST_OVERHEAD};
 use crate::transports::serial::fault::SerialFault;
 use crate::transports::serial::timing::POLL_EVERY;
