@@ -6,6 +6,7 @@ use clap::ValueEnum;
 use incircle::pcie::CardAddress;
 use incircle::serial::Address;
 use incircle::{Order, Quantize};
+use incircle_testkit::Distribution;
 
 use crate::arguments::BackendChoice;
 use crate::formats::MeshFormat;
@@ -35,6 +36,13 @@ impl clap::builder::TypedValueParser for OrderParser {
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = clap::builder::PossibleValue> + '_>> {
         Some(Box::new(Order::ALL.map(Order::name).into_iter().map(clap::builder::PossibleValue::new)))
     }
+}
+
+/// A point set by its name. Help shows the names and what the sets are.
+pub fn distribution_parser() -> impl clap::builder::TypedValueParser<Value = Distribution> {
+    use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+    let named = |set: Distribution| PossibleValue::new(set.name()).help(set.description());
+    PossibleValuesParser::new(Distribution::ALL.map(named)).try_map(|name| name.parse::<Distribution>())
 }
 
 /// A back end by its name or its address. Help and completions show the names.

@@ -10,7 +10,7 @@ use incircle_protocol::{
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use std::path::PathBuf;
 
-#[path = "../../../sim/model/tests/common/mesh_check.rs"]
+#[path = "../../../sim/model/tests/it/common/mesh_check.rs"]
 #[allow(dead_code, reason = "the model's own tests use more of it")]
 mod mesh_check;
 

@@ -1,9 +1,7 @@
 //! Walks that begin at a vertex: the table of triangles is right after every insertion, and the mesh is the same.
 
-mod common;
-
-use common::mesh_check::{canonical, records_of};
-use common::{sets, Random};
+use crate::common::mesh_check::{canonical, records_of};
+use crate::common::{sets, Random};
 use incircle_model::predicate::Point;
 use incircle_model::{CommandModel, Insertion, Mesh};
 use incircle_protocol::{clear_word, command_word, infinite_vertex, Opcode};

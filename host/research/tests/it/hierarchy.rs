@@ -1,8 +1,6 @@
 //! Points one at a time: the mesh of every other way, whatever arrives.
 
-mod common;
-
-use common::{assert_right, Random};
+use crate::common::{assert_right, Random};
 use incircle::{triangulate, Error, Hierarchy, Point};
 
 /// All points, one at a time; the mesh is looked at now and then, and at the end.
