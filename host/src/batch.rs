@@ -19,13 +19,13 @@ use incircle_protocol::Identity;
 
 use crate::error::Error;
 use crate::link::{Limit, Link};
-use crate::mesh::Mesh;
 use crate::options::{Options, Stage};
-use crate::order::Order;
-use crate::point::Point;
 use crate::prepare::{prepare, Prepared};
 use crate::report::Report;
 use crate::session::tell;
+use crate::solution::Solution;
+use incircle_geometry::Order;
+use incircle_geometry::{Mesh, Point};
 
 use group::{Group, Ordered};
 pub(crate) use part_listener::PartListener;
@@ -41,7 +41,7 @@ const JOBS_PER_LOOK: usize = 64;
 
 /// What becomes of the jobs: meshes without their points, in the order of the caller, and those that must go one by one.
 pub(crate) struct Done {
-    pub(crate) meshes: Vec<Option<Mesh>>,
+    pub(crate) meshes: Vec<Option<Solution>>,
     pub(crate) singles: Vec<Single>,
     /// Points of the jobs that have been begun or answered: what a listener hears is ahead by the jobs under way at most.
     pub(crate) passed: usize,
@@ -181,7 +181,7 @@ impl Batch<'_> {
     }
 
     /// Everything but the points.
-    fn mesh(&self, job: usize, triangles: Vec<[u32; 3]>, hull: Vec<u32>, prepared: Prepared) -> Mesh {
+    fn mesh(&self, job: usize, triangles: Vec<[u32; 3]>, hull: Vec<u32>, prepared: Prepared) -> Solution {
         let report = Report {
             points: self.jobs[job].len(),
             distinct: self.jobs[job].len() - prepared.duplicates.len(),
@@ -196,7 +196,7 @@ impl Batch<'_> {
             contexts: 1,
             ..Report::default()
         };
-        Mesh { points: Vec::new(), triangles, hull, duplicates: prepared.duplicates, report }
+        Solution { mesh: Mesh::new(Vec::new(), triangles, hull, prepared.duplicates), report }
     }
 }
 

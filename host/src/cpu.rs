@@ -1,27 +1,25 @@
-//! A job for the engine: the checks and reports of every device around it.
+//! Jobs for the engine in this process: the checks and reports of every device around it.
 
-use incircle_protocol::{Identity, MAGIC, MAX_COORD_BITS, PROTOCOL_VERSION};
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+
+use incircle_geometry::cpu::{self, threads_for};
+use incircle_geometry::{Point, MAX_COORD_BITS, MAX_POINTS};
+use incircle_protocol::{Identity, MAGIC, PROTOCOL_VERSION};
 
 use crate::error::Error;
 use crate::link::Limit;
-use crate::mesh::{Duplicate, Mesh};
 use crate::options::{Options, Stage};
-use crate::pages;
-use crate::point::Point;
 use crate::report::Report;
-use crate::session::{tell, Stopwatch, MAX_POINTS};
-
-use super::edges::{Half, HALVES};
-use super::sites::{sort, Sites};
-use super::view::{turn, Narrow, Site, Wide, NARROW_BITS};
-use super::{collect, conquer};
+use crate::session::{tell, Stopwatch};
+use crate::solution::Solution;
 
 /// Name in reports.
 pub(crate) const CPU_NAME: &str = "cpu";
 /// The order in reports: the engine has its own.
 const ORDER: &str = "z-curve";
-/// Points that are worth a thread.
-const THREAD_POINTS: usize = 16_384;
+/// What a watch that goes over time is told to be doing.
+const DURING: &str = "the triangulation";
 
 /// What the engine says of itself: its threads are its contexts.
 pub(crate) fn identity(threads: u32) -> Identity {
@@ -40,7 +38,8 @@ pub(crate) fn identity(threads: u32) -> Identity {
 
 /// One triangulation under way; the points have been checked.
 pub(crate) struct CpuJob<'j> {
-    pub(crate) points: &'j [Point],
+    pub(crate) points: Vec<Point>,
+    /// Threads that may work.
     pub(crate) contexts: u32,
     pub(crate) options: &'j Options<'j>,
     pub(crate) limit: Limit,
@@ -48,91 +47,67 @@ pub(crate) struct CpuJob<'j> {
 }
 
 impl CpuJob<'_> {
-    /// Everything but the points of the mesh.
-    pub(crate) fn run(mut self) -> Result<Mesh, Error> {
-        let threads = (self.contexts as usize).min(self.points.len() / THREAD_POINTS + 1);
-        self.tell(Stage::Order, 0, self.points.len())?;
-        let Sites { sites, ids, mut duplicates, bits } = sort(self.points, threads);
-        duplicates.sort_unstable();
-        self.watch.ended(Stage::Order);
-        let mut report = self.begin_report(ids.len(), &duplicates, threads as u32);
-        let (triangles, hull) = if is_collinear(&sites) {
-            report.collinear = true;
-            let mut hull = ids;
-            hull.sort_unstable_by_key(|&id| self.points[id as usize]);
-            (Vec::new(), hull)
-        } else {
-            self.triangulate(sites, &ids, bits, threads)?
-        };
-        report.triangles = triangles.len();
-        report.hull = hull.len();
-        report.stages = self.watch.stages;
-        Ok(Mesh { points: Vec::new(), triangles, hull, duplicates, report })
-    }
-
-    /// The triangles and the hull of sites that are not all on one line.
-    fn triangulate(
-        &mut self,
-        sites: Vec<Site>,
-        ids: &[u32],
-        bits: u32,
-        threads: usize,
-    ) -> Result<(Vec<[u32; 3]>, Vec<u32>), Error> {
-        let mut halves = pages::zeros::<Half>(HALVES * sites.len());
-        self.tell(Stage::Insert, 0, sites.len())?;
-        let (mut done, mut failure) = (0, None);
-        let mut go_on = |more| {
-            done += more;
-            failure = self.tell(Stage::Insert, done.min(sites.len()), sites.len()).err();
-            failure.is_none()
-        };
-        let whole = if bits <= NARROW_BITS {
-            conquer::triangulate::<Narrow>(&sites, &mut halves, threads, &mut go_on)
-        } else {
-            conquer::triangulate::<Wide>(&sites, &mut halves, threads, &mut go_on)
-        };
-        if let Some(failure) = failure {
-            return Err(failure);
-        }
-        self.tell(Stage::Insert, sites.len(), sites.len())?;
-        self.watch.ended(Stage::Insert);
-        drop(sites);
-        self.tell(Stage::Assemble, 0, self.points.len())?;
-        let Some(whole) = whole else {
-            return Ok((Vec::new(), Vec::new()));
-        };
-        let hull = collect::hull(&mut halves, ids, whole.leftmost());
-        let count = 2 * ids.len() - 2 - hull.len();
-        let triangles = collect::triangles(halves, ids, self.points.len(), count, threads);
-        self.watch.ended(Stage::Assemble);
-        Ok((triangles, hull))
-    }
-
-    fn begin_report(&self, distinct: usize, duplicates: &[Duplicate], threads: u32) -> Report {
-        Report {
-            points: self.points.len(),
-            distinct,
-            duplicates: duplicates.len(),
+    pub(crate) fn run(self) -> Result<Solution, Error> {
+        let Self { points, contexts, options, limit, mut watch } = self;
+        let allowed = NonZeroUsize::new(contexts as usize).unwrap_or(NonZeroUsize::MIN);
+        let threads = threads_for(points.len(), allowed);
+        let (mut at, mut failure) = (Stage::Order, None);
+        let found = cpu::triangulate(points, threads, &mut |progress| {
+            let stage = stage_of(progress.stage);
+            if stage != at {
+                watch.ended(at);
+                at = stage;
+            }
+            let heard = tell(options, stage, progress.done, progress.total);
+            match heard.and_then(|()| limit.check(CPU_NAME, DURING)) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    failure = Some(error);
+                    ControlFlow::Break(())
+                }
+            }
+        });
+        let mesh = found.map_err(|error| failure.unwrap_or_else(|| error_of(error)))?;
+        watch.ended(at);
+        let report = Report {
+            points: mesh.points.len(),
+            distinct: mesh.points.len() - mesh.duplicates.len(),
+            duplicates: mesh.duplicates.len(),
+            triangles: mesh.triangles.len(),
+            hull: mesh.hull.len(),
+            collinear: mesh.is_collinear(),
             backend: CPU_NAME.to_owned(),
             order: ORDER,
+            stages: watch.stages,
             coord_bits: MAX_COORD_BITS,
             capacity: MAX_POINTS as u32,
-            contexts: threads,
+            contexts: threads.get() as u32,
             ..Report::default()
-        }
-    }
-
-    /// Tells the listener, which may cancel, and looks at the deadline.
-    fn tell(&self, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
-        tell(self.options, stage, done, total)?;
-        self.limit.check(CPU_NAME, "the triangulation")
+        };
+        Ok(Solution { mesh, report })
     }
 }
 
-/// There are fewer than three sites, or all lie on one line.
-fn is_collinear(sites: &[Site]) -> bool {
-    let [a, b, rest @ ..] = sites else {
-        return true;
-    };
-    rest.iter().all(|&c| turn(*a, *b, c) == 0)
+/// The engine's stages as those of a job.
+fn stage_of(stage: cpu::Stage) -> Stage {
+    match stage {
+        cpu::Stage::Order => Stage::Order,
+        cpu::Stage::Assemble => Stage::Assemble,
+        _ => Stage::Insert,
+    }
+}
+
+/// The engine's errors as those of a job.
+fn error_of(error: cpu::Error) -> Error {
+    match error {
+        cpu::Error::CoordinateOutOfRange { index, point: Point { x, y } } => {
+            Error::CoordinateOutOfRange { index, x, y, coord_bits: MAX_COORD_BITS }
+        }
+        cpu::Error::TooManyPoints { points } => Error::TooManyPoints { points, max: MAX_POINTS },
+        cpu::Error::Cancelled(cpu::Progress { stage, done, total, .. }) => {
+            Error::Cancelled { stage: stage_of(stage).name(), done, total }
+        }
+        // None that the engine has today.
+        _ => Error::Cancelled { stage: Stage::Order.name(), done: 0, total: 0 },
+    }
 }

@@ -2,13 +2,13 @@
 
 use incircle_protocol::FIRST_ROUND;
 
-use super::{along_curve, rounds, Rounds};
-use crate::point::Point;
+use incircle_geometry::order::{along_curve, rounds, Rounds};
+use incircle_geometry::Point;
 
 /// The first place from which on points belong to all contexts in turn; see [`FIRST_ROUND`].
 const FIRST: usize = FIRST_ROUND as usize;
 
-/// The order in which a device with this many contexts gets the points: [`brio_hilbert`](super::brio_hilbert), each round cut into as
+/// The order in which a device with this many contexts gets the points: [`brio_hilbert`](incircle_geometry::order::brio_hilbert), each round cut into as
 /// many stretches, dealt out in turn.
 pub fn brio_hilbert_dealt(points: &[Point], contexts: u32) -> Vec<u32> {
     deal(rounds(&along_curve(points)), contexts)
@@ -48,8 +48,8 @@ fn deal_round(round: &mut [u32], first: usize, contexts: usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{brio_hilbert, hilbert};
     use super::*;
+    use incircle_geometry::order::{brio_hilbert, hilbert};
     use proptest::prelude::*;
 
     fn lattice(side: u32, step: u32) -> Vec<Point> {

@@ -36,43 +36,43 @@ mod batch;
 mod clock;
 mod counters;
 mod cpu;
+mod deal;
 mod device;
-mod edges;
 mod error;
 mod fault;
 mod link;
-mod mesh;
 mod model;
 mod options;
-pub mod order;
-mod pages;
 pub mod pcie;
-mod point;
 mod prepare;
 pub mod quantize;
 mod report;
 pub mod serial;
 mod session;
-mod sort;
+mod solution;
 mod transport;
-pub mod verify;
 
 pub use clock::ClockTransport;
 pub use counters::{Counters, Latencies};
 pub use device::Device;
 pub use error::{Error, ErrorKind, Shown};
 pub use fault::DeviceFault;
+pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
+pub use incircle_geometry::{orient2d, predicate, Duplicate, Mesh, Order, Point, UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
-pub use mesh::{Duplicate, Mesh, EMPTY};
 pub use model::ModelTransport;
 pub use options::{Options, Progress, ProgressListener, Stage, INSERT_CHUNK};
-pub use order::{Order, UnknownOrder};
-pub use point::Point;
 pub use quantize::{Quantization, Quantize};
 pub use report::Report;
-pub use session::{Session, MAX_POINTS};
+pub use session::Session;
+pub use solution::Solution;
 pub use transport::{Pace, Transport, TransportError};
-pub use verify::{verify, VerifyError, VerifySummary};
+
+/// Orders of insertion: the same set always gives the same order, whatever the order of the input. The orders by name are [`Order`].
+pub mod order {
+    pub use crate::deal::{brio_hilbert_dealt, deal};
+    pub use incircle_geometry::order::{brio_hilbert, hilbert, random, Order, Rounds, UnknownOrder};
+}
 
 /// Triangulates in this process with the fast engine: coordinates up to 31 bits, default [`Options`], all processors for large sets.
 ///
@@ -80,5 +80,5 @@ pub use verify::{verify, VerifyError, VerifySummary};
 /// A coordinate of more than 31 bits, more than [`MAX_POINTS`] points, or a job that takes longer than
 /// [`Options::default_timeout`].
 pub fn triangulate<P: Into<Point> + Copy>(points: &[P]) -> Result<Mesh, Error> {
-    Device::cpu(None).session()?.triangulate(points)
+    Ok(Device::cpu(None).session()?.triangulate(points)?.mesh)
 }

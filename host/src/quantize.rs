@@ -2,8 +2,7 @@
 
 use crate::device::check_coord_bits;
 use crate::error::Error;
-use crate::point::Point;
-use crate::session::MAX_POINTS;
+use incircle_geometry::{Point, MAX_POINTS};
 
 /// How values are laid onto the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,15 +11,13 @@ use crate::cpu::{CpuJob, CPU_NAME};
 use crate::error::Error;
 use crate::fault::DeviceFault;
 use crate::link::{Limit, Link};
-use crate::mesh::Mesh;
 use crate::options::{Options, Progress, Stage};
-use crate::pages;
-use crate::point::Point;
 use crate::prepare::{prepare, Prepared};
 use crate::report::Report;
+use crate::solution::Solution;
+use incircle_geometry::pages;
+use incircle_geometry::{Mesh, Point, MAX_POINTS};
 
-/// Most points of one job: ids of triangles and half-edges must fit 32 bits.
-pub const MAX_POINTS: usize = (1 << 29) - 1;
 /// Records of one `Read` or `Triangles` command: 384 kB at most. A slow link takes fewer.
 const READ_CHUNK: usize = 16_384;
 /// Fewest points of an `Insert` command: the device can judge its report only after the first triangle.
@@ -51,7 +49,7 @@ impl<'d> Session<'d> {
     ///
     /// # Errors
     /// As [`Session::triangulate_with`].
-    pub fn triangulate<P: Into<Point> + Copy>(&mut self, points: &[P]) -> Result<Mesh, Error> {
+    pub fn triangulate<P: Into<Point> + Copy>(&mut self, points: &[P]) -> Result<Solution, Error> {
         let mut own = pages::with_room(points.len());
         own.extend(points.iter().map(|&point| -> Point { point.into() }));
         self.triangulate_owned(own, &Options::default())
@@ -67,7 +65,7 @@ impl<'d> Session<'d> {
     /// A coordinate beyond the device's bits, more contexts than it has, more distinct points than it holds, a failing link, an answer that no
     /// sound device gives, a passed deadline, or a cancelled job. After an error of link or device, or a deadline that passed while
     /// the device worked, the session is out of step: open the device again. After all others it can be used again.
-    pub fn triangulate_with(&mut self, points: &[Point], options: &Options<'_>) -> Result<Mesh, Error> {
+    pub fn triangulate_with(&mut self, points: &[Point], options: &Options<'_>) -> Result<Solution, Error> {
         let mut own = pages::with_room(points.len());
         own.extend_from_slice(points);
         self.triangulate_owned(own, options)
@@ -101,7 +99,7 @@ impl<'d> Session<'d> {
     ///
     /// # Errors
     /// Those of [`Session::triangulate_with`], with the number of the job where one is at fault. There are no meshes then.
-    pub fn triangulate_batch(&mut self, jobs: &[Vec<Point>], options: &Options<'_>) -> Result<Vec<Mesh>, Error> {
+    pub fn triangulate_batch(&mut self, jobs: &[Vec<Point>], options: &Options<'_>) -> Result<Vec<Solution>, Error> {
         let slow = self.link.as_ref().map_or(1, |link| link.pace().slow);
         let total = points_of(jobs);
         let default = || Options::default_timeout(total).saturating_mul(slow);
@@ -126,8 +124,12 @@ impl<'d> Session<'d> {
             passed += jobs[job].len();
         }
         tell(options, Stage::Insert, total, total)?;
-        let whole =
-            |(mesh, points): (Option<Mesh>, &Vec<Point>)| mesh.map(|mesh| Mesh { points: points.clone(), ..mesh });
+        let whole = |(solution, points): (Option<Solution>, &Vec<Point>)| {
+            solution.map(|mut solution| {
+                solution.mesh.points.clone_from(points);
+                solution
+            })
+        };
         Ok(meshes.into_iter().zip(jobs).filter_map(whole).collect())
     }
 
@@ -136,7 +138,7 @@ impl<'d> Session<'d> {
         self.link.as_ref().and_then(|link| link.clocks())
     }
 
-    pub(crate) fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Mesh, Error> {
+    pub(crate) fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Solution, Error> {
         let slow = self.link.as_ref().map_or(1, |link| link.pace().slow);
         let default = || Options::default_timeout(points.len()).saturating_mul(slow);
         let timeout = options.timeout.unwrap_or_else(default);
@@ -144,8 +146,8 @@ impl<'d> Session<'d> {
         let contexts = options.contexts.unwrap_or(identity.contexts);
         let name = self.link.as_ref().map_or_else(|| CPU_NAME.to_owned(), |link| link.name());
         check_input(&points, contexts, &identity, name)?;
-        let answer = match &mut self.link {
-            None => CpuJob { points: &points, contexts, options, limit, watch }.run()?,
+        let mut solution = match &mut self.link {
+            None => return CpuJob { points, contexts, options, limit, watch }.run(),
             Some(link) => {
                 let layout = Layout::of(identity.coord_bits, identity.capacity);
                 let (mut watch, mut is_first) = (watch, true);
@@ -162,7 +164,8 @@ impl<'d> Session<'d> {
                 }
             }
         };
-        Ok(Mesh { points, ..answer })
+        solution.mesh.points = points;
+        Ok(solution)
     }
 }
 
@@ -227,7 +230,7 @@ struct Job<'j> {
 
 impl<'j> Job<'j> {
     /// Everything but the points of the mesh.
-    fn run(mut self) -> Result<Mesh, Error> {
+    fn run(mut self) -> Result<Solution, Error> {
         self.tell(Stage::Order, 0, self.points.len())?;
         let prepared = prepare(self.points, self.options.order, self.contexts);
         self.watch.ended(Stage::Order);
@@ -246,7 +249,7 @@ impl<'j> Job<'j> {
         report.triangles = triangles.len();
         report.hull = hull.len();
         report.stages = self.watch.stages;
-        Ok(Mesh { points: Vec::new(), triangles, hull, duplicates: prepared.duplicates, report })
+        Ok(Solution { mesh: Mesh::new(Vec::new(), triangles, hull, prepared.duplicates), report })
     }
 
     fn check_capacity(&self, distinct: usize) -> Result<(), Error> {

@@ -1,5 +1,7 @@
 //! The two sides of every edge of a list of triangles.
 
+use alloc::vec::Vec;
+
 use crate::sort::{sort_by_key, Entry, Keyed, Wide};
 
 /// Half-edges sorted by their undirected edge. Half-edge `3 t + k` runs from vertex `k` of triangle `t` to the next.

@@ -1,26 +1,20 @@
 //! The answer: the canonical mesh of a point set.
 
+use alloc::vec;
+use alloc::vec::Vec;
+
 use crate::edges::EdgeList;
-use crate::point::Point;
-use crate::report::Report;
+use crate::point::{Duplicate, Point};
 use crate::verify::{self, VerifyError};
 
 /// "No half-edge": the other side of an edge on the hull, in [`Mesh::halfedges`].
 pub const EMPTY: u32 = u32::MAX;
 
-/// An input point that fell onto an earlier one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Duplicate {
-    /// Input index of the point.
-    pub index: u32,
-    /// Lowest input index of the same coordinates; the mesh uses that one.
-    pub of: u32,
-}
-
 /// The Delaunay triangulation of the distinct points, in canonical form.
 ///
 /// There is exactly one answer for a set of points: every device and every order of insertion gives the same
-/// `triangles` and the same `hull`.
+/// `triangles` and the same `hull`. Two meshes are equal if all four lists are.
+#[non_exhaustive]
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Mesh {
     /// The input points, in input order, duplicates included.
@@ -32,11 +26,14 @@ pub struct Mesh {
     pub hull: Vec<u32>,
     /// Points that fell onto an earlier one, by index.
     pub duplicates: Vec<Duplicate>,
-    /// Counts, times, device.
-    pub report: Report,
 }
 
 impl Mesh {
+    /// A mesh of these parts. Nothing is checked: see [`Mesh::verify`].
+    pub fn new(points: Vec<Point>, triangles: Vec<[u32; 3]>, hull: Vec<u32>, duplicates: Vec<Duplicate>) -> Self {
+        Self { points, triangles, hull, duplicates }
+    }
+
     /// There are no triangles: fewer than three distinct points, or all on one line.
     pub fn is_collinear(&self) -> bool {
         self.triangles.is_empty()

@@ -1,6 +1,6 @@
-//! Grid points.
+//! Grid points, and points that fall together.
 
-use std::fmt;
+use core::fmt;
 
 /// A point of the grid: two unsigned integers.
 ///
@@ -39,12 +39,14 @@ impl From<[u32; 2]> for Point {
     }
 }
 
+#[cfg(feature = "glam")]
 impl From<glam::UVec2> for Point {
     fn from(v: glam::UVec2) -> Self {
         Self { x: v.x, y: v.y }
     }
 }
 
+#[cfg(feature = "glam")]
 impl From<Point> for glam::UVec2 {
     fn from(point: Point) -> Self {
         glam::UVec2::new(point.x, point.y)
@@ -55,6 +57,15 @@ impl From<Point> for (u32, u32) {
     fn from(point: Point) -> Self {
         (point.x, point.y)
     }
+}
+
+/// An input point that fell onto an earlier one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Duplicate {
+    /// Input index of the point.
+    pub index: u32,
+    /// Lowest input index of the same coordinates; the mesh uses that one.
+    pub of: u32,
 }
 
 #[cfg(test)]
@@ -68,12 +79,18 @@ mod tests {
     }
 
     #[test]
-    fn pairs_arrays_and_vectors_convert() {
+    fn pairs_and_arrays_convert() {
         let expected = Point::new(3, 4);
         assert_eq!(Point::from((3, 4)), expected);
         assert_eq!(Point::from([3, 4]), expected);
+        assert_eq!(<(u32, u32)>::from(expected), (3, 4));
+    }
+
+    #[cfg(feature = "glam")]
+    #[test]
+    fn vectors_of_glam_convert() {
+        let expected = Point::new(3, 4);
         assert_eq!(Point::from(glam::UVec2::new(3, 4)), expected);
         assert_eq!(glam::UVec2::from(expected), glam::UVec2::new(3, 4));
-        assert_eq!(<(u32, u32)>::from(expected), (3, 4));
     }
 }

@@ -1,5 +1,7 @@
 //! Stable radix sort of keyed entries.
 
+use alloc::vec::Vec;
+
 use bytemuck::Zeroable;
 
 use crate::pages;
@@ -11,26 +13,27 @@ const SMALL_DIGIT_BITS: u32 = 8;
 /// Below this length digits are small.
 const FEW: usize = 4096;
 /// Below this length a comparison sort is faster than all passes.
-pub(crate) const SMALL: usize = 256;
+pub const SMALL: usize = 256;
 /// Bytes from which on entries do not stay in a second-level cache, and are sorted in parts.
 const LARGE: usize = 1 << 20;
 /// Bytes of a part, about: it and its copy stay in the first-level cache, or nearly.
 const PART: usize = 32 << 10;
 /// Bits of which the parts are made: more would be too many places to write to at a time.
-const PART_BITS: std::ops::RangeInclusive<u32> = 6..=DIGIT_BITS;
+const PART_BITS: core::ops::RangeInclusive<u32> = 6..=DIGIT_BITS;
 
 /// Something with an unsigned integer key.
-pub(crate) trait Keyed: Copy + Zeroable {
+pub trait Keyed: Copy + Zeroable {
     /// The key to sort by.
     fn key(&self) -> u64;
 }
 
 /// A 32-bit key above a 32-bit value, in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Zeroable)]
-pub(crate) struct Narrow(u64);
+pub struct Narrow(u64);
 
 impl Narrow {
-    pub(crate) fn new(key: u32, value: u32) -> Self {
+    /// An entry of this key and value.
+    pub fn new(key: u32, value: u32) -> Self {
         Self(u64::from(key) << 32 | u64::from(value))
     }
 }
@@ -43,13 +46,14 @@ impl Keyed for Narrow {
 
 /// A 64-bit key and a 32-bit value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Zeroable)]
-pub(crate) struct Wide {
+pub struct Wide {
     key: u64,
     value: u32,
 }
 
 impl Wide {
-    pub(crate) fn new(key: u64, value: u32) -> Self {
+    /// An entry of this key and value.
+    pub fn new(key: u64, value: u32) -> Self {
         Self { key, value }
     }
 }
@@ -61,7 +65,7 @@ impl Keyed for Wide {
 }
 
 /// An entry that carries an index.
-pub(crate) trait Entry: Keyed {
+pub trait Entry: Keyed {
     /// The index carried.
     fn value(&self) -> u32;
 }
@@ -79,7 +83,7 @@ impl Entry for Wide {
 }
 
 /// Sorts by key; entries of equal key keep their order. O(n) per digit in which the keys differ.
-pub(crate) fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
+pub fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
     if entries.len() < SMALL {
         entries.sort_by_key(E::key);
         return;
@@ -93,7 +97,7 @@ pub(crate) fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
     if bytes >= LARGE && shift > 0 {
         sort_in_parts(entries, &mut scratch, varying, shift);
     } else if sort_by_digits(entries, &mut scratch, varying) {
-        std::mem::swap(entries, &mut scratch);
+        core::mem::swap(entries, &mut scratch);
     }
 }
 
@@ -127,7 +131,7 @@ fn sort_by_digits<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64) 
     for shift in (lowest..end).step_by(bits as usize) {
         if varying >> shift & ((1 << bits) - 1) != 0 {
             sort_by_digit(from, to, shift, bits);
-            std::mem::swap(&mut from, &mut to);
+            core::mem::swap(&mut from, &mut to);
             is_in_scratch = !is_in_scratch;
         }
     }
@@ -145,7 +149,7 @@ fn sort_by_digit<E: Keyed>(from: &[E], to: &mut [E], shift: u32, bits: u32) {
     }
     let mut sum = 0;
     for start in &mut starts[..1 << bits] {
-        sum += std::mem::replace(start, sum);
+        sum += core::mem::replace(start, sum);
     }
     for entry in from {
         let slot = &mut starts[digit(entry)];

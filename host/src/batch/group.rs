@@ -3,8 +3,8 @@
 use incircle_protocol::InsertReport;
 
 use crate::fault::DeviceFault;
-use crate::point::Point;
 use crate::prepare::Prepared;
+use incircle_geometry::Point;
 
 /// A job in the order of insertion.
 pub(super) struct Ordered {

@@ -7,11 +7,11 @@ use super::{points_of, Done, Single, JOBS_PER_LOOK, MAX_JOB_POINTS};
 use crate::cpu::CpuJob;
 use crate::error::Error;
 use crate::link::Limit;
-use crate::mesh::Mesh;
 use crate::options::{Options, Stage};
-use crate::order::Order;
-use crate::point::Point;
 use crate::session::{tell, Stopwatch};
+use crate::solution::Solution;
+use incircle_geometry::Order;
+use incircle_geometry::Point;
 
 /// Jobs side by side on the threads of this process, each by one thread. Large jobs are left to all threads together.
 pub(crate) fn on_threads(
@@ -56,12 +56,12 @@ fn take_jobs(
     taken: &AtomicUsize,
     order: Order,
     limit: Limit,
-) -> Vec<(usize, Result<Mesh, Error>)> {
+) -> Vec<(usize, Result<Solution, Error>)> {
     let options = Options { order, ..Options::default() };
     let mut own = Vec::new();
     while let Some(&job) = look.get(taken.fetch_add(1, Ordering::Relaxed)) {
         let watch = Stopwatch::start();
-        own.push((job, CpuJob { points: &jobs[job], contexts: 1, options: &options, limit, watch }.run()));
+        own.push((job, CpuJob { points: jobs[job].clone(), contexts: 1, options: &options, limit, watch }.run()));
     }
     own
 }

@@ -5,7 +5,9 @@
 //! dealt to buckets of neighbouring ids, and each bucket is sorted while it is in the cache: no list is walked in an order far from that of the curve
 //! or of the ids.
 
-use std::ops::Range;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::Range;
 
 use bytemuck::Zeroable;
 
@@ -242,7 +244,7 @@ impl<T: Triangle> Room<T> {
         triangles().for_each(|triangle| id_ends[triangle.smallest(buckets)] += 1);
         let mut count = 0;
         for end in &mut *id_ends {
-            count += std::mem::replace(end, count);
+            count += core::mem::replace(end, count);
         }
         let count = count as usize;
         sorted.resize(sorted.len().max(count + FEW), T::LAST);
@@ -254,7 +256,7 @@ impl<T: Triangle> Room<T> {
         });
         let mut start = 0;
         for &end in &*id_ends {
-            let own = std::mem::replace(&mut start, end as usize);
+            let own = core::mem::replace(&mut start, end as usize);
             if start - own > FEW {
                 sorted[own..start].sort_unstable();
             } else if let Some(few) = sorted[own..].first_chunk_mut() {
@@ -282,7 +284,7 @@ fn sort_few<T: Ord + Copy>([a, b, c, d]: &mut [T; FEW]) {
 mod tests {
     use super::super::edges::HALVES;
     use super::super::sites::{sort, Sites};
-    use super::super::{conquer, view::Narrow};
+    use super::super::{stretches, view::Narrow};
     use super::*;
     use crate::order::mix;
     use crate::pages;
@@ -294,7 +296,7 @@ mod tests {
         let points: Vec<Point> = (0..6000).map(mix).map(|k| Point::new(k as u32 & 0xffff, k as u32 >> 16)).collect();
         let Sites { sites, ids, .. } = sort(&points, 1);
         let mut halves = pages::zeros(HALVES * sites.len());
-        let whole = conquer::triangulate::<Narrow>(&sites, &mut halves, 1, &mut |_| true).expect("points");
+        let whole = stretches::triangulate::<Narrow>(&sites, &mut halves, 1, &mut |_| true).expect("points");
         let hull = hull(&mut halves, &ids, whole.leftmost());
         let (buckets, count) = (Buckets::of(points.len(), 1), 2 * ids.len() - 2 - hull.len());
         let words = buckets.sorted::<Packed>(halves.clone(), &ids, count, 1);

@@ -4,7 +4,9 @@
 //! one place per bucket, and all these places stay in the second-level cache. The last chunk of each bucket is half empty on average, of each
 //! thread: so there should be a chunk of items at least for each thread and bucket.
 
-use std::ops::Range;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::Range;
 
 use bytemuck::Zeroable;
 
@@ -57,7 +59,7 @@ impl<T: Copy + Zeroable> Dealt<T> {
     /// The items of a bucket: the last chunk comes first.
     pub(super) fn chunks(&self, bucket: usize) -> impl Iterator<Item = &[T]> {
         let mut end = self.ends[bucket] as usize;
-        std::iter::from_fn(move || {
+        core::iter::from_fn(move || {
             let start = end.checked_sub(1)? / CHUNK * CHUNK;
             let chunk = &self.list[start..end];
             end = self.before[start / CHUNK] as usize;
@@ -84,7 +86,7 @@ pub(super) fn runs(ends: &[usize], count: usize) -> Vec<Range<usize>> {
     (1..=count)
         .map(|k| {
             let last = if k == count { ends.len() } else { ends.partition_point(|&end| end <= k * all / count) };
-            std::mem::replace(&mut first, last)..last
+            core::mem::replace(&mut first, last)..last
         })
         .collect()
 }

@@ -35,7 +35,8 @@ impl Half {
         self.end != UNUSED
     }
 
-    /// Numbers half-edges from `by` earlier on, and vertices from `vertices` earlier on.
+    /// Adds `by` to the numbers of half-edges and `vertices` to those of vertices: the part becomes a part of a longer list.
+    #[cfg(feature = "std")]
     #[inline(always)]
     pub(super) fn move_by(&mut self, by: u32, vertices: u32) {
         let Self { next, previous, end } = *self;
@@ -44,7 +45,8 @@ impl Half {
     }
 }
 
-/// The number of a half-edge, if it is one, counted from `by` earlier on.
+/// The number of a half-edge plus `by`; no half-edge stays none.
+#[cfg(feature = "std")]
 #[inline(always)]
 pub(super) fn moved(e: u32, by: u32) -> u32 {
     if e == NONE {

@@ -1,7 +1,9 @@
 //! Two triangulations on both sides of a line become one (Guibas and Stolfi 1985).
 
-use super::edges::{moved, Edges, Free, Half, HALVES};
-use super::view::{is_inside, turn, Seen, Site, Width};
+#[cfg(feature = "std")]
+use super::edges::{moved, Half, HALVES};
+use super::edges::{Edges, Free};
+use super::view::{incircle, orient2d, Seen, Site, Width};
 
 /// The triangulation of some points: its outermost vertices, each as the half-edge that leaves it counter-clockwise along the hull.
 #[derive(Clone, Copy)]
@@ -23,6 +25,7 @@ pub(super) struct Part {
 impl Part {
     /// The part after its half-edges, numbered from the start of a stretch, are numbered from the start of all, where the stretch
     /// begins with vertex `first`.
+    #[cfg(feature = "std")]
     pub(super) fn moved(self, halves: &mut [Half], first: u32) -> Self {
         let by = HALVES as u32 * first;
         for half in halves.iter_mut() {
@@ -97,7 +100,7 @@ impl Edges<'_> {
     #[inline(always)]
     pub(super) fn triangle(&mut self, v: u32) -> Option<Part> {
         let at = |k: u32| self.site(v + k);
-        let area = turn(at(0), at(1), at(2));
+        let area = orient2d(at(0), at(1), at(2));
         if area == 0 {
             return None;
         }
@@ -149,10 +152,10 @@ impl Edges<'_> {
         let mut ldi = self.previous(facing);
         let (mut a, mut b) = (self.from(ldi), self.from(rdi));
         loop {
-            if turn(a, self.to(ldi), b) > 0 {
+            if orient2d(a, self.to(ldi), b) > 0 {
                 ldi = self.previous(ldi ^ 1);
                 a = self.from(ldi);
-            } else if turn(b, self.to(rdi), a) < 0 {
+            } else if orient2d(b, self.to(rdi), a) < 0 {
                 rdi = self.next(rdi ^ 1);
                 b = self.from(rdi);
             } else {
@@ -199,7 +202,7 @@ impl Edges<'_> {
             let other = self.candidate::<W, false>(base, a, b, free);
             let other_is_next = match (one.is_valid(), other.is_valid()) {
                 (false, false) => return base,
-                (true, true) => is_inside::<W>(a, b, one.seen, other.seen),
+                (true, true) => incircle::<W>(a, b, one.seen, other.seen),
                 (_, other_is_valid) => other_is_valid,
             };
             base = self.connect(base, one, other, other_is_next, free);
@@ -216,7 +219,7 @@ impl Edges<'_> {
         while seen.view.cross > 0 {
             let (after_next, end_of_next) = self.beside::<OF_A>(after);
             let behind = Seen::new(a, b, self.site(end_of_next));
-            if !is_inside::<W>(a, b, seen, behind) {
+            if !incircle::<W>(a, b, seen, behind) {
                 break;
             }
             self.remove(edge, free);

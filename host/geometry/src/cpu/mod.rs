@@ -13,12 +13,14 @@ mod collect;
 mod conquer;
 mod deal;
 mod edges;
-mod job;
+mod engine;
 mod merge;
 mod parallel;
 mod sites;
+#[cfg(feature = "std")]
+mod stretches;
 #[cfg(test)]
 mod tests;
 mod view;
 
-pub(crate) use job::{identity, CpuJob, CPU_NAME};
+pub use engine::{threads_for, triangulate, Error, Progress, Stage, Watch};

@@ -4,14 +4,16 @@
 //! each bucket of words is sorted by itself. Where both do not fit 64 bits the last bits of the position are left out: words that agree in the others are
 //! sorted by those once more, for which their points are looked up.
 
+use alloc::vec::Vec;
+
 use bytemuck::Zeroable;
 
 use super::deal::{bucket_ends, runs, stretch, Dealt, CHUNK, MOST_BUCKETS_BITS};
 use super::parallel::in_parallel;
 use super::view::Site;
-use crate::mesh::Duplicate;
 use crate::order::z_curve::{point_at, position};
 use crate::pages;
+use crate::point::Duplicate;
 use crate::point::Point;
 use crate::sort::{sort_by_key, Keyed, SMALL};
 

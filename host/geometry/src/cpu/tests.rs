@@ -6,8 +6,8 @@ use proptest::prelude::*;
 
 use super::edges::{Half, HALVES};
 use super::sites::{sort, Sites};
-use super::view::{is_inside, Narrow, Seen, Site, View, Wide, Width};
-use super::{collect, conquer};
+use super::view::{incircle, Narrow, Seen, Site, View, Wide, Width};
+use super::{collect, stretches};
 use crate::order::mix;
 use crate::pages;
 use crate::point::Point;
@@ -56,8 +56,8 @@ fn ties_are_decided_by_the_smallest() {
         let above: Vec<Seen> = grid.iter().map(|&site| Seen::new(a, b, site)).filter(|s| s.view.cross > 0).collect();
         for (&c, &q) in above.iter().flat_map(|c| above.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
             let expected = conflicts(a, b, c.site, q.site);
-            assert_eq!(is_inside::<Narrow>(a, b, c, q), expected);
-            assert_eq!(is_inside::<Wide>(a, b, c, q), expected);
+            assert_eq!(incircle::<Narrow>(a, b, c, q), expected);
+            assert_eq!(incircle::<Wide>(a, b, c, q), expected);
             ties += usize::from(lifted(a, b, c.site, q.site) == 0);
         }
     }
@@ -74,7 +74,7 @@ fn position(point: Point) -> u64 {
 fn triangles(points: &[Point], threads: usize) -> Vec<[u32; 3]> {
     let Sites { sites, ids, .. } = sort(points, threads);
     let mut halves = pages::zeros::<Half>(HALVES * sites.len());
-    let whole = conquer::triangulate::<Wide>(&sites, &mut halves, threads, &mut |_| true).expect("points");
+    let whole = stretches::triangulate::<Wide>(&sites, &mut halves, threads, &mut |_| true).expect("points");
     let hull = collect::hull(&mut halves, &ids, whole.leftmost());
     collect::triangles(halves, &ids, points.len(), 2 * ids.len() - 2 - hull.len(), threads)
 }

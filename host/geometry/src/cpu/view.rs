@@ -76,7 +76,7 @@ impl View {
 
 /// Twice the signed area of the triangle: positive if it is counter-clockwise.
 #[inline(always)]
-pub(super) fn turn(a: Site, b: Site, p: Site) -> i64 {
+pub(super) fn orient2d(a: Site, b: Site, p: Site) -> i64 {
     View::of(a, b, p).cross
 }
 
@@ -135,7 +135,7 @@ impl Seen {
 /// `c` must lie to the left of the edge from `a` to `b`. The answer for a `q` that does not is `false`: the engine asks only where
 /// nothing on that side can be inside.
 #[inline(always)]
-pub(super) fn is_inside<W: Width>(a: Site, b: Site, c: Seen, q: Seen) -> bool {
+pub(super) fn incircle<W: Width>(a: Site, b: Site, c: Seen, q: Seen) -> bool {
     let determinant = W::determinant(c.view, q.view);
     let zero = W::Determinant::default();
     if determinant == zero {
@@ -154,9 +154,9 @@ fn tie_is_inside(a: Site, b: Site, c: Site, q: Seen) -> bool {
     // Lowering a corner moves `q` inside iff the other three turn right around it; lowering `q` always does, and lowering `c` does not,
     // because `c` and `q` lie on one side of the edge.
     if smallest == a {
-        turn(q.site, b, c) < 0
+        orient2d(q.site, b, c) < 0
     } else if smallest == b {
-        turn(q.site, c, a) < 0
+        orient2d(q.site, c, a) < 0
     } else {
         smallest == q.site
     }

@@ -3,6 +3,9 @@
 //! Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003; Buchin, *Constructing Delaunay triangulations along
 //! space-filling curves*, 2009.
 
+use alloc::vec;
+use alloc::vec::Vec;
+
 use super::hilbert::{along_curve, Hilbert};
 use super::keys::mix;
 use crate::point::Point;
@@ -64,7 +67,7 @@ fn sort_into_rounds<E: Entry>(entries: &[E], shift: u32) -> Rounds {
     }
     let mut sum = 0;
     for start in starts.iter_mut().rev() {
-        sum += std::mem::replace(start, sum);
+        sum += core::mem::replace(start, sum);
     }
     let mut order = vec![0; entries.len()];
     for entry in entries {

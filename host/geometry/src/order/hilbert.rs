@@ -6,6 +6,8 @@
 //! A quadrant's copy of the curve is the first one with its axes swapped, or both turned round, or both: two flags
 //! are the whole state. Hilbert, Über die stetige Abbildung einer Linie auf ein Flächenstück, 1891.
 
+use alloc::vec::Vec;
+
 use crate::point::Point;
 use crate::sort::{sort_by_key, Entry, Narrow, Wide};
 

@@ -1,5 +1,7 @@
 //! What orders are sorted by.
 
+use alloc::vec::Vec;
+
 use crate::point::Point;
 use crate::sort::{sort_by_key, Entry, Wide};
 

@@ -1,9 +1,12 @@
 //! The orders of insertion by name.
 
-use std::fmt;
-use std::str::FromStr;
+use alloc::vec::Vec;
+use core::fmt;
+use core::str::FromStr;
 
-use super::{brio_hilbert, hilbert, random};
+use super::brio::brio_hilbert;
+use super::hilbert::hilbert;
+use super::random::random;
 use crate::point::Point;
 
 /// The order in which points reach the device. The mesh does not depend on it, the time does.
@@ -77,7 +80,7 @@ impl fmt::Display for UnknownOrder {
     }
 }
 
-impl std::error::Error for UnknownOrder {}
+impl core::error::Error for UnknownOrder {}
 
 #[cfg(test)]
 mod tests {

@@ -6,22 +6,16 @@
 //! Indices are 32 bits wide: points past the 2^32nd are left out.
 
 mod brio;
-mod deal;
 mod hilbert;
 mod keys;
 mod kind;
 mod random;
 #[cfg(test)]
 mod tests;
-pub(crate) mod z_curve;
+pub mod z_curve;
 
-pub use brio::{brio_hilbert, Rounds};
-pub use deal::{brio_hilbert_dealt, deal};
-pub use hilbert::hilbert;
+pub use brio::{brio_hilbert, rounds, rounds_of_share, Rounds};
+pub use hilbert::{along_curve, hilbert, Hilbert};
+pub use keys::{by_key, mix};
 pub use kind::{Order, UnknownOrder};
 pub use random::random;
-
-pub(crate) use brio::rounds;
-pub(crate) use hilbert::{along_curve, Hilbert};
-#[cfg(test)]
-pub(crate) use keys::mix;

@@ -3,6 +3,8 @@
 //! Clarkson and Shor, *Applications of random sampling in computational geometry II*, 1989. The expected number of changes is O(n) for
 //! any set; but each point must be found from far away.
 
+use alloc::vec::Vec;
+
 use super::keys::{by_key, mix};
 use crate::point::Point;
 

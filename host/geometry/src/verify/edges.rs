@@ -1,8 +1,10 @@
 //! Edges: each has its two sides, and each inner one is locally Delaunay.
 
-use std::cmp::Ordering;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::cmp::Ordering;
 
-use super::exact::circle_side;
+use super::exact::incircle;
 use super::sites::Sites;
 use super::{VerifyError, VerifySummary};
 
@@ -103,7 +105,7 @@ impl HullEdges {
 fn check_inner_edge(sites: &Sites<'_>, triangles: &[[u32; 3]], one: u32, other: u32) -> Result<bool, VerifyError> {
     let corner = |halfedge: u32, step: u32| triangles[(halfedge / 3) as usize][((halfedge % 3 + step) % 3) as usize];
     let (a, b, c, d) = (corner(one, 0), corner(one, 1), corner(one, 2), corner(other, 2));
-    match circle_side(sites.at(a), sites.at(b), sites.at(c), sites.at(d)) {
+    match incircle(sites.at(a), sites.at(b), sites.at(c), sites.at(d)) {
         Ordering::Less => Ok(false),
         Ordering::Greater => Err(VerifyError::NotDelaunay { triangle: (one / 3) as usize, point: d, edge: [a, b] }),
         Ordering::Equal => {

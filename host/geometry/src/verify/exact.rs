@@ -1,6 +1,6 @@
 //! Exact signs in 128-bit integers, for coordinates below 2^31.
 
-use std::cmp::Ordering;
+use core::cmp::Ordering;
 
 use crate::point::Point;
 
@@ -17,7 +17,7 @@ fn minor(one: [i128; 2], other: [i128; 2]) -> i128 {
 }
 
 /// Twice the signed area of the triangle: positive if `a`, `b`, `c` turn left.
-pub(super) fn area(a: Point, b: Point, c: Point) -> i128 {
+pub(super) fn orient2d(a: Point, b: Point, c: Point) -> i128 {
     minor(vector(a, b), vector(a, c))
 }
 
@@ -27,7 +27,7 @@ pub(super) fn area(a: Point, b: Point, c: Point) -> i128 {
 /// minors below 2^63, so each of its three products is below 2^126 and the sum of two below 2^127. The determinant
 /// itself is at most 2^126: it equals a difference of two products of a doubled area in the square of the grid
 /// (at most 2^62) with a scalar product (at most 2^63).
-pub(super) fn circle_side(a: Point, b: Point, c: Point, d: Point) -> Ordering {
+pub(super) fn incircle(a: Point, b: Point, c: Point, d: Point) -> Ordering {
     let [a, b, c] = [a, b, c].map(|corner| vector(d, corner));
     let lift = |v: [i128; 2]| v[0] * v[0] + v[1] * v[1];
     let determinant = lift(a) * minor(b, c) + lift(b) * minor(c, a) + lift(c) * minor(a, b);
@@ -47,23 +47,23 @@ mod tests {
     #[test]
     fn a_square_is_cocircular_at_full_width() {
         let (a, b, c, d) = (p(0, 0), p(MAX, 0), p(MAX, MAX), p(0, MAX));
-        assert_eq!(circle_side(a, b, c, d), Ordering::Equal);
-        assert_eq!(circle_side(a, b, c, p(0, MAX - 1)), Ordering::Greater);
-        assert_eq!(circle_side(a, b, p(MAX, MAX - 1), d), Ordering::Less);
+        assert_eq!(incircle(a, b, c, d), Ordering::Equal);
+        assert_eq!(incircle(a, b, c, p(0, MAX - 1)), Ordering::Greater);
+        assert_eq!(incircle(a, b, p(MAX, MAX - 1), d), Ordering::Less);
     }
 
     #[test]
     fn area_is_positive_to_the_left() {
-        assert_eq!(area(p(0, 0), p(MAX, 0), p(0, MAX)), i128::from(MAX) * i128::from(MAX));
-        assert_eq!(area(p(0, 0), p(5, 5), p(9, 9)), 0);
-        assert_eq!(area(p(0, 0), p(0, 2), p(2, 0)), -4);
+        assert_eq!(orient2d(p(0, 0), p(MAX, 0), p(0, MAX)), i128::from(MAX) * i128::from(MAX));
+        assert_eq!(orient2d(p(0, 0), p(5, 5), p(9, 9)), 0);
+        assert_eq!(orient2d(p(0, 0), p(0, 2), p(2, 0)), -4);
     }
 
     #[test]
     fn one_grid_step_decides() {
         let (a, b, c) = (p(10, 0), p(20, 10), p(10, 20));
-        assert_eq!(circle_side(a, b, c, p(0, 10)), Ordering::Equal);
-        assert_eq!(circle_side(a, b, c, p(1, 10)), Ordering::Greater);
-        assert_eq!(circle_side(a, b, c, p(0, 9)), Ordering::Less);
+        assert_eq!(incircle(a, b, c, p(0, 10)), Ordering::Equal);
+        assert_eq!(incircle(a, b, c, p(1, 10)), Ordering::Greater);
+        assert_eq!(incircle(a, b, c, p(0, 9)), Ordering::Less);
     }
 }

@@ -10,9 +10,12 @@ mod error;
 mod exact;
 mod sites;
 
+use alloc::vec;
+use alloc::vec::Vec;
+
 pub use error::VerifyError;
 
-use crate::mesh::Duplicate;
+use crate::point::Duplicate;
 use crate::point::Point;
 
 use exact::COORDINATE_LIMIT;
@@ -46,12 +49,12 @@ pub struct VerifySummary {
 /// point.
 ///
 /// ```
-/// use incircle::{verify, Point};
+/// use incircle_geometry::{verify, Point};
 /// let square = [(0, 0), (2, 0), (2, 2), (0, 2)].map(Point::from);
 /// let summary = verify(&square, &[[0, 1, 2], [0, 2, 3]])?;
 /// assert_eq!((summary.edges, summary.ties), (5, 1));
 /// assert!(verify(&square, &[[0, 1, 3], [1, 2, 3]]).is_err());
-/// # Ok::<(), incircle::VerifyError>(())
+/// # Ok::<(), incircle_geometry::VerifyError>(())
 /// ```
 ///
 /// # Errors
@@ -99,7 +102,7 @@ fn check_triangles(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<i128, Ve
     let mut covered = 0;
     for (triangle, &corners) in triangles.iter().enumerate() {
         check_corners(sites, triangle, corners)?;
-        let area = exact::area(sites.at(corners[0]), sites.at(corners[1]), sites.at(corners[2]));
+        let area = exact::orient2d(sites.at(corners[0]), sites.at(corners[1]), sites.at(corners[2]));
         if area <= 0 {
             return Err(VerifyError::NotCounterClockwise { triangle, corners });
         }
@@ -109,8 +112,8 @@ fn check_triangles(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<i128, Ve
         }
         let before = triangle.checked_sub(1).and_then(|before| triangles.get(before));
         match before.map(|before| before.cmp(&corners)) {
-            Some(std::cmp::Ordering::Equal) => return Err(VerifyError::DoubledTriangle { triangle, corners }),
-            Some(std::cmp::Ordering::Greater) => return Err(VerifyError::NotSorted { triangle, corners }),
+            Some(core::cmp::Ordering::Equal) => return Err(VerifyError::DoubledTriangle { triangle, corners }),
+            Some(core::cmp::Ordering::Greater) => return Err(VerifyError::NotSorted { triangle, corners }),
             _ => {}
         }
     }
@@ -159,7 +162,7 @@ fn check_area(sites: &Sites<'_>, hull: &[u32], triangles: i128) -> Result<(), Ve
     let origin = Point::new(0, 0);
     let following = hull.iter().skip(1).chain(hull.first());
     let sectors = hull.iter().zip(following);
-    let hull = sectors.map(|(&from, &to)| exact::area(origin, sites.at(from), sites.at(to))).sum();
+    let hull = sectors.map(|(&from, &to)| exact::orient2d(origin, sites.at(from), sites.at(to))).sum();
     if triangles == hull {
         Ok(())
     } else {

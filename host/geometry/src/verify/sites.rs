@@ -1,9 +1,12 @@
 //! The distinct points, their hull, and which index stands for which.
 
-use crate::mesh::Duplicate;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::point::Duplicate;
 use crate::point::Point;
 
-use super::exact::area;
+use super::exact::orient2d;
 
 /// The distinct points of an input.
 pub(super) struct Sites<'a> {
@@ -41,7 +44,7 @@ impl<'a> Sites<'a> {
             return true;
         };
         let (a, b) = (self.at(*first), self.at(*second));
-        rest.iter().all(|&index| area(a, b, self.at(index)) == 0)
+        rest.iter().all(|&index| orient2d(a, b, self.at(index)) == 0)
     }
 
     /// The hull, counter-clockwise from its lowest index, points in the middle of its edges included; all distinct points in
@@ -62,7 +65,7 @@ impl<'a> Sites<'a> {
         let mut chain: Vec<u32> = Vec::new();
         for next in sorted {
             while let [.., before, last] = chain[..] {
-                if area(self.at(before), self.at(last), self.at(next)) >= 0 {
+                if orient2d(self.at(before), self.at(last), self.at(next)) >= 0 {
                     break;
                 }
                 chain.pop();
