@@ -33,32 +33,27 @@
 #![warn(missing_docs)]
 
 mod commands;
-mod cpu;
 mod device;
-mod edges;
 mod error;
 mod job;
 mod limit;
-mod mesh;
-pub mod order;
-mod pages;
-mod point;
 pub mod quantize;
-mod sort;
 pub mod transports;
-pub mod verify;
 
 pub use device::{Device, DeviceAddress, Session};
 pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
+pub use incircle_geometry::{orient2d, predicate, Duplicate, Mesh, Order, Point, UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
 pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Solution, Stage};
-pub use limit::MAX_POINTS;
-pub use mesh::{Duplicate, Mesh, EMPTY};
-pub use order::{Order, UnknownOrder};
-pub use point::Point;
 pub use quantize::{quantize, Quantization, Quantize};
 pub use transports::{pcie, serial, Transport};
-pub use verify::{verify, VerifyError, VerifySummary};
+
+/// Orders of insertion: the same set always gives the same order, whatever the order of the input. The orders by name are [`Order`].
+pub mod order {
+    pub use crate::job::deal::{brio_hilbert_dealt, deal};
+    pub use incircle_geometry::order::{brio_hilbert, hilbert, random, Order, Rounds, UnknownOrder};
+}
 
 /// Triangulates in this process with the fast engine: coordinates up to 31 bits, default [`Options`], all processors for large sets.
 ///

@@ -6,9 +6,6 @@ use incircle_protocol::{MAX_COORD_BITS, MIN_COORD_BITS};
 
 use crate::error::Error;
 
-/// Most points of one job: ids of triangles and half-edges must fit 32 bits.
-pub const MAX_POINTS: usize = (1 << 29) - 1;
-
 /// Coordinate bits must be possible.
 pub(crate) fn check_coord_bits(coord_bits: u32) -> Result<(), Error> {
     if (MIN_COORD_BITS..=MAX_COORD_BITS).contains(&coord_bits) {

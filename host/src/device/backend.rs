@@ -5,7 +5,7 @@ use incircle_protocol::Identity;
 use crate::error::Error;
 use crate::job::{Options, Solution};
 use crate::limit::Limit;
-use crate::point::Point;
+use incircle_geometry::Point;
 
 /// What does the work: the engine in this process, or a device that takes commands.
 pub(crate) trait Backend {

@@ -14,8 +14,8 @@ use crate::job::prepare::prepare;
 use crate::job::watch::{tell, Stopwatch};
 use crate::job::{Solution, Stage};
 use crate::limit::Limit;
-use crate::point::Point;
 use crate::transports::Transport;
+use incircle_geometry::Point;
 
 /// A device behind a way that carries commands.
 pub(crate) struct DeviceBackend {

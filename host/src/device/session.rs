@@ -6,9 +6,10 @@ use super::backend::{Backend, JobLeft, Terms, Together};
 use crate::error::Error;
 use crate::job::watch::{tell, PartListener};
 use crate::job::{Options, Solution, Stage};
-use crate::limit::{Limit, MAX_POINTS};
-use crate::pages;
-use crate::point::Point;
+use crate::limit::Limit;
+use incircle_geometry::pages;
+use incircle_geometry::Point;
+use incircle_geometry::MAX_POINTS;
 
 /// Exclusive use of a device that has been greeted and checked.
 ///

@@ -2,7 +2,7 @@
 
 use incircle_protocol::{MAX_MODEL_POINTS, MIN_POINTS};
 
-use crate::point::Point;
+use incircle_geometry::Point;
 
 /// Most contexts of a device: `Clear` names them in a byte.
 pub(crate) const MAX_DEVICE_CONTEXTS: u32 = 255;

@@ -1,8 +1,10 @@
 //! What becomes of a job.
 
+use std::ops::Deref;
+
 use super::report::Report;
-use crate::mesh::{Duplicate, Mesh};
-use crate::point::Point;
+use incircle_geometry::Point;
+use incircle_geometry::{Duplicate, Mesh};
 
 /// A mesh, and how it came about.
 ///
@@ -29,7 +31,15 @@ impl Answer {
     /// The solution for these points, in whose report the counts are those of the mesh.
     pub(crate) fn with(self, points: Vec<Point>) -> Solution {
         let Self { triangles, hull, duplicates, report } = self;
-        Solution::of(Mesh { points, triangles, hull, duplicates }, report)
+        Solution::of(Mesh::new(points, triangles, hull, duplicates), report)
+    }
+}
+
+impl Deref for Solution {
+    type Target = Mesh;
+
+    fn deref(&self) -> &Mesh {
+        &self.mesh
     }
 }
 

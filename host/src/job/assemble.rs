@@ -8,9 +8,8 @@ use std::ops::Range;
 
 use incircle_protocol::{infinite_vertex, Layout, NARROW_ID_BITS};
 
-use super::prepare::doubled_area;
 use crate::error::DeviceFault;
-use crate::point::Point;
+use incircle_geometry::{orient2d, Point};
 
 /// Takes records one after the other.
 pub(crate) struct Assembly<'a> {
@@ -70,7 +69,7 @@ impl<'a> Assembly<'a> {
         let b = self.input_index(record, b)?;
         let c = self.input_index(record, c)?;
         let at = |index: u32| self.points[index as usize];
-        let area = doubled_area(at(a), at(b), at(c));
+        let area = orient2d(at(a), at(b), at(c));
         if area <= 0 {
             return Err(DeviceFault::Orientation { record, corners: [at(a), at(b), at(c)] });
         }
@@ -188,7 +187,7 @@ fn hull_area(hull: &[u32], points: &[Point]) -> i128 {
         return 0;
     };
     let fan = rest.windows(2);
-    fan.map(|pair| i128::from(doubled_area(at(first), at(&pair[0]), at(&pair[1])))).sum()
+    fan.map(|pair| i128::from(orient2d(at(first), at(&pair[0]), at(&pair[1])))).sum()
 }
 
 /// Sorts triangles by counting their first corners, then each corner's few triangles. O(n) for meshes, O(n log n) for any

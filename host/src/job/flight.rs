@@ -15,7 +15,7 @@ use super::watch::{tell, Stopwatch};
 use crate::commands::CommandChannel;
 use crate::error::{DeviceFault, Error};
 use crate::limit::Limit;
-use crate::point::Point;
+use incircle_geometry::Point;
 
 /// Loads that are under way at most, where commands may be sent ahead: one in the device, one behind it.
 const MOST_SENT: usize = 2;

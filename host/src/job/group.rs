@@ -6,7 +6,7 @@ use incircle_protocol::InsertReport;
 
 use super::prepare::Prepared;
 use crate::error::DeviceFault;
-use crate::point::Point;
+use incircle_geometry::Point;
 
 /// A job in the order of insertion.
 pub(crate) struct Ordered {

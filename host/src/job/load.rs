@@ -9,8 +9,8 @@ use super::assemble::{check_last_half, checked_record, Assembly};
 use super::group::{Group, Ordered};
 use super::options::{Options, Stage};
 use crate::error::DeviceFault;
-use crate::point::Point;
 use crate::transports::Capabilities;
+use incircle_geometry::Point;
 
 /// Records of one `Read` or `Triangles` command of a job that is told of: 384 kB at most. A slow link takes fewer.
 const READ_CHUNK: usize = 16_384;

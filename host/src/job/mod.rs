@@ -15,6 +15,7 @@ pub(crate) mod answer;
 mod assemble;
 pub(crate) mod batch;
 mod counters;
+pub(crate) mod deal;
 pub(crate) mod flight;
 pub(crate) mod group;
 pub(crate) mod load;

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::order::Order;
+use incircle_geometry::Order;
 
 /// A part of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

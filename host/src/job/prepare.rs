@@ -1,10 +1,11 @@
 //! What the host does before the device: remove duplicates, choose the order, find three points that are not
 //! collinear.
 
-use crate::mesh::Duplicate;
-use crate::order::{along_curve, deal, random, rounds, Hilbert, Order, Rounds};
-use crate::point::Point;
-use crate::sort::Entry;
+use super::deal::deal;
+use incircle_geometry::order::{along_curve, random, rounds, Hilbert, Order, Rounds};
+use incircle_geometry::sort::Entry;
+use incircle_geometry::Point;
+use incircle_geometry::{orient2d, Duplicate};
 
 /// A job, ready for the device.
 #[derive(Debug, PartialEq, Eq)]
@@ -27,7 +28,6 @@ pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared
     };
     duplicates.sort_unstable();
     let mut rounds = match order {
-        Order::BrioHilbert => rounds(&curve),
         Order::Random => Rounds::single(at_random(points, curve.into_indices())),
         Order::Hilbert => Rounds::single(curve.into_indices()),
         Order::Input => {
@@ -35,6 +35,8 @@ pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared
             indices.sort_unstable();
             Rounds::single(indices)
         }
+        // The default, and what no version of this library has yet.
+        _ => rounds(&curve),
     };
     let collinear = !start_with_a_triangle(&mut rounds, points);
     let mut order = match order {
@@ -74,7 +76,7 @@ fn start_with_a_triangle(rounds: &mut Rounds, points: &[Point]) -> bool {
         return false;
     };
     let (a, b) = (at(*first), at(*second));
-    let Some(found) = rest.iter().position(|&index| doubled_area(a, b, at(index)) != 0) else {
+    let Some(found) = rest.iter().position(|&index| orient2d(a, b, at(index)) != 0) else {
         return false;
     };
     rounds.order[2..=found + 2].rotate_right(1);
@@ -83,15 +85,6 @@ fn start_with_a_triangle(rounds: &mut Rounds, points: &[Point]) -> bool {
         *start += 1;
     }
     true
-}
-
-/// Twice the signed area of the triangle; positive if it is counter-clockwise.
-///
-/// Exact for coordinates below 2^31: differences stay below 2^31 in magnitude, each product below 2^62, their
-/// difference below 2^63.
-pub(crate) fn doubled_area(a: Point, b: Point, c: Point) -> i64 {
-    let minus = |one: u32, other: u32| i64::from(one) - i64::from(other);
-    minus(b.x, a.x) * minus(c.y, a.y) - minus(b.y, a.y) * minus(c.x, a.x)
 }
 
 #[cfg(test)]
@@ -158,15 +151,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn doubled_area_holds_the_widest_coordinates() {
-        let m = (1 << 31) - 1;
-        let corner = doubled_area(Point::new(0, 0), Point::new(m, 0), Point::new(m, m));
-        assert_eq!(corner, i64::from(m) * i64::from(m));
-        let back = doubled_area(Point::new(m, 0), Point::new(0, 0), Point::new(0, m));
-        assert_eq!(back, -i64::from(m) * i64::from(m));
-    }
-
     proptest! {
         #[test]
         fn every_distinct_point_is_there_once_under_its_lowest_index(
@@ -194,7 +178,7 @@ mod tests {
             prop_assert!(all.iter().copied().eq(0..points.len() as u32));
             if let ([a, b, c, ..], false) = (&prepared.order[..], prepared.collinear) {
                 let at = |index: u32| points[index as usize];
-                prop_assert!(doubled_area(at(*a), at(*b), at(*c)) != 0);
+                prop_assert!(orient2d(at(*a), at(*b), at(*c)) != 0);
             }
         }
     }

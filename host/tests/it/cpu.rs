@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use crate::common::{by, by_model, Random};
-use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Stage};
+use incircle::{Device, Error, ErrorKind, Options, Point, Solution, Stage};
 
 /// Widest coordinate.
 const MAX: u32 = (1 << 31) - 1;
 
-fn same(one: &Mesh, other: &Mesh) {
+fn same(one: &Solution, other: &Solution) {
     assert!(one.triangles == other.triangles, "triangles differ");
     assert!(one.hull == other.hull, "hulls differ");
     assert_eq!(one.duplicates, other.duplicates);

@@ -4,14 +4,14 @@ use std::time::Duration;
 
 use crate::common::liar::Liar;
 use crate::common::Random;
-use incircle::{Device, DeviceFault, Error, ErrorKind, Mesh, Options, Point, VerifyError};
+use incircle::{Device, DeviceFault, Error, ErrorKind, Options, Point, Solution, VerifyError};
 use incircle_protocol::{answer_header, Opcode, Status};
 
 fn points() -> Vec<Point> {
     Random(11).points(40, 1 << 8)
 }
 
-fn run(liar: Liar) -> Result<Mesh, Error> {
+fn run(liar: Liar) -> Result<Solution, Error> {
     let mut device = Device::from_transport(Box::new(liar));
     let mut session = device.session()?;
     session.triangulate(&points())

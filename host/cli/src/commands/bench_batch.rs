@@ -153,16 +153,16 @@ fn run_once(
 }
 
 /// Clocks of the longest job; none where jobs shared the memory.
-fn longest_of(meshes: &[incircle::Mesh]) -> Option<u64> {
+fn longest_of(meshes: &[incircle::Solution]) -> Option<u64> {
     let of_device = meshes.iter().filter(|mesh| !mesh.report.collinear);
     let clocks: Option<Vec<u64>> = of_device.map(|mesh| mesh.report.clocks).collect();
     clocks?.into_iter().max()
 }
 
 /// Clocks of all insertions; none where they are not counted for each job.
-fn engine_of(meshes: &[incircle::Mesh]) -> Option<u64> {
+fn engine_of(meshes: &[incircle::Solution]) -> Option<u64> {
     let of_device = meshes.iter().filter(|mesh| !mesh.report.collinear);
-    let cycles = |mesh: &incircle::Mesh| mesh.report.counters.map(|counters| counters.insert_cycles);
+    let cycles = |mesh: &incircle::Solution| mesh.report.counters.map(|counters| counters.insert_cycles);
     of_device.map(cycles).sum::<Option<u64>>().filter(|&cycles| cycles > 0)
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use incircle::{Mesh, Options};
+use incircle::{Mesh, Options, Solution};
 
 use crate::arguments::{BackendChoice, TriangulateArguments};
 use crate::backend::{self, Backend};
@@ -124,7 +124,7 @@ fn triangulate(
     backend: &mut Backend,
     points: &[incircle::Point],
     arguments: &TriangulateArguments,
-) -> Result<Mesh, Failure> {
+) -> Result<Solution, Failure> {
     let meter = Meter::new(arguments.quiet);
     let listener = |progress| meter.hear(progress);
     let options = Options {

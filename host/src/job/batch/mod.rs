@@ -17,8 +17,8 @@ use super::load::Load;
 use super::options::{Options, Stage};
 use super::prepare::prepare;
 use super::watch::tell;
-use crate::order::Order;
-use crate::point::Point;
+use incircle_geometry::Order;
+use incircle_geometry::Point;
 use plan::{Part, Plan};
 
 /// Most points of a job that is one of a group: the records of a group are read at once.

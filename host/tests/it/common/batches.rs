@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Progress, Stage};
+use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Progress, Solution, Stage};
 
 /// The mesh without its report.
-pub fn bare(mesh: Mesh) -> Mesh {
-    Mesh { report: Default::default(), ..mesh }
+pub fn bare(solution: Solution) -> Mesh {
+    solution.mesh
 }
 
 /// Every job alone, by the engine in this process.

@@ -8,7 +8,7 @@ pub mod liar;
 pub mod mock;
 pub mod rig;
 
-use incircle::{Device, Mesh, Point};
+use incircle::{Device, Point, Solution};
 
 /// A small random generator: SplitMix64.
 pub struct Random(pub u64);
@@ -31,14 +31,22 @@ impl Random {
 }
 
 /// The mesh by the software model, as narrow as the points allow.
-pub fn by_model(points: &[Point]) -> Mesh {
+pub fn by_model(points: &[Point]) -> Solution {
     let used = points.iter().fold(0, |all, point| all | point.x | point.y);
     let address = if used >> 16 == 0 { "model" } else { "model?coord-bits=31" };
     by(address, points)
 }
 
+/// The mesh by the engine in this process.
+pub fn by_engine(points: &[Point]) -> Solution {
+    let mut device = Device::cpu(None);
+    let mesh = device.session().and_then(|mut session| session.triangulate(points)).expect("a mesh");
+    assert_right(&mesh);
+    mesh
+}
+
 /// The mesh by the device at this address.
-pub fn by(address: &str, points: &[Point]) -> Mesh {
+pub fn by(address: &str, points: &[Point]) -> Solution {
     let mut device = Device::open(address).expect("a device in this process");
     let mesh = device.session().and_then(|mut session| session.triangulate(points)).expect("a mesh");
     assert_right(&mesh);
@@ -91,7 +99,7 @@ pub fn brute_force(points: &[Point]) -> Vec<[u32; 3]> {
 }
 
 /// The mesh passes the validator, and its counts agree with its lists.
-pub fn assert_right(mesh: &Mesh) {
+pub fn assert_right(mesh: &Solution) {
     mesh.verify().unwrap_or_else(|error| panic!("{error}"));
     let report = &mesh.report;
     assert_eq!(report.points, mesh.points.len());

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::common::card::{MemoryCard, Mischief};
 use incircle::pcie::{PcieFault, PcieTransport};
-use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Transport, TransportError};
+use incircle::{Device, Error, ErrorKind, Options, Point, Solution, Transport, TransportError};
 use incircle_protocol::{command_word, Opcode, StreamRegister, SMALL};
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ fn transport(beat_bits: u32, mischief: Mischief) -> Result<PcieTransport, Error>
     PcieTransport::new("pcie:memory".to_owned(), MemoryCard::new(SMALL, beat_bits, mischief).files())
 }
 
-fn triangulate(transport: PcieTransport, points: &[Point]) -> Result<Mesh, Error> {
+fn triangulate(transport: PcieTransport, points: &[Point]) -> Result<Solution, Error> {
     let options = Options { timeout: Some(LIMIT), ..Options::default() };
     Device::from_transport(Box::new(transport)).session_within(LIMIT)?.triangulate_with(points, &options)
 }

@@ -1,7 +1,7 @@
 //! The back end `clock` gives the meshes of the back end `model`, whatever the set, the order and the number of contexts.
 
 use crate::common::Scratch;
-use incircle::{Device, Mesh, Options, Order, Point, Session};
+use incircle::{Device, Options, Order, Point, Session, Solution};
 use incircle_cli::generate::{generate, Distribution};
 use incircle_protocol::{Config, LARGE};
 use serde_json::Value;
@@ -9,7 +9,7 @@ use serde_json::Value;
 /// Contexts that are tried.
 const CONTEXTS: [u32; 6] = [1, 2, 4, 8, 16, 24];
 
-fn triangulate(session: &mut Session<'_>, points: &[Point], order: Order, contexts: Option<u32>) -> Mesh {
+fn triangulate(session: &mut Session<'_>, points: &[Point], order: Order, contexts: Option<u32>) -> Solution {
     let options = Options { order, contexts, ..Options::default() };
     session.triangulate_with(points, &options).expect("a mesh")
 }

@@ -2,10 +2,11 @@
 
 use std::time::Duration;
 
+use crate::common::by_engine;
 use crate::common::rig::{Fate, Rig};
 use crate::common::Random;
 use incircle::serial::{Params, SerialFault};
-use incircle::{Device, Error, ErrorKind, Mesh, Point, TransportError};
+use incircle::{Device, Error, ErrorKind, Point, Solution, TransportError};
 use incircle_protocol::{command_word, Opcode};
 
 const HELLO: [u32; 1] = [command_word(Opcode::Hello)];
@@ -19,7 +20,7 @@ fn points(count: usize) -> Vec<Point> {
 }
 
 /// A whole job.
-fn triangulate(rig: Rig, points: &[Point]) -> Result<Mesh, Error> {
+fn triangulate(rig: Rig, points: &[Point]) -> Result<Solution, Error> {
     let mut device = Device::from_transport(Box::new(rig));
     let mut session = device.session()?;
     session.triangulate(points)
@@ -31,8 +32,8 @@ fn ends_right(rig: Rig, points: &[Point], expected: &[[u32; 3]], what: &str) {
     assert_eq!(mesh.triangles, expected, "{what}");
 }
 
-fn expected(points: &[Point]) -> Mesh {
-    incircle::triangulate(points).expect("the model")
+fn expected(points: &[Point]) -> Solution {
+    by_engine(points)
 }
 
 fn fault(result: Result<Vec<u32>, TransportError>) -> SerialFault {
@@ -100,7 +101,7 @@ fn both_directions_carry_nine_tenths_of_what_the_line_can() {
 #[test]
 fn a_fault_of_any_frame_leaves_no_trace() {
     let points = points(300);
-    let expected = expected(&points).triangles;
+    let expected = expected(&points).mesh.triangles;
     for fate in [Fate::Lost, Fate::Changed, Fate::Twice, Fate::Overtaken] {
         for way in [false, true] {
             for place in 0..40 {
@@ -117,7 +118,7 @@ fn a_fault_of_any_frame_leaves_no_trace() {
 #[test]
 fn a_lost_frame_goes_again_also_where_answers_come_sooner_than_the_rate_allows() {
     let points = points(300);
-    let expected = expected(&points).triangles;
+    let expected = expected(&points).mesh.triangles;
     for place in 0..20 {
         let mut rig = rig();
         (rig.is_instant, rig.delay) = (true, Duration::ZERO);
@@ -130,7 +131,7 @@ fn a_lost_frame_goes_again_also_where_answers_come_sooner_than_the_rate_allows()
 #[test]
 fn many_faults_leave_no_trace_either() {
     let points = points(700);
-    let expected = expected(&points).triangles;
+    let expected = expected(&points).mesh.triangles;
     for seed in 0..60 {
         let mut rig = rig();
         let mut random = Random(seed);
@@ -155,7 +156,7 @@ fn is_of_noise(fault: &SerialFault) -> bool {
 fn noise_ends_in_the_right_mesh_or_in_an_error_of_its_own() {
     const JOBS: usize = 200;
     let points = points(100);
-    let expected = expected(&points).triangles;
+    let expected = expected(&points).mesh.triangles;
     for (noise, least) in [(1e-6, JOBS), (1e-5, JOBS), (1e-4, JOBS), (1e-3, JOBS / 2), (1e-2, 0)] {
         let (mut right, mut flipped) = (0, 0);
         for seed in 0..JOBS {
