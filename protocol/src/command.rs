@@ -156,6 +156,19 @@ impl<P> Command<P> {
         }
     }
 
+    /// The command without its points.
+    pub const fn bare(&self) -> Command<()> {
+        match self {
+            Self::Hello => Command::Hello,
+            Self::Clear { contexts, is_batch } => Command::Clear { contexts: *contexts, is_batch: *is_batch },
+            Self::Insert { count, .. } => Command::Insert { count: *count, points: () },
+            Self::Read(range) => Command::Read(*range),
+            Self::Counters => Command::Counters,
+            Self::Latencies => Command::Latencies,
+            Self::Triangles(range) => Command::Triangles(*range),
+        }
+    }
+
     /// The same command with its points in another form.
     pub fn map<Q>(self, form: impl FnOnce(P) -> Q) -> Command<Q> {
         match self {
@@ -207,6 +220,11 @@ impl<P: AsRef<[u32]>> Command<P> {
     /// An `Insert` of points in these words.
     pub fn insert(points: P, layout: Layout) -> Self {
         Self::Insert { count: (points.as_ref().len() / layout.point_words) as u32, points }
+    }
+
+    /// The same command, whose points stay where they are.
+    pub fn borrowed(&self) -> Command<&[u32]> {
+        self.bare().map(|()| self.points())
     }
 
     /// The words of the points.
@@ -318,7 +336,8 @@ mod tests {
                 let mut reader = CommandReader::default();
                 let heads = [PADDING].iter().chain(&words[..words.len() - points]);
                 let read: Vec<_> = heads.filter_map(|&word| reader.take(word)).collect();
-                assert_eq!(read, [Ok(command.map(drop))]);
+                assert_eq!(read, [Ok(command.bare())]);
+                assert_eq!(command.borrowed().map(<[u32]>::to_vec), command);
             }
         }
     }

@@ -137,7 +137,7 @@ fn fastest<T, R>(
 
 /// Triangulates in this order.
 fn triangulate(device: &mut Device, points: &[Point], order: Order) -> Result<Report, Failure> {
-    let options = Options { order, insert_chunk: points.len(), ..Options::default() };
+    let options = Options::default().order(order).insert_chunk(points.len());
     let mesh = device.session().and_then(|mut session| session.triangulate_with(points, &options));
     mesh.map(|mesh| mesh.report).map_err(|error| failure_of(&error))
 }

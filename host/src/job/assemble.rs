@@ -242,13 +242,12 @@ mod tests {
     #[test]
     fn a_triangle_that_comes_twice_is_refused() {
         let points = [(0, 0), (4, 0), (4, 4), (0, 4)].map(Point::from);
-        let layout = Layout::of(16, 8);
         let mesh = |triangles: [[u32; 3]; 2]| {
-            let mut assembly = Assembly::new(&[0, 1, 2, 3], &points, layout, 8);
+            let mut assembly = Assembly::new(&[0, 1, 2, 3], &points, 8);
             let infinite = infinite_vertex(8);
             let ghosts = [[1, 0, infinite], [2, 1, infinite], [3, 2, infinite], [0, 3, infinite]];
-            for (record, [a, b, c]) in triangles.into_iter().chain(ghosts).enumerate() {
-                assembly.take_vertices(record, a, b, c)?;
+            for (record, vertices) in triangles.into_iter().chain(ghosts).enumerate() {
+                assembly.take_vertices(record, vertices)?;
             }
             assembly.finish()
         };

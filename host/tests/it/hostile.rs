@@ -275,7 +275,7 @@ fn a_slow_device_does_not_pass_its_deadline_unnoticed() {
     liar.silent_for = Duration::from_millis(30);
     let mut device = Device::from_transport(Box::new(liar));
     let mut session = device.session().expect("greeted");
-    let options = Options { timeout: Some(Duration::from_millis(20)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_millis(20));
     let error = session.triangulate_with(&points(), &options).expect_err("too slow");
     assert_eq!(error.kind(), ErrorKind::Timeout);
 }

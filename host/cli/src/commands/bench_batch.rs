@@ -135,13 +135,11 @@ fn run_once(
 ) -> Result<Measured, Failure> {
     let meter = Meter::new(false);
     let listener = |progress| meter.hear(progress);
-    let options = Options {
-        timeout: arguments.job.timeout,
-        order: arguments.job.order(),
-        progress: Some(&listener),
-        contexts: arguments.job.contexts,
-        ..Options::default()
-    };
+    let options = Options::default()
+        .timeout(arguments.job.timeout)
+        .order(arguments.job.order())
+        .progress(&listener)
+        .contexts(arguments.job.contexts);
     let before = session.clocks();
     let (meshes, seconds) = timed(|| session.triangulate_batch(jobs, &options))?;
     // None at all where no job has reached the core.

@@ -312,7 +312,7 @@ const _: () =
 
 impl Exchange {
     fn of(command: &Command<impl AsRef<[u32]>>, layout: Layout) -> Result<Self, SerialFault> {
-        let again = match command {
+        let again = match command.bare() {
             Command::Insert { .. } if command.points().len() as u64 != command.point_words(layout) => {
                 return Err(SerialFault::Command("the points of this command are of another device"));
             }
@@ -320,11 +320,7 @@ impl Exchange {
             Command::Triangles(_) => return Err(SerialFault::Command("the serial link reads whole records")),
             // No points have the report of those before them.
             Command::Insert { .. } => Command::Insert { count: 0, points: [] },
-            Command::Hello => Command::Hello,
-            &Command::Clear { contexts, is_batch } => Command::Clear { contexts, is_batch },
-            &Command::Read(range) => Command::Read(range),
-            Command::Counters => Command::Counters,
-            Command::Latencies => Command::Latencies,
+            command => command.map(|()| []),
         };
         let whole = Self {
             again,

@@ -7,7 +7,7 @@ use incircle::{triangulate, Device, Error, ErrorKind, Options, Order, Point};
 use incircle_protocol::{Config, FIRST_ROUND, LARGE, NAMED, SMALL};
 
 fn with_contexts(contexts: u32) -> Options<'static> {
-    Options { contexts: Some(contexts), ..Options::default() }
+    Options::default().contexts(contexts)
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn hard_sets_on_every_configuration() {
             for order in Order::BASIC {
                 let count = 1 + random.below(config.points.min(200)) as usize;
                 let points = random.points(count, side);
-                let mesh = session.triangulate_with(&points, &Options { order, ..Options::default() }).expect("a mesh");
+                let mesh = session.triangulate_with(&points, &Options::default().order(order)).expect("a mesh");
                 assert_right(&mesh);
                 assert_eq!(mesh.triangles, triangulate(&points).expect("a mesh").triangles);
             }
@@ -111,7 +111,7 @@ fn a_passed_deadline_is_a_timeout() {
     let points = Random(27).points(1000, 1 << 16);
     let mut device = Device::clock_model(SMALL).expect("the clock model");
     let mut session = device.session().expect("a session");
-    let options = Options { timeout: Some(Duration::from_millis(2)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_millis(2));
     let error = session.triangulate_with(&points, &options).expect_err("too late");
     assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
 }

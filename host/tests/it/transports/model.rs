@@ -77,7 +77,7 @@ fn orders_chunks_and_input_order_do_not_change_the_mesh() {
     let mut session = device.session().expect("a session");
     for order in Order::ALL {
         for insert_chunk in [0, 3, 64, 100_000] {
-            let options = Options { order, insert_chunk, ..Options::default() };
+            let options = Options::default().order(order).insert_chunk(insert_chunk);
             let mesh = session.triangulate_with(&points, &options).expect("a mesh");
             assert_eq!(mesh.triangles, expected.triangles);
             assert_eq!(mesh.hull, expected.hull);
@@ -141,7 +141,7 @@ fn progress_covers_all_stages_and_cancels_anywhere() {
         calls.borrow_mut().push(progress);
         ControlFlow::Continue(())
     };
-    let options = Options { progress: Some(&listen), insert_chunk: 500, ..Options::default() };
+    let options = Options::default().progress(&listen).insert_chunk(500);
     let expected = session.triangulate_with(&points, &options).expect("a mesh");
     let calls = calls.into_inner();
     for stage in [Stage::Order, Stage::Insert, Stage::Read, Stage::Assemble] {
@@ -154,7 +154,7 @@ fn progress_covers_all_stages_and_cancels_anywhere() {
             0 => ControlFlow::Break(()),
             _ => ControlFlow::Continue(()),
         };
-        let options = Options { progress: Some(&listen), insert_chunk: 500, ..Options::default() };
+        let options = Options::default().progress(&listen).insert_chunk(500);
         let error = session.triangulate_with(&points, &options).expect_err("cancelled");
         assert_eq!(error.kind(), ErrorKind::Cancelled);
     }
@@ -167,7 +167,7 @@ fn a_passed_deadline_is_a_timeout() {
     let points = Random(9).points(5000, 1 << 16);
     let mut device = Device::open("model").expect("the model");
     let mut session = device.session().expect("a session");
-    let options = Options { timeout: Some(Duration::from_nanos(1)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_nanos(1));
     let error = session.triangulate_with(&points, &options).expect_err("too late");
     assert_eq!(error.kind(), ErrorKind::Timeout);
     let error = session.triangulate(&points).expect_err("the link is out of step");

@@ -10,7 +10,7 @@ use serde_json::Value;
 const CONTEXTS: [u32; 6] = [1, 2, 4, 8, 16, 24];
 
 fn triangulate(session: &mut Session<'_>, points: &[Point], order: Order, contexts: Option<u32>) -> Solution {
-    let options = Options { order, contexts, ..Options::default() };
+    let options = Options::default().order(order).contexts(contexts);
     session.triangulate_with(points, &options).expect("a mesh")
 }
 
