@@ -17,5 +17,5 @@ pub mod structures;
 pub mod visit_model;
 
 #[path = "../../../../sim/model/tests/it/common/mod.rs"]
-#[allow(dead_code)] // The tests of the model use the rest.
+#[allow(dead_code, reason = "the model's own tests use the rest")]
 pub mod common;

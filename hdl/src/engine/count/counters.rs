@@ -1,0 +1,206 @@
+//! The event counters, and the clock that latencies are taken from.
+//!
+//! 1. Cycle counts are two words of 32 bits; the high one follows a clock after the low one has wrapped.
+//!
+//! 2. Every event, and `clears`, goes into a register first. A count that is read while events come is that of the clock before.
+//!
+//! Latency: an event is counted at the second edge, the range of latencies at the third; `value` follows `select` by 2 clocks.
+
+use super::cycle_counters::CycleCounters;
+use super::event_counter::EventCounter;
+use super::latency_range::LatencyRange;
+use super::visit_counters::VisitCounters;
+use incircle_protocol::Counter;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The event counters; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Counters {
+    /// Reset and clear set all counters to zero.
+    pub clock: Signal<In, Clock>,
+    pub reset: Signal<In, Bit>,
+    pub clears: Signal<In, Bit>,
+    /// A job is under way; it has no point to work on; a read-out is under way.
+    pub inserting: Signal<In, Bit>,
+    pub waiting: Signal<In, Bit>,
+    pub reading: Signal<In, Bit>,
+    /// A visit is issued; a record or a link is written.
+    pub is_issuing: Signal<In, Bit>,
+    pub is_writing: Signal<In, Bit>,
+    /// A commit is at work; a lock is cleared.
+    pub is_committing: Signal<In, Bit>,
+    pub is_releasing: Signal<In, Bit>,
+    /// A visit of that kind completes.
+    pub walk_visit: Signal<In, Bit>,
+    pub root_visit: Signal<In, Bit>,
+    pub test: Signal<In, Bit>,
+    pub solo_test: Signal<In, Bit>,
+    /// It is made once more.
+    pub revisit: Signal<In, Bit>,
+    /// An attempt ends at a foreign lock; a located triangle no longer holds the point.
+    pub gives_up: Signal<In, Bit>,
+    pub retries: Signal<In, Bit>,
+    /// The waiting token is taken.
+    pub takes_token: Signal<In, Bit>,
+    /// A boundary list has overflowed; a flip of an insertion alone is finished.
+    pub overflows: Signal<In, Bit>,
+    pub flip: Signal<In, Bit>,
+    /// A cavity is complete, and consists of so many triangles.
+    pub cavity_ends: Signal<In, Bit>,
+    pub cavity_triangles: Signal<In, Bits<7>>,
+    /// 3, 1 or 1 points are inserted.
+    pub seeds: Signal<In, Bit>,
+    pub commit_ends: Signal<In, Bit>,
+    pub solo_inserts: Signal<In, Bit>,
+    /// When the point whose commit ends was taken: `now` at that edge.
+    pub since: Signal<In, Bits<22>>,
+    /// A point is found to be a duplicate.
+    pub duplicate: Signal<In, Bit>,
+    pub solo_duplicate: Signal<In, Bit>,
+    /// Points refused, counted where they are refused.
+    pub refused: Signal<In, Bits<32>>,
+    /// Word to read: its place in the answer to `Counters`.
+    pub select: Signal<In, Bits<5>>,
+    /// That word, 2 clocks later.
+    pub value: Signal<Out, Bits<32>>,
+    /// Two of them.
+    pub insertions: Signal<Out, Bits<32>>,
+    pub duplicates: Signal<Out, Bits<32>>,
+    /// Clocks since reset, modulo 2^22; clear does not stop it.
+    pub now: Signal<Out, Bits<22>>,
+    /// The latency of the commit that ended with the last edge.
+    pub latency_comes: Signal<Out, Bit>,
+    pub latency: Signal<Out, Bits<22>>,
+    ticks: DFF<Bits<22>>,
+    zeroes: DFF<Bit>,
+    /// The group of the word, one of the third group, and the word.
+    group: DFF<Bits<2>>,
+    other: DFF<Bits<32>>,
+    chosen: DFF<Bits<32>>,
+    inserts: DFF<Bits<2>>,
+    inserted: DFF<Bits<32>>,
+    duplicated: EventCounter,
+    cycles: CycleCounters,
+    visits: VisitCounters,
+    range: LatencyRange,
+    one_tick: Signal<Local, Bits<22>>,
+    last_other: Signal<Local, Bits<5>>,
+    first_cycles: Signal<Local, Bits<5>>,
+    more: Signal<Local, Bits<32>>,
+}
+
+// `select` counts in the order of `Counter`; a change there must come here.
+const _: () = assert!(
+    Counter::Insertions as usize == 6
+        && Counter::Duplicates as usize == 7
+        && Counter::Refused as usize == 8
+        && Counter::WalkVisits as usize == 9
+        && Counter::WaitingTokens as usize == 18
+        && Counter::LatencyMin as usize == 23
+        && Counter::LatencyMax as usize == 24,
+    "the words of this block follow the protocol"
+);
+
+impl Logic for Counters {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, ticks, zeroes, group, other, chosen, inserts, inserted);
+        clock!(self, clock, duplicated, cycles, visits, range);
+        self.one_tick.next = 1.into();
+        self.last_other.next = 8.into();
+        self.first_cycles.next = 19.into();
+        self.zeroes.d.next = self.reset.val() | self.clears.val();
+        self.duplicated.zero.next = self.zeroes.q.val();
+        self.cycles.zero.next = self.zeroes.q.val();
+        self.visits.zero.next = self.zeroes.q.val();
+        self.range.zero.next = self.zeroes.q.val();
+
+        self.cycles.inserting.next = self.inserting.val();
+        self.cycles.waiting.next = self.waiting.val();
+        self.cycles.reading.next = self.reading.val();
+        self.cycles.is_issuing.next = self.is_issuing.val();
+        self.cycles.is_writing.next = self.is_writing.val();
+        self.cycles.is_committing.next = self.is_committing.val();
+        self.cycles.is_releasing.next = self.is_releasing.val();
+        self.cycles.select.next = self.select.val();
+        self.visits.walk_visit.next = self.walk_visit.val();
+        self.visits.test.next = self.test.val() | self.solo_test.val();
+        self.visits.overflows.next = self.overflows.val();
+        self.visits.flip.next = self.flip.val();
+        self.visits.root_visit.next = self.root_visit.val();
+        self.visits.revisit.next = self.revisit.val();
+        self.visits.gives_up.next = self.gives_up.val();
+        self.visits.retries.next = self.retries.val();
+        self.visits.takes_token.next = self.takes_token.val();
+        self.visits.cavity_ends.next = self.cavity_ends.val();
+        self.visits.cavity_triangles.next = self.cavity_triangles.val();
+        self.visits.select.next = self.select.val();
+
+        self.ticks.d.next = self.ticks.q.val() + self.one_tick.val();
+        self.now.next = self.ticks.q.val();
+        self.range.commit_ends.next = self.commit_ends.val();
+        self.range.now.next = self.ticks.q.val();
+        self.range.since.next = self.since.val();
+        self.latency_comes.next = self.range.latency_comes.val();
+        self.latency.next = self.range.latency.val();
+
+        self.duplicated.count.next = self.duplicate.val() | self.solo_duplicate.val();
+        self.inserts.d.next = 0.into();
+        if self.commit_ends.val() | self.solo_inserts.val() {
+            self.inserts.d.next = 1.into();
+        }
+        if self.seeds.val() {
+            self.inserts.d.next = 3.into();
+        }
+        self.more.next = bit_cast::<32, 2>(self.inserts.q.val());
+        self.inserted.d.next = self.inserted.q.val() + self.more.val();
+        self.insertions.next = self.inserted.q.val();
+        self.duplicates.next = self.duplicated.value.val();
+
+        // A word is chosen within its group first: clocks, visits, others.
+        self.value.next = self.chosen.q.val();
+        self.group.d.next = 2.into();
+        self.other.d.next = self.inserted.q.val();
+        match self.select.val().index() {
+            6 => {
+                self.other.d.next = self.inserted.q.val();
+            }
+            7 => {
+                self.other.d.next = self.duplicated.value.val();
+            }
+            8 => {
+                self.other.d.next = self.refused.val();
+            }
+            23 => {
+                self.other.d.next = bit_cast::<32, 22>(self.range.least.val());
+            }
+            24 => {
+                self.other.d.next = bit_cast::<32, 22>(self.range.most.val());
+            }
+            _ => {
+                self.group.d.next = 0.into();
+                if (self.select.val() > self.last_other.val()) & (self.select.val() < self.first_cycles.val()) {
+                    self.group.d.next = 1.into();
+                }
+            }
+        }
+        match self.group.q.val().index() {
+            0 => {
+                self.chosen.d.next = self.cycles.value.val();
+            }
+            1 => {
+                self.chosen.d.next = self.visits.value.val();
+            }
+            _ => {
+                self.chosen.d.next = self.other.q.val();
+            }
+        }
+        if self.zeroes.q.val() {
+            self.inserted.d.next = 0.into();
+        }
+        if self.reset.val() {
+            self.ticks.d.next = 0.into();
+        }
+    }
+}

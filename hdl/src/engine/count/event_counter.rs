@@ -1,0 +1,111 @@
+//! Counts: one of a word, and one of two words.
+//!
+//! `EventCounter`
+//!
+//! `WideCounter`
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `zero` | in | 1 | `zero` forgets the clocks before |
+//! | `count` | in | 1 | this clock counts |
+//! | `low`, `high` | out | N | its words; `high` follows a clock after `low` has wrapped |
+//!
+//! A clock is noted at its edge and counted at the next one, so that what says `count` does not reach the carries of a word.
+//!
+//! Latency: 2 clocks.
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// A counter of a word; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct EventCounter {
+    /// `zero` forgets the clocks before.
+    pub clock: Signal<In, Clock>,
+    pub zero: Signal<In, Bit>,
+    /// This clock counts.
+    pub count: Signal<In, Bit>,
+    /// Clocks that counted, modulo 2^32.
+    pub value: Signal<Out, Bits<32>>,
+    counts: DFF<Bit>,
+    word: DFF<Bits<32>>,
+    one: Signal<Local, Bits<32>>,
+}
+
+impl Logic for EventCounter {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, counts, word);
+        self.one.next = 1.into();
+        self.value.next = self.word.q.val();
+        self.counts.d.next = self.count.val();
+        if self.counts.q.val() {
+            self.word.d.next = self.word.q.val() + self.one.val();
+        }
+        if self.zero.val() {
+            self.word.d.next = 0.into();
+        }
+    }
+}
+
+/// A counter of two words of `N` bits; see the top of this file.
+#[derive(LogicBlock)]
+pub struct WideCounter<const N: usize> {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Forgets the clocks before.
+    pub zero: Signal<In, Bit>,
+    /// This clock counts.
+    pub count: Signal<In, Bit>,
+    /// Low word.
+    pub low: Signal<Out, Bits<N>>,
+    /// High word.
+    pub high: Signal<Out, Bits<N>>,
+    counts: DFF<Bit>,
+    low_word: DFF<Bits<N>>,
+    high_word: DFF<Bits<N>>,
+    carries: DFF<Bit>,
+    one: Signal<Local, Bits<N>>,
+    all_ones: Constant<Bits<N>>,
+}
+
+impl<const N: usize> Default for WideCounter<N> {
+    fn default() -> Self {
+        Self {
+            clock: Signal::default(),
+            zero: Signal::default(),
+            count: Signal::default(),
+            low: Signal::default(),
+            high: Signal::default(),
+            counts: DFF::default(),
+            low_word: DFF::default(),
+            high_word: DFF::default(),
+            carries: DFF::default(),
+            one: Signal::default(),
+            all_ones: Constant::new(Bits::<N>::mask()),
+        }
+    }
+}
+
+impl<const N: usize> Logic for WideCounter<N> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, counts, low_word, high_word, carries);
+        self.one.next = 1.into();
+        self.low.next = self.low_word.q.val();
+        self.high.next = self.high_word.q.val();
+        self.counts.d.next = self.count.val();
+        self.carries.d.next = self.counts.q.val() & (self.low_word.q.val() == self.all_ones.val());
+        if self.counts.q.val() {
+            self.low_word.d.next = self.low_word.q.val() + self.one.val();
+        }
+        if self.carries.q.val() {
+            self.high_word.d.next = self.high_word.q.val() + self.one.val();
+        }
+        if self.zero.val() {
+            self.low_word.d.next = 0.into();
+            self.high_word.d.next = 0.into();
+            self.carries.d.next = false;
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! The latency of insertions, and the least and the most of all.
+//!
+//! 1. The first one counts as the least; as the first counts whatever comes while the most is 0.
+//! 2. Insertions are finished at least three clocks apart, as each commit writes three records and more: a latency is compared
+//!    while it stands, and stored after that.
+//!
+//! Latency: 1 clock to `latency`, 3 to `least` and `most`.
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Latencies of insertions; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct LatencyRange {
+    /// `zero` forgets all.
+    pub clock: Signal<In, Clock>,
+    pub zero: Signal<In, Bit>,
+    /// An insertion is finished at this edge.
+    pub commit_ends: Signal<In, Bit>,
+    /// The clock count, and what it was when the point was taken; both modulo 2^22.
+    pub now: Signal<In, Bits<22>>,
+    pub since: Signal<In, Bits<22>>,
+    /// The latency of the insertion that was finished at the last edge.
+    pub latency_comes: Signal<Out, Bit>,
+    pub latency: Signal<Out, Bits<22>>,
+    /// Of all; 0 if there was none.
+    pub least: Signal<Out, Bits<22>>,
+    pub most: Signal<Out, Bits<22>>,
+    comes: DFF<Bit>,
+    /// It is the least, and the most.
+    is_least: DFF<Bit>,
+    is_most: DFF<Bit>,
+    taken: DFF<Bits<22>>,
+    lowest: DFF<Bits<22>>,
+    highest: DFF<Bits<22>>,
+    none: Signal<Local, Bits<22>>,
+}
+
+impl Logic for LatencyRange {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, comes, is_least, is_most, taken, lowest, highest);
+        self.none.next = 0.into();
+        self.latency_comes.next = self.comes.q.val();
+        self.latency.next = self.taken.q.val();
+        self.least.next = self.lowest.q.val();
+        self.most.next = self.highest.q.val();
+
+        self.comes.d.next = self.commit_ends.val();
+        if self.commit_ends.val() {
+            self.taken.d.next = self.now.val() - self.since.val();
+        }
+        self.is_least.d.next = self.comes.q.val()
+            & ((self.highest.q.val() == self.none.val()) | (self.taken.q.val() < self.lowest.q.val()));
+        self.is_most.d.next = self.comes.q.val() & (self.taken.q.val() > self.highest.q.val());
+        if self.is_least.q.val() {
+            self.lowest.d.next = self.taken.q.val();
+        }
+        if self.is_most.q.val() {
+            self.highest.d.next = self.taken.q.val();
+        }
+        if self.zero.val() {
+            self.comes.d.next = false;
+            self.is_least.d.next = false;
+            self.is_most.d.next = false;
+            self.lowest.d.next = 0.into();
+            self.highest.d.next = 0.into();
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Counts the points that are finished, and says when there is nothing left to do.
+//!
+//! 1. Two points may be finished in one clock: one by a commit or alone, and a duplicate.
+//! 2. Fewer than three points, or three collinear ones, are never finished: then there is nothing left to do as soon as no visit is
+//!    out.
+//!
+//! 3. What is finished is noted at its edge, counted at the next one and compared at the third; `arrived` is compared at once. In
+//!    the clock after a point has come `is_quiet` may still say what held before; nobody settles in it.
+//!
+//! Latency: 3 clocks from a point that is finished, 1 from `arrived`, none from the other inputs.
+//!
+//! Three points come and make the first triangle. Two more come, of which one is a duplicate:
+//! ```text
+//! arrived           0  1  2  3  3  3  3  3  3  4  5  5  5  5  5  5
+//! all_rest        /^^^^^^^^^^^\_____/^^^^^^^^^^^^^^\________/^^^^^
+//! has_no_start    /^^^^^^^^^^^\___________________________________
+//! seeds           _____________________/^^\_______________________
+//! commit_ends     ____________________________________/^^\________
+//! duplicate       ____________________________________/^^\________
+//! finishes        _____________________/^^\___________/^^\________
+//! is_quiet        /^^^^^^^^^^^\________________________________/^^
+//! ```
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Finished points; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Progress {
+    /// Reset and clear set the count to zero.
+    pub clock: Signal<In, Clock>,
+    pub reset: Signal<In, Bit>,
+    pub clears: Signal<In, Bit>,
+    /// Points that have come.
+    pub arrived: Signal<In, Bits<15>>,
+    /// A first triangle stands: three points are finished.
+    pub seeds: Signal<In, Bit>,
+    /// A point is finished each.
+    pub commit_ends: Signal<In, Bit>,
+    pub solo_ends: Signal<In, Bit>,
+    pub duplicate: Signal<In, Bit>,
+    /// No first triangle is being made, and none can be from the points that have come.
+    pub has_no_start: Signal<In, Bit>,
+    /// No visit is out and no lock held.
+    pub all_rest: Signal<In, Bit>,
+    /// Every point is finished or will never be, and nothing is at work.
+    pub is_quiet: Signal<Out, Bit>,
+    /// A point is finished at this edge.
+    pub finishes: Signal<Out, Bit>,
+    finished: DFF<Bits<15>>,
+    /// Points that were finished at the last edge.
+    more: DFF<Bits<2>>,
+    is_behind: DFF<Bit>,
+    inserts: Signal<Local, Bit>,
+    wide_more: Signal<Local, Bits<15>>,
+}
+
+impl Logic for Progress {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, finished, more, is_behind);
+        self.inserts.next = self.commit_ends.val() | self.solo_ends.val();
+        self.finishes.next = self.inserts.val() | self.duplicate.val() | self.seeds.val();
+
+        self.is_behind.d.next = self.finished.q.val() != self.arrived.val();
+        self.is_quiet.next = ((!self.is_behind.q.val()) | self.has_no_start.val()) & self.all_rest.val();
+
+        // A commit and a duplicate may end in one clock.
+        self.more.d.next = 0.into();
+        if self.inserts.val() | self.duplicate.val() {
+            self.more.d.next = 1.into();
+        }
+        if self.inserts.val() & self.duplicate.val() {
+            self.more.d.next = 2.into();
+        }
+        if self.seeds.val() {
+            self.more.d.next = 3.into();
+        }
+        self.wide_more.next = bit_cast::<15, 2>(self.more.q.val());
+        self.finished.d.next = self.finished.q.val() + self.wide_more.val();
+        if self.reset.val() | self.clears.val() {
+            self.more.d.next = 0.into();
+            self.finished.d.next = 0.into();
+        }
+        if self.reset.val() {
+            self.is_behind.d.next = false;
+        }
+    }
+}
