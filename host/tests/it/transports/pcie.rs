@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::common::card::{MemoryCard, Mischief};
 use incircle::pcie::{PcieFault, PcieTransport};
-use incircle::{Device, Error, ErrorKind, Options, Point, Solution, Transport, TransportError};
+use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Solution, Transport, TransportError};
 use incircle_protocol::{command_word, Opcode, StreamRegister, SMALL};
 use proptest::prelude::*;
 
