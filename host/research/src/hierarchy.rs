@@ -6,24 +6,16 @@
 
 mod level;
 
+use incircle_geometry::cpu::Error;
+use incircle_geometry::order::mix;
+use incircle_geometry::{Duplicate, Mesh, Point, MAX_COORD_BITS, MAX_POINTS};
+use incircle_model::Counts;
+
 use self::level::Level;
-use crate::assemble::Assembly;
-use crate::counters::Counters;
-use crate::error::Error;
-use crate::mesh::{Duplicate, Mesh};
-use crate::order::mix;
-use crate::point::Point;
-use crate::report::Report;
-use crate::session::MAX_POINTS;
-use incircle_protocol::{Layout, MAX_COORD_BITS, MAX_MODEL_POINTS};
+use crate::assembly::canonical;
 
 /// One in 2 to this many points of a level is in the level above: about one in 30, as the author found to be good.
 const SHIFT: u32 = 5;
-/// Name in reports.
-const HIERARCHY_NAME: &str = "hierarchy";
-/// Name of the order in reports: nobody chose it.
-const ORDER_NAME: &str = "arrival";
-
 /// A Delaunay triangulation of points that arrive one at a time. The mesh is the one that all devices give, byte for byte.
 ///
 /// The levels are meshes of the software model, with coordinates up to 31 bits. A point takes O(log n) in the mean over the coins that
@@ -32,16 +24,17 @@ const ORDER_NAME: &str = "arrival";
 /// twice that while lists grow.
 ///
 /// ```
-/// use incircle::{Hierarchy, Point};
+/// use incircle_geometry::Point;
+/// use incircle_research::Hierarchy;
 ///
 /// let mut hierarchy = Hierarchy::new();
 /// for k in 0..100u32 {
 ///     hierarchy.insert(Point::new(k * k % 83, k * 7 % 89))?;
 /// }
 /// assert_eq!(hierarchy.insert(Point::new(0, 0))?, Some(0));
-/// let mesh = hierarchy.mesh()?;
-/// assert_eq!(mesh.triangles, incircle::triangulate(&mesh.points)?.triangles);
-/// # Ok::<(), incircle::Error>(())
+/// let mesh = hierarchy.mesh();
+/// assert!(mesh.verify().is_ok());
+/// # Ok::<(), incircle_geometry::cpu::Error>(())
 /// ```
 #[derive(Debug, Default)]
 pub struct Hierarchy {
@@ -68,12 +61,12 @@ impl Hierarchy {
     /// # Errors
     /// [`Error::CoordinateOutOfRange`] beyond 31 bits, [`Error::TooManyPoints`] beyond [`MAX_POINTS`]. The point is not taken then.
     pub fn insert(&mut self, point: Point) -> Result<Option<u32>, Error> {
-        let (index, Point { x, y }) = (self.points.len(), point);
-        if (x | y) >> MAX_COORD_BITS != 0 {
-            return Err(Error::CoordinateOutOfRange { index, x, y, coord_bits: MAX_COORD_BITS });
+        let index = self.points.len();
+        if (point.x | point.y) >> MAX_COORD_BITS != 0 {
+            return Err(Error::CoordinateOutOfRange { index, point });
         }
         if index == MAX_POINTS {
-            return Err(Error::TooManyPoints { points: index + 1, max: MAX_POINTS });
+            return Err(Error::TooManyPoints { points: index + 1 });
         }
         if self.levels.is_empty() {
             self.levels.push(Level::default());
@@ -116,50 +109,24 @@ impl Hierarchy {
         }
     }
 
-    /// The mesh of all points so far, and in its report the counts of all levels together. O(n), as for a device.
-    ///
-    /// # Errors
-    /// None that a sound model can cause: [`Error::Device`] if its mesh is not whole.
-    pub fn mesh(&self) -> Result<Mesh, Error> {
-        let distinct = self.points.len() - self.duplicates.len();
-        let (triangles, hull) = match self.levels.first() {
-            None => (Vec::new(), Vec::new()),
-            Some(Level::Line(line)) => (Vec::new(), line.values().copied().collect()),
-            Some(Level::Plane { mesh, below }) => {
-                let mut assembly =
-                    Assembly::new(below, &self.points, Layout::of(MAX_COORD_BITS, MAX_MODEL_POINTS), MAX_MODEL_POINTS);
-                let taken = mesh.records().iter().enumerate().try_for_each(|(number, record)| {
-                    let [a, b, c] = record.v;
-                    assembly.take_vertices(number, a, b, c)
-                });
-                let distrust = |fault| Error::Device { device: HIERARCHY_NAME.to_owned(), during: "assembly", fault };
-                taken.and_then(|()| assembly.finish()).map_err(distrust)?
+    /// The mesh of all points so far. O(n).
+    pub fn mesh(&self) -> Mesh {
+        match self.levels.first() {
+            None => Mesh::default(),
+            Some(Level::Line(line)) => {
+                let hull = line.values().copied().collect();
+                Mesh::new(self.points.clone(), Vec::new(), hull, self.duplicates.clone())
             }
-        };
-        let report = Report {
-            points: self.points.len(),
-            distinct,
-            duplicates: self.duplicates.len(),
-            triangles: triangles.len(),
-            hull: hull.len(),
-            collinear: triangles.is_empty(),
-            backend: HIERARCHY_NAME.to_owned(),
-            order: ORDER_NAME,
-            counters: (!triangles.is_empty()).then(|| self.counters()),
-            coord_bits: MAX_COORD_BITS,
-            capacity: MAX_MODEL_POINTS,
-            contexts: 1,
-            ..Report::default()
-        };
-        Ok(Mesh { points: self.points.clone(), triangles, hull, duplicates: self.duplicates.clone(), report })
+            Some(Level::Plane { mesh, below }) => {
+                canonical(mesh.mesh().records(), below, &self.points, self.duplicates.clone())
+            }
+        }
     }
 
-    /// What the levels have counted; points inserted are those of the lowest.
-    fn counters(&self) -> Counters {
-        let mut sum =
-            Counters { insertions: (self.points.len() - self.duplicates.len()) as u32, ..Counters::default() };
-        let meshes = self.levels.iter().filter_map(Level::mesh);
-        for counts in meshes.map(|mesh| mesh.counts()) {
+    /// What the levels have counted together; points inserted are those of the lowest.
+    pub fn counts(&self) -> Counts {
+        let mut sum = Counts { insertions: (self.points.len() - self.duplicates.len()) as u32, ..Counts::default() };
+        for counts in self.levels.iter().filter_map(Level::mesh).map(|mesh| mesh.counts()) {
             sum.walk_visits += counts.walk_visits;
             sum.tests += counts.tests;
             sum.cavity_triangles += counts.cavity_triangles;

@@ -1,7 +1,5 @@
 //! What becomes of a job.
 
-use std::ops::Deref;
-
 use super::report::Report;
 use incircle_geometry::Point;
 use incircle_geometry::{Duplicate, Mesh};
@@ -32,14 +30,6 @@ impl Answer {
     pub(crate) fn with(self, points: Vec<Point>) -> Solution {
         let Self { triangles, hull, duplicates, report } = self;
         Solution::of(Mesh::new(points, triangles, hull, duplicates), report)
-    }
-}
-
-impl Deref for Solution {
-    type Target = Mesh;
-
-    fn deref(&self) -> &Mesh {
-        &self.mesh
     }
 }
 

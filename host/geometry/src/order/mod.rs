@@ -1,7 +1,7 @@
 //! Orders of insertion.
 //!
 //! The mesh does not depend on the order, the time does: a point whose predecessor lies near is found in a few steps,
-//! and random rounds keep any input from making many triangles that do not last. The orders by name are [`Order`](crate::Order).
+//! and random rounds keep any input from making many triangles that do not last. The orders by name are [`Order`].
 //!
 //! Indices are 32 bits wide: points past the 2^32nd are left out.
 

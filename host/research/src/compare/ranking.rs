@@ -7,8 +7,7 @@ use std::fmt::Write as _;
 
 use incircle_testkit::Distribution;
 
-use super::Row;
-use crate::failure::counted;
+use super::row::Row;
 
 /// Orders and their published microseconds per point, fastest first. Those of BrioDC are the means of the table's five.
 const PUBLISHED: [(&str, f64); 13] = [
@@ -56,7 +55,7 @@ pub fn ranking(rows: &[Row]) -> String {
             text,
             "published ranking (Schrijvers, van Bommel, Buchin 2012), {n} points, the literature's distributions among the rows: of {} more than 5 % apart there, \
              {} come in the same order here",
-            counted(pairs.len(), "pair"),
+            pairs_of(pairs.len()),
             same.len()
         );
         for Ranked { name, published, measured } in &ranked {
@@ -67,6 +66,15 @@ pub fn ranking(rows: &[Row]) -> String {
         }
     }
     text
+}
+
+/// So many pairs, in words.
+fn pairs_of(count: usize) -> String {
+    if count == 1 {
+        "1 pair".to_owned()
+    } else {
+        format!("{count} pairs")
+    }
 }
 
 /// The published orders among these rows, as published.
@@ -90,8 +98,8 @@ fn pairs_apart(ranked: &[Ranked]) -> Vec<(&Ranked, &Ranked)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::way::Way;
     use super::*;
+    use crate::way::Way;
 
     fn row(set: Distribution, name: &str, total_ns: f64) -> Row {
         let way = Way::named(name).expect("a published order is one of ours");

@@ -2,12 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use incircle_model::Mesh;
-use incircle_protocol::MAX_MODEL_POINTS;
+use incircle_geometry::{orient2d, Point};
 
-use crate::point::Point;
-use crate::prepare::doubled_area;
-use crate::transports::model::RING_CAPACITY;
+use crate::guided::GuidedMesh;
 
 /// A sample of the points of the level below.
 #[derive(Debug)]
@@ -16,7 +13,7 @@ pub(super) enum Level {
     Line(BTreeMap<Point, u32>),
     /// Points in the plane.
     Plane {
-        mesh: Box<Mesh>,
+        mesh: Box<GuidedMesh>,
         /// Of each vertex, its number in the level below.
         below: Vec<u32>,
     },
@@ -30,7 +27,7 @@ impl Default for Level {
 
 impl Level {
     /// Its mesh, if it has one.
-    pub(super) fn mesh(&self) -> Option<&Mesh> {
+    pub(super) fn mesh(&self) -> Option<&GuidedMesh> {
         match self {
             Self::Line(_) => None,
             Self::Plane { mesh, .. } => Some(mesh),
@@ -48,7 +45,7 @@ impl Level {
                     .map(|(_, &below)| below)
             }
             Self::Plane { mesh, below } => {
-                let (vertex, _) = mesh.approach(in_model(point), guide)?.nearest();
+                let vertex = mesh.find(point, guide)?;
                 below.get(vertex as usize).copied()
             }
         }
@@ -59,15 +56,8 @@ impl Level {
     pub(super) fn add(&mut self, point: Point, number_below: u32, guide: Option<u32>) -> Result<Option<u32>, u32> {
         match self {
             Self::Plane { mesh, below } => {
-                let own = below.len() as u32;
-                if let Some(approach) = mesh.approach(in_model(point), guide) {
-                    let (vertex, at) = approach.nearest();
-                    if at == in_model(point) {
-                        return Err(below[vertex as usize]);
-                    }
-                    approach.insert();
-                    below.push(number_below);
-                }
+                let own = mesh.insert_unless_there(point, guide).map_err(|vertex| below[vertex as usize])?;
+                below.push(number_below);
                 Ok(Some(own))
             }
             Self::Line(line) => {
@@ -89,20 +79,15 @@ impl Level {
     fn leave_line(line: &BTreeMap<Point, u32>, point: Point, number_below: u32) -> Option<Self> {
         let mut along = line.iter();
         let (first, second) = (along.next()?, along.next_back()?);
-        if doubled_area(*first.0, *second.0, point) == 0 {
+        if orient2d(*first.0, *second.0, point) == 0 {
             return None;
         }
-        let mut mesh = Box::new(Mesh::new(MAX_MODEL_POINTS, RING_CAPACITY));
+        let mut mesh = Box::<GuidedMesh>::default();
         let mut below = Vec::with_capacity(line.len() + 1);
         for (&at, &number) in [first, second, (&point, &number_below)].into_iter().chain(along) {
-            mesh.insert(in_model(at));
+            mesh.insert(at, None);
             below.push(number);
         }
         Some(Self::Plane { mesh, below })
     }
-}
-
-/// The point as the model has it.
-fn in_model(Point { x, y }: Point) -> incircle_model::predicate::Point {
-    incircle_model::predicate::Point { x, y }
 }

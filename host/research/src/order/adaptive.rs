@@ -4,7 +4,7 @@
 //! 2012. No jumps, since all parts meet in the same lines; but parts may have any share of the points.
 
 use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, peano_way, quantiles, Cells, Frame, Way};
-use crate::point::Point;
+use incircle_geometry::Point;
 
 /// The points along the adaptive Hilbert curve.
 pub(super) fn hilbert(points: &[Point]) -> Vec<u32> {

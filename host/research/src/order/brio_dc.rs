@@ -20,9 +20,9 @@ mod z_order;
 
 use self::neighbors::Search;
 use self::z_order::{along_z, Along};
-use super::{mix, Rounds};
-use crate::pages::zeros;
-use crate::point::Point;
+use incircle_geometry::order::{mix, Rounds};
+use incircle_geometry::pages::zeros;
+use incircle_geometry::Point;
 
 /// How the nearest-neighbour graph is found. Both give the same order; only the time to find it differs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -59,15 +59,15 @@ pub struct Guided {
 }
 
 impl Guided {
-    /// The order in rounds, in which places stand for guides.
-    pub(crate) fn into_rounds(self) -> Rounds {
+    /// The order in rounds, and the guides, in which places of the order stand for points.
+    pub fn into_rounds(self) -> (Rounds, Vec<u32>) {
         let Self { order, mut guides, starts } = self;
         let mut place_of = vec![0; order.len()];
         for (place, &point) in (0..).zip(&order) {
             place_of[point as usize] = place;
         }
         guides.iter_mut().for_each(|guide| *guide = place_of[*guide as usize]);
-        Rounds { order, starts, guides }
+        (Rounds { order, starts }, guides)
     }
 }
 

@@ -1,8 +1,10 @@
 //! Curves by name: each puts points into an order in which neighbours lie near each other.
 
-use super::Alpha;
-use super::{adaptive, hilbert, median, morton, peano, sierpinski, squarified};
-use crate::point::Point;
+use incircle_geometry::order::hilbert;
+
+use super::alpha::Alpha;
+use super::{adaptive, median, morton, peano, sierpinski, squarified};
+use incircle_geometry::Point;
 
 /// A curve that visits all points, piece by piece of the plane.
 ///
@@ -85,7 +87,7 @@ macro_rules! names {
             }
 
             /// The name of rounds along it.
-            pub(crate) const fn brio_name(self, alpha: Alpha) -> &'static str {
+            pub const fn brio_name(self, alpha: Alpha) -> &'static str {
                 match (self, alpha) {
                     $(
                         (Self::$curve, Alpha::Half) => concat!("brio-half-", $name),
@@ -111,21 +113,4 @@ names! {
     SquarifiedPeano "squarified-peano",
     SquarifiedAdaptiveHilbert "squarified-adaptive-hilbert",
     SquarifiedAdaptivePeano "squarified-adaptive-peano",
-}
-
-/// The square around points: its lower left corner, and the largest difference from there.
-pub(super) fn square(points: &[Point]) -> (Point, u32) {
-    let low = |get: fn(&Point) -> u32| points.iter().map(get).min().unwrap_or(0);
-    let corner = Point::new(low(|p| p.x), low(|p| p.y));
-    let extent = points.iter().map(|p| (p.x - corner.x).max(p.y - corner.y)).max().unwrap_or(0);
-    (corner, extent)
-}
-
-/// Indices sorted by a key.
-pub(super) fn by_key(points: &[Point], key: impl Fn(Point) -> u64) -> Vec<u32> {
-    use crate::sort::{sort_by_key, Entry, Wide};
-    let mut entries: Vec<Wide> =
-        points.iter().zip(0..=u32::MAX).map(|(&point, index)| Wide::new(key(point), index)).collect();
-    sort_by_key(&mut entries);
-    entries.iter().map(Entry::value).collect()
 }

@@ -1,7 +1,7 @@
 //! Drawings of curves, for their tests: numbers where they pass, row by row from the top.
 
 use super::Curve;
-use crate::point::Point;
+use incircle_geometry::Point;
 
 /// A lattice of points, with its order.
 fn walk(curve: Curve, width: u32, height: u32) -> Vec<Point> {

@@ -5,7 +5,7 @@
 //! upper quadrants is long. Split by y first there is no such step (Schrijvers, van Bommel, Buchin, EuroCG 2012: Hilbert YX).
 
 use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, quantiles, Cells, Frame};
-use crate::point::Point;
+use incircle_geometry::Point;
 
 /// The coordinate that is split first, in the frame of each copy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +54,7 @@ fn divide(points: &[Point], first: First, piece: &mut [u32], frame: Frame) -> Ve
 mod tests {
     use crate::order::drawing::{draw, longest_step};
     use crate::order::Curve;
-    use crate::point::Point;
+    use incircle_geometry::Point;
 
     #[test]
     fn on_a_lattice_both_are_hilberts_curve() {

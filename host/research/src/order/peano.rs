@@ -2,8 +2,9 @@
 //!
 //! Peano, *Sur une courbe, qui remplit toute une aire plane*, 1890.
 
-use super::curve::{by_key, square};
-use crate::point::Point;
+use super::square::square;
+use incircle_geometry::order::by_key;
+use incircle_geometry::Point;
 
 /// Most levels: nine to this power fits 64 bits, and three to it is more than 2^31.
 const LEVELS: u32 = 20;

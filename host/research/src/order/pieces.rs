@@ -1,6 +1,6 @@
 //! What curves that look at the points share: pieces of the plane as stretches of a list, dealt out and taken up again.
 
-use crate::point::Point;
+use incircle_geometry::Point;
 
 /// Both axes run backwards.
 const TURNED: u8 = 1;

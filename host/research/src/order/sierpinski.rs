@@ -4,8 +4,9 @@
 //! Sierpiński, *Sur une nouvelle courbe continue qui remplit toute une aire plane*, 1912; the position after Bartholdi and Platzman,
 //! *An O(n log n) planar travelling salesman heuristic based on spacefilling curves*, 1982.
 
-use super::curve::{by_key, square};
-use crate::point::Point;
+use super::square::square;
+use incircle_geometry::order::by_key;
+use incircle_geometry::Point;
 
 /// Two bits for each level, and one for the first diagonal, fit 64 bits.
 const LEVELS: u32 = 31;

@@ -6,7 +6,7 @@
 
 use super::adaptive;
 use super::pieces::{deal, hilbert_way, order as order_pieces, peano_way, row_way, Cells, Frame, Way};
-use crate::point::Point;
+use incircle_geometry::Point;
 
 /// Most squares that a box is cut into at a time; parts are cut again.
 const MOST: i64 = 15;

@@ -1,33 +1,40 @@
 //! Walks that begin at a vertex: the table of triangles is right after every insertion, and the mesh is the same.
 
-use crate::common::mesh_check::{canonical, records_of};
-use crate::common::{sets, Random};
-use incircle_model::predicate::Point;
-use incircle_model::{CommandModel, Insertion, Mesh};
-use incircle_protocol::{clear_word, command_word, infinite_vertex, Opcode};
+use incircle::Point;
+use incircle_model::Insertion;
+use incircle_protocol::infinite_vertex;
+use incircle_research::assembly::canonical;
+use incircle_research::order::{BrioDc, Order};
+use incircle_research::{job, GuidedMesh};
+use incircle_testkit::{generate, Distribution, SplitMix64};
 
 const CAPACITY: u32 = 256;
 
-fn point(word: &u32) -> Point {
-    Point { x: word & 0xffff, y: word >> 16 }
-}
-
-/// Even points, points of a small box of which most fall together, points with large cavities, points on the hull.
-fn set(random: &mut Random, which: u32) -> Vec<u32> {
-    sets::started(match which % 5 {
-        0 => sets::boxed(random, 200, 1 << 16),
-        1 => sets::boxed(random, 200, 12),
-        2 => sets::wheel(random, 150),
-        3 => sets::wheel_from_outside(random, 20),
-        _ => sets::parabola(random, 150),
-    })
+/// Even points, points of a small box of which most fall together, points of a circle with large cavities, points on the hull; the first three
+/// span a triangle.
+fn set(random: &mut SplitMix64, which: u32) -> Vec<Point> {
+    let points: Vec<Point> = match which % 4 {
+        0 => random.points(200, 1 << 16),
+        1 => random.points(200, 12),
+        2 => {
+            let circle = generate(Distribution::Circle, 150, 11, which.into()).expect("a set");
+            let hub = random.points::<Point>(40, 400).into_iter().map(|p| Point::new(p.x + 800, p.y + 800));
+            circle.into_iter().map(Point::from).chain(hub).collect()
+        }
+        _ => {
+            let mut points: Vec<Point> = (0..150).map(|x| Point::new(x, x * x)).collect();
+            random.shuffle(&mut points);
+            points
+        }
+    };
+    [(0, 0), (1, 0), (0, 1)].map(Point::from).into_iter().chain(points).collect()
 }
 
 /// Each vertex has a finite triangle that has it.
-fn check_table(mesh: &Mesh, is_vertex: &[bool]) {
+fn check_table(mesh: &GuidedMesh, is_vertex: &[bool]) {
     for (vertex, _) in (0..).zip(is_vertex).filter(|(_, &is_vertex)| is_vertex) {
         let triangle = mesh.triangle_of(vertex).unwrap_or_else(|| panic!("vertex {vertex} has no triangle"));
-        let record = mesh.records()[triangle as usize];
+        let record = mesh.mesh().records()[triangle as usize];
         assert!(record.v.contains(&vertex), "vertex {vertex}: {record:?}");
         assert!(!record.v.contains(&infinite_vertex(CAPACITY)), "vertex {vertex}: {record:?}");
     }
@@ -35,114 +42,121 @@ fn check_table(mesh: &Mesh, is_vertex: &[bool]) {
 
 #[test]
 fn every_vertex_has_a_triangle_after_every_insertion() {
-    let mut random = Random(31);
+    let mut random = SplitMix64::new(31);
     let mut flips = 0;
     for trial in 0..60 {
-        let words = set(&mut random, trial);
-        let mut mesh = Mesh::new(CAPACITY, random.pick(&[9, 32]));
+        let points = set(&mut random, trial);
+        let mut mesh = GuidedMesh::new(CAPACITY, random.pick(&[9, 32]));
         // The first guide comes at any time.
-        let unguided = random.below(40);
+        let unguided = random.below_u32(40);
         let mut is_vertex = Vec::new();
-        for (place, word) in (0..).zip(&words) {
-            let inserted = match place < unguided {
-                true => mesh.insert(point(word)),
-                // A later point, or the point itself, is no guide.
-                false => mesh.insert_near(point(word), random.below(place + 3)),
-            };
-            is_vertex.push(inserted == Insertion::Inserted);
-            if place >= unguided.max(2) {
+        for (place, &point) in (0..).zip(&points) {
+            // A later point, or the point itself, is no guide.
+            let guide = (place >= unguided).then(|| random.below_u32(place + 3));
+            is_vertex.push(mesh.insert(point, guide) == Insertion::Inserted);
+            if place >= 2 {
                 check_table(&mesh, &is_vertex);
             }
         }
         flips += mesh.counts().flips;
-        let mut plain = Mesh::new(CAPACITY, 32);
-        for word in &words {
-            plain.insert(point(word));
-        }
-        let of = |mesh: &Mesh| canonical(&records_of(mesh, CAPACITY), &words, CAPACITY);
-        assert_eq!(of(&mesh), of(&plain), "{words:x?}");
+        let expected = incircle::triangulate(&points).expect("a mesh");
+        assert_eq!(triangles(&mesh, &points), expected.triangles, "{points:?}");
         mesh.clear();
         assert_eq!(mesh.triangle_of(0), None);
     }
     assert!(flips > 100, "{flips} flips");
 }
 
-#[test]
-fn a_point_is_approached_and_then_inserted() {
-    let mut random = Random(32);
-    for trial in 0..30 {
-        let words = set(&mut random, trial);
-        let (mut mesh, mut plain) = (Mesh::new(CAPACITY, 32), Mesh::new(CAPACITY, 32));
-        assert!(mesh.approach(point(&0), None).is_none());
-        for (place, word) in (0..).zip(&words) {
-            let expected = plain.insert(point(word));
-            let guide = [None, Some(random.below(place + 1))][random.below(2) as usize];
-            let Some(approach) = mesh.approach(point(word), guide) else {
-                assert!(place < 3 && mesh.insert(point(word)) == expected);
-                continue;
-            };
-            let (vertex, at) = approach.nearest();
-            assert_eq!(at, point(&words[vertex as usize]));
-            assert_eq!(at == point(word), expected == Insertion::Duplicate);
-            assert_eq!(approach.insert(), expected);
-        }
-        let of = |mesh: &Mesh| canonical(&records_of(mesh, CAPACITY), &words, CAPACITY);
-        assert_eq!(of(&mesh), of(&plain), "{words:x?}");
-    }
+/// The triangles of a mesh of which every point arrived in the order of the input, each corner under the lowest index of its place.
+fn triangles(mesh: &GuidedMesh, points: &[Point]) -> Vec<[u32; 3]> {
+    let infinite = infinite_vertex(CAPACITY);
+    let lowest = |vertex: u32| points.iter().position(|&point| point == points[vertex as usize]).unwrap_or(0) as u32;
+    let finite = mesh.mesh().records().iter().filter(|record| !record.v.contains(&infinite));
+    let mut triangles: Vec<[u32; 3]> = finite
+        .map(|record| {
+            let mut corners = record.v.map(lowest);
+            let first = (0..3).min_by_key(|&corner| corners[corner]).unwrap_or(0);
+            corners.rotate_left(first);
+            corners
+        })
+        .collect();
+    triangles.sort_unstable();
+    triangles
+}
+
+/// Inserts these points with these guides, and returns the walk's visits so far.
+fn insert(mesh: &mut GuidedMesh, points: &[Point], guide: Option<u32>) -> u32 {
+    points.iter().for_each(|&point| {
+        mesh.insert(point, guide);
+    });
+    mesh.counts().walk_visits
 }
 
 #[test]
-fn a_batch_takes_no_guides() {
-    let mut random = Random(34);
-    // Two jobs in turn, of which a guide of the other would lead into a wrong mesh.
-    let words = [sets::started(vec![]), sets::started(sets::boxed(&mut random, 120, 300))].concat();
-    let (mut mesh, mut plain) = (Mesh::new(CAPACITY, 32), Mesh::new(CAPACITY, 32));
-    mesh.clear_for(2);
-    plain.clear_for(2);
-    for (place, word) in (0..).zip(&words) {
-        mesh.insert_near(point(word), random.below(place + 1));
-        plain.insert(point(word));
-        assert!(mesh.approach(point(word), Some(0)).is_none());
-    }
-    assert_eq!(mesh.records(), plain.records());
-}
-
-#[test]
-fn a_full_mesh_refuses_what_was_approached() {
-    let mut mesh = Mesh::new(4, 9);
-    for word in [0, 1, 0x1_0000, 0x5_0005] {
-        mesh.insert(point(&word));
-    }
-    let approach = mesh.approach(point(&0x7_0007), Some(0)).expect("there are triangles");
-    assert_eq!(approach.insert(), Insertion::Refused);
-    assert_eq!(mesh.counts().refused, 1);
-}
-
-/// Sends an `Insert` of these points, and returns the walk's visits so far.
-fn insert(model: &mut CommandModel, words: &[u32]) -> u32 {
-    model.send(&[command_word(Opcode::Insert), words.len() as u32]);
-    model.send(words);
-    model.mesh().counts().walk_visits
-}
-
-#[test]
-fn commands_take_guides_in_turn_and_forget_them() {
-    let mut random = Random(33);
-    let words = sets::started(sets::boxed(&mut random, 200, 1 << 16));
-    let mut model = CommandModel::new(16, CAPACITY, 32).expect("possible");
+fn a_far_guide_makes_walks_longer_and_a_clear_forgets_all() {
+    let mut random = SplitMix64::new(33);
+    let points = [(0, 0), (1, 0), (0, 1)].map(Point::from).into_iter().chain(random.points(200, 1 << 16));
+    let points: Vec<Point> = points.collect();
+    let mut mesh = GuidedMesh::new(CAPACITY, 32);
     let mut visits = Vec::new();
-    for is_guided in [false, true, false] {
-        model.send(&[clear_word(0)]);
-        if is_guided {
-            // The first point is far from all others: the walks get longer.
-            model.guide(&vec![0; words.len()]);
-        }
-        insert(&mut model, &words[..100]);
-        visits.push(insert(&mut model, &words[100..]));
+    for guide in [None, Some(0), None] {
+        mesh.clear();
+        // The first point is in a corner, far from most others.
+        insert(&mut mesh, &points[..100], guide);
+        visits.push(insert(&mut mesh, &points[100..], guide));
     }
     assert!(visits[1] != visits[0] && visits[2] == visits[0], "{visits:?}");
-    // Guides that were not used up are forgotten.
-    model.guide(&[0; 64]);
-    model.send(&[clear_word(0)]);
-    assert_eq!(insert(&mut model, &words), visits[0]);
+}
+
+#[test]
+fn guides_shorten_walks_whatever_the_points_and_change_nothing_else() {
+    let mut random = SplitMix64::new(12);
+    let even: Vec<Point> = random.points(4000, 1 << 24);
+    let long: Vec<Point> = random.points::<Point>(4000, 1 << 20).iter().map(|p| Point::new(p.x, p.y >> 12)).collect();
+    let clusters: Vec<Point> = (0..4000u32)
+        .map(|k| Point::new(k % 7 * 1_000_003 + random.below_u32(300), k % 11 * 777_777 + random.below_u32(300)))
+        .collect();
+    // In a thin strip and at the rims of clusters vertices have many triangles, and a walk goes round them.
+    for (points, most) in [(even, 2.9), (long, 4.5), (clusters, 4.5)] {
+        let walk = |order| {
+            let job::Outcome { mesh, counts, .. } = job::triangulate(&points, order);
+            (mesh, f64::from(counts.walk_visits) / f64::from(counts.insertions))
+        };
+        let (plain, guided) = (walk(Order::BRIO_HILBERT), walk(Order::BrioDc(BrioDc::Linear)));
+        assert!(guided.1 < most && guided.1 < plain.1, "{} and {} triangles a walk", guided.1, plain.1);
+        assert_eq!(guided.0, plain.0);
+        assert_eq!(guided.0, incircle::triangulate(&points).expect("a mesh"));
+    }
+}
+
+#[test]
+fn every_order_gives_the_same_mesh() {
+    let mut random = SplitMix64::new(35);
+    for side in [6, 300, 1 << 16, 1 << 31] {
+        let points: Vec<Point> = random.points(150, side);
+        let expected = incircle::triangulate(&points).expect("a mesh");
+        for order in Order::all() {
+            assert!(job::triangulate(&points, order).mesh == expected, "{}, {points:?}", order.name());
+        }
+    }
+    let line: Vec<Point> = (0..9).map(|k| Point::new(5 * k % 9, 5 * k % 9)).collect();
+    let expected = incircle::triangulate(&line).expect("a mesh");
+    assert!(Order::all().into_iter().all(|order| job::triangulate(&line, order).mesh == expected));
+    assert_eq!(canonical(&[], &[], &[], Vec::new()), incircle::Mesh::default());
+}
+
+/// What the product's back end counts when it inserts in the same order.
+#[test]
+fn walks_are_those_of_the_product_in_its_orders() {
+    let points: Vec<Point> = SplitMix64::new(36).points(3000, 1 << 16);
+    let mut device = incircle::Device::model(16, 4096).expect("possible");
+    for order in incircle::Order::ALL {
+        let options = incircle::Options { order, ..incircle::Options::default() };
+        let solution =
+            device.session().and_then(|mut session| session.triangulate_with(&points, &options)).expect("a mesh");
+        let counters = solution.report.counters.expect("counters of the model");
+        let counts = job::triangulate(&points, Order::named(order.name()).expect("the same names")).counts;
+        let found = (counts.walk_visits, counts.tests, counts.cavity_triangles);
+        assert_eq!(found, (counters.walk_visits, counters.tests, counters.cavity_triangles), "{}", order.name());
+    }
 }

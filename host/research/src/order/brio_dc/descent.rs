@@ -6,7 +6,7 @@
 
 use super::pairs::Pair;
 use super::quadtree::{is_leaf, place, Quadtree};
-use crate::sort::sort_by_key;
+use incircle_geometry::sort::sort_by_key;
 
 /// No pair of a list: larger than all numbers.
 const END: u32 = u32::MAX;

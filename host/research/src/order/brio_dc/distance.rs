@@ -2,7 +2,7 @@
 //!
 //! Beyond that, squares of 2^64 and more count as equal. All that follows from them stays consistent, and points are never lost.
 
-use crate::point::Point;
+use incircle_geometry::Point;
 
 /// The square of a distance.
 pub(super) type Distance = u64;

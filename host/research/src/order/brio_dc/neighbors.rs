@@ -11,8 +11,8 @@ use super::descent::Lists;
 use super::pairs::{add_pairs, Pair};
 use super::quadtree::Quadtree;
 use super::BrioDc;
-use crate::pages::with_room;
-use crate::point::Point;
+use incircle_geometry::pages::with_room;
+use incircle_geometry::Point;
 
 /// Finds graphs, one after the other in the same memory.
 #[derive(Debug)]

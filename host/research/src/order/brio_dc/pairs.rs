@@ -11,7 +11,7 @@
 use bytemuck::Zeroable;
 
 use super::quadtree::{is_leaf, place, Quadtree};
-use crate::sort::Keyed;
+use incircle_geometry::sort::Keyed;
 
 /// A point, and a node of more than a few points that can hold its nearest neighbour.
 #[derive(Clone, Copy, Debug, Zeroable)]

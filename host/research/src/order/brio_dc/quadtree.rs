@@ -6,8 +6,8 @@
 use std::ops::RangeInclusive;
 
 use super::distance::{gap, span, Distance};
-use crate::pages::with_room;
-use crate::point::Point;
+use incircle_geometry::pages::with_room;
+use incircle_geometry::Point;
 
 /// So many points are looked at one by one: it takes constant time.
 const FEW: u32 = 8;

@@ -2,10 +2,10 @@
 
 use super::quadtree::level;
 use super::BrioDc;
-use crate::order::morton::{point_at, position};
-use crate::pages::with_room;
-use crate::point::Point;
-use crate::sort::{sort_by_key, Entry, Narrow, Wide};
+use incircle_geometry::order::z_curve::{point_at, position};
+use incircle_geometry::pages::with_room;
+use incircle_geometry::sort::{sort_by_key, Entry, Narrow, Wide};
+use incircle_geometry::Point;
 
 /// Points along the curve.
 pub(super) struct Along {
