@@ -42,15 +42,15 @@ fn assert_is_right(mesh: &Mesh, points: &[Point]) {
 fn another_mesh_is_not_taken_for_the_right_one() {
     let points = points(300, 3);
     let mesh = triangulate(transport(64, Mischief::default()).unwrap(), &points).unwrap();
-    assert_is_right(&mesh, &[&points[..299], &[Point::new(9, 9)]].concat());
+    assert_is_right(&mesh.mesh, &[&points[..299], &[Point::new(9, 9)]].concat());
 }
 
 /// The job must end with the right mesh.
 fn must_be_right(beat_bits: u32, mischief: Mischief, what: &str) {
     let points = points(300, 3);
     let transport = transport(beat_bits, mischief).unwrap();
-    let mesh = triangulate(transport, &points).unwrap_or_else(|error| panic!("{what}: {error}"));
-    assert_eq!(mesh.triangles, incircle::triangulate(&points).unwrap().triangles, "{what}");
+    let solution = triangulate(transport, &points).unwrap_or_else(|error| panic!("{what}: {error}"));
+    assert_eq!(solution.mesh.triangles, incircle::triangulate(&points).unwrap().triangles, "{what}");
 }
 
 /// The job must end with this kind of error, in time.
@@ -78,8 +78,8 @@ fn a_session_does_job_after_job() {
     let mut session = device.session().unwrap();
     for count in [0, 2, 3, 5, 1024, 100] {
         let points = points(count, 7);
-        let mesh = session.triangulate(&points).unwrap();
-        assert_eq!(mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
+        let solution = session.triangulate(&points).unwrap();
+        assert_eq!(solution.mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
     }
     let error = session.triangulate(&points(1025, 7)).expect_err("too many");
     assert_eq!(error.kind(), ErrorKind::Capacity);
@@ -102,8 +102,8 @@ fn a_reset_between_reads_costs_no_job() {
         let card = transport(64, Mischief { reset: Some(number), ..Mischief::default() }).unwrap();
         let points = points(300, 3);
         // The command under way was forgotten, or the records before it, and the job was done once more.
-        let mesh = triangulate(card, &points).unwrap_or_else(|error| panic!("read {number}: {error}"));
-        assert_eq!(mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
+        let solution = triangulate(card, &points).unwrap_or_else(|error| panic!("read {number}: {error}"));
+        assert_eq!(solution.mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
     }
 }
 
@@ -152,7 +152,7 @@ fn registers_that_no_sound_card_has_are_refused() {
     let lie = Mischief { register: Some((Of::Capacity, 100_000)), ..Mischief::default() };
     let points = points(300, 3);
     match triangulate(transport(64, lie).unwrap(), &points) {
-        Ok(mesh) => assert_is_right(&mesh, &points),
+        Ok(mesh) => assert_is_right(&mesh.mesh, &points),
         Err(error) => assert!(matches!(error.kind(), ErrorKind::Device | ErrorKind::Link), "{error}"),
     }
 }
@@ -241,7 +241,7 @@ proptest! {
         let result = triangulate(card, &points);
         prop_assert!(result.is_err() || from == 5, "{result:?}");
         if let Ok(mesh) = result {
-            assert_is_right(&mesh, &points);
+            assert_is_right(&mesh.mesh, &points);
         }
     }
 }

@@ -37,8 +37,8 @@ fn triangulate(rig: Rig, points: &[Point]) -> Result<Solution, Error> {
 
 /// A whole job, which must end in this list of triangles; `what` says of which one that was not so.
 fn ends_right(rig: Rig, points: &[Point], expected: &[[u32; 3]], what: &str) {
-    let mesh = triangulate(rig, points).unwrap_or_else(|error| panic!("{what}: {error}"));
-    assert_eq!(mesh.triangles, expected, "{what}");
+    let solution = triangulate(rig, points).unwrap_or_else(|error| panic!("{what}: {error}"));
+    assert_eq!(solution.mesh.triangles, expected, "{what}");
 }
 
 fn expected(points: &[Point]) -> Solution {
@@ -60,8 +60,8 @@ fn a_sound_line_carries_a_job_at_the_rate_that_was_asked_for() {
     assert_eq!(rig.engine.rate(), 12_000_000);
     assert!(rig.board.rate.abs_diff(12_000_000) < 10, "{}", rig.board.rate);
     let points = points(2000);
-    let mesh = triangulate(rig, &points).expect("a sound line");
-    assert_eq!(mesh.triangles, expected(&points).triangles);
+    let solution = triangulate(rig, &points).expect("a sound line");
+    assert_eq!(solution.mesh.triangles, expected(&points).mesh.triangles);
 }
 
 #[test]
@@ -172,8 +172,8 @@ fn noise_ends_in_the_right_mesh_or_in_an_error_of_its_own() {
             rig.random = Random(seed as u64);
             let count = rig.flipped.clone();
             match triangulate(rig, &points) {
-                Ok(mesh) => {
-                    assert_eq!(mesh.triangles, expected, "{noise} {seed}");
+                Ok(solution) => {
+                    assert_eq!(solution.mesh.triangles, expected, "{noise} {seed}");
                     right += 1;
                 }
                 Err(Error::Timeout { .. }) => {}

@@ -103,9 +103,9 @@ fn a_job_and_a_goodbye() {
     for _ in 0..2 {
         let mut device = Device::open(&host.address()).expect("a port");
         let mut session = device.session().expect("a board");
-        let mesh = session.triangulate(&points).expect("a mesh");
-        assert_eq!(mesh.triangles, expected.triangles);
-        assert_eq!(mesh.report.backend, format!("serial:{}", host.port));
+        let solution = session.triangulate(&points).expect("a mesh");
+        assert_eq!(solution.mesh.triangles, expected.triangles);
+        assert_eq!(solution.report.backend, format!("serial:{}", host.port));
         assert!(host.board.lock().expect("no panic").rate > 2_900_000);
         drop(device);
         let board = host.board.lock().expect("no panic");
