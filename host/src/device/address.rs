@@ -98,11 +98,10 @@ impl DeviceAddress {
             "model" => Self::Model { coord_bits: None, capacity: None },
             "clock" => Self::Clock { config: None },
             "sim" => Self::Sim { config: None },
-            _ => return Err(
-                "there are \"cpu\", \"model\", \"clock\", \"sim\", \"serial:PORT\", such as serial:/dev/ttyUSB0, and \
-                            \"pcie:N\", such as pcie:0"
-                    .to_owned(),
-            ),
+            _ => {
+                let forms = "there are 'cpu', 'model', 'clock', 'sim', 'serial:PORT', such as serial:/dev/ttyUSB0, and 'pcie:N', such as pcie:0";
+                return Err(forms.to_owned());
+            }
         };
         choices.items().try_for_each(|choice| address.choose(choice))?;
         Ok(address)

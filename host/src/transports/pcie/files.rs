@@ -135,7 +135,7 @@ mod system {
 
 /// The driver is one of Linux.
 #[cfg(not(unix))]
-pub(super) fn open(address: &super::CardAddress) -> Result<CardFiles, super::CardFault> {
+pub(super) fn open(address: &super::address::CardAddress) -> Result<CardFiles, super::fault::CardFault> {
     let path = address.registers().display().to_string();
-    Err(super::CardFault::Other { path, reason: "the driver XDMA is one of Linux".to_owned() })
+    Err(super::fault::CardFault::Other { path, reason: "the driver XDMA is one of Linux".to_owned() })
 }

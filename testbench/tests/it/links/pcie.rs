@@ -52,7 +52,7 @@ fn opened_with(way: Way, device: Box<dyn Beats>, faults: &str) -> (Option<Mounte
 
 fn triangulate(device: &mut Device, points: &[Point]) -> Result<Mesh, Error> {
     let options = Options::default().timeout(LIMIT);
-    device.session_within(LIMIT)?.triangulate_with(points, &options)
+    device.session_within(LIMIT)?.triangulate_with(points, &options).map(|solution| solution.mesh)
 }
 
 /// A job with these faults.

@@ -23,7 +23,7 @@ fn served(detail: Detail, faults: &str) -> Served {
 /// Opens, greets, does the job, closes.
 fn triangulate(address: &str, points: &[Point]) -> Result<Mesh, Error> {
     let options = Options::default().timeout(LIMIT);
-    Device::open(address)?.session_within(LIMIT)?.triangulate_with(points, &options)
+    Device::open(address)?.session_within(LIMIT)?.triangulate_with(points, &options).map(|solution| solution.mesh)
 }
 
 /// The job must end with the right mesh.

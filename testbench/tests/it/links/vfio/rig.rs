@@ -33,7 +33,7 @@ pub fn opened(files: CardFiles) -> Result<Device, Error> {
 /// A job.
 pub fn triangulate(device: &mut Device, points: &[Point]) -> Result<Mesh, Error> {
     let options = Options::default().timeout(LIMIT);
-    device.session_within(LIMIT)?.triangulate_with(points, &options)
+    device.session_within(LIMIT)?.triangulate_with(points, &options).map(|solution| solution.mesh)
 }
 
 /// Does something that may hang, and fails if it does.
