@@ -35,11 +35,6 @@ pub mod verify;
 
 pub use mesh::{Mesh, EMPTY};
 pub use order::{Order, UnknownOrder};
-pub use point::{Duplicate, Point};
+pub use point::{Duplicate, Point, MAX_COORD_BITS, MAX_POINTS};
 pub use predicate::{incircle, orient2d};
 pub use verify::{verify, VerifyError, VerifySummary};
-
-/// Most bits of a coordinate: coordinates lie below 2^31, so that differences fit 32 bits with their sign.
-pub const MAX_COORD_BITS: u32 = 31;
-/// Most points of one set: the numbers of all half-edges must fit 32 bits.
-pub const MAX_POINTS: usize = (1 << 29) - 1;

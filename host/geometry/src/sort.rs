@@ -33,12 +33,14 @@ pub struct Narrow(u64);
 
 impl Narrow {
     /// An entry of this key and value.
+    #[inline]
     pub fn new(key: u32, value: u32) -> Self {
         Self(u64::from(key) << 32 | u64::from(value))
     }
 }
 
 impl Keyed for Narrow {
+    #[inline]
     fn key(&self) -> u64 {
         self.0 >> 32
     }
@@ -53,12 +55,14 @@ pub struct Wide {
 
 impl Wide {
     /// An entry of this key and value.
+    #[inline]
     pub fn new(key: u64, value: u32) -> Self {
         Self { key, value }
     }
 }
 
 impl Keyed for Wide {
+    #[inline]
     fn key(&self) -> u64 {
         self.key
     }
@@ -71,12 +75,14 @@ pub trait Entry: Keyed {
 }
 
 impl Entry for Narrow {
+    #[inline]
     fn value(&self) -> u32 {
         self.0 as u32
     }
 }
 
 impl Entry for Wide {
+    #[inline]
     fn value(&self) -> u32 {
         self.value
     }

@@ -14,8 +14,7 @@ use super::view::{orient2d, Narrow, Site, Wide, Width, NARROW_BITS};
 use super::{collect, conquer::GoOn, merge::Part};
 use crate::mesh::Mesh;
 use crate::pages;
-use crate::point::Point;
-use crate::{MAX_COORD_BITS, MAX_POINTS};
+use crate::point::{Point, MAX_COORD_BITS, MAX_POINTS};
 
 /// Points that are worth a thread.
 const THREAD_POINTS: usize = 16_384;

@@ -9,6 +9,7 @@ use alloc::vec::Vec;
 use super::hilbert::{along_curve, Hilbert};
 use super::keys::mix;
 use crate::point::Point;
+use crate::predicate::orient2d;
 use crate::sort::Entry;
 
 /// The first round has at least about this many points. (The contexts of a device share the work only from the protocol's own first round
@@ -40,6 +41,23 @@ impl Rounds {
     /// One round of points in this order.
     pub fn single(order: Vec<u32>) -> Self {
         Self { order, starts: vec![0] }
+    }
+
+    /// Moves the first point that is not on one line with the first two to the third place, so that the first three span a triangle; all
+    /// others keep their order and their round. Gives the place that the point came from, or `None` if there is no such point. O(n) at worst.
+    pub fn start_with_a_triangle(&mut self, points: &[Point]) -> Option<usize> {
+        let at = |index: u32| points[index as usize];
+        let [first, second, rest @ ..] = &self.order[..] else {
+            return None;
+        };
+        let (a, b) = (at(*first), at(*second));
+        let found = 2 + rest.iter().position(|&index| orient2d(a, b, at(index)) != 0)?;
+        self.order[2..=found].rotate_right(1);
+        // What stood before the point is a place further on, and so are the rounds that began there.
+        for start in self.starts.iter_mut().filter(|start| (2..=found).contains(*start)) {
+            *start += 1;
+        }
+        Some(found)
     }
 }
 
@@ -131,6 +149,24 @@ mod tests {
         let in_order =
             |points: &[Point]| -> Vec<Point> { brio_hilbert(points).iter().map(|&i| points[i as usize]).collect() };
         assert_eq!(in_order(&points), in_order(&reversed));
+    }
+
+    #[test]
+    fn rounds_keep_their_points_when_the_third_is_found() {
+        // Points 0 to 4 lie on a line; the rounds begin at points 0, 2, 4, 6.
+        let line = [(0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (5, 0), (6, 6), (7, 7)].map(Point::from);
+        let mut rounds = Rounds { order: (0..8).collect(), starts: vec![0, 2, 4, 6] };
+        assert_eq!(rounds.start_with_a_triangle(&line), Some(5));
+        assert_eq!(rounds.order, [0, 1, 5, 2, 3, 4, 6, 7]);
+        assert_eq!(rounds.starts, [0, 3, 5, 6]);
+        let mut rounds = Rounds { order: vec![0, 1, 2, 5], starts: vec![0, 1, 3] };
+        assert_eq!(rounds.start_with_a_triangle(&line), Some(3));
+        assert_eq!((rounds.order, rounds.starts), (vec![0, 1, 5, 2], vec![0, 1, 4]));
+        for order in [vec![], vec![1], vec![1, 2], vec![4, 0, 2, 1]] {
+            let mut rounds = Rounds::single(order.clone());
+            assert_eq!(rounds.start_with_a_triangle(&line), None);
+            assert_eq!(rounds, Rounds::single(order));
+        }
     }
 
     proptest! {

@@ -152,6 +152,7 @@ fn only_types_come_from_the_rest_of_the_library() {
         include_str!("exact.rs"),
         include_str!("mod.rs"),
         include_str!("sites.rs"),
+        include_str!("summary.rs"),
     ];
     let types = ["use crate::point::Duplicate;", "use crate::point::Point;"];
     for line in sources.iter().flat_map(|source| source.lines()).filter(|line| !line.trim_start().starts_with("//")) {

@@ -13,39 +13,19 @@
 
 mod descent;
 mod distance;
+mod kind;
 mod neighbors;
 mod pairs;
 mod quadtree;
 mod z_order;
+
+pub use kind::BrioDc;
 
 use self::neighbors::Search;
 use self::z_order::{along_z, Along};
 use incircle_geometry::order::{mix, Rounds};
 use incircle_geometry::pages::zeros;
 use incircle_geometry::Point;
-
-/// How the nearest-neighbour graph is found. Both give the same order; only the time to find it differs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BrioDc {
-    /// In O(n): radix sort, quadtree in one pass, points carried down the tree (Callahan and Kosaraju 1995).
-    Linear,
-    /// In O(n log U) for coordinates below U, with simpler stages: sort by comparison, quadtree from the top by bisection, all points of a
-    /// pair looked at (Har-Peled 2011).
-    LogU,
-}
-
-impl BrioDc {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Linear, Self::LogU];
-
-    /// The name in reports and on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "briodc-linear",
-            Self::LogU => "briodc-log-u",
-        }
-    }
-}
 
 /// An order of insertion, with a guide for each point.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -8,9 +8,9 @@
 //! approximation algorithms*, 2011, section 3.2): a node of a level has a constant number of pairs, so that is O(n log U), and simpler.
 
 use super::descent::Lists;
+use super::kind::BrioDc;
 use super::pairs::{add_pairs, Pair};
 use super::quadtree::Quadtree;
-use super::BrioDc;
 use incircle_geometry::pages::with_room;
 use incircle_geometry::Point;
 

@@ -1,7 +1,7 @@
 //! Points along the Z-curve, equal ones together: sorted by radix, or by comparison.
 
+use super::kind::BrioDc;
 use super::quadtree::level;
-use super::BrioDc;
 use incircle_geometry::order::z_curve::{point_at, position};
 use incircle_geometry::pages::with_room;
 use incircle_geometry::sort::{sort_by_key, Entry, Narrow, Wide};
