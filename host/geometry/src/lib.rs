@@ -1,7 +1,8 @@
-//! Exact geometry of integer points: predicates, the canonical Delaunay triangulation on a processor, orders of insertion, and a validator.
+//! Exact geometry of integer points: predicates, the canonical Delaunay triangulation on a processor, orders of
+//! insertion, and a validator.
 //!
-//! For programs that want the triangulation without a device, a link or a file. The library `incircle` is built on this crate and
-//! re-exports what its users need under the same paths.
+//! For programs that want the triangulation without a device, a link or a file. The library `incircle` is built on this
+//! crate and re-exports what its users need under the same paths.
 //!
 //! ```
 //! use core::num::NonZeroUsize;
@@ -16,7 +17,8 @@
 //! ```
 //!
 //! # Features
-//! - `std`, on by default: threads, and large pages on Linux. Without it the crate needs `alloc` alone, and the engine works on one thread.
+//! - `std`, on by default: threads, and large pages on Linux. Without it the crate needs `alloc` alone, and the engine
+//!   works on one thread.
 //! - `glam`: conversions between [`Point`] and `glam::UVec2`.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 #![warn(missing_docs)]

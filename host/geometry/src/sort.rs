@@ -107,8 +107,8 @@ pub fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
     }
 }
 
-/// Sorts by the bits from `shift` up, then each part of entries that agree in them by itself, so that only the first pass goes through all the
-/// memory at once.
+/// Sorts by the bits from `shift` up, then each part of entries that agree in them by itself, so that only the first
+/// pass goes through all the memory at once.
 fn sort_in_parts<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64, shift: u32) {
     sort_by_digit(entries, scratch, shift, u64::BITS - varying.leading_zeros() - shift);
     let mut rest = entries;
@@ -124,7 +124,8 @@ fn sort_in_parts<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64, s
     }
 }
 
-/// Sorts by all digits in which the keys differ, lowest first: all of one width, the least for their number. True if the result is in `scratch`.
+/// Sorts by all digits in which the keys differ, lowest first: all of one width, the least for their number. True if
+/// the result is in `scratch`.
 fn sort_by_digits<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64) -> bool {
     if varying == 0 {
         return false;

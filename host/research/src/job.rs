@@ -18,8 +18,8 @@ pub struct Outcome {
     pub counts: Counts,
 }
 
-/// Triangulates on the software model in this order, with guides where the order has them. No words pass a command port, as they do in the
-/// product's back end `model`.
+/// Triangulates on the software model in this order, with guides where the order has them. No words pass a command
+/// port, as they do in the product's back end `model`.
 pub fn triangulate(points: &[Point], order: Order) -> Outcome {
     let Prepared { rounds, guides, duplicates, is_collinear } = prepare(points, order);
     let order = rounds.order;

@@ -1,4 +1,5 @@
-//! What happens before the first insertion: duplicates removed, the order chosen, three points first that are not on one line.
+//! What happens before the first insertion: duplicates removed, the order chosen, three points first that are not on
+//! one line.
 
 use incircle_geometry::order::{distinct, Rounds};
 use incircle_geometry::{Duplicate, Point};
@@ -8,9 +9,11 @@ use crate::order::{brio_dc, brio_rounds, Order};
 /// A set, ready to be inserted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Prepared {
-    /// Input indices, one per distinct point (the lowest), in rounds. If all points lie on one line, one round in lexicographic order.
+    /// Input indices, one per distinct point (the lowest), in rounds. If all points lie on one line, one round in
+    /// lexicographic order.
     pub rounds: Rounds,
-    /// For each place of the order an earlier one whose point lies near, or the place itself; empty where the order has no guides.
+    /// For each place of the order an earlier one whose point lies near, or the place itself; empty where the order
+    /// has no guides.
     pub guides: Vec<u32>,
     /// Points that fell onto an earlier one, by index.
     pub duplicates: Vec<Duplicate>,

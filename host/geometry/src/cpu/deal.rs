@@ -1,8 +1,9 @@
 //! Items dealt to buckets in one pass, before it is known how many each will get.
 //!
-//! A bucket is a chain of chunks. Those of all buckets are pieces of one list, taken from it in the order of need, so that dealing writes to
-//! one place per bucket, and all these places stay in the second-level cache. The last chunk of each bucket is half empty on average, of each
-//! thread: so there should be a chunk of items at least for each thread and bucket.
+//! A bucket is a chain of chunks. Those of all buckets are pieces of one list, taken from it in the order of need, so
+//! that dealing writes to one place per bucket, and all these places stay in the second-level cache. The last chunk of
+//! each bucket is half empty on average, of each thread: so there should be a chunk of items at least for each thread
+//! and bucket.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -14,7 +15,8 @@ use crate::pages;
 
 /// Items of a chunk: 2 kB of words, so that a chunk is read in one go and rarely taken.
 pub(super) const CHUNK: usize = 256;
-/// Most buckets, as a power of two: the 2048 lines of 64 bytes that are written to are an eighth of a second-level cache of 1 MB.
+/// Most buckets, as a power of two: the 2048 lines of 64 bytes that are written to are an eighth of a second-level
+/// cache of 1 MB.
 pub(super) const MOST_BUCKETS_BITS: u32 = 11;
 
 /// What one thread has dealt.

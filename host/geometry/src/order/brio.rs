@@ -12,8 +12,8 @@ use crate::point::Point;
 use crate::predicate::orient2d;
 use crate::sort::Entry;
 
-/// The first round has at least about this many points. (The contexts of a device share the work only from the protocol's own first round
-/// on, which is another constant.)
+/// The first round has at least about this many points. (The contexts of a device share the work only from the
+/// protocol's own first round on, which is another constant.)
 const LEAST_ROUND: usize = 16;
 /// α = 1/4 as a power of two: a quarter of the points come before the last round.
 const SHARE: u32 = 2;
@@ -22,8 +22,8 @@ const SHARE: u32 = 2;
 ///
 /// The last round takes three quarters of the points, the round before it three quarters of the rest, down to about 16
 /// points. Each round runs along the Hilbert curve of the grid. The round of a point follows from a hash of its
-/// coordinates: the same set always gives the same order, however the input was arranged. Equal points stay together, in
-/// input order. O(n), about 20 ns per point; twice that where a coordinate has more than 16 bits.
+/// coordinates: the same set always gives the same order, however the input was arranged. Equal points stay together,
+/// in input order. O(n), about 20 ns per point; twice that where a coordinate has more than 16 bits.
 pub fn brio_hilbert(points: &[Point]) -> Vec<u32> {
     rounds(&along_curve(points)).order
 }
@@ -43,8 +43,9 @@ impl Rounds {
         Self { order, starts: vec![0] }
     }
 
-    /// Moves the first point that is not on one line with the first two to the third place, so that the first three span a triangle; all
-    /// others keep their order and their round. Gives the place that the point came from, or `None` if there is no such point. O(n) at worst.
+    /// Moves the first point that is not on one line with the first two to the third place, so that the first three
+    /// span a triangle; all others keep their order and their round. Gives the place that the point came from, or
+    /// `None` if there is no such point. O(n) at worst.
     pub fn start_with_a_triangle(&mut self, points: &[Point]) -> Option<usize> {
         let at = |index: u32| points[index as usize];
         let [first, second, rest @ ..] = &self.order[..] else {
@@ -61,8 +62,8 @@ impl Rounds {
     }
 }
 
-/// Sorts points that stand along the curve into the rounds of α = 2^-`shift`: each point reaches the rounds before the last with
-/// probability α, by a hash of its coordinates. `shift` must be at least 1. O(n).
+/// Sorts points that stand along the curve into the rounds of α = 2^-`shift`: each point reaches the rounds before the
+/// last with probability α, by a hash of its coordinates. `shift` must be at least 1. O(n).
 pub fn rounds_of_share(curve: &Hilbert, shift: u32) -> Rounds {
     match curve {
         Hilbert::Narrow(entries) => sort_into_rounds(entries, shift.max(1)),

@@ -6,8 +6,8 @@ use super::hilbert::{along_curve, Hilbert};
 use crate::point::{Duplicate, Point};
 use crate::sort::Entry;
 
-/// The distinct points along the Hilbert curve, each under its lowest index, and the duplicates by index. O(n), 16 bytes per point while it
-/// runs (32 where a coordinate has more than 16 bits).
+/// The distinct points along the Hilbert curve, each under its lowest index, and the duplicates by index. O(n), 16
+/// bytes per point while it runs (32 where a coordinate has more than 16 bits).
 pub fn distinct(points: &[Point]) -> (Hilbert, Vec<Duplicate>) {
     let mut curve = along_curve(points);
     let mut duplicates = match &mut curve {

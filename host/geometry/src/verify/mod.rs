@@ -1,9 +1,9 @@
 //! The validator: is this mesh right at all?
 //!
-//! It shares no predicate, no sort and no step of the algorithm with the devices, the model or the rest of the host, only
-//! the types of points and meshes: exact 128-bit integers, the lifted 3x3 determinant, a hull by monotone chain. What it
-//! accepts is the canonical mesh: all triangles counter-clockwise, their areas sum to the hull's, each inner edge is
-//! locally Delaunay (so all are: Delaunay 1934), and each tie follows the rule.
+//! It shares no predicate, no sort and no step of the algorithm with the devices, the model or the rest of the host,
+//! only the types of points and meshes: exact 128-bit integers, the lifted 3x3 determinant, a hull by monotone chain.
+//! What it accepts is the canonical mesh: all triangles counter-clockwise, their areas sum to the hull's, each inner
+//! edge is locally Delaunay (so all are: Delaunay 1934), and each tie follows the rule.
 
 mod edges;
 mod error;

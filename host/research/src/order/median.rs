@@ -1,8 +1,9 @@
-//! Hilbert's quadrants, each with a quarter of the points: a split at the median of one coordinate, then each half at its own median of
-//! the other.
+//! Hilbert's quadrants, each with a quarter of the points: a split at the median of one coordinate, then each half at
+//! its own median of the other.
 //!
-//! Split by x first it is CGAL's (Delage, *Spatial sorting*, CGAL manual): where the medians of both halves differ, the step between the
-//! upper quadrants is long. Split by y first there is no such step (Schrijvers, van Bommel, Buchin, EuroCG 2012: Hilbert YX).
+//! Split by x first it is CGAL's (Delage, *Spatial sorting*, CGAL manual): where the medians of both halves differ, the
+//! step between the upper quadrants is long. Split by y first there is no such step (Schrijvers, van Bommel, Buchin,
+//! EuroCG 2012: Hilbert YX).
 
 use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, quantiles, Cells, Frame};
 use incircle_geometry::Point;

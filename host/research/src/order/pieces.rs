@@ -45,8 +45,8 @@ pub(super) type Piece = (std::ops::Range<usize>, Frame);
 
 /// Takes pieces apart until each has one point, or only equal ones, and leaves the list in the order of the curve.
 ///
-/// `divide` puts the points of a piece into the order of its parts and says where these end and how their curves lie; of parts in which
-/// all points are equal it says nothing.
+/// `divide` puts the points of a piece into the order of its parts and says where these end and how their curves lie;
+/// of parts in which all points are equal it says nothing.
 pub(super) fn order(points: &[Point], mut divide: impl FnMut(&mut [u32], Frame) -> Vec<(usize, Frame)>) -> Vec<u32> {
     let mut list: Vec<u32> = (0..=u32::MAX).take(points.len()).collect();
     let mut open: Vec<Piece> = vec![(0..points.len(), Frame::default())];
@@ -136,11 +136,11 @@ pub(super) fn peano_way(cells: Cells, frame: Frame) -> Way {
     way.collect()
 }
 
-/// The values that split points into so many parts of about as many each, by one coordinate in a frame and then the other: the first of
-/// each part but the first.
+/// The values that split points into so many parts of about as many each, by one coordinate in a frame and then the
+/// other: the first of each part but the first.
 ///
-/// None is the least value of all, unless there is no other: of points that differ some always come before it, so that taking pieces
-/// apart comes to an end, however many of them are equal.
+/// None is the least value of all, unless there is no other: of points that differ some always come before it, so that
+/// taking pieces apart comes to an end, however many of them are equal.
 pub(super) fn quantiles(seen: impl Iterator<Item = [i64; 2]>, parts: usize) -> Vec<[i64; 2]> {
     let mut values: Vec<[i64; 2]> = seen.collect();
     let mut firsts = Vec::with_capacity(parts);

@@ -1,8 +1,9 @@
 //! Curves that cut a long box into squares before they fill it, and look at the box of the points again in every part.
 //!
-//! Schrijvers, van Bommel, Buchin, EuroCG 2012. In a *wide* box, long in the direction in which the curve gets on, curves are placed next
-//! to each other. In a *tall* one Hilbert's curve goes up through more than two squares and down through as many; Peano's are placed above
-//! each other, an odd number of them, so that it still ends in the opposite corner.
+//! Schrijvers, van Bommel, Buchin, EuroCG 2012. In a *wide* box, long in the direction in which the curve gets on,
+//! curves are placed next to each other. In a *tall* one Hilbert's curve goes up through more than two squares and down
+//! through as many; Peano's are placed above each other, an odd number of them, so that it still ends in the opposite
+//! corner.
 
 use super::adaptive;
 use super::pieces::{deal, hilbert_way, order as order_pieces, peano_way, row_way, Cells, Frame, Way};

@@ -5,8 +5,8 @@
 pub enum BrioDc {
     /// In O(n): radix sort, quadtree in one pass, points carried down the tree (Callahan and Kosaraju 1995).
     Linear,
-    /// In O(n log U) for coordinates below U, with simpler stages: sort by comparison, quadtree from the top by bisection, all points of a
-    /// pair looked at (Har-Peled 2011).
+    /// In O(n log U) for coordinates below U, with simpler stages: sort by comparison, quadtree from the top by
+    /// bisection, all points of a pair looked at (Har-Peled 2011).
     LogU,
 }
 
