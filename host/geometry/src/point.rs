@@ -74,6 +74,12 @@ pub struct Duplicate {
     pub of: u32,
 }
 
+impl From<Point> for [u32; 2] {
+    fn from(point: Point) -> Self {
+        [point.x, point.y]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,6 +96,7 @@ mod tests {
         assert_eq!(Point::from((3, 4)), expected);
         assert_eq!(Point::from([3, 4]), expected);
         assert_eq!(<(u32, u32)>::from(expected), (3, 4));
+        assert_eq!(<[u32; 2]>::from(expected), [3, 4]);
     }
 
     #[cfg(feature = "glam")]

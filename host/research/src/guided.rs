@@ -43,7 +43,7 @@ impl GuidedMesh {
         &self.mesh
     }
 
-    /// What the model has counted since the last clear.
+    /// The counters of the model since the last clear.
     pub fn counts(&self) -> &Counts {
         self.mesh.counts()
     }

@@ -126,7 +126,7 @@ impl Hierarchy {
         }
     }
 
-    /// What the levels have counted together; points inserted are those of the lowest.
+    /// The counters of all levels, added up; points inserted are those of the lowest.
     pub fn counts(&self) -> Counts {
         let mut sum = Counts { insertions: (self.points.len() - self.duplicates.len()) as u32, ..Counts::default() };
         for counts in self.levels.iter().filter_map(Level::mesh).map(|mesh| mesh.counts()) {

@@ -14,7 +14,7 @@ use crate::prepare::{prepare, Prepared};
 pub struct Outcome {
     /// The canonical mesh.
     pub mesh: Mesh,
-    /// What was counted; all zero if the points lie on one line.
+    /// The counters of the model; all zero if the points lie on one line.
     pub counts: Counts,
 }
 

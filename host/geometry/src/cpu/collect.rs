@@ -231,9 +231,9 @@ impl Buckets {
     }
 }
 
-/// What sorting a bucket takes.
+/// The memory in which buckets are sorted, one after the other.
 struct Room<T> {
-    /// Of each id, where its triangles end.
+    /// For each id of the bucket, the end of its triangles in `sorted`.
     id_ends: Vec<u32>,
     /// The triangles of the bucket, then a few more places.
     sorted: Vec<T>,

@@ -19,7 +19,7 @@ const TOP: u32 = u32::MAX;
 /// Vertices between two looks at the clock.
 const SLICE: usize = 1 << 15;
 
-/// How far up the tree the cut between two neighbours is: each bit of x, then of y, from the lowest on; odd for x.
+/// The height in the tree of the cut between two neighbours: each bit of x, then of y, from the lowest on; odd for x.
 #[inline(always)]
 pub(super) fn level(one: Site, other: Site) -> u32 {
     let bits = |one: i32, other: i32| u32::BITS - ((one ^ other) as u32).leading_zeros();

@@ -32,7 +32,7 @@ pub(super) struct Half {
 }
 
 impl Half {
-    /// It is part of an edge.
+    /// Whether the half-edge is part of an edge.
     pub(super) fn is_used(&self) -> bool {
         self.end != UNUSED
     }
@@ -112,13 +112,13 @@ impl Edges<'_> {
         self.sites[v as usize]
     }
 
-    /// Where half-edge `e` begins.
+    /// The vertex at which half-edge `e` begins.
     #[inline(always)]
     pub(super) fn from(&self, e: u32) -> Site {
         self.site(self.origin(e))
     }
 
-    /// Where half-edge `e` ends.
+    /// The vertex at which half-edge `e` ends.
     #[inline(always)]
     pub(super) fn to(&self, e: u32) -> Site {
         self.site(self.end(e))

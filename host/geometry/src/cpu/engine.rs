@@ -31,7 +31,7 @@ pub enum Stage {
     Assemble,
 }
 
-/// How far the engine is.
+/// A report on the way: the stage, and how far the engine is in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
@@ -44,7 +44,7 @@ pub struct Progress {
     pub total: usize,
 }
 
-/// What hears how far the engine is. [`ControlFlow::Break`] ends the work with [`Error::Cancelled`].
+/// A listener that hears how far the engine is. [`ControlFlow::Break`] ends the work with [`Error::Cancelled`].
 pub type Watch<'w> = &'w mut dyn FnMut(Progress) -> ControlFlow<()>;
 
 /// Why there is no mesh.
@@ -70,7 +70,7 @@ pub enum Error {
     },
 }
 
-/// How many of the threads allowed the engine uses for so many points: one for each 16,384 of them. Without the feature
+/// The threads that the engine uses for so many points, of those it may use: one for each 16,384 of them. Without the feature
 /// `std` one thread.
 pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
     let most = if cfg!(feature = "std") { points / THREAD_POINTS + 1 } else { 1 };

@@ -19,7 +19,7 @@ pub(super) struct Part {
     top: u32,
     /// Half-edges for more edges.
     free: Free,
-    /// It is a single vertex, and its half-edge leads nowhere.
+    /// The part is a single vertex, and its half-edge leads nowhere.
     is_vertex: bool,
 }
 
@@ -43,7 +43,7 @@ impl Part {
     }
 }
 
-/// How two parts lie.
+/// The cut between two parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
     /// The first lies to the left of the second: all its x are smaller.
@@ -56,9 +56,9 @@ pub(super) enum Cut {
 /// left.
 #[derive(Clone, Copy)]
 struct Base {
-    /// Its half at `a`.
+    /// The half of the base edge that begins at `a`.
     at_a: u32,
-    /// Its half at `b`.
+    /// The half of the base edge that begins at `b`.
     at_b: u32,
     a: u32,
     b: u32,
@@ -73,7 +73,7 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// It lies to the left of the base edge.
+    /// Whether the point lies to the left of the base edge.
     #[inline(always)]
     fn is_valid(&self) -> bool {
         self.seen.view.cross > 0

@@ -21,6 +21,8 @@ mod deal;
 mod edges;
 mod engine;
 mod merge;
+#[cfg(test)]
+mod oracle;
 mod parallel;
 mod sites;
 #[cfg(feature = "std")]

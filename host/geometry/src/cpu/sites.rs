@@ -141,7 +141,7 @@ impl Curve {
         Placed(self.rest(position) & !self.indices() | index)
     }
 
-    /// The same where words are not exact, with the bits of the position that those leave out. They fit: `rest_bits` is
+    /// The word for a second sort, where words are not exact: with the bits of the position that those leave out. They fit: `rest_bits` is
     /// at most 62, an index has 29.
     fn placed_finely(&self, position: u64, index: u64) -> Placed {
         let missing = self.rest_bits + self.index_bits - u64::BITS;
@@ -199,7 +199,7 @@ pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
     all
 }
 
-/// What is kept of a run of buckets: room for all its points.
+/// The distinct points of a run of buckets, with room for all points of the run.
 struct Kept<'a> {
     sites: &'a mut [Site],
     ids: &'a mut [u32],

@@ -103,7 +103,7 @@ fn sort_into_rounds<E: Entry>(entries: &[E], shift: u32) -> Rounds {
 /// Levels there can be: the trailing zeros of a 64-bit hash, and all of them zero.
 const LEVELS: usize = u64::BITS as usize + 1;
 
-/// How many levels below the last round `points` points have.
+/// The number of rounds of `points` points, less one.
 fn last_level(points: usize, shift: u32) -> usize {
     let mut level = 0;
     let mut sample = points >> shift;

@@ -15,7 +15,7 @@ pub(super) enum Level {
     /// Points in the plane.
     Plane {
         mesh: Box<GuidedMesh>,
-        /// Of each vertex, its number in the level below.
+        /// For each vertex, the number of its point in the level below.
         below: Vec<u32>,
     },
 }
@@ -27,7 +27,7 @@ impl Default for Level {
 }
 
 impl Level {
-    /// Its mesh, if it has one.
+    /// The mesh of the level; `None` while all points lie on one line.
     pub(super) fn mesh(&self) -> Option<&GuidedMesh> {
         match self {
             Self::Line(_) => None,

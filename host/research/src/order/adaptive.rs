@@ -5,7 +5,7 @@
 //! algorithm*, EuroCG 2012. No jumps, since all parts meet in the same lines; but parts may have any share of the
 //! points.
 
-use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, peano_way, quantiles, Cells, Frame, Way};
+use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, peano_way, quantiles, Cells, Orientation, Way};
 use incircle_geometry::Point;
 
 /// The points along the adaptive Hilbert curve.
@@ -26,7 +26,13 @@ pub(super) fn peano(points: &[Point]) -> Vec<u32> {
 
 /// Splits a piece into columns of as many points each, and rows of as many points each; ties go by the other
 /// coordinate.
-pub(super) fn split(points: &[Point], piece: &mut [u32], frame: Frame, cells: Cells, way: &Way) -> Vec<(usize, Frame)> {
+pub(super) fn split(
+    points: &[Point],
+    piece: &mut [u32],
+    frame: Orientation,
+    cells: Cells,
+    way: &Way,
+) -> Vec<(usize, Orientation)> {
     let see = |index: u32| frame.see(points[index as usize]);
     let swapped = |[u, v]: [i64; 2]| [v, u];
     let columns = quantiles(piece.iter().map(|&index| see(index)), cells.columns);

@@ -37,7 +37,7 @@ pub struct Guided {
     /// For each place of the order the index of a point before it, at which the search for this one begins; the first
     /// point guides itself.
     pub guides: Vec<u32>,
-    /// Where each round begins.
+    /// The place at which each round begins.
     starts: Vec<usize>,
 }
 

@@ -24,7 +24,7 @@ pub enum Curve {
     /// CGAL's: Hilbert's quadrants, split at the median x, then each half at its median y. The step across the middle
     /// can be long.
     MedianHilbert,
-    /// The same, split at the median y first: no long step.
+    /// Hilbert's quadrants, split at the median y, then each half at its median x: no long step.
     HilbertYx,
     /// Hilbert's quadrants, split at the medians of x and y at once.
     AdaptiveHilbert,

@@ -6,7 +6,7 @@
 //! corner.
 
 use super::adaptive;
-use super::pieces::{deal, hilbert_way, order as order_pieces, peano_way, row_way, Cells, Frame, Way};
+use super::pieces::{deal, hilbert_way, order as order_pieces, peano_way, row_way, Cells, Orientation, Way};
 use incircle_geometry::Point;
 
 /// Most squares that a box is cut into at a time; parts are cut again.
@@ -67,7 +67,7 @@ struct Around {
 }
 
 impl Around {
-    fn of(points: &[Point], piece: &[u32], frame: Frame) -> Self {
+    fn of(points: &[Point], piece: &[u32], frame: Orientation) -> Self {
         let (mut low, mut high) = ([i64::MAX; 2], [i64::MIN; 2]);
         for &index in piece {
             let seen = frame.see(points[index as usize]);
@@ -83,11 +83,11 @@ impl Around {
         &self,
         points: &[Point],
         piece: &mut [u32],
-        frame: Frame,
+        frame: Orientation,
         split: Split,
         cells: Cells,
         way: &Way,
-    ) -> Vec<(usize, Frame)> {
+    ) -> Vec<(usize, Orientation)> {
         if split == Split::Points {
             return adaptive::split(points, piece, frame, cells, way);
         }

@@ -178,7 +178,7 @@ impl Quadtree {
         place(first)..=place(last)
     }
 
-    /// The same of a node of [`FEW`] points at most, in constant time; `None` of a larger one.
+    /// The places of all points below a node of [`FEW`] points at most, in constant time; `None` of a larger one.
     pub(super) fn few_places(&self, node: u32) -> Option<RangeInclusive<u32>> {
         let (mut first, mut last) = (node, node);
         for _ in 1..FEW {
