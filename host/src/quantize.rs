@@ -1,7 +1,7 @@
 //! From floating-point values to grid points: one named step that reports what it did. Nothing is rounded silently.
 
-use crate::device::check_coord_bits;
 use crate::error::Error;
+use crate::limit::check_coord_bits;
 use incircle_geometry::{Point, MAX_POINTS};
 
 /// How values are laid onto the grid.

@@ -140,7 +140,7 @@ fn run_job(
 }
 
 fn mesh_of(device: &mut Device, points: &[incircle::Point]) -> Result<incircle::Mesh, Error> {
-    let options = Options { timeout: Some(Duration::from_secs(3600)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_secs(3600));
     device.session_within(Duration::from_secs(3600))?.triangulate_with(points, &options)
 }
 

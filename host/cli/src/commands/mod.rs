@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod bench_batch;
+mod bench_sets;
 pub mod completions;
 pub mod devices;
 pub mod generate;

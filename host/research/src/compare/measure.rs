@@ -85,7 +85,7 @@ fn cycles(points: &[Point], order: Order, coord_bits: u32, distinct: usize) -> R
     };
     let sent: Vec<Point> = order.into_iter().map(|index| points[index as usize]).collect();
     let mut device = Device::clock_model(LARGE)?;
-    let options = Options { order: incircle::Order::Input, insert_chunk: sent.len(), ..Options::default() };
+    let options = Options::default().order(incircle::Order::Input).insert_chunk(sent.len());
     let solution = device.session()?.triangulate_with(&sent, &options)?;
     Ok(solution.report.cycles_per_insertion())
 }

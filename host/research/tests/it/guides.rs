@@ -152,7 +152,7 @@ fn walks_are_those_of_the_product_in_its_orders() {
     let points: Vec<Point> = SplitMix64::new(36).points(3000, 1 << 16);
     let mut device = incircle::Device::model(16, 4096).expect("possible");
     for order in incircle::Order::ALL {
-        let options = incircle::Options { order, ..incircle::Options::default() };
+        let options = incircle::Options::default().order(order);
         let solution =
             device.session().and_then(|mut session| session.triangulate_with(&points, &options)).expect("a mesh");
         let counters = solution.report.counters.expect("counters of the model");

@@ -147,7 +147,7 @@ proptest! {
             random.points(count, if is_crowded { 20 } else { 1 << 16 })
         };
         let jobs: Vec<Vec<Point>> = raw.into_iter().map(job).collect();
-        let options = Options { contexts: Some(contexts), ..Options::default() };
+        let options = Options::default().contexts(contexts);
         let mut device = Mock::device(takes_ahead, true, (0, 0));
         prop_assert!(batch(&mut device, &jobs, &options).expect("meshes") == alone(&jobs));
     }

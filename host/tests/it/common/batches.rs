@@ -27,7 +27,7 @@ pub fn check_cancelled(device: &mut Device, jobs: &[Vec<Point>], right: &[Mesh],
         Progress { stage: Stage::Insert, done, .. } if done >= patience => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     };
-    let options = Options { progress: Some(&listener), ..Options::default() };
+    let options = Options::default().progress(&listener);
     let mut session = device.session().expect("a session");
     let error = session.triangulate_batch(jobs, &options).expect_err("cancelled");
     assert_eq!(error.kind(), ErrorKind::Cancelled, "{patience}: {error}");

@@ -99,13 +99,13 @@ pub fn brute_force(points: &[Point]) -> Vec<[u32; 3]> {
 }
 
 /// The mesh passes the validator, and its counts agree with its lists.
-pub fn assert_right(mesh: &Solution) {
-    mesh.verify().unwrap_or_else(|error| panic!("{error}"));
-    let report = &mesh.report;
-    assert_eq!(report.points, mesh.points.len());
-    assert_eq!(report.triangles, mesh.triangles.len());
-    assert_eq!(report.hull, mesh.hull.len());
-    assert_eq!(report.duplicates, mesh.duplicates.len());
+pub fn assert_right(solution: &Solution) {
+    solution.mesh.verify().unwrap_or_else(|error| panic!("{error}"));
+    let report = &solution.report;
+    assert_eq!(report.points, solution.mesh.points.len());
+    assert_eq!(report.triangles, solution.mesh.triangles.len());
+    assert_eq!(report.hull, solution.mesh.hull.len());
+    assert_eq!(report.duplicates, solution.mesh.duplicates.len());
     assert_eq!(report.distinct + report.duplicates, report.points);
-    assert_eq!(report.collinear, mesh.is_collinear());
+    assert_eq!(report.collinear, solution.mesh.is_collinear());
 }

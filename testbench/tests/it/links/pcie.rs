@@ -51,7 +51,7 @@ fn opened_with(way: Way, device: Box<dyn Beats>, faults: &str) -> (Option<Mounte
 }
 
 fn triangulate(device: &mut Device, points: &[Point]) -> Result<Mesh, Error> {
-    let options = Options { timeout: Some(LIMIT), ..Options::default() };
+    let options = Options::default().timeout(LIMIT);
     device.session_within(LIMIT)?.triangulate_with(points, &options)
 }
 
@@ -132,7 +132,7 @@ fn a_reset_in_mid_job_gives_the_right_mesh_or_says_so() {
         for after in [40, 100, 1000, 2000, 2500, 4000, 9000] {
             let faults = format!("reset={after}");
             let points = random_points(600, after);
-            let options = Options { timeout: Some(Duration::from_secs(5)), ..Options::default() };
+            let options = Options::default().timeout(Duration::from_secs(5));
             let (_card, device) = opened(way, 64, &faults);
             let mut device = device.unwrap();
             let result =
@@ -213,7 +213,7 @@ fn a_call_that_hangs_is_left_behind_in_time_and_keeps_its_card() {
     let (card, mut device) = (card.unwrap(), device.unwrap());
     let before = calls_left_behind();
     let begun = Instant::now();
-    let options = Options { timeout: Some(Duration::from_secs(1)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_secs(1));
     let result = device.session().unwrap().triangulate_with(&random_points(600, 2), &options);
     let error = result.expect_err("the call hangs");
     assert!(matches!(error.kind(), ErrorKind::Timeout | ErrorKind::Link), "{error}");
@@ -232,7 +232,7 @@ fn jobs_at_the_pins(way: Way, beat_bits: u32, faults: &str) {
     let mut device = device.unwrap();
     let mut session = device.session_within(LIMIT).unwrap();
     assert_eq!(session.identity().contexts, SMALL.contexts);
-    let options = Options { timeout: Some(LIMIT), ..Options::default() };
+    let options = Options::default().timeout(LIMIT);
     for (seed, count) in (1..).zip([3, 1000, 200]) {
         let points = random_points(count, seed);
         let mesh = session.triangulate_with(&points, &options).unwrap_or_else(|error| panic!("{faults}: {error}"));

@@ -22,7 +22,7 @@ fn served(detail: Detail, faults: &str) -> Served {
 
 /// Opens, greets, does the job, closes.
 fn triangulate(address: &str, points: &[Point]) -> Result<Mesh, Error> {
-    let options = Options { timeout: Some(LIMIT), ..Options::default() };
+    let options = Options::default().timeout(LIMIT);
     Device::open(address)?.session_within(LIMIT)?.triangulate_with(points, &options)
 }
 

@@ -189,7 +189,12 @@ const BREACHES: [(&str, &str, DependencyKind, &str); 19] = [
     ("incircle-model", "incircle-sim", DependencyKind::Normal, "incircle reaches verilated"),
     ("incircle", "incircle-sim", DependencyKind::Development, "incircle must not use incircle-sim"),
     ("incircle-cli", "incircle-sim", DependencyKind::Normal, "only as an option"),
-    ("incircle-geometry", "incircle-protocol", DependencyKind::Normal, "incircle-geometry must not use incircle-protocol"),
+    (
+        "incircle-geometry",
+        "incircle-protocol",
+        DependencyKind::Normal,
+        "incircle-geometry must not use incircle-protocol",
+    ),
     ("incircle", "incircle-research", DependencyKind::Development, "incircle must not use incircle-research"),
     ("incircle-cli", "incircle-research", DependencyKind::Normal, "incircle-cli must not use incircle-research"),
     ("incircle", "incircle-testkit", DependencyKind::Normal, "incircle reaches incircle-testkit"),

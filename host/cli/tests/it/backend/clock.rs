@@ -10,7 +10,7 @@ use serde_json::Value;
 const CONTEXTS: [u32; 6] = [1, 2, 4, 8, 16, 24];
 
 fn triangulate(session: &mut Session<'_>, points: &[Point], order: Order, contexts: Option<u32>) -> Solution {
-    let options = Options { order, contexts, ..Options::default() };
+    let options = Options::default().order(order).contexts(contexts);
     session.triangulate_with(points, &options).expect("a mesh")
 }
 
@@ -24,16 +24,16 @@ fn compare(config: Config, count: usize) {
         let points = generate(set, count, 16, 2).expect("the bits are possible");
         let points: Vec<Point> = points.into_iter().map(Point::from).collect();
         let expected = triangulate(&mut model, &points, Order::default(), None);
-        expected.verify().unwrap_or_else(|error| panic!("{set}: {error}"));
+        expected.mesh.verify().unwrap_or_else(|error| panic!("{set}: {error}"));
         for order in Order::BASIC {
             for contexts in CONTEXTS {
-                let mesh = triangulate(&mut clock, &points, order, Some(contexts));
+                let solution = triangulate(&mut clock, &points, order, Some(contexts));
                 let what = format!("{set}, {order:?}, {contexts} contexts");
-                assert!(mesh.triangles == expected.triangles, "{what}");
-                assert_eq!(mesh.hull, expected.hull, "{what}");
-                assert_eq!(mesh.duplicates, expected.duplicates, "{what}");
-                let counters = mesh.report.counters.expect("the device was asked");
-                assert_eq!(counters.insertions as usize, mesh.report.distinct, "{what}");
+                assert!(solution.mesh.triangles == expected.mesh.triangles, "{what}");
+                assert_eq!(solution.mesh.hull, expected.mesh.hull, "{what}");
+                assert_eq!(solution.mesh.duplicates, expected.mesh.duplicates, "{what}");
+                let counters = solution.report.counters.expect("the device was asked");
+                assert_eq!(counters.insertions as usize, solution.report.distinct, "{what}");
                 assert!(counters.insert_cycles > 0, "{what}");
             }
         }

@@ -32,7 +32,7 @@ pub fn opened(files: CardFiles) -> Result<Device, Error> {
 
 /// A job.
 pub fn triangulate(device: &mut Device, points: &[Point]) -> Result<Mesh, Error> {
-    let options = Options { timeout: Some(LIMIT), ..Options::default() };
+    let options = Options::default().timeout(LIMIT);
     device.session_within(LIMIT)?.triangulate_with(points, &options)
 }
 
