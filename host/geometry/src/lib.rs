@@ -1,7 +1,8 @@
-//! Exact geometry of integer points: predicates, the canonical Delaunay triangulation on a processor, orders of insertion, and a validator.
+//! Exact geometry of integer points: predicates, the canonical Delaunay triangulation on a processor, orders of
+//! insertion, and a validator.
 //!
-//! For programs that want the triangulation without a device, a link or a file. The library `incircle` is built on this crate and
-//! re-exports what its users need under the same paths.
+//! For programs that want the triangulation without a device, a link or a file. The library `incircle` is built on this
+//! crate and re-exports what its users need under the same paths.
 //!
 //! ```
 //! use core::num::NonZeroUsize;
@@ -16,7 +17,8 @@
 //! ```
 //!
 //! # Features
-//! - `std`, on by default: threads, and large pages on Linux. Without it the crate needs `alloc` alone, and the engine works on one thread.
+//! - `std`, on by default: threads, and large pages on Linux. Without it the crate needs `alloc` alone, and the engine
+//!   works on one thread.
 //! - `glam`: conversions between [`Point`] and `glam::UVec2`.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 #![warn(missing_docs)]
@@ -35,11 +37,6 @@ pub mod verify;
 
 pub use mesh::{Mesh, EMPTY};
 pub use order::{Order, UnknownOrder};
-pub use point::{Duplicate, Point};
+pub use point::{Duplicate, Point, MAX_COORD_BITS, MAX_POINTS};
 pub use predicate::{incircle, orient2d};
 pub use verify::{verify, VerifyError, VerifySummary};
-
-/// Most bits of a coordinate: coordinates lie below 2^31, so that differences fit 32 bits with their sign.
-pub const MAX_COORD_BITS: u32 = 31;
-/// Most points of one set: the numbers of all half-edges must fit 32 bits.
-pub const MAX_POINTS: usize = (1 << 29) - 1;

@@ -21,8 +21,8 @@ pub struct Mesh {
     pub points: Vec<Point>,
     /// Triples of indices into `points`, counter-clockwise, each with its smallest index first, sorted.
     pub triangles: Vec<[u32; 3]>,
-    /// Indices of the points on the hull, counter-clockwise, lowest index first; points in the middle of a hull edge are
-    /// included. Without triangles: all distinct points in lexicographic order.
+    /// Indices of the points on the hull, counter-clockwise, lowest index first; points in the middle of a hull edge
+    /// are included. Without triangles: all distinct points in lexicographic order.
     pub hull: Vec<u32>,
     /// Points that fell onto an earlier one, by index.
     pub duplicates: Vec<Duplicate>,

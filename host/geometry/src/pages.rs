@@ -1,7 +1,8 @@
 //! Room for long lists, in large pages where the system has them.
 //!
-//! Lists are read and written all over, in the order of the input along the curve and back. In pages of 4 kB nearly every such access
-//! first has to find its page; in pages of 2 MB the processor knows them all, and the system hands out far fewer.
+//! Lists are read and written all over, in the order of the input along the curve and back. In pages of 4 kB nearly
+//! every such access first has to find its page; in pages of 2 MB the processor knows them all, and the system hands
+//! out far fewer.
 
 use alloc::vec::Vec;
 
@@ -33,7 +34,8 @@ pub fn zeros<T: Zeroable>(count: usize) -> Vec<T> {
     list
 }
 
-/// Asks for large pages for the room of a list. Where they cannot be had, nothing happens: it is a matter of speed only.
+/// Asks for large pages for the room of a list. Where they cannot be had, nothing happens: it is a matter of speed
+/// only.
 #[cfg(all(target_os = "linux", feature = "std"))]
 #[allow(unsafe_code)] // a system call that no safe library offers for a `Vec`
 fn advise<T>(list: &Vec<T>) {

@@ -2,6 +2,11 @@
 
 use core::fmt;
 
+/// Most bits of a coordinate: coordinates lie below 2^31, so that differences fit 32 bits with their sign.
+pub const MAX_COORD_BITS: u32 = 31;
+/// Most points of one set: the numbers of all half-edges must fit 32 bits.
+pub const MAX_POINTS: usize = (1 << 29) - 1;
+
 /// A point of the grid: two unsigned integers.
 ///
 /// A device takes coordinates below 2^`coord_bits` (16 in the standard core, 31 at most); nothing is checked here.
@@ -16,6 +21,7 @@ pub struct Point {
 
 impl Point {
     /// The point `(x, y)`.
+    #[inline]
     pub const fn new(x: u32, y: u32) -> Self {
         Self { x, y }
     }
@@ -68,6 +74,12 @@ pub struct Duplicate {
     pub of: u32,
 }
 
+impl From<Point> for [u32; 2] {
+    fn from(point: Point) -> Self {
+        [point.x, point.y]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -84,6 +96,7 @@ mod tests {
         assert_eq!(Point::from((3, 4)), expected);
         assert_eq!(Point::from([3, 4]), expected);
         assert_eq!(<(u32, u32)>::from(expected), (3, 4));
+        assert_eq!(<[u32; 2]>::from(expected), [3, 4]);
     }
 
     #[cfg(feature = "glam")]

@@ -1,6 +1,7 @@
 //! The two predicates of Delaunay triangulations, exact for all coordinates below 2^31.
 //!
-//! The engine evaluates the same determinants in a form that shares work between points (`cpu/view.rs`), and the validator has its own.
+//! The engine evaluates the same determinants in a form that shares work between points (`cpu/view.rs`), and the
+//! validator has its own.
 
 use crate::point::Point;
 
@@ -9,8 +10,8 @@ const fn vector(from: Point, to: Point) -> [i64; 2] {
     [to.x as i64 - from.x as i64, to.y as i64 - from.y as i64]
 }
 
-/// Twice the signed area of the triangle, in squares of the grid: positive if `a`, `b`, `c` turn counter-clockwise, zero if they lie on one
-/// line.
+/// Twice the signed area of the triangle, in squares of the grid: positive if `a`, `b`, `c` turn counter-clockwise,
+/// zero if they lie on one line.
 ///
 /// Exact for coordinates below 2^31: differences stay below 2^31 in magnitude, each product below 2^62, their
 /// difference below 2^63.
@@ -25,11 +26,12 @@ pub const fn orient2d(a: Point, b: Point, c: Point) -> i64 {
     bx * cy - by * cx
 }
 
-/// Positive if `d` lies inside the circle through the counter-clockwise triangle `a`, `b`, `c`, zero if on the circle, negative if outside. The
-/// sign is the other way round for a clockwise triangle. This is the plain determinant, without the tie rule of the canonical mesh.
+/// Positive if `d` lies inside the circle through the counter-clockwise triangle `a`, `b`, `c`, zero if on the circle,
+/// negative if outside. The sign is the other way round for a clockwise triangle. This is the plain determinant,
+/// without the tie rule of the canonical mesh.
 ///
-/// Exact for coordinates below 2^31: the determinant is a difference of two products of a doubled area (below 2^63) and a scalar product
-/// (at most 2^63), both of vectors in one square of the grid; it is at most 2^123 (`cpu/view.rs`).
+/// Exact for coordinates below 2^31: the determinant is a difference of two products of a doubled area (below 2^63) and
+/// a scalar product (at most 2^63), both of vectors in one square of the grid; it is at most 2^123 (`cpu/view.rs`).
 ///
 /// ```
 /// use incircle_geometry::{incircle, Point};

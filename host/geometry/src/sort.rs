@@ -33,12 +33,14 @@ pub struct Narrow(u64);
 
 impl Narrow {
     /// An entry of this key and value.
+    #[inline]
     pub fn new(key: u32, value: u32) -> Self {
         Self(u64::from(key) << 32 | u64::from(value))
     }
 }
 
 impl Keyed for Narrow {
+    #[inline]
     fn key(&self) -> u64 {
         self.0 >> 32
     }
@@ -53,12 +55,14 @@ pub struct Wide {
 
 impl Wide {
     /// An entry of this key and value.
+    #[inline]
     pub fn new(key: u64, value: u32) -> Self {
         Self { key, value }
     }
 }
 
 impl Keyed for Wide {
+    #[inline]
     fn key(&self) -> u64 {
         self.key
     }
@@ -71,12 +75,14 @@ pub trait Entry: Keyed {
 }
 
 impl Entry for Narrow {
+    #[inline]
     fn value(&self) -> u32 {
         self.0 as u32
     }
 }
 
 impl Entry for Wide {
+    #[inline]
     fn value(&self) -> u32 {
         self.value
     }
@@ -101,8 +107,8 @@ pub fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
     }
 }
 
-/// Sorts by the bits from `shift` up, then each part of entries that agree in them by itself, so that only the first pass goes through all the
-/// memory at once.
+/// Sorts by the bits from `shift` up, then each part of entries that agree in them by itself, so that only the first
+/// pass goes through all the memory at once.
 fn sort_in_parts<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64, shift: u32) {
     sort_by_digit(entries, scratch, shift, u64::BITS - varying.leading_zeros() - shift);
     let mut rest = entries;
@@ -118,7 +124,8 @@ fn sort_in_parts<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64, s
     }
 }
 
-/// Sorts by all digits in which the keys differ, lowest first: all of one width, the least for their number. True if the result is in `scratch`.
+/// Sorts by all digits in which the keys differ, lowest first: all of one width, the least for their number. True if
+/// the result is in `scratch`.
 fn sort_by_digits<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64) -> bool {
     if varying == 0 {
         return false;

@@ -4,7 +4,8 @@ use incircle_geometry::{Duplicate, Mesh, Point};
 use incircle_model::Record;
 use incircle_protocol::{infinite_vertex, MAX_MODEL_POINTS};
 
-/// The canonical mesh of the records of a mesh of [`MAX_MODEL_POINTS`], in which vertex `v` is the point with the index `order[v]`. O(n).
+/// The canonical mesh of the records of a mesh of [`MAX_MODEL_POINTS`], in which vertex `v` is the point with the index
+/// `order[v]`. O(n).
 pub fn canonical(records: &[Record], order: &[u32], points: &[Point], duplicates: Vec<Duplicate>) -> Mesh {
     let infinite = infinite_vertex(MAX_MODEL_POINTS);
     let index = |vertex: u32| order[vertex as usize];

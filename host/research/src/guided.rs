@@ -1,4 +1,5 @@
-//! A mesh of the software model with a triangle of each vertex, so that the walk to a point can begin at a vertex near it.
+//! A mesh of the software model with a triangle of each vertex, so that the walk to a point can begin at a vertex near
+//! it.
 
 use incircle_geometry::Point;
 use incircle_model::{Approach, Counts, Insertion, Mesh, Record};
@@ -14,8 +15,8 @@ pub(crate) fn in_model(Point { x, y }: Point) -> incircle_model::predicate::Poin
     incircle_model::predicate::Point { x, y }
 }
 
-/// A mesh of the software model with a finite triangle of each vertex. The triangles take four bytes per point, and are noted with each
-/// insertion.
+/// A mesh of the software model with a finite triangle of each vertex. The triangles take four bytes per point, and are
+/// noted with each insertion.
 #[derive(Clone, Debug)]
 pub struct GuidedMesh {
     mesh: Mesh,
@@ -42,7 +43,7 @@ impl GuidedMesh {
         &self.mesh
     }
 
-    /// What the model has counted since the last clear.
+    /// The counters of the model since the last clear.
     pub fn counts(&self) -> &Counts {
         self.mesh.counts()
     }
@@ -59,8 +60,9 @@ impl GuidedMesh {
         self.mesh.records().get(found as usize)?.v.contains(&vertex).then_some(found)
     }
 
-    /// Inserts a point. The search for it begins at a triangle of the vertex `guide`, by number of arrival; where the last search ended if
-    /// there is no such vertex before this one. The mesh is the same wherever the search begins.
+    /// Inserts a point. The search for it begins at a triangle of the vertex `guide`, by number of arrival; where the
+    /// last search ended if there is no such vertex before this one. The mesh is the same wherever the search
+    /// begins.
     pub fn insert(&mut self, point: Point, guide: Option<u32>) -> Insertion {
         match self.walk_to(point, guide) {
             None => self.insert_first(point),
@@ -77,8 +79,8 @@ impl GuidedMesh {
         }
     }
 
-    /// Inserts a point as [`Self::insert`] does, unless there is a vertex at its place: then gives that one as the error. Otherwise gives the
-    /// vertex of the point.
+    /// Inserts a point as [`Self::insert`] does, unless there is a vertex at its place: then gives that one as the
+    /// error. Otherwise gives the vertex of the point.
     pub fn insert_unless_there(&mut self, point: Point, guide: Option<u32>) -> Result<u32, u32> {
         let own = self.triangle_of.len() as u32;
         let Some(approach) = self.walk_to(point, guide) else {
@@ -127,7 +129,8 @@ impl GuidedMesh {
         }
     }
 
-    /// Notes the triangles around the point that was inserted last, of which this is one: all vertices of those that are gone are at them.
+    /// Notes the triangles around the point that was inserted last, of which this is one: all vertices of those that
+    /// are gone are at them.
     fn note_star(&mut self, of_star: u32) {
         self.triangle_of.push(NONE);
         let mut triangle = of_star;

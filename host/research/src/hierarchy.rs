@@ -1,8 +1,9 @@
 //! Points that arrive one at a time, in an order that nobody chose.
 //!
-//! Devillers, *The Delaunay hierarchy*, 2002. Of the points of a level about one in 32 are in the level above, each level with a mesh of
-//! its own. A point is looked for in the highest level first; the nearest corner of the triangle found there is where the walk in the
-//! level below begins. So a walk takes a constant number of steps in each of O(log n) levels, wherever the point before lay.
+//! Devillers, *The Delaunay hierarchy*, 2002. Of the points of a level about one in 32 are in the level above, each
+//! level with a mesh of its own. A point is looked for in the highest level first; the nearest corner of the triangle
+//! found there is where the walk in the level below begins. So a walk takes a constant number of steps in each of O(log
+//! n) levels, wherever the point before lay.
 
 mod level;
 
@@ -16,12 +17,13 @@ use crate::assembly::canonical;
 
 /// One in 2 to this many points of a level is in the level above: about one in 30, as the author found to be good.
 const SHIFT: u32 = 5;
-/// A Delaunay triangulation of points that arrive one at a time. The mesh is the one that all devices give, byte for byte.
+/// A Delaunay triangulation of points that arrive one at a time. The mesh is the one that all devices give, byte for
+/// byte.
 ///
-/// The levels are meshes of the software model, with coordinates up to 31 bits. A point takes O(log n) in the mean over the coins that
-/// choose levels, which are hashes of the coordinates, as long as cavities are small: an order of arrival can be bad, unlike one that is
-/// chosen. Points that come while all lie on one line are in no sample, so walks among them can be long. 75 bytes per point, up to
-/// twice that while lists grow.
+/// The levels are meshes of the software model, with coordinates up to 31 bits. A point takes O(log n) in the mean over
+/// the coins that choose levels, which are hashes of the coordinates, as long as cavities are small: an order of
+/// arrival can be bad, unlike one that is chosen. Points that come while all lie on one line are in no sample, so walks
+/// among them can be long. 75 bytes per point, up to twice that while lists grow.
 ///
 /// ```
 /// use incircle_geometry::Point;
@@ -55,11 +57,12 @@ impl Hierarchy {
         &self.points
     }
 
-    /// Takes a point, whose index is the number of those before it. Returns the index of the first point of the same coordinates, if
-    /// there is one: then the mesh stays as it is.
+    /// Takes a point, whose index is the number of those before it. Returns the index of the first point of the same
+    /// coordinates, if there is one: then the mesh stays as it is.
     ///
     /// # Errors
-    /// [`Error::CoordinateOutOfRange`] beyond 31 bits, [`Error::TooManyPoints`] beyond [`MAX_POINTS`]. The point is not taken then.
+    /// [`Error::CoordinateOutOfRange`] beyond 31 bits, [`Error::TooManyPoints`] beyond [`MAX_POINTS`]. The point is not
+    /// taken then.
     pub fn insert(&mut self, point: Point) -> Result<Option<u32>, Error> {
         let index = self.points.len();
         if (point.x | point.y) >> MAX_COORD_BITS != 0 {
@@ -123,7 +126,7 @@ impl Hierarchy {
         }
     }
 
-    /// What the levels have counted together; points inserted are those of the lowest.
+    /// The counters of all levels, added up; points inserted are those of the lowest.
     pub fn counts(&self) -> Counts {
         let mut sum = Counts { insertions: (self.points.len() - self.duplicates.len()) as u32, ..Counts::default() };
         for counts in self.levels.iter().filter_map(Level::mesh).map(|mesh| mesh.counts()) {

@@ -14,12 +14,12 @@ use crate::prepare::{prepare, Prepared};
 pub struct Outcome {
     /// The canonical mesh.
     pub mesh: Mesh,
-    /// What was counted; all zero if the points lie on one line.
+    /// The counters of the model; all zero if the points lie on one line.
     pub counts: Counts,
 }
 
-/// Triangulates on the software model in this order, with guides where the order has them. No words pass a command port, as they do in the
-/// product's back end `model`.
+/// Triangulates on the software model in this order, with guides where the order has them. No words pass a command
+/// port, as they do in the product's back end `model`.
 pub fn triangulate(points: &[Point], order: Order) -> Outcome {
     let Prepared { rounds, guides, duplicates, is_collinear } = prepare(points, order);
     let order = rounds.order;

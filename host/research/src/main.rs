@@ -15,7 +15,8 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Compare orders of insertion: time to order, walk steps, tests and cavity of an insertion, cycles of the core, time in all
+    /// Compare orders of insertion: time to order, walk steps, tests and cavity of an insertion, cycles of the core,
+    /// time in all
     Orders(OrdersArguments),
     /// Draw an order: a line from each point to the next
     Draw(PictureArguments),

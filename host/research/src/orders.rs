@@ -22,7 +22,8 @@ pub struct OrdersArguments {
     /// Points of a set, several numbers with commas; cycles are counted up to 16384
     #[arg(short, value_name = "N", value_delimiter = ',', default_values_t = [4096])]
     pub n: Vec<u32>,
-    /// Orders, several with commas (default: random, every curve, rounds along every curve, rounds with guides, points as they arrive)
+    /// Orders, several with commas (default: random, every curve, rounds along every curve, rounds with guides, points
+    /// as they arrive)
     #[arg(long = "order", value_name = "ORDER", value_delimiter = ',', value_parser = way_from)]
     pub orders: Vec<Way>,
     /// Bits of a coordinate; cycles are counted up to 16

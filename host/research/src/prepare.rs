@@ -1,17 +1,19 @@
-//! What happens before the first insertion: duplicates removed, the order chosen, three points first that are not on one line.
+//! What happens before the first insertion: duplicates removed, the order chosen, three points first that are not on
+//! one line.
 
-use incircle_geometry::order::{along_curve, Hilbert, Rounds};
-use incircle_geometry::sort::Entry;
-use incircle_geometry::{orient2d, Duplicate, Point};
+use incircle_geometry::order::{distinct, Rounds};
+use incircle_geometry::{Duplicate, Point};
 
 use crate::order::{brio_dc, brio_rounds, Order};
 
 /// A set, ready to be inserted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Prepared {
-    /// Input indices, one per distinct point (the lowest), in rounds. If all points lie on one line, one round in lexicographic order.
+    /// Input indices, one per distinct point (the lowest), in rounds. If all points lie on one line, one round in
+    /// lexicographic order.
     pub rounds: Rounds,
-    /// For each place of the order an earlier one whose point lies near, or the place itself; empty where the order has no guides.
+    /// For each place of the order an earlier one whose point lies near, or the place itself; empty where the order
+    /// has no guides.
     pub guides: Vec<u32>,
     /// Points that fell onto an earlier one, by index.
     pub duplicates: Vec<Duplicate>,
@@ -21,7 +23,8 @@ pub struct Prepared {
 
 /// Removes duplicates and puts the points into this order. O(n) but for the orders that are slower.
 pub fn prepare(points: &[Point], order: Order) -> Prepared {
-    let (distinct, duplicates) = distinct(points);
+    let (curve, duplicates) = distinct(points);
+    let distinct = curve.into_indices();
     let mut prepared = Prepared { duplicates, ..Prepared::default() };
     let in_place = |places: Rounds| Rounds {
         order: places.order.into_iter().map(|place| distinct[place as usize]).collect(),
@@ -45,57 +48,20 @@ pub fn prepare(points: &[Point], order: Order) -> Prepared {
     prepared
 }
 
-/// The lowest index of each distinct point, along Hilbert's curve, and the duplicates.
-fn distinct(points: &[Point]) -> (Vec<u32>, Vec<Duplicate>) {
-    let mut curve = along_curve(points);
-    let mut duplicates = match &mut curve {
-        Hilbert::Narrow(entries) => remove_duplicates(entries),
-        Hilbert::Wide(entries) => remove_duplicates(entries),
-    };
-    duplicates.sort_unstable();
-    (curve.into_indices(), duplicates)
-}
-
-/// Keeps the first entry of each key, which has the lowest index because the sort was stable.
-fn remove_duplicates<E: Entry>(entries: &mut Vec<E>) -> Vec<Duplicate> {
-    let mut duplicates = Vec::new();
-    entries.dedup_by(|later, kept| {
-        let equal = later.key() == kept.key();
-        if equal {
-            duplicates.push(Duplicate { index: later.value(), of: kept.value() });
-        }
-        equal
-    });
-    duplicates
-}
-
 impl Prepared {
-    /// Moves the first point that is not collinear with the first two to the third place; all others keep their order and their round.
+    /// Moves the first point that is not on one line with the first two to the third place, and its guide with it.
     fn start_with_a_triangle(&mut self, points: &[Point]) {
-        let at = |index: u32| points[index as usize];
-        let Rounds { order, starts, .. } = &mut self.rounds;
-        let found = match &order[..] {
-            [first, second, rest @ ..] => {
-                rest.iter().position(|&index| orient2d(at(*first), at(*second), at(index)) != 0)
-            }
-            _ => None,
-        };
-        let Some(found) = found else {
-            order.sort_unstable_by_key(|&index| at(index));
-            (*starts, self.guides, self.is_collinear) = (vec![0], Vec::new(), true);
+        let Some(found) = self.rounds.start_with_a_triangle(points) else {
+            self.rounds.order.sort_unstable_by_key(|&index| points[index as usize]);
+            (self.rounds.starts, self.guides, self.is_collinear) = (vec![0], Vec::new(), true);
             return;
         };
-        order[2..=found + 2].rotate_right(1);
-        // What stood before the point is a place further on, and so are the rounds that began there.
-        for start in starts.iter_mut().filter(|start| (2..=found + 2).contains(*start)) {
-            *start += 1;
-        }
         let moved = |place: u32| match place as usize {
-            place if place == found + 2 => 2,
-            place if (2..found + 2).contains(&place) => place as u32 + 1,
+            place if place == found => 2,
+            place if (2..found).contains(&place) => place as u32 + 1,
             _ => place,
         };
-        if let Some(stretch) = self.guides.get_mut(2..=found + 2) {
+        if let Some(stretch) = self.guides.get_mut(2..=found) {
             stretch.rotate_right(1);
             // A guide that now comes after the point it guided does so no more.
             let guides = (0..).zip(&mut self.guides);
@@ -108,6 +74,7 @@ impl Prepared {
 mod tests {
     use super::*;
     use crate::order::BrioDc;
+    use incircle_geometry::orient2d;
     use proptest::prelude::*;
 
     #[test]

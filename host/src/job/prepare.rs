@@ -2,10 +2,9 @@
 //! collinear.
 
 use super::deal::deal;
-use incircle_geometry::order::{along_curve, random, rounds, Hilbert, Order, Rounds};
-use incircle_geometry::sort::Entry;
+use incircle_geometry::order::{distinct, random, rounds, Order, Rounds};
+use incircle_geometry::Duplicate;
 use incircle_geometry::Point;
-use incircle_geometry::{orient2d, Duplicate};
 
 /// A job, ready for the device.
 #[derive(Debug, PartialEq, Eq)]
@@ -21,12 +20,7 @@ pub(crate) struct Prepared {
 /// Sorts, removes duplicates, orders, and deals the points to this many contexts; the order of the input is left alone. The
 /// input must be shorter than 2^32. O(n), 16 bytes per point while it runs (32 where a coordinate has more than 16 bits).
 pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared {
-    let mut curve = along_curve(points);
-    let mut duplicates = match &mut curve {
-        Hilbert::Narrow(entries) => remove_duplicates(entries),
-        Hilbert::Wide(entries) => remove_duplicates(entries),
-    };
-    duplicates.sort_unstable();
+    let (curve, duplicates) = distinct(points);
     let mut rounds = match order {
         Order::Random => Rounds::single(at_random(points, curve.into_indices())),
         Order::Hilbert => Rounds::single(curve.into_indices()),
@@ -38,7 +32,7 @@ pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared
         // The default, and what no version of this library has yet.
         _ => rounds(&curve),
     };
-    let collinear = !start_with_a_triangle(&mut rounds, points);
+    let collinear = rounds.start_with_a_triangle(points).is_none();
     let mut order = match order {
         Order::Input => rounds.order,
         _ => deal(rounds, contexts),
@@ -55,41 +49,10 @@ fn at_random(points: &[Point], indices: Vec<u32>) -> Vec<u32> {
     random(&distinct).into_iter().map(|place| indices[place as usize]).collect()
 }
 
-/// Keeps the first entry of each key, which has the lowest index because the sort was stable.
-fn remove_duplicates<E: Entry>(entries: &mut Vec<E>) -> Vec<Duplicate> {
-    let mut duplicates = Vec::new();
-    entries.dedup_by(|later, kept| {
-        let equal = later.key() == kept.key();
-        if equal {
-            duplicates.push(Duplicate { index: later.value(), of: kept.value() });
-        }
-        equal
-    });
-    duplicates
-}
-
-/// Moves the first point that is not collinear with the first two to the third place; all others keep their order and their
-/// round. False if there is none.
-fn start_with_a_triangle(rounds: &mut Rounds, points: &[Point]) -> bool {
-    let at = |index: u32| points[index as usize];
-    let [first, second, rest @ ..] = &*rounds.order else {
-        return false;
-    };
-    let (a, b) = (at(*first), at(*second));
-    let Some(found) = rest.iter().position(|&index| orient2d(a, b, at(index)) != 0) else {
-        return false;
-    };
-    rounds.order[2..=found + 2].rotate_right(1);
-    // What stood before the point is a place further on, and so are the rounds that began there.
-    for start in rounds.starts.iter_mut().filter(|start| (2..=found + 2).contains(*start)) {
-        *start += 1;
-    }
-    true
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use incircle_geometry::orient2d;
     use proptest::prelude::*;
 
     fn points(raw: &[(u32, u32)]) -> Vec<Point> {
@@ -117,19 +80,6 @@ mod tests {
         let prepared = prepare(&points(&[(0, 0), (1, 1), (2, 2), (3, 3), (3, 0), (9, 1)]), Order::Input, 4);
         assert!(!prepared.collinear);
         assert_eq!(prepared.order, [0, 1, 4, 2, 3, 5]);
-    }
-
-    #[test]
-    fn rounds_keep_their_points_when_the_third_is_found() {
-        // Points 0 to 4 lie on a line; the rounds begin at points 0, 2, 4, 6.
-        let line = points(&[(0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (5, 0), (6, 6), (7, 7)]);
-        let mut rounds = Rounds { order: (0..8).collect(), starts: vec![0, 2, 4, 6] };
-        assert!(start_with_a_triangle(&mut rounds, &line));
-        assert_eq!(rounds.order, [0, 1, 5, 2, 3, 4, 6, 7]);
-        assert_eq!(rounds.starts, [0, 3, 5, 6]);
-        let mut rounds = Rounds { order: vec![0, 1, 2, 5], starts: vec![0, 1, 3] };
-        assert!(start_with_a_triangle(&mut rounds, &line));
-        assert_eq!((rounds.order, rounds.starts), (vec![0, 1, 5, 2], vec![0, 1, 4]));
     }
 
     #[test]

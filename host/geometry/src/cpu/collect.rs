@@ -1,9 +1,9 @@
 //! From the subdivision to the canonical mesh.
 //!
-//! The list is sorted by smallest corner, then by the second one. Each edge knows one triangle of which its end with the smaller id may be the
-//! smallest corner: the one to its left, seen from there. So a pass over the edges finds every triangle once, in the order of the curve. They are
-//! dealt to buckets of neighbouring ids, and each bucket is sorted while it is in the cache: no list is walked in an order far from that of the curve
-//! or of the ids.
+//! The list is sorted by smallest corner, then by the second one. Each edge knows one triangle of which its end with
+//! the smaller id may be the smallest corner: the one to its left, seen from there. So a pass over the edges finds
+//! every triangle once, in the order of the curve. They are dealt to buckets of neighbouring ids, and each bucket is
+//! sorted while it is in the cache: no list is walked in an order far from that of the curve or of the ids.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -17,9 +17,11 @@ use super::parallel::in_parallel;
 
 /// Marks the end of a half-edge that has the outside to its left.
 const GAP: u32 = 1 << 31;
-/// Ids of a bucket, as a power of two, where there are several buckets and few enough: two triangles an id make 64 kB with their copy.
+/// Ids of a bucket, as a power of two, where there are several buckets and few enough: two triangles an id make 64 kB
+/// with their copy.
 const BUCKET_BITS: u32 = 11;
-/// Triangles of an id that are sorted without branches: it is the smallest corner of two on average, and of more than four one time in ten.
+/// Triangles of an id that are sorted without branches: it is the smallest corner of two on average, and of more than
+/// four one time in ten.
 const FEW: usize = 4;
 /// Edges that are looked at together: they and their triangles, 14 kB, stay in the first-level cache.
 const BLOCK: usize = 512;
@@ -43,7 +45,8 @@ pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
     hull
 }
 
-/// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The half-edges are not needed any more.
+/// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The half-edges are
+/// not needed any more.
 pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: usize, threads: usize) -> Vec<[u32; 3]> {
     let buckets = Buckets::of(points, threads);
     if buckets.fit_a_word() {
@@ -228,9 +231,9 @@ impl Buckets {
     }
 }
 
-/// What sorting a bucket takes.
+/// The memory in which buckets are sorted, one after the other.
 struct Room<T> {
-    /// Of each id, where its triangles end.
+    /// For each id of the bucket, the end of its triangles in `sorted`.
     id_ends: Vec<u32>,
     /// The triangles of the bucket, then a few more places.
     sorted: Vec<T>,
@@ -268,8 +271,8 @@ impl<T: Triangle> Room<T> {
     }
 }
 
-/// Sorts a few triangles without branches: no processor predicts how many an id has. Those at the end may be of larger ids. They are larger, and so are
-/// what is behind them, so that each id's stay together.
+/// Sorts a few triangles without branches: no processor predicts how many an id has. Those at the end may be of larger
+/// ids. They are larger, and so are what is behind them, so that each id's stay together.
 #[inline(always)]
 fn sort_few<T: Ord + Copy>([a, b, c, d]: &mut [T; FEW]) {
     let order = |a: &mut T, b: &mut T| (*a, *b) = ((*a).min(*b), (*a).max(*b));

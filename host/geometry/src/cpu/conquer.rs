@@ -1,9 +1,10 @@
 //! Divide and conquer along the Z-curve.
 //!
-//! The points stand in the order of the curve, so every square and half square of the quadtree is a stretch of them. Where two neighbours
-//! first differ, in which bit of which coordinate, says which cut separates them: the tree of cuts need not be built, a stack of parts
-//! that wait for their other half is enough. Cuts alternate between vertical and horizontal ones, so parts stay compact and the
-//! work of all merges is O(n) on even sets; there are at most `2 w` cuts above a point, so it is O(n w) on any.
+//! The points stand in the order of the curve, so every square and half square of the quadtree is a stretch of them.
+//! Where two neighbours first differ, in which bit of which coordinate, says which cut separates them: the tree of cuts
+//! need not be built, a stack of parts that wait for their other half is enough. Cuts alternate between vertical and
+//! horizontal ones, so parts stay compact and the work of all merges is O(n) on even sets; there are at most `2 w` cuts
+//! above a point, so it is O(n w) on any.
 
 use alloc::vec::Vec;
 
@@ -18,7 +19,7 @@ const TOP: u32 = u32::MAX;
 /// Vertices between two looks at the clock.
 const SLICE: usize = 1 << 15;
 
-/// How far up the tree the cut between two neighbours is: each bit of x, then of y, from the lowest on; odd for x.
+/// The height in the tree of the cut between two neighbours: each bit of x, then of y, from the lowest on; odd for x.
 #[inline(always)]
 pub(super) fn level(one: Site, other: Site) -> u32 {
     let bits = |one: i32, other: i32| u32::BITS - ((one ^ other) as u32).leading_zeros();
@@ -58,8 +59,8 @@ impl Waiting {
     }
 }
 
-/// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread. `None` if there are none, or if the work
-/// shall not go on.
+/// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread. `None` if there are none,
+/// or if the work shall not go on.
 pub(super) fn conquer<W: Width>(sites: &[Site], halves: &mut [Half], go_on: GoOn<'_>) -> Option<Part> {
     let mut edges = Edges { sites, halves };
     let mut waiting = Waiting::new();
@@ -86,8 +87,8 @@ pub(super) fn conquer<W: Width>(sites: &[Site], halves: &mut [Half], go_on: GoOn
 }
 
 impl Edges<'_> {
-    /// The largest square or half square that begins with vertex `v` and has up to three vertices, and how many: given the cuts around
-    /// them. Three on a line are left to merges.
+    /// The largest square or half square that begins with vertex `v` and has up to three vertices, and how many: given
+    /// the cuts around them. Three on a line are left to merges.
     #[inline(always)]
     fn leaf(&mut self, v: u32, before: u32, after: [u32; 3]) -> (Part, usize) {
         if after[0].max(after[1]) < before.min(after[2]) {

@@ -1,8 +1,9 @@
 //! Items dealt to buckets in one pass, before it is known how many each will get.
 //!
-//! A bucket is a chain of chunks. Those of all buckets are pieces of one list, taken from it in the order of need, so that dealing writes to
-//! one place per bucket, and all these places stay in the second-level cache. The last chunk of each bucket is half empty on average, of each
-//! thread: so there should be a chunk of items at least for each thread and bucket.
+//! A bucket is a chain of chunks. Those of all buckets are pieces of one list, taken from it in the order of need, so
+//! that dealing writes to one place per bucket, and all these places stay in the second-level cache. The last chunk of
+//! each bucket is half empty on average, of each thread: so there should be a chunk of items at least for each thread
+//! and bucket.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -14,16 +15,17 @@ use crate::pages;
 
 /// Items of a chunk: 2 kB of words, so that a chunk is read in one go and rarely taken.
 pub(super) const CHUNK: usize = 256;
-/// Most buckets, as a power of two: the 2048 lines of 64 bytes that are written to are an eighth of a second-level cache of 1 MB.
+/// Most buckets, as a power of two: the 2048 lines of 64 bytes that are written to are an eighth of a second-level
+/// cache of 1 MB.
 pub(super) const MOST_BUCKETS_BITS: u32 = 11;
 
-/// What one thread has dealt.
+/// The items that one thread has dealt.
 pub(super) struct Dealt<T> {
     /// All chunks.
     list: Vec<T>,
-    /// Of each chunk, where the one before it of the same bucket ends: zero if there is none.
+    /// For each chunk, the end of the previous chunk of its bucket in `list`; 0 for the first.
     before: Vec<u32>,
-    /// Of each bucket, where the last item in the list ends: zero if there is none.
+    /// For each bucket, the end of its last item in `list`; 0 if it has none.
     ends: Vec<u32>,
 }
 
@@ -68,7 +70,7 @@ impl<T: Copy + Zeroable> Dealt<T> {
     }
 }
 
-/// Where each bucket ends in the list of all items, bucket by bucket.
+/// The end of each bucket in the list of all items, bucket by bucket.
 pub(super) fn bucket_ends<T: Copy + Zeroable>(dealt: &[Dealt<T>], buckets: usize) -> Vec<usize> {
     let size = |bucket| dealt.iter().flat_map(|own| own.chunks(bucket)).map(<[T]>::len).sum::<usize>();
     (0..buckets)
@@ -91,7 +93,7 @@ pub(super) fn runs(ends: &[usize], count: usize) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Where a run of buckets stands in the list of all items.
+/// The place of a run of buckets in the list of all items.
 pub(super) fn stretch(run: &Range<usize>, ends: &[usize]) -> Range<usize> {
     let end_before = |bucket: usize| bucket.checked_sub(1).map_or(0, |before| ends[before]);
     end_before(run.start)..end_before(run.end)

@@ -1,8 +1,10 @@
-//! The subdivision: half-edges in pairs, with the ring of half-edges around each vertex (Guibas and Stolfi 1985, without the dual).
+//! The subdivision: half-edges in pairs, with the ring of half-edges around each vertex (Guibas and Stolfi 1985,
+//! without the dual).
 //!
-//! Half-edge `e` leads to its `end`; `e ^ 1` is the other half and leads back. Around a vertex, `next` is the next half-edge counter-clockwise and
-//! `previous` the next one clockwise. `n` points never have more than `3 n` edges, so vertex `v` brings the six half-edges from `6 v`
-//! on: a part of the plane owns a stretch of the list, nothing is allocated, and neighbours in the plane are neighbours in memory.
+//! Half-edge `e` leads to its `end`; `e ^ 1` is the other half and leads back. Around a vertex, `next` is the next
+//! half-edge counter-clockwise and `previous` the next one clockwise. `n` points never have more than `3 n` edges, so
+//! vertex `v` brings the six half-edges from `6 v` on: a part of the plane owns a stretch of the list, nothing is
+//! allocated, and neighbours in the plane are neighbours in memory.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -30,12 +32,13 @@ pub(super) struct Half {
 }
 
 impl Half {
-    /// It is part of an edge.
+    /// Whether the half-edge is part of an edge.
     pub(super) fn is_used(&self) -> bool {
         self.end != UNUSED
     }
 
-    /// Adds `by` to the numbers of half-edges and `vertices` to those of vertices: the part becomes a part of a longer list.
+    /// Adds `by` to the numbers of half-edges and `vertices` to those of vertices: the part becomes a part of a longer
+    /// list.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub(super) fn move_by(&mut self, by: u32, vertices: u32) {
@@ -109,13 +112,13 @@ impl Edges<'_> {
         self.sites[v as usize]
     }
 
-    /// Where half-edge `e` begins.
+    /// The vertex at which half-edge `e` begins.
     #[inline(always)]
     pub(super) fn from(&self, e: u32) -> Site {
         self.site(self.origin(e))
     }
 
-    /// Where half-edge `e` ends.
+    /// The vertex at which half-edge `e` ends.
     #[inline(always)]
     pub(super) fn to(&self, e: u32) -> Site {
         self.site(self.end(e))
@@ -141,8 +144,8 @@ impl Edges<'_> {
         (first, unused(&mut own[2..], first + 2))
     }
 
-    /// The half-edges of three vertices from `v` on: the triangle that they form in this counter-clockwise order. Its edges leave
-    /// them in this order, a pair each.
+    /// The half-edges of three vertices from `v` on: the triangle that they form in this counter-clockwise order. Its
+    /// edges leave them in this order, a pair each.
     #[inline(always)]
     pub(super) fn start_triangle(&mut self, v: u32, [a, b, c]: [u32; 3]) -> (u32, Free) {
         let first = HALVES as u32 * v;

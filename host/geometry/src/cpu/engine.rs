@@ -14,8 +14,7 @@ use super::view::{orient2d, Narrow, Site, Wide, Width, NARROW_BITS};
 use super::{collect, conquer::GoOn, merge::Part};
 use crate::mesh::Mesh;
 use crate::pages;
-use crate::point::Point;
-use crate::{MAX_COORD_BITS, MAX_POINTS};
+use crate::point::{Point, MAX_COORD_BITS, MAX_POINTS};
 
 /// Points that are worth a thread.
 const THREAD_POINTS: usize = 16_384;
@@ -32,20 +31,20 @@ pub enum Stage {
     Assemble,
 }
 
-/// How far the engine is.
+/// A report on the way: the stage, and how far the engine is in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
     /// The part of the work.
     pub stage: Stage,
-    /// Points done in this stage: 0 when the stage begins. [`Stage::Insert`] counts distinct points, and is told of at its end and now and then
-    /// before; the other stages are told of at their beginning alone.
+    /// Points done in this stage: 0 when the stage begins. [`Stage::Insert`] counts distinct points, and is told of at
+    /// its end and now and then before; the other stages are told of at their beginning alone.
     pub done: usize,
     /// Points of this stage.
     pub total: usize,
 }
 
-/// What hears how far the engine is. [`ControlFlow::Break`] ends the work with [`Error::Cancelled`].
+/// A listener that hears how far the engine is. [`ControlFlow::Break`] ends the work with [`Error::Cancelled`].
 pub type Watch<'w> = &'w mut dyn FnMut(Progress) -> ControlFlow<()>;
 
 /// Why there is no mesh.
@@ -71,7 +70,8 @@ pub enum Error {
     },
 }
 
-/// How many of the threads allowed the engine uses for so many points: one for each 16,384 of them. Without the feature `std` one thread.
+/// The threads that the engine uses for so many points, of those it may use: one for each 16,384 of them. Without the feature
+/// `std` one thread.
 pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
     let most = if cfg!(feature = "std") { points / THREAD_POINTS + 1 } else { 1 };
     allowed.min(NonZeroUsize::MIN.saturating_add(most - 1))
@@ -79,9 +79,9 @@ pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
 
 /// The canonical Delaunay triangulation of the points, on at most so many threads; see [`threads_for`].
 ///
-/// Coordinates must be below 2^31. Duplicates collapse onto their lowest index and are listed. The watch hears of progress, on the thread
-/// of the caller, and can end the work. O(n log n) at worst and O(n) on even sets: about 0.15 µs a point on one thread. The peak is
-/// below 200 bytes per point, the mesh included, the caller's points not.
+/// Coordinates must be below 2^31. Duplicates collapse onto their lowest index and are listed. The watch hears of
+/// progress, on the thread of the caller, and can end the work. O(n log n) at worst and O(n) on even sets: about 0.15
+/// µs a point on one thread. The peak is below 200 bytes per point, the mesh included, the caller's points not.
 ///
 /// ```
 /// use core::num::NonZeroUsize;

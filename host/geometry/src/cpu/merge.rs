@@ -5,7 +5,8 @@ use super::edges::{moved, Half, HALVES};
 use super::edges::{Edges, Free};
 use super::view::{incircle, orient2d, Seen, Site, Width};
 
-/// The triangulation of some points: its outermost vertices, each as the half-edge that leaves it counter-clockwise along the hull.
+/// The triangulation of some points: its outermost vertices, each as the half-edge that leaves it counter-clockwise
+/// along the hull.
 #[derive(Clone, Copy)]
 pub(super) struct Part {
     /// Smallest x, then y.
@@ -18,13 +19,13 @@ pub(super) struct Part {
     top: u32,
     /// Half-edges for more edges.
     free: Free,
-    /// It is a single vertex, and its half-edge leads nowhere.
+    /// The part is a single vertex, and its half-edge leads nowhere.
     is_vertex: bool,
 }
 
 impl Part {
-    /// The part after its half-edges, numbered from the start of a stretch, are numbered from the start of all, where the stretch
-    /// begins with vertex `first`.
+    /// The part after its half-edges, numbered from the start of a stretch, are numbered from the start of all, where
+    /// the stretch begins with vertex `first`.
     #[cfg(feature = "std")]
     pub(super) fn moved(self, halves: &mut [Half], first: u32) -> Self {
         let by = HALVES as u32 * first;
@@ -42,7 +43,7 @@ impl Part {
     }
 }
 
-/// How two parts lie.
+/// The cut between two parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
     /// The first lies to the left of the second: all its x are smaller.
@@ -51,12 +52,13 @@ pub(super) enum Cut {
     Horizontal,
 }
 
-/// The base edge: it runs from `a` in the first part to `b` in the second one, and all that is left to do lies to its left.
+/// The base edge: it runs from `a` in the first part to `b` in the second one, and all that is left to do lies to its
+/// left.
 #[derive(Clone, Copy)]
 struct Base {
-    /// Its half at `a`.
+    /// The half of the base edge that begins at `a`.
     at_a: u32,
-    /// Its half at `b`.
+    /// The half of the base edge that begins at `b`.
     at_b: u32,
     a: u32,
     b: u32,
@@ -71,7 +73,7 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// It lies to the left of the base edge.
+    /// Whether the point lies to the left of the base edge.
     #[inline(always)]
     fn is_valid(&self) -> bool {
         self.seen.view.cross > 0
@@ -147,8 +149,8 @@ impl Edges<'_> {
             Cut::Vertical => (one.right, other.left),
             Cut::Horizontal => (one.top, other.bottom),
         };
-        // Half-edges along the hulls: of the first part clockwise, of the other one counter-clockwise. That of a single vertex
-        // ends where it begins, and nothing turns around it.
+        // Half-edges along the hulls: of the first part clockwise, of the other one counter-clockwise. That of a single
+        // vertex ends where it begins, and nothing turns around it.
         let mut ldi = self.previous(facing);
         let (mut a, mut b) = (self.from(ldi), self.from(rdi));
         loop {
@@ -209,8 +211,8 @@ impl Edges<'_> {
         }
     }
 
-    /// The first point of one part, the first one if `OF_A`, that a circle through `a` and `b` meets as it grows to the left; edges of that
-    /// part's end of the base that are in the way are removed.
+    /// The first point of one part, the first one if `OF_A`, that a circle through `a` and `b` meets as it grows to the
+    /// left; edges of that part's end of the base that are in the way are removed.
     #[inline(always)]
     fn candidate<W: Width, const OF_A: bool>(&mut self, base: Base, a: Site, b: Site, free: &mut Free) -> Candidate {
         let mut edge = if OF_A { self.next(base.at_a) } else { self.previous(base.at_b) };
@@ -238,8 +240,8 @@ impl Edges<'_> {
         }
     }
 
-    /// The next base edge: from `a` to the end of `other`, or from the end of `one` to `b`. Selections instead of branches: no
-    /// processor predicts which one it is.
+    /// The next base edge: from `a` to the end of `other`, or from the end of `one` to `b`. Selections instead of
+    /// branches: no processor predicts which one it is.
     #[inline(always)]
     fn connect(&mut self, base: Base, one: Candidate, other: Candidate, other_is_next: bool, free: &mut Free) -> Base {
         let select = |if_other: u32, if_one: u32| if other_is_next { if_other } else { if_one };

@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 #[cfg(feature = "std")]
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The results of all items, in their order, worked out on as many threads as there are items, this one among them. If the system will not
-/// start a thread, the threads that did start share its work.
+/// The results of all items, in their order, worked out on as many threads as there are items, this one among them. If
+/// the system will not start a thread, the threads that did start share its work.
 #[cfg(feature = "std")]
 pub(super) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     use std::panic::resume_unwind;

@@ -1,8 +1,9 @@
 //! The distinct points along the Z-curve, which is what the engine divides by.
 //!
-//! The leading bits of a point's position on the curve name its bucket, a cell of the plane. The other bits and the index of the point make one word, and
-//! each bucket of words is sorted by itself. Where both do not fit 64 bits the last bits of the position are left out: words that agree in the others are
-//! sorted by those once more, for which their points are looked up.
+//! The leading bits of a point's position on the curve name its bucket, a cell of the plane. The other bits and the
+//! index of the point make one word, and each bucket of words is sorted by itself. Where both do not fit 64 bits the
+//! last bits of the position are left out: words that agree in the others are sorted by those once more, for which
+//! their points are looked up.
 
 use alloc::vec::Vec;
 
@@ -17,10 +18,11 @@ use crate::point::Duplicate;
 use crate::point::Point;
 use crate::sort::{sort_by_key, Keyed, SMALL};
 
-/// Bits of a word that are sorted at a time: three digits of the radix sort of a usual bucket, enough to tell nearly all its points apart.
+/// Bits of a word that are sorted at a time: three digits of the radix sort of a usual bucket, enough to tell nearly
+/// all its points apart.
 const KEY_BITS: u32 = 24;
-/// Points of a bucket, where there are several, as many to twice as many on average if points are even: 16 to 32 kB, and as much again to sort
-/// them, which is near what a first-level cache holds.
+/// Points of a bucket, where there are several, as many to twice as many on average if points are even: 16 to 32 kB,
+/// and as much again to sort them, which is near what a first-level cache holds.
 const BUCKET: usize = 2048;
 
 /// The distinct points, sorted.
@@ -37,7 +39,8 @@ pub(super) struct Sites {
 
 /// A point of the grid as a word to sort by, and where it comes from.
 ///
-/// From the top: the position on the curve without the bits that the bucket says, as many as there is room for; the index of the point.
+/// From the top: the position on the curve without the bits that the bucket says, as many as there is room for; the
+/// index of the point.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
 struct Placed(u64);
 
@@ -67,7 +70,8 @@ fn sort_words(words: &mut Vec<Placed>) {
     }
 }
 
-/// The window onto the grid that the points are in, and the curve through it: positions count from its lower left corner.
+/// The window onto the grid that the points are in, and the curve through it: positions count from its lower left
+/// corner.
 #[derive(Clone, Copy)]
 struct Curve {
     corner: Point,
@@ -137,7 +141,8 @@ impl Curve {
         Placed(self.rest(position) & !self.indices() | index)
     }
 
-    /// The same where words are not exact, with the bits of the position that those leave out. They fit: `rest_bits` is at most 62, an index has 29.
+    /// The word for a second sort, where words are not exact: with the bits of the position that those leave out. They fit: `rest_bits` is
+    /// at most 62, an index has 29.
     fn placed_finely(&self, position: u64, index: u64) -> Placed {
         let missing = self.rest_bits + self.index_bits - u64::BITS;
         Placed(position << (u64::BITS - missing) | index)
@@ -154,8 +159,9 @@ impl Curve {
     }
 }
 
-/// Sorts the points along the curve and takes duplicates out, on so many threads. O(n), by radix: points are dealt to cells of [`BUCKET`] points or some
-/// more, if they are even, and each cell is sorted by itself. A thread has whole cells, so threads help less where most points are in few of them.
+/// Sorts the points along the curve and takes duplicates out, on so many threads. O(n), by radix: points are dealt to
+/// cells of [`BUCKET`] points or some more, if they are even, and each cell is sorted by itself. A thread has whole
+/// cells, so threads help less where most points are in few of them.
 pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
     let curve = Curve::of(points, threads);
     let mut all = Sites {
@@ -193,7 +199,7 @@ pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
     all
 }
 
-/// What is kept of a run of buckets: room for all its points.
+/// The distinct points of a run of buckets, with room for all points of the run.
 struct Kept<'a> {
     sites: &'a mut [Site],
     ids: &'a mut [u32],

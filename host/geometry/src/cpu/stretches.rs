@@ -12,10 +12,12 @@ use super::view::{Site, Width};
 
 /// Stretches for each thread: enough that all are done at about the same time.
 const STRETCHES: usize = 8;
-/// Least vertices of a subtree that is cut further. Fewer are not worth it, and a single vertex must never meet another: two are an edge from the start.
+/// Least vertices of a subtree that is cut further. Fewer are not worth it, and a single vertex must never meet
+/// another: two are an edge from the start.
 const LEAST: usize = 64;
 
-/// Triangulates distinct sites, which stand along the curve, on so many threads. `None` if there are none, or if it shall not go on.
+/// Triangulates distinct sites, which stand along the curve, on so many threads. `None` if there are none, or if it
+/// shall not go on.
 ///
 /// Threads work on stretches of the curve, which are subtrees; joining those is little work, since borders are short.
 pub(super) fn triangulate<W: Width>(

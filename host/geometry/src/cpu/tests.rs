@@ -22,8 +22,8 @@ fn site(bits: u32) -> impl Strategy<Value = Site> {
     (coordinate(bits), coordinate(bits)).prop_map(|(x, y)| Site { x, y })
 }
 
-/// The 3x3 determinant of the points seen from `d` and lifted: positive if `d` lies inside the circle of a triangle that turns left. For
-/// up to 31 bits it fits 128 bits.
+/// The 3x3 determinant of the points seen from `d` and lifted: positive if `d` lies inside the circle of a triangle
+/// that turns left. For up to 31 bits it fits 128 bits.
 fn lifted(a: Site, b: Site, c: Site, d: Site) -> i128 {
     let seen = |p: Site| [i128::from(p.x) - i128::from(d.x), i128::from(p.y) - i128::from(d.y)];
     let [a, b, c] = [a, b, c].map(seen);
@@ -32,8 +32,8 @@ fn lifted(a: Site, b: Site, c: Site, d: Site) -> i128 {
     lift(a) * minor(b, c) + lift(b) * minor(c, a) + lift(c) * minor(a, b)
 }
 
-/// Whether `q` is inside the circle of `a`, `b`, `c`, the smallest of the four lowered on the paraboloid: its lift has this factor in
-/// the determinant.
+/// Whether `q` is inside the circle of `a`, `b`, `c`, the smallest of the four lowered on the paraboloid: its lift has
+/// this factor in the determinant.
 fn conflicts(a: Site, b: Site, c: Site, q: Site) -> bool {
     let area = |p: Site, q: Site, r: Site| View::of(p, q, r).cross;
     let lowered = match [a, b, c, q].into_iter().min() {
@@ -79,7 +79,8 @@ fn triangles(points: &[Point], threads: usize) -> Vec<[u32; 3]> {
     collect::triangles(halves, &ids, points.len(), 2 * ids.len() - 2 - hull.len(), threads)
 }
 
-/// Points that come in an order of their own are in few buckets at a time, and the lowest ids have most of the triangles.
+/// Points that come in an order of their own are in few buckets at a time, and the lowest ids have most of the
+/// triangles.
 #[test]
 fn threads_find_the_same_triangles_whatever_the_order_of_the_points() {
     let mut points: Vec<Point> =

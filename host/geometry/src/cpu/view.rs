@@ -1,30 +1,32 @@
 //! Exact predicates of the engine: how an edge is seen from a point.
 //!
-//! From a point `p`, the edge from `a` to `b` has the vectors `a - p` and `b - p`. Their cross product is `orient2d(a, b, p)`; with
-//! their dot product it gives the angle at which the edge is seen, and that says everything about circles: `q` lies inside the
-//! circle through `a`, `b` and `c` iff the edge is seen from `q` at a larger angle than from `c`. In integers, with
-//! `(cross, dot)` of `c` and of `q`,
+//! From a point `p`, the edge from `a` to `b` has the vectors `a - p` and `b - p`. Their cross product is `orient2d(a,
+//! b, p)`; with their dot product it gives the angle at which the edge is seen, and that says everything about circles:
+//! `q` lies inside the circle through `a`, `b` and `c` iff the edge is seen from `q` at a larger angle than from `c`.
+//! In integers, with `(cross, dot)` of `c` and of `q`,
 //!
 //! ```text
 //! incircle(a, b, c, q) = dot(c) cross(q) - dot(q) cross(c)
 //! ```
 //!
-//! which is an identity of polynomials (Cline and Renka 1984). A point is viewed once, with four multiplications, and compared with
-//! several others, with two each.
+//! which is an identity of polynomials (Cline and Renka 1984). A point is viewed once, with four multiplications, and
+//! compared with several others, with two each.
 //!
-//! **Widths.** Let coordinates have `w` bits and `S = 2^w - 1`. `|cross|` is at most `S²`, `|dot|` at most `2 S²`: both fit 64 bits
-//! for `w` up to 31. The determinant is at most `S⁴ / 2` in magnitude, so it has `4 w` bits with its sign, and **for `w` up to 16
-//! 64-bit arithmetic gives it exactly, however its two products overflow**, because their difference is right modulo 2^64.
+//! **Widths.** Let coordinates have `w` bits and `S = 2^w - 1`. `|cross|` is at most `S²`, `|dot|` at most `2 S²`: both
+//! fit 64 bits for `w` up to 31. The determinant is at most `S⁴ / 2` in magnitude, so it has `4 w` bits with its sign,
+//! and **for `w` up to 16 64-bit arithmetic gives it exactly, however its two products overflow**, because their
+//! difference is right modulo 2^64.
 //!
-//! Why `S⁴ / 2`: the determinant is `Σ λ_v |v|²` over the four points, where `λ_v` does not depend on `v` and `Σ λ_v = 0`,
-//! `Σ λ_v v = 0`. Take a place of its maximum over the square with as many points in corners as possible. As a function
-//! of `v` alone it is convex where `λ_v >= 0`, so such a point can be moved to a corner: all points outside corners have `λ_v < 0`.
-//! - One point is outside: three corners make a right triangle of doubled area `S²` whose circle has the squared radius `S² / 2`,
-//!   and the determinant, doubled area times power of the point, is at most `S⁴ / 2`.
-//! - Two points `u`, `v` are outside: the segment between the two corners crosses theirs (the signs of `λ` say so), so the corners are
-//!   opposite ones, and `u`, `v` lie on both sides of that diagonal, at distances `h` and `g` from it. With
-//!   `S = 1` the determinant is at most `√2 (h + g) (1/2 - h g)`. For a given sum that is largest where one of both is 0, or one is
-//!   `√½`, its largest value, and then at most `1/2`.
+//! Why `S⁴ / 2`: the determinant is `Σ λ_v |v|²` over the four points, where `λ_v` does not depend on `v` and `Σ λ_v =
+//! 0`, `Σ λ_v v = 0`. Take a place of its maximum over the square with as many points in corners as possible. As a
+//! function of `v` alone it is convex where `λ_v >= 0`, so such a point can be moved to a corner: all points outside
+//! corners have `λ_v < 0`.
+//! - One point is outside: three corners make a right triangle of doubled area `S²` whose circle has the squared radius
+//!   `S² / 2`, and the determinant, doubled area times power of the point, is at most `S⁴ / 2`.
+//! - Two points `u`, `v` are outside: the segment between the two corners crosses theirs (the signs of `λ` say so), so
+//!   the corners are opposite ones, and `u`, `v` lie on both sides of that diagonal, at distances `h` and `g` from it.
+//!   With `S = 1` the determinant is at most `√2 (h + g) (1/2 - h g)`. For a given sum that is largest where one of
+//!   both is 0, or one is `√½`, its largest value, and then at most `1/2`.
 //! - Three points are outside: a corner would lie inside their triangle, which cannot be.
 
 use bytemuck::Zeroable;
@@ -129,11 +131,11 @@ impl Seen {
     }
 }
 
-/// Whether `q` lies inside the circle through `a`, `b` and `c`, a point on it decided by the tie rule: the lexicographically smallest
-/// of the four is lowered on the lifted paraboloid.
+/// Whether `q` lies inside the circle through `a`, `b` and `c`, a point on it decided by the tie rule: the
+/// lexicographically smallest of the four is lowered on the lifted paraboloid.
 ///
-/// `c` must lie to the left of the edge from `a` to `b`. The answer for a `q` that does not is `false`: the engine asks only where
-/// nothing on that side can be inside.
+/// `c` must lie to the left of the edge from `a` to `b`. The answer for a `q` that does not is `false`: the engine asks
+/// only where nothing on that side can be inside.
 #[inline(always)]
 pub(super) fn incircle<W: Width>(a: Site, b: Site, c: Seen, q: Seen) -> bool {
     let determinant = W::determinant(c.view, q.view);
@@ -151,8 +153,8 @@ fn tie_is_inside(a: Site, b: Site, c: Site, q: Seen) -> bool {
         return false;
     }
     let smallest = a.min(b).min(c).min(q.site);
-    // Lowering a corner moves `q` inside iff the other three turn right around it; lowering `q` always does, and lowering `c` does not,
-    // because `c` and `q` lie on one side of the edge.
+    // Lowering a corner moves `q` inside iff the other three turn right around it; lowering `q` always does, and
+    // lowering `c` does not, because `c` and `q` lie on one side of the edge.
     if smallest == a {
         orient2d(q.site, b, c) < 0
     } else if smallest == b {

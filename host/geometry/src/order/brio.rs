@@ -9,10 +9,11 @@ use alloc::vec::Vec;
 use super::hilbert::{along_curve, Hilbert};
 use super::keys::mix;
 use crate::point::Point;
+use crate::predicate::orient2d;
 use crate::sort::Entry;
 
-/// The first round has at least about this many points. (The contexts of a device share the work only from the protocol's own first round
-/// on, which is another constant.)
+/// The first round has at least about this many points. (The contexts of a device share the work only from the
+/// protocol's own first round on, which is another constant.)
 const LEAST_ROUND: usize = 16;
 /// α = 1/4 as a power of two: a quarter of the points come before the last round.
 const SHARE: u32 = 2;
@@ -21,8 +22,8 @@ const SHARE: u32 = 2;
 ///
 /// The last round takes three quarters of the points, the round before it three quarters of the rest, down to about 16
 /// points. Each round runs along the Hilbert curve of the grid. The round of a point follows from a hash of its
-/// coordinates: the same set always gives the same order, however the input was arranged. Equal points stay together, in
-/// input order. O(n), about 20 ns per point; twice that where a coordinate has more than 16 bits.
+/// coordinates: the same set always gives the same order, however the input was arranged. Equal points stay together,
+/// in input order. O(n), about 20 ns per point; twice that where a coordinate has more than 16 bits.
 pub fn brio_hilbert(points: &[Point]) -> Vec<u32> {
     rounds(&along_curve(points)).order
 }
@@ -41,10 +42,28 @@ impl Rounds {
     pub fn single(order: Vec<u32>) -> Self {
         Self { order, starts: vec![0] }
     }
+
+    /// Moves the first point that is not on one line with the first two to the third place, so that the first three
+    /// span a triangle; all others keep their order and their round. Gives the place that the point came from, or
+    /// `None` if there is no such point. O(n) at worst.
+    pub fn start_with_a_triangle(&mut self, points: &[Point]) -> Option<usize> {
+        let at = |index: u32| points[index as usize];
+        let [first, second, rest @ ..] = &self.order[..] else {
+            return None;
+        };
+        let (a, b) = (at(*first), at(*second));
+        let found = 2 + rest.iter().position(|&index| orient2d(a, b, at(index)) != 0)?;
+        self.order[2..=found].rotate_right(1);
+        // What stood before the point is a place further on, and so are the rounds that began there.
+        for start in self.starts.iter_mut().filter(|start| (2..=found).contains(*start)) {
+            *start += 1;
+        }
+        Some(found)
+    }
 }
 
-/// Sorts points that stand along the curve into the rounds of α = 2^-`shift`: each point reaches the rounds before the last with
-/// probability α, by a hash of its coordinates. `shift` must be at least 1. O(n).
+/// Sorts points that stand along the curve into the rounds of α = 2^-`shift`: each point reaches the rounds before the
+/// last with probability α, by a hash of its coordinates. `shift` must be at least 1. O(n).
 pub fn rounds_of_share(curve: &Hilbert, shift: u32) -> Rounds {
     match curve {
         Hilbert::Narrow(entries) => sort_into_rounds(entries, shift.max(1)),
@@ -84,7 +103,7 @@ fn sort_into_rounds<E: Entry>(entries: &[E], shift: u32) -> Rounds {
 /// Levels there can be: the trailing zeros of a 64-bit hash, and all of them zero.
 const LEVELS: usize = u64::BITS as usize + 1;
 
-/// How many levels below the last round `points` points have.
+/// The number of rounds of `points` points, less one.
 fn last_level(points: usize, shift: u32) -> usize {
     let mut level = 0;
     let mut sample = points >> shift;
@@ -131,6 +150,24 @@ mod tests {
         let in_order =
             |points: &[Point]| -> Vec<Point> { brio_hilbert(points).iter().map(|&i| points[i as usize]).collect() };
         assert_eq!(in_order(&points), in_order(&reversed));
+    }
+
+    #[test]
+    fn rounds_keep_their_points_when_the_third_is_found() {
+        // Points 0 to 4 lie on a line; the rounds begin at points 0, 2, 4, 6.
+        let line = [(0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (5, 0), (6, 6), (7, 7)].map(Point::from);
+        let mut rounds = Rounds { order: (0..8).collect(), starts: vec![0, 2, 4, 6] };
+        assert_eq!(rounds.start_with_a_triangle(&line), Some(5));
+        assert_eq!(rounds.order, [0, 1, 5, 2, 3, 4, 6, 7]);
+        assert_eq!(rounds.starts, [0, 3, 5, 6]);
+        let mut rounds = Rounds { order: vec![0, 1, 2, 5], starts: vec![0, 1, 3] };
+        assert_eq!(rounds.start_with_a_triangle(&line), Some(3));
+        assert_eq!((rounds.order, rounds.starts), (vec![0, 1, 5, 2], vec![0, 1, 4]));
+        for order in [vec![], vec![1], vec![1, 2], vec![4, 0, 2, 1]] {
+            let mut rounds = Rounds::single(order.clone());
+            assert_eq!(rounds.start_with_a_triangle(&line), None);
+            assert_eq!(rounds, Rounds::single(order));
+        }
     }
 
     proptest! {

@@ -6,6 +6,7 @@
 //! Indices are 32 bits wide: points past the 2^32nd are left out.
 
 mod brio;
+mod distinct;
 mod hilbert;
 mod keys;
 mod kind;
@@ -15,6 +16,7 @@ mod tests;
 pub mod z_curve;
 
 pub use brio::{brio_hilbert, rounds, rounds_of_share, Rounds};
+pub use distinct::distinct;
 pub use hilbert::{along_curve, hilbert, Hilbert};
 pub use keys::{by_key, mix};
 pub use kind::{Order, UnknownOrder};

@@ -1,15 +1,15 @@
 //! Random order: the classic randomised incremental construction.
 //!
-//! Clarkson and Shor, *Applications of random sampling in computational geometry II*, 1989. The expected number of changes is O(n) for
-//! any set; but each point must be found from far away.
+//! Clarkson and Shor, *Applications of random sampling in computational geometry II*, 1989. The expected number of
+//! changes is O(n) for any set; but each point must be found from far away.
 
 use alloc::vec::Vec;
 
 use super::keys::{by_key, mix};
 use crate::point::Point;
 
-/// A random permutation of `0..points.len()`, which follows from the coordinates alone: the same set always gives the same order. Equal
-/// points stay together, in input order. O(n).
+/// A random permutation of `0..points.len()`, which follows from the coordinates alone: the same set always gives the
+/// same order. Equal points stay together, in input order. O(n).
 pub fn random(points: &[Point]) -> Vec<u32> {
     by_key(points, |point| mix(u64::from(point.x) << 32 | u64::from(point.y)))
 }

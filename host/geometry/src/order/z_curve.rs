@@ -1,7 +1,8 @@
-//! Positions along the Z-curve: quadrants in the order lower left, upper left, lower right, upper right, each the same way.
+//! Positions along the Z-curve: quadrants in the order lower left, upper left, lower right, upper right, each the same
+//! way.
 //!
-//! Morton, *A computer oriented geodetic data base*, 1966. A position has the bits of x and y in turn, so no curve is cheaper to compute; from
-//! one half to the other the curve jumps.
+//! Morton, *A computer oriented geodetic data base*, 1966. A position has the bits of x and y in turn, so no curve is
+//! cheaper to compute; from one half to the other the curve jumps.
 
 use crate::point::Point;
 

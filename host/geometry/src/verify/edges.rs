@@ -4,9 +4,10 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
+use super::error::VerifyError;
 use super::exact::incircle;
 use super::sites::Sites;
-use super::{VerifyError, VerifySummary};
+use super::summary::VerifySummary;
 
 /// Checks all edges and counts edges and ties.
 pub(super) fn check(sites: &Sites<'_>, triangles: &[[u32; 3]], summary: &mut VerifySummary) -> Result<(), VerifyError> {

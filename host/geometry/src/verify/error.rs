@@ -37,7 +37,7 @@ pub enum VerifyError {
     NotCounterClockwise {
         /// Number of the triangle.
         triangle: usize,
-        /// Its corners.
+        /// The corners of the triangle.
         corners: [u32; 3],
     },
     /// A triangle does not start with its smallest index.
@@ -45,7 +45,7 @@ pub enum VerifyError {
     NotRotated {
         /// Number of the triangle.
         triangle: usize,
-        /// Its corners.
+        /// The corners of the triangle.
         corners: [u32; 3],
     },
     /// A triangle is smaller than the one before it.
@@ -53,7 +53,7 @@ pub enum VerifyError {
     NotSorted {
         /// Number of the triangle.
         triangle: usize,
-        /// Its corners.
+        /// The corners of the triangle.
         corners: [u32; 3],
     },
     /// A triangle is there twice.
@@ -61,7 +61,7 @@ pub enum VerifyError {
     DoubledTriangle {
         /// Number of the second one.
         triangle: usize,
-        /// Its corners.
+        /// The corners of the triangle.
         corners: [u32; 3],
     },
     /// A triangle uses a duplicate under an index that is not its lowest.

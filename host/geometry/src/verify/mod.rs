@@ -1,19 +1,21 @@
 //! The validator: is this mesh right at all?
 //!
-//! It shares no predicate, no sort and no step of the algorithm with the devices, the model or the rest of the host, only
-//! the types of points and meshes: exact 128-bit integers, the lifted 3x3 determinant, a hull by monotone chain. What it
-//! accepts is the canonical mesh: all triangles counter-clockwise, their areas sum to the hull's, each inner edge is
-//! locally Delaunay (so all are: Delaunay 1934), and each tie follows the rule.
+//! It shares no predicate, no sort and no step of the algorithm with the devices, the model or the rest of the host,
+//! only the types of points and meshes: exact 128-bit integers, the lifted 3x3 determinant, a hull by monotone chain.
+//! What it accepts is the canonical mesh: all triangles counter-clockwise, their areas sum to the hull's, each inner
+//! edge is locally Delaunay (so all are: Delaunay 1934), and each tie follows the rule.
 
 mod edges;
 mod error;
 mod exact;
 mod sites;
+mod summary;
 
 use alloc::vec;
 use alloc::vec::Vec;
 
 pub use error::VerifyError;
+pub use summary::VerifySummary;
 
 use crate::point::Duplicate;
 use crate::point::Point;
@@ -23,27 +25,6 @@ use sites::Sites;
 
 /// Most points or triangles: three half-edges of each triangle must fit 32 bits.
 const MAX_COUNT: usize = (u32::MAX / 3) as usize;
-
-/// What the validator counted in a right mesh.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct VerifySummary {
-    /// Points given.
-    pub points: usize,
-    /// Distinct points.
-    pub distinct: usize,
-    /// Points that fell onto an earlier one.
-    pub duplicates: usize,
-    /// Triangles.
-    pub triangles: usize,
-    /// Edges, each counted once.
-    pub edges: usize,
-    /// Edges whose four points lie on one circle, decided by the tie rule.
-    pub ties: usize,
-    /// The hull in canonical form, as [`Mesh::hull`](crate::Mesh::hull).
-    pub hull: Vec<u32>,
-    /// All points on one line, or fewer than three distinct ones.
-    pub collinear: bool,
-}
 
 /// Checks that `triangles` is the canonical Delaunay triangulation of `points`. O(n log n), about 200 bytes per
 /// point.

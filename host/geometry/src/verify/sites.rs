@@ -47,8 +47,8 @@ impl<'a> Sites<'a> {
         rest.iter().all(|&index| orient2d(a, b, self.at(index)) == 0)
     }
 
-    /// The hull, counter-clockwise from its lowest index, points in the middle of its edges included; all distinct points in
-    /// lexicographic order if they are collinear. Andrew's monotone chain. O(n).
+    /// The hull, counter-clockwise from its lowest index, points in the middle of its edges included; all distinct
+    /// points in lexicographic order if they are collinear. Andrew's monotone chain. O(n).
     pub(super) fn hull(&self) -> Vec<u32> {
         if self.are_collinear() {
             return self.distinct.clone();

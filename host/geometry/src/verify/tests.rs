@@ -107,7 +107,8 @@ fn overlapping_triangles_do_not_pass_by_count() {
 
 #[test]
 fn an_open_edge_and_a_shared_side_are_found_behind_right_sums() {
-    // Right count and right area, but the triangles overlap: a parallelogram's halves of equal area in the wrong places.
+    // Right count and right area, but the triangles overlap: a parallelogram's halves of equal area in the wrong
+    // places.
     let points = [(0, 0), (4, 0), (4, 4), (0, 4)].map(Point::from);
     let found = error(&points, &[[0, 1, 2], [0, 1, 3]]);
     assert!(matches!(found, VerifyError::SameSide { edge: [0, 1], .. }), "{found}");
@@ -152,6 +153,7 @@ fn only_types_come_from_the_rest_of_the_library() {
         include_str!("exact.rs"),
         include_str!("mod.rs"),
         include_str!("sites.rs"),
+        include_str!("summary.rs"),
     ];
     let types = ["use crate::point::Duplicate;", "use crate::point::Point;"];
     for line in sources.iter().flat_map(|source| source.lines()).filter(|line| !line.trim_start().starts_with("//")) {

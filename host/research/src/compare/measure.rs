@@ -72,8 +72,8 @@ fn fastest<R>(points: usize, work: impl Fn() -> R) -> (R, f64) {
     best
 }
 
-/// Cycles of an insertion on the largest core, if it holds the points: they are put in order and dealt to its contexts here, and sent as they
-/// come.
+/// Cycles of an insertion on the largest core, if it holds the points: they are put in order and dealt to its contexts
+/// here, and sent as they come.
 fn cycles(points: &[Point], order: Order, coord_bits: u32, distinct: usize) -> Result<Option<f64>, Error> {
     if distinct > LARGE.points as usize || coord_bits > CORE_COORD_BITS {
         return Ok(None);

@@ -1,7 +1,8 @@
 //! Where the published ranking of orders comes back.
 //!
-//! Schrijvers, van Bommel, Buchin, *Delaunay triangulations on the word RAM*, EuroCG 2012: time in all, over the five distributions,
-//! of 2^22 points on a Xeon of 2009. Only the ranking can be compared: machine, program and the share of the points in a round are others.
+//! Schrijvers, van Bommel, Buchin, *Delaunay triangulations on the word RAM*, EuroCG 2012: time in all, over the five
+//! distributions, of 2^22 points on a Xeon of 2009. Only the ranking can be compared: machine, program and the share of
+//! the points in a round are others.
 
 use std::fmt::Write as _;
 
@@ -36,7 +37,8 @@ struct Ranked {
     measured: f64,
 }
 
-/// For each number of points the published orders with their times here, and how many pairs come in the same order; nothing where there is no pair.
+/// For each number of points the published orders with their times here, and how many pairs come in the same order;
+/// nothing where there is no pair.
 pub fn ranking(rows: &[Row]) -> String {
     let mut text = String::new();
     let mut asked: Vec<usize> = rows.iter().map(|row| row.asked).collect();

@@ -19,7 +19,8 @@ pub struct Row {
     pub way: Way,
     /// Nanoseconds per point to put the points in order.
     pub order_ns: f64,
-    /// Nanoseconds per point of the whole job on the software model, with guides where the order has them: order, insertions, canonical form.
+    /// Nanoseconds per point of the whole job on the software model, with guides where the order has them: order,
+    /// insertions, canonical form.
     pub total_ns: f64,
     /// Triangles that the walk of an insertion visits, on average.
     pub walk: f64,
@@ -27,7 +28,8 @@ pub struct Row {
     pub tests: f64,
     /// Triangles that an insertion removes, on average.
     pub cavity: f64,
-    /// Cycles of the largest core, which takes no guides; `None` for a set that it does not hold, and for a way it does not offer.
+    /// Cycles of the largest core, which takes no guides; `None` for a set that it does not hold, and for a way it
+    /// does not offer.
     pub cycles: Option<f64>,
 }
 

@@ -9,12 +9,13 @@ use crate::guided::GuidedMesh;
 /// A sample of the points of the level below.
 #[derive(Debug)]
 pub(super) enum Level {
-    /// No three points span a triangle yet: they lie on a line, along which they are sorted, with their numbers in the level below.
+    /// No three points span a triangle yet: they lie on a line, along which they are sorted, with their numbers in the
+    /// level below.
     Line(BTreeMap<Point, u32>),
     /// Points in the plane.
     Plane {
         mesh: Box<GuidedMesh>,
-        /// Of each vertex, its number in the level below.
+        /// For each vertex, the number of its point in the level below.
         below: Vec<u32>,
     },
 }
@@ -26,7 +27,7 @@ impl Default for Level {
 }
 
 impl Level {
-    /// Its mesh, if it has one.
+    /// The mesh of the level; `None` while all points lie on one line.
     pub(super) fn mesh(&self) -> Option<&GuidedMesh> {
         match self {
             Self::Line(_) => None,
@@ -34,8 +35,8 @@ impl Level {
         }
     }
 
-    /// Of a point near this one the number in the level below: found by a walk that begins at the vertex `guide`, or, on a line, the nearer of
-    /// its neighbours in the order of the line. `None` if the level has no points.
+    /// Of a point near this one the number in the level below: found by a walk that begins at the vertex `guide`, or,
+    /// on a line, the nearer of its neighbours in the order of the line. `None` if the level has no points.
     pub(super) fn find(&mut self, point: Point, guide: Option<u32>) -> Option<u32> {
         match self {
             Self::Line(line) => {
@@ -51,8 +52,8 @@ impl Level {
         }
     }
 
-    /// Adds a point, with its number in the level below, unless it is there: then the number of that one is the error. Returns its vertex,
-    /// if there is a mesh. The walk begins at the vertex `guide`, or where the last one ended.
+    /// Adds a point, with its number in the level below, unless it is there: then the number of that one is the error.
+    /// Returns its vertex, if there is a mesh. The walk begins at the vertex `guide`, or where the last one ended.
     pub(super) fn add(&mut self, point: Point, number_below: u32, guide: Option<u32>) -> Result<Option<u32>, u32> {
         match self {
             Self::Plane { mesh, below } => {
@@ -75,7 +76,8 @@ impl Level {
         }
     }
 
-    /// The mesh of the points of a line and one beside it; `None` if it is not beside, or if the line has one point at most.
+    /// The mesh of the points of a line and one beside it; `None` if it is not beside, or if the line has one point at
+    /// most.
     fn leave_line(line: &BTreeMap<Point, u32>, point: Point, number_below: u32) -> Option<Self> {
         let mut along = line.iter();
         let (first, second) = (along.next()?, along.next_back()?);

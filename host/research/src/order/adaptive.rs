@@ -1,9 +1,11 @@
-//! Hilbert's and Peano's curves, split where the points are: at the median of x and that of y at once, or at the thirds.
+//! Hilbert's and Peano's curves, split where the points are: at the median of x and that of y at once, or at the
+//! thirds.
 //!
-//! Schrijvers, van Bommel, Buchin, *Delaunay triangulations on the word RAM: towards a practical worst-case optimal algorithm*, EuroCG
-//! 2012. No jumps, since all parts meet in the same lines; but parts may have any share of the points.
+//! Schrijvers, van Bommel, Buchin, *Delaunay triangulations on the word RAM: towards a practical worst-case optimal
+//! algorithm*, EuroCG 2012. No jumps, since all parts meet in the same lines; but parts may have any share of the
+//! points.
 
-use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, peano_way, quantiles, Cells, Frame, Way};
+use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, peano_way, quantiles, Cells, Orientation, Way};
 use incircle_geometry::Point;
 
 /// The points along the adaptive Hilbert curve.
@@ -22,8 +24,15 @@ pub(super) fn peano(points: &[Point]) -> Vec<u32> {
     })
 }
 
-/// Splits a piece into columns of as many points each, and rows of as many points each; ties go by the other coordinate.
-pub(super) fn split(points: &[Point], piece: &mut [u32], frame: Frame, cells: Cells, way: &Way) -> Vec<(usize, Frame)> {
+/// Splits a piece into columns of as many points each, and rows of as many points each; ties go by the other
+/// coordinate.
+pub(super) fn split(
+    points: &[Point],
+    piece: &mut [u32],
+    frame: Orientation,
+    cells: Cells,
+    way: &Way,
+) -> Vec<(usize, Orientation)> {
     let see = |index: u32| frame.see(points[index as usize]);
     let swapped = |[u, v]: [i64; 2]| [v, u];
     let columns = quantiles(piece.iter().map(|&index| see(index)), cells.columns);

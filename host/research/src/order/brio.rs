@@ -6,8 +6,8 @@ use incircle_geometry::Point;
 use super::alpha::Alpha;
 use super::curve::Curve;
 
-/// The biased randomised order of this α with any curve in its rounds: a permutation of `0..points.len()`. The round of a point follows
-/// from a hash of its coordinates.
+/// The biased randomised order of this α with any curve in its rounds: a permutation of `0..points.len()`. The round of
+/// a point follows from a hash of its coordinates.
 ///
 /// Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003.
 pub fn brio(points: &[Point], curve: Curve, alpha: Alpha) -> Vec<u32> {

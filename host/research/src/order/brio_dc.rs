@@ -1,22 +1,27 @@
 //! BrioDC: biased randomised insertion with dependent choices, in which a nearest neighbour guides each point.
 //!
-//! Buchin and Mulzer, *Delaunay triangulations in O(sort(n)) time and more*, 2011; Schrijvers, van Bommel, Buchin, *Delaunay
-//! triangulations on the word RAM*, 2012. Points are sorted along the Z-curve; a compressed quadtree over them gives well-separated
-//! pairs, and these the nearest-neighbour graph. Each component of the graph has one pair of points that are nearest to each other.
-//! A coin chooses one of the two for the sample, and a coin each decides for all other points; the sample is ordered in the same way, by its
-//! own graph, down to a single point. What is not in the sample is a round. In a round the points of a component come from its pair
-//! outwards, so that each comes after its nearest neighbour: that one is its *guide*. It is a vertex already, no other vertex is nearer, and a walk
-//! from there is short wherever the points lie.
+//! Buchin and Mulzer, *Delaunay triangulations in O(sort(n)) time and more*, 2011; Schrijvers, van Bommel, Buchin,
+//! *Delaunay triangulations on the word RAM*, 2012. Points are sorted along the Z-curve; a compressed quadtree over
+//! them gives well-separated pairs, and these the nearest-neighbour graph. Each component of the graph has one pair of
+//! points that are nearest to each other. A coin chooses one of the two for the sample, and a coin each decides for all
+//! other points; the sample is ordered in the same way, by its own graph, down to a single point. What is not in the
+//! sample is a round. In a round the points of a component come from its pair outwards, so that each comes after its
+//! nearest neighbour: that one is its *guide*. It is a vertex already, no other vertex is nearer, and a walk from there
+//! is short wherever the points lie.
 //!
-//! The paper leaves open which edge of a component is chosen, and lets the walk run along any of its edges; the pair makes every guide a
-//! nearest neighbour. A component's sampled points are about half, so there are about log2 n rounds, and all take about twice as long as the last.
+//! The paper leaves open which edge of a component is chosen, and lets the walk run along any of its edges; the pair
+//! makes every guide a nearest neighbour. A component's sampled points are about half, so there are about log2 n
+//! rounds, and all take about twice as long as the last.
 
 mod descent;
 mod distance;
+mod kind;
 mod neighbors;
 mod pairs;
 mod quadtree;
 mod z_order;
+
+pub use kind::BrioDc;
 
 use self::neighbors::Search;
 use self::z_order::{along_z, Along};
@@ -24,37 +29,15 @@ use incircle_geometry::order::{mix, Rounds};
 use incircle_geometry::pages::zeros;
 use incircle_geometry::Point;
 
-/// How the nearest-neighbour graph is found. Both give the same order; only the time to find it differs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BrioDc {
-    /// In O(n): radix sort, quadtree in one pass, points carried down the tree (Callahan and Kosaraju 1995).
-    Linear,
-    /// In O(n log U) for coordinates below U, with simpler stages: sort by comparison, quadtree from the top by bisection, all points of a
-    /// pair looked at (Har-Peled 2011).
-    LogU,
-}
-
-impl BrioDc {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Linear, Self::LogU];
-
-    /// The name in reports and on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "briodc-linear",
-            Self::LogU => "briodc-log-u",
-        }
-    }
-}
-
 /// An order of insertion, with a guide for each point.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Guided {
     /// The points: a permutation of their indices.
     pub order: Vec<u32>,
-    /// For each place of the order the index of a point before it, at which the search for this one begins; the first point guides itself.
+    /// For each place of the order the index of a point before it, at which the search for this one begins; the first
+    /// point guides itself.
     pub guides: Vec<u32>,
-    /// Where each round begins.
+    /// The place at which each round begins.
     starts: Vec<usize>,
 }
 
@@ -71,12 +54,12 @@ impl Guided {
     }
 }
 
-/// BRIO with dependent choices: each point is guided by its nearest neighbour among itself and the points of all earlier rounds and of
-/// its own; of equally near ones, by the first along the Z-curve.
+/// BRIO with dependent choices: each point is guided by its nearest neighbour among itself and the points of all
+/// earlier rounds and of its own; of equally near ones, by the first along the Z-curve.
 ///
-/// The order follows from the coordinates alone. Equal points stay together, in input order, and the first guides the others. Exact for
-/// coordinates below 2^31; beyond, distances of 2^32 and more count as equally long. For up to 2^31 points. 0.25 µs per point for some
-/// hundred of them, 0.45 for a million, and 130 bytes while it runs.
+/// The order follows from the coordinates alone. Equal points stay together, in input order, and the first guides the
+/// others. Exact for coordinates below 2^31; beyond, distances of 2^32 and more count as equally long. For up to 2^31
+/// points. 0.25 µs per point for some hundred of them, 0.45 for a million, and 130 bytes while it runs.
 pub fn brio_dc(points: &[Point], by: BrioDc) -> Guided {
     let Along { indices, points } = along_z(points, by);
     if points.windows(2).all(|pair| pair[0] != pair[1]) {
@@ -155,7 +138,8 @@ fn choose(points: &[Point], nearest: &[u32], round: u32) -> Vec<bool> {
     is_chosen
 }
 
-/// Visits the points that are not chosen, each with its nearest neighbour and after it, unless that is chosen; otherwise along the Z-curve.
+/// Visits the points that are not chosen, each with its nearest neighbour and after it, unless that is chosen;
+/// otherwise along the Z-curve.
 fn outwards(nearest: &[u32], is_chosen: Vec<bool>, mut visit: impl FnMut(u32, u32)) {
     let mut is_in = is_chosen;
     let mut chain = Vec::new();

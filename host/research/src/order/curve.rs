@@ -8,8 +8,8 @@ use incircle_geometry::Point;
 
 /// A curve that visits all points, piece by piece of the plane.
 ///
-/// The first four run over a fixed square, however points lie in it. The others look at the points: they split where the points are, or
-/// cut boxes into squares.
+/// The first four run over a fixed square, however points lie in it. The others look at the points: they split where
+/// the points are, or cut boxes into squares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Curve {
@@ -21,9 +21,10 @@ pub enum Curve {
     Peano,
     /// Sierpiński's closed curve over the square around the points: triangles, no jumps.
     Sierpinski,
-    /// CGAL's: Hilbert's quadrants, split at the median x, then each half at its median y. The step across the middle can be long.
+    /// CGAL's: Hilbert's quadrants, split at the median x, then each half at its median y. The step across the middle
+    /// can be long.
     MedianHilbert,
-    /// The same, split at the median y first: no long step.
+    /// Hilbert's quadrants, split at the median y, then each half at its median x: no long step.
     HilbertYx,
     /// Hilbert's quadrants, split at the medians of x and y at once.
     AdaptiveHilbert,

@@ -16,7 +16,8 @@ pub enum Order {
     Random,
     /// One pass along a curve.
     Along(Curve),
-    /// Rounds of growing random samples, each along a curve. With [`Curve::Hilbert`] and [`Alpha::Quarter`] the default of the product.
+    /// Rounds of growing random samples, each along a curve. With [`Curve::Hilbert`] and [`Alpha::Quarter`] the
+    /// default of the product.
     Brio(Curve, Alpha),
     /// Rounds in which each point comes after its nearest neighbour, at which the search for the point begins.
     BrioDc(BrioDc),

@@ -1,10 +1,11 @@
-//! Hilbert's quadrants, each with a quarter of the points: a split at the median of one coordinate, then each half at its own median of
-//! the other.
+//! Hilbert's quadrants, each with a quarter of the points: a split at the median of one coordinate, then each half at
+//! its own median of the other.
 //!
-//! Split by x first it is CGAL's (Delage, *Spatial sorting*, CGAL manual): where the medians of both halves differ, the step between the
-//! upper quadrants is long. Split by y first there is no such step (Schrijvers, van Bommel, Buchin, EuroCG 2012: Hilbert YX).
+//! Split by x first it is CGAL's (Delage, *Spatial sorting*, CGAL manual): where the medians of both halves differ, the
+//! step between the upper quadrants is long. Split by y first there is no such step (Schrijvers, van Bommel, Buchin,
+//! EuroCG 2012: Hilbert YX).
 
-use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, quantiles, Cells, Frame};
+use super::pieces::{deal, hilbert_way, order as order_pieces, part_of, quantiles, Cells, Orientation};
 use incircle_geometry::Point;
 
 /// The coordinate that is split first, in the frame of each copy.
@@ -22,7 +23,7 @@ pub(super) fn order(points: &[Point], first: First) -> Vec<u32> {
     order_pieces(points, |piece, frame| divide(points, first, piece, frame))
 }
 
-fn divide(points: &[Point], first: First, piece: &mut [u32], frame: Frame) -> Vec<(usize, Frame)> {
+fn divide(points: &[Point], first: First, piece: &mut [u32], frame: Orientation) -> Vec<(usize, Orientation)> {
     let see = |index: u32| frame.see(points[index as usize]);
     // Ties are broken by the other coordinate.
     let (split, then): (Key, Key) = match first {

@@ -9,7 +9,8 @@ use incircle_geometry::Point;
 /// Most levels: nine to this power fits 64 bits, and three to it is more than 2^31.
 const LEVELS: u32 = 20;
 
-/// The points along the curve over the square around them. Cells are a third to a whole grid step wide, so each has one grid point.
+/// The points along the curve over the square around them. Cells are a third to a whole grid step wide, so each has one
+/// grid point.
 pub(super) fn order(points: &[Point]) -> Vec<u32> {
     let (corner, extent) = square(points);
     let levels = levels_for(extent);

@@ -13,9 +13,9 @@ const MIRROR_V: u8 = 8;
 
 /// How a copy of a curve lies in the plane: axes `u` and `v` instead of x and y.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Frame(u8);
+pub(super) struct Orientation(u8);
 
-impl Frame {
+impl Orientation {
     /// Swapped: a curve along the first axis becomes one along the second.
     pub(super) fn swapped(self) -> Self {
         Self(self.0 ^ SWAPPED)
@@ -41,15 +41,18 @@ impl Frame {
 }
 
 /// A piece of the plane: a stretch of the list, and the frame of the curve through it.
-pub(super) type Piece = (std::ops::Range<usize>, Frame);
+pub(super) type Piece = (std::ops::Range<usize>, Orientation);
 
 /// Takes pieces apart until each has one point, or only equal ones, and leaves the list in the order of the curve.
 ///
-/// `divide` puts the points of a piece into the order of its parts and says where these end and how their curves lie; of parts in which
-/// all points are equal it says nothing.
-pub(super) fn order(points: &[Point], mut divide: impl FnMut(&mut [u32], Frame) -> Vec<(usize, Frame)>) -> Vec<u32> {
+/// `divide` puts the points of a piece into the order of its parts and says where these end and how their curves lie;
+/// of parts in which all points are equal it says nothing.
+pub(super) fn order(
+    points: &[Point],
+    mut divide: impl FnMut(&mut [u32], Orientation) -> Vec<(usize, Orientation)>,
+) -> Vec<u32> {
     let mut list: Vec<u32> = (0..=u32::MAX).take(points.len()).collect();
-    let mut open: Vec<Piece> = vec![(0..points.len(), Frame::default())];
+    let mut open: Vec<Piece> = vec![(0..points.len(), Orientation::default())];
     while let Some((stretch, frame)) = open.pop() {
         let piece = &mut list[stretch.clone()];
         let Some((&first, rest)) = piece.split_first() else {
@@ -78,7 +81,7 @@ pub(super) struct Cells {
 }
 
 /// A way through the cells of a grid, each once: column, row, and the frame of the curve through it.
-pub(super) type Way = Vec<(usize, usize, Frame)>;
+pub(super) type Way = Vec<(usize, usize, Orientation)>;
 
 /// Puts the points of a piece into the order of the way through their cells; returns where each cell's points end.
 pub(super) fn deal(
@@ -86,7 +89,7 @@ pub(super) fn deal(
     cells: Cells,
     way: &Way,
     cell_of: impl Fn(u32) -> (usize, usize),
-) -> Vec<(usize, Frame)> {
+) -> Vec<(usize, Orientation)> {
     let mut turn = vec![0; cells.columns * cells.rows];
     for (place, &(column, row, _)) in way.iter().enumerate() {
         turn[column * cells.rows + row] = place;
@@ -114,19 +117,19 @@ pub(super) fn deal(
 }
 
 /// Hilbert's way through two columns of any number of rows: up the left one and down the right one.
-pub(super) fn hilbert_way(rows: usize, frame: Frame) -> Way {
+pub(super) fn hilbert_way(rows: usize, frame: Orientation) -> Way {
     let up = (0..rows).map(|row| (0, row, if row + 1 == rows { frame } else { frame.swapped() }));
     let down = (0..rows).rev().map(|row| (1, row, if row + 1 == rows { frame } else { frame.swapped_and_turned() }));
     up.chain(down).collect()
 }
 
 /// Curves beside each other: Hilbert's ends where the next one begins.
-pub(super) fn row_way(columns: usize, frame: Frame) -> Way {
+pub(super) fn row_way(columns: usize, frame: Orientation) -> Way {
     (0..columns).map(|column| (column, 0, frame)).collect()
 }
 
 /// Peano's way: up and down the columns, mirrored so that ends meet. Columns and rows are odd in number.
-pub(super) fn peano_way(cells: Cells, frame: Frame) -> Way {
+pub(super) fn peano_way(cells: Cells, frame: Orientation) -> Way {
     let way = (0..cells.columns).flat_map(|column| {
         (0..cells.rows).map(move |step| {
             let row = if column % 2 == 0 { step } else { cells.rows - 1 - step };
@@ -136,11 +139,11 @@ pub(super) fn peano_way(cells: Cells, frame: Frame) -> Way {
     way.collect()
 }
 
-/// The values that split points into so many parts of about as many each, by one coordinate in a frame and then the other: the first of
-/// each part but the first.
+/// The values that split points into so many parts of about as many each, by one coordinate in a frame and then the
+/// other: the first of each part but the first.
 ///
-/// None is the least value of all, unless there is no other: of points that differ some always come before it, so that taking pieces
-/// apart comes to an end, however many of them are equal.
+/// None is the least value of all, unless there is no other: of points that differ some always come before it, so that
+/// taking pieces apart comes to an end, however many of them are equal.
 pub(super) fn quantiles(seen: impl Iterator<Item = [i64; 2]>, parts: usize) -> Vec<[i64; 2]> {
     let mut values: Vec<[i64; 2]> = seen.collect();
     let mut firsts = Vec::with_capacity(parts);

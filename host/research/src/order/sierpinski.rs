@@ -1,8 +1,8 @@
-//! Sierpiński's curve: the square cut along its diagonal, and each triangle from the right angle to the middle of its longest side, and so
-//! on. Neighbours on the curve share a corner at least, and its end meets its beginning.
+//! Sierpiński's curve: the square cut along its diagonal, and each triangle from the right angle to the middle of its
+//! longest side, and so on. Neighbours on the curve share a corner at least, and its end meets its beginning.
 //!
-//! Sierpiński, *Sur une nouvelle courbe continue qui remplit toute une aire plane*, 1912; the position after Bartholdi and Platzman,
-//! *An O(n log n) planar travelling salesman heuristic based on spacefilling curves*, 1982.
+//! Sierpiński, *Sur une nouvelle courbe continue qui remplit toute une aire plane*, 1912; the position after Bartholdi
+//! and Platzman, *An O(n log n) planar travelling salesman heuristic based on spacefilling curves*, 1982.
 
 use super::square::square;
 use incircle_geometry::order::by_key;
@@ -22,7 +22,8 @@ pub(super) fn order(points: &[Point]) -> Vec<u32> {
 
 /// The position of the place `(x, y)` of a square of this side.
 ///
-/// The triangle that holds the place is always brought to one form: the hypotenuse along the left side, the right angle in the middle.
+/// The triangle that holds the place is always brought to one form: the hypotenuse along the left side, the right angle
+/// in the middle.
 fn position(mut x: i64, mut y: i64, side: i64) -> u64 {
     let mut position = 0;
     if x > y {

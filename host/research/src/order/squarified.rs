@@ -1,11 +1,12 @@
 //! Curves that cut a long box into squares before they fill it, and look at the box of the points again in every part.
 //!
-//! Schrijvers, van Bommel, Buchin, EuroCG 2012. In a *wide* box, long in the direction in which the curve gets on, curves are placed next
-//! to each other. In a *tall* one Hilbert's curve goes up through more than two squares and down through as many; Peano's are placed above
-//! each other, an odd number of them, so that it still ends in the opposite corner.
+//! Schrijvers, van Bommel, Buchin, EuroCG 2012. In a *wide* box, long in the direction in which the curve gets on,
+//! curves are placed next to each other. In a *tall* one Hilbert's curve goes up through more than two squares and down
+//! through as many; Peano's are placed above each other, an odd number of them, so that it still ends in the opposite
+//! corner.
 
 use super::adaptive;
-use super::pieces::{deal, hilbert_way, order as order_pieces, peano_way, row_way, Cells, Frame, Way};
+use super::pieces::{deal, hilbert_way, order as order_pieces, peano_way, row_way, Cells, Orientation, Way};
 use incircle_geometry::Point;
 
 /// Most squares that a box is cut into at a time; parts are cut again.
@@ -66,7 +67,7 @@ struct Around {
 }
 
 impl Around {
-    fn of(points: &[Point], piece: &[u32], frame: Frame) -> Self {
+    fn of(points: &[Point], piece: &[u32], frame: Orientation) -> Self {
         let (mut low, mut high) = ([i64::MAX; 2], [i64::MIN; 2]);
         for &index in piece {
             let seen = frame.see(points[index as usize]);
@@ -82,11 +83,11 @@ impl Around {
         &self,
         points: &[Point],
         piece: &mut [u32],
-        frame: Frame,
+        frame: Orientation,
         split: Split,
         cells: Cells,
         way: &Way,
-    ) -> Vec<(usize, Frame)> {
+    ) -> Vec<(usize, Orientation)> {
         if split == Split::Points {
             return adaptive::split(points, piece, frame, cells, way);
         }

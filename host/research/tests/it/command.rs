@@ -93,7 +93,8 @@ fn orders_are_compared_as_table_csv_and_drawing() {
     assert!(wide.stdout.lines().last().is_some_and(|line| line.ends_with(" -")), "{wide:?}");
 }
 
-/// Where each point of a curve sees all triangles before it, rounds of random samples keep tests few. Tests are counted, so the same everywhere.
+/// Where each point of a curve sees all triangles before it, rounds of random samples keep tests few. Tests are
+/// counted, so the same everywhere.
 #[test]
 fn plain_hilbert_collapses_on_hard_sets_and_rounds_do_not() {
     let scratch = Scratch::new();

@@ -10,8 +10,8 @@ use incircle_testkit::{generate, Distribution, SplitMix64};
 
 const CAPACITY: u32 = 256;
 
-/// Even points, points of a small box of which most fall together, points of a circle with large cavities, points on the hull; the first three
-/// span a triangle.
+/// Even points, points of a small box of which most fall together, points of a circle with large cavities, points on
+/// the hull; the first three span a triangle.
 fn set(random: &mut SplitMix64, which: u32) -> Vec<Point> {
     let points: Vec<Point> = match which % 4 {
         0 => random.points(200, 1 << 16),
@@ -67,7 +67,8 @@ fn every_vertex_has_a_triangle_after_every_insertion() {
     assert!(flips > 100, "{flips} flips");
 }
 
-/// The triangles of a mesh of which every point arrived in the order of the input, each corner under the lowest index of its place.
+/// The triangles of a mesh of which every point arrived in the order of the input, each corner under the lowest index
+/// of its place.
 fn triangles(mesh: &GuidedMesh, points: &[Point]) -> Vec<[u32; 3]> {
     let infinite = infinite_vertex(CAPACITY);
     let lowest = |vertex: u32| points.iter().position(|&point| point == points[vertex as usize]).unwrap_or(0) as u32;

@@ -1,8 +1,8 @@
 //! Points on their way down the tree, to the leaves that can be their nearest neighbours: linear time.
 //!
-//! At each node come together the points that came to the node above and those paired with this one. They meet, and whoever is nearer
-//! to another than to the node stays behind. Those that go on are farther from each other than from the node, of which there is room
-//! for a constant number. Callahan and Kosaraju 1995.
+//! At each node come together the points that came to the node above and those paired with this one. They meet, and
+//! whoever is nearer to another than to the node stays behind. Those that go on are farther from each other than from
+//! the node, of which there is room for a constant number. Callahan and Kosaraju 1995.
 
 use super::pairs::Pair;
 use super::quadtree::{is_leaf, place, Quadtree};
@@ -23,7 +23,8 @@ pub(super) struct Lists {
 }
 
 impl Lists {
-    /// Lets the points of all pairs go down the tree and meet the leaves they come to. O(n): no node is visited twice but by points.
+    /// Lets the points of all pairs go down the tree and meet the leaves they come to. O(n): no node is visited twice
+    /// but by points.
     pub(super) fn descend_with(&mut self, tree: &mut Quadtree, pairs: &mut Vec<Pair>) {
         // A node above another is larger: its points come first, and take those of the other with them.
         sort_by_key(pairs);
@@ -51,7 +52,8 @@ struct Descent<'d> {
 }
 
 impl Descent<'_> {
-    /// Takes the points that came to the node above, from `above` on, and those paired with this node, down to the leaves.
+    /// Takes the points that came to the node above, from `above` on, and those paired with this node, down to the
+    /// leaves.
     fn go(&mut self, node: u32, above: usize) {
         let own = self.lists.coming.len();
         for come in above..own {
@@ -77,7 +79,8 @@ impl Descent<'_> {
         self.lists.coming.truncate(own);
     }
 
-    /// Lets a point come to a node where it meets those that are there, from `own` on; whoever is nearer to another than to the node leaves.
+    /// Lets a point come to a node where it meets those that are there, from `own` on; whoever is nearer to another
+    /// than to the node leaves.
     fn admit(&mut self, point: u32, node: u32, own: usize) {
         let mut there = own;
         while let Some(&other) = self.lists.coming.get(there) {

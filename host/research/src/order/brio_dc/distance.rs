@@ -1,6 +1,7 @@
 //! Squares of distances, exact for coordinates below 2^31, the most that a device takes.
 //!
-//! Beyond that, squares of 2^64 and more count as equal. All that follows from them stays consistent, and points are never lost.
+//! Beyond that, squares of 2^64 and more count as equal. All that follows from them stays consistent, and points are
+//! never lost.
 
 use incircle_geometry::Point;
 

@@ -1,16 +1,19 @@
-//! The nearest-neighbour graph: of each point, the nearest other one; of equally near ones, the first along the Z-curve.
+//! The nearest-neighbour graph: of each point, the nearest other one; of equally near ones, the first along the
+//! Z-curve.
 //!
-//! With a fixed order among equally near points each component has exactly one pair of points that are nearest to each other: on a
-//! longer cycle all steps would be equally long, and the step behind the cycle's first point would have to lead back to it.
+//! With a fixed order among equally near points each component has exactly one pair of points that are nearest to each
+//! other: on a longer cycle all steps would be equally long, and the step behind the cycle's first point would have to
+//! lead back to it.
 //!
-//! Two ways from the well-separated pairs to the graph. In linear time (Callahan and Kosaraju 1995): points come down the tree to
-//! the nodes that can hold their nearest neighbour. And by looking at all points of the node of each pair (Har-Peled, *Geometric
-//! approximation algorithms*, 2011, section 3.2): a node of a level has a constant number of pairs, so that is O(n log U), and simpler.
+//! Two ways from the well-separated pairs to the graph. In linear time (Callahan and Kosaraju 1995): points come down
+//! the tree to the nodes that can hold their nearest neighbour. And by looking at all points of the node of each pair
+//! (Har-Peled, *Geometric approximation algorithms*, 2011, section 3.2): a node of a level has a constant number of
+//! pairs, so that is O(n log U), and simpler.
 
 use super::descent::Lists;
+use super::kind::BrioDc;
 use super::pairs::{add_pairs, Pair};
 use super::quadtree::Quadtree;
-use super::BrioDc;
 use incircle_geometry::pages::with_room;
 use incircle_geometry::Point;
 

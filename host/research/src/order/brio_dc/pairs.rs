@@ -1,12 +1,12 @@
 //! Well-separated pairs in which a point can have its nearest neighbour.
 //!
-//! Two nodes are well separated if they are farther apart than either is wide: then a point has its nearest neighbour across only if it
-//! is alone in its node. Callahan and Kosaraju, *A decomposition of multidimensional point sets with applications to k-nearest-neighbors
-//! and n-body potential fields*, 1995.
+//! Two nodes are well separated if they are farther apart than either is wide: then a point has its nearest neighbour
+//! across only if it is alone in its node. Callahan and Kosaraju, *A decomposition of multidimensional point sets with
+//! applications to k-nearest-neighbors and n-body potential fields*, 1995.
 //!
-//! The decomposition halves the larger node of a pair until it is well separated: O(n) pairs. Pairs farther apart than either node
-//! *reaches* hold no nearest neighbours, whatever is in them, and are left out with all that would follow. A node reaches at most as far
-//! as it is wide, so the pairs made are among those of the whole decomposition.
+//! The decomposition halves the larger node of a pair until it is well separated: O(n) pairs. Pairs farther apart than
+//! either node *reaches* hold no nearest neighbours, whatever is in them, and are left out with all that would follow.
+//! A node reaches at most as far as it is wide, so the pairs made are among those of the whole decomposition.
 
 use bytemuck::Zeroable;
 
@@ -28,8 +28,8 @@ impl Keyed for Pair {
     }
 }
 
-/// Adds the pairs between the halves of a node, all of those within the halves having been made; then the node knows how far it reaches. Few
-/// points meet at once and make no pair.
+/// Adds the pairs between the halves of a node, all of those within the halves having been made; then the node knows
+/// how far it reaches. Few points meet at once and make no pair.
 pub(super) fn add_pairs(tree: &mut Quadtree, node: u32, pairs: &mut Vec<Pair>) {
     let (left, right) = tree.children(node);
     Decomposition { tree, pairs }.between(left, right);

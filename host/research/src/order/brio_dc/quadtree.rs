@@ -1,7 +1,8 @@
 //! A compressed quadtree over points in Z-order, its nodes numbered from left to right.
 //!
-//! A square is halved in x and then in y, so a node has two children; squares with points in one half only have no node. Two ways to
-//! build it: in one pass with a stack (Chan, *Well-separated pair decomposition in linear time?*, 2008), or from the top.
+//! A square is halved in x and then in y, so a node has two children; squares with points in one half only have no
+//! node. Two ways to build it: in one pass with a stack (Chan, *Well-separated pair decomposition in linear time?*,
+//! 2008), or from the top.
 
 use std::ops::RangeInclusive;
 
@@ -20,9 +21,11 @@ pub(super) struct Node {
     /// The corners of the smallest box around the points.
     pub(super) low: Point,
     pub(super) high: Point,
-    /// No point below has its nearest neighbour farther away than this. Of a leaf: the square of the distance of the nearest point that it has met.
+    /// No point below has its nearest neighbour farther away than this. Of a leaf: the square of the distance of the
+    /// nearest point that it has met.
     pub(super) reach: Distance,
-    /// The halves with smaller and with larger coordinates. Of a leaf: itself, and the place of the nearest point that it has met.
+    /// The halves with smaller and with larger coordinates. Of a leaf: itself, and the place of the nearest point that
+    /// it has met.
     links: [u32; 2],
 }
 
@@ -43,12 +46,14 @@ impl Node {
     }
 }
 
-/// The tree. The leaf of the point at place `j` is node `2 j`; the node whose left half ends at place `j` is node `2 j + 1`.
+/// The tree. The leaf of the point at place `j` is node `2 j`; the node whose left half ends at place `j` is node `2 j
+/// + 1`.
 #[derive(Debug)]
 pub(super) struct Quadtree {
     pub(super) nodes: Vec<Node>,
     pub(super) root: u32,
-    /// While it is built from left to right: nodes whose right halves are not complete, and their levels, each higher than the next.
+    /// While it is built from left to right: nodes whose right halves are not complete, and their levels, each higher
+    /// than the next.
     open: Vec<(u32, u32)>,
 }
 
@@ -79,8 +84,9 @@ impl Quadtree {
         Self { nodes: with_room(2 * points), root: 0, open: Vec::new() }
     }
 
-    /// Builds it anew in one pass from left to right: O(n). The points are distinct, in Z-order, and at least one. Tells of each node when
-    /// all below it is complete; by then each point below has met its neighbours along the curve.
+    /// Builds it anew in one pass from left to right: O(n). The points are distinct, in Z-order, and at least one.
+    /// Tells of each node when all below it is complete; by then each point below has met its neighbours along the
+    /// curve.
     pub(super) fn build_by_stack(&mut self, points: &[Point], mut complete: impl FnMut(&mut Self, u32)) {
         self.nodes.clear();
         let mut before = None;
@@ -98,7 +104,8 @@ impl Quadtree {
         self.root = self.complete_below(leaf(points.len() as u32 - 1), u32::MAX, &mut complete);
     }
 
-    /// Completes the open nodes below this level, the lowest with this right half. Returns the last, or that half if there was none.
+    /// Completes the open nodes below this level, the lowest with this right half. Returns the last, or that half if
+    /// there was none.
     fn complete_below(&mut self, half: u32, size: u32, complete: &mut impl FnMut(&mut Self, u32)) -> u32 {
         let mut right = half;
         while let Some((node, _)) = self.open.pop_if(|&mut (_, lower)| lower < size) {
@@ -109,8 +116,8 @@ impl Quadtree {
         right
     }
 
-    /// Builds it anew from the top, each node's right half found by bisection: O(n log n), which is less than O(n log U). Points and what is
-    /// told as before.
+    /// Builds it anew from the top, each node's right half found by bisection: O(n log n), which is less than O(n log
+    /// U). Points and what is told as before.
     pub(super) fn build_from_top(&mut self, points: &[Point], mut complete: impl FnMut(&mut Self, u32)) {
         self.nodes.clear();
         (0..).zip(points).for_each(|(place, &point)| self.add_leaf(place, point));
@@ -171,7 +178,7 @@ impl Quadtree {
         place(first)..=place(last)
     }
 
-    /// The same of a node of [`FEW`] points at most, in constant time; `None` of a larger one.
+    /// The places of all points below a node of [`FEW`] points at most, in constant time; `None` of a larger one.
     pub(super) fn few_places(&self, node: u32) -> Option<RangeInclusive<u32>> {
         let (mut first, mut last) = (node, node);
         for _ in 1..FEW {

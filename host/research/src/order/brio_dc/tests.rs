@@ -18,7 +18,8 @@ fn nearest_neighbors(points: &[Point], by: BrioDc) -> Vec<u32> {
     Search::with_room(points.len(), by).run(points).to_vec()
 }
 
-/// Sets on which a search for neighbours can go wrong: even, in a box, long and thin, on a lattice, in clusters, on a line.
+/// Sets on which a search for neighbours can go wrong: even, in a box, long and thin, on a lattice, in clusters, on a
+/// line.
 fn sets() -> impl Strategy<Value = Vec<Point>> {
     let raw = prop::collection::vec((any::<u32>(), any::<u32>()), 0..160);
     (raw, 0u32..32, 0u32..32, 0u32..5).prop_map(|(raw, wide, high, shape)| {

@@ -1,7 +1,7 @@
 //! Points along the Z-curve, equal ones together: sorted by radix, or by comparison.
 
+use super::kind::BrioDc;
 use super::quadtree::level;
-use super::BrioDc;
 use incircle_geometry::order::z_curve::{point_at, position};
 use incircle_geometry::pages::with_room;
 use incircle_geometry::sort::{sort_by_key, Entry, Narrow, Wide};
@@ -44,8 +44,8 @@ fn sorted<E: Entry>(entries: impl Iterator<Item = E>) -> Along {
     Along { indices: along.iter().map(Entry::value).collect(), points }
 }
 
-/// Which of two points comes first, decided by the axis in which they differ at the higher bit. Chan, *A minimalist's implementation of
-/// an approximate nearest neighbor algorithm in fixed dimensions*, 2006.
+/// Which of two points comes first, decided by the axis in which they differ at the higher bit. Chan, *A minimalist's
+/// implementation of an approximate nearest neighbor algorithm in fixed dimensions*, 2006.
 fn compare(one: Point, other: Point) -> std::cmp::Ordering {
     let differs_in_x = level(one, other).is_multiple_of(2);
     if differs_in_x {
