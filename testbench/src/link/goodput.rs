@@ -7,7 +7,8 @@ use std::time::Duration;
 use incircle_protocol::{answer_status, Command, Config, RecordRange, Status, FULL};
 use incircle_sim::faults::FaultSpec;
 
-use super::{Detail, VirtualLine};
+use super::virtual_line::VirtualLine;
+use super::Detail;
 
 /// Rates of the table.
 pub const RATES: [u32; 2] = [3_000_000, 12_000_000];
@@ -65,7 +66,7 @@ pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2],
         return Err(format!("the link runs at {} bits per second, not {rate}", line.rate()).into());
     }
     line.ask(&Command::<[u32; 0]>::Clear { contexts: 0, is_batch: false }, LIMIT)?;
-    let words: Vec<u32> = super::random_points(points, 1).iter().map(|point| point.x | (point.y << 16)).collect();
+    let words: Vec<u32> = super::jobs::random_points(points, 1).iter().map(|point| point.x | (point.y << 16)).collect();
     let insert = Command::Insert { count: u32::try_from(points)?, points: words };
     let begun = line.now();
     let report = line.ask(&insert, LIMIT)?;
