@@ -84,7 +84,7 @@ pub(crate) struct Carrier<'c> {
     pub(crate) options: &'c Options<'c>,
     /// For all loads that have no time of their own.
     pub(crate) limit: Limit,
-    /// Times the stages of a job that is told of, step by step.
+    /// Times the stages of a job that goes step by step.
     pub(crate) watch: Stopwatch,
     pub(crate) jobs: &'c [Vec<Point>],
 }
@@ -173,7 +173,7 @@ impl Carrier<'_> {
 
     /// All commands of this load are sent before the first of them is answered.
     fn goes_ahead(&self, load: &Load) -> bool {
-        self.channel.capabilities().takes_ahead && !load.is_told
+        self.channel.capabilities().takes_ahead && !load.is_step_by_step
     }
 
     /// Submits the commands of these steps.
@@ -196,7 +196,7 @@ impl Carrier<'_> {
         let Answered { assembled, counters, latencies } = self.receive(load, limit)?;
         let clock = self.channel.clocks().and_then(|clocks| clocks.answer);
         let clocks = clock.zip(flight.clock).and_then(|(end, begin)| end.checked_sub(begin));
-        let clocks = clocks.filter(|_| !load.group.is_shared && !load.is_told);
+        let clocks = clocks.filter(|_| !load.group.is_shared && !load.is_step_by_step);
         let report = Report { counters, latencies, clocks, ..self.report(load.group.contexts) };
         let jobs = flight.loads.pop_front().map_or_else(Vec::new, |load| load.group.jobs);
         for (Ordered { job, prepared }, (triangles, hull)) in jobs.into_iter().zip(assembled) {
@@ -242,20 +242,20 @@ impl Carrier<'_> {
 
     /// Puts the meshes together when all records are there.
     fn assemble(&mut self, load: &Load, meshes: Meshes<'_>, answered: Answered) -> Result<Answered, Error> {
-        if load.is_told {
+        if load.is_step_by_step {
             tell(self.options, Stage::Assemble, 0, self.points())?;
         }
         let read_out = if self.channel.capabilities().packs_records { Opcode::Triangles } else { Opcode::Read };
         let assembled = meshes.finish().map_err(|fault| self.channel.distrust(read_out, fault))?;
-        if load.is_told {
+        if load.is_step_by_step {
             self.watch.ended(Stage::Assemble);
         }
         Ok(Answered { assembled, ..answered })
     }
 
-    /// Tells how far a load is that is told of.
+    /// Tells how far a load is that goes step by step.
     fn tell_before(&mut self, load: &Load, step: &Step) -> Result<(), Error> {
-        if !load.is_told {
+        if !load.is_step_by_step {
             return Ok(());
         }
         let (points, records) = (load.group.sent(), load.group.records());

@@ -12,7 +12,7 @@ use crate::error::DeviceFault;
 use crate::transports::Capabilities;
 use incircle_geometry::Point;
 
-/// Records of one `Read` or `Triangles` command of a job that is told of: 384 kB at most. A slow link takes fewer.
+/// Records of one `Read` or `Triangles` command of a job that goes step by step: 384 kB at most. A slow link takes fewer.
 const READ_CHUNK: usize = 16_384;
 /// Fewest points of an `Insert` command: the device can judge its report only after the first triangle.
 const MIN_INSERT_CHUNK: usize = 3;
@@ -39,7 +39,7 @@ pub(crate) struct Load {
     pub(crate) group: Group,
     pub(crate) steps: Vec<Step>,
     /// A listener hears how far it is, step by step.
-    pub(crate) is_told: bool,
+    pub(crate) is_step_by_step: bool,
     /// The time that it may take, if that is not the time of all.
     pub(crate) time: Option<Duration>,
 }
@@ -56,11 +56,16 @@ impl Load {
             steps.push(Step::Counters);
         }
         steps.push(Step::Read(0..group.records()));
-        Self { group, steps, is_told: false, time }
+        Self { group, steps, is_step_by_step: false, time }
     }
 
     /// A job whose points and records go in pieces, between which it is told how far it is.
-    pub(crate) fn told(group: Group, options: &Options<'_>, capabilities: Capabilities, layout: Layout) -> Self {
+    pub(crate) fn step_by_step(
+        group: Group,
+        options: &Options<'_>,
+        capabilities: Capabilities,
+        layout: Layout,
+    ) -> Self {
         let pace = capabilities.pace;
         let points = pace.chunk(options.insert_chunk.max(MIN_INSERT_CHUNK), layout.point_words);
         let one = read_out::<()>(0..1, capabilities).payload_words(layout);
@@ -70,7 +75,7 @@ impl Load {
         steps.push(Step::Ended(Stage::Insert));
         steps.extend(pieces(group.records(), records).map(Step::Read));
         steps.extend([Step::Ended(Stage::Read), Step::Counters, Step::Latencies]);
-        Self { group, steps, is_told: true, time: None }
+        Self { group, steps, is_step_by_step: true, time: None }
     }
 
     /// The command of a step, if it has one, with the place of its points in `words`, to which they are appended.

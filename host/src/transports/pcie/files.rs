@@ -38,9 +38,9 @@ mod system {
     use std::path::Path;
     use std::sync::Arc;
 
-    use super::{CardFiles, RegisterFile};
     use crate::transports::pcie::address::{cards, CardAddress};
     use crate::transports::pcie::fault::CardFault;
+    use crate::transports::pcie::files::{CardFiles, RegisterFile};
 
     /// The driver answers so for a card that has left the bus, or was never there.
     const NO_CARD: [i32; 3] = [libc::ENODEV, libc::ENXIO, libc::EIO];

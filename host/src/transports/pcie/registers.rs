@@ -8,7 +8,7 @@ use incircle_protocol::{Identity, StreamRegister, MAGIC, STREAM_VERSION};
 
 use super::fault::PcieFault;
 use super::files::RegisterFile;
-use super::left_behind;
+use super::left_behind::note_call;
 use crate::transports::identity::check_identity;
 
 /// What a card that is gone reads as.
@@ -68,7 +68,7 @@ impl Registers {
         }
         self.values.recv_timeout(ACCESS).unwrap_or_else(|_| {
             self.hangs = true;
-            left_behind::note_call();
+            note_call();
             Err(hangs)
         })
     }

@@ -11,8 +11,8 @@ use incircle_protocol::{
 use super::address::CardAddress;
 use super::buffer::PageBuffer;
 use super::fault::{CardFault, PcieFault};
-use super::files::{self, CardFiles};
-use super::left_behind;
+use super::files::{open, CardFiles};
+use super::left_behind::note_call;
 use super::registers::{CardRegisters, Registers};
 use super::streams::{Streams, MOST_MOVED, WORD};
 use crate::error::{Error, TransportError};
@@ -60,10 +60,10 @@ impl PcieTransport {
         let (sender, opened) = channel();
         let of = address.clone();
         // Opening may hang as any call.
-        std::thread::spawn(move || sender.send(files::open(&of)));
+        std::thread::spawn(move || sender.send(open(&of)));
         let opened = opened.recv_timeout(OPEN).unwrap_or_else(|error| {
             if error == RecvTimeoutError::Timeout {
-                left_behind::note_call();
+                note_call();
             }
             Err(CardFault::Hangs { within: OPEN })
         });
@@ -367,7 +367,7 @@ impl Drop for PcieTransport {
             state.is_all_written() && state.is_all_read()
         };
         if !is_at_rest && self.restart(Instant::now() + GOODBYE).is_err() {
-            left_behind::note_call();
+            note_call();
         }
         self.streams.end();
     }

@@ -165,8 +165,8 @@ fn two_clients_at_once_are_told() {
     assert_eq!(error.kind(), ErrorKind::DeviceNotFound, "{error}");
     assert!(error.to_string().contains("another program uses it"), "{error}");
     let points = random_points(50, 4);
-    let mesh = session.triangulate(&points).unwrap();
-    assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()));
+    let solution = session.triangulate(&points).unwrap();
+    assert!(is_one_mesh(&solution.mesh, &incircle::triangulate(&points).unwrap()));
     drop(first);
     must_be_right(&address, 50, 5, "after the first client");
 }

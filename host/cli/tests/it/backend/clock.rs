@@ -145,6 +145,31 @@ fn it_says_what_it_is() {
 }
 
 #[test]
+fn an_address_chooses_what_an_argument_chooses() {
+    let scratch = Scratch::new();
+    scratch.run("generate parabola -n 9 -o p.csv").ok();
+    let config = |backend: &str| {
+        let run = scratch.run(&format!("triangulate p.csv -o m.ele --json --backend {backend}")).ok();
+        let report: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
+        report["config"].clone()
+    };
+    assert_eq!((config("clock"), config("clock?config=full")), ("small".into(), "full".into()));
+    let run = scratch.run("info --backend cpu?threads=1").ok();
+    assert!(run.stdout.contains("\n1 thread\n"), "{run:?}");
+    let run = scratch.run("info --backend model?coord-bits=20&capacity=99").ok();
+    assert!(run.stdout.contains("coordinates of 20 bits\n99 points\n"), "{run:?}");
+    for (bad, sentence) in [
+        ("clock?config=full --config full", "both choose"),
+        ("cpu?threads=1 --threads 1", "both choose"),
+        ("clock?config=huge", "there are tiny, small, full, large"),
+        ("clock?threads=2", "\"config\" is known"),
+        ("model --config full", "it needs --backend clock"),
+    ] {
+        scratch.run(&format!("info --backend {bad}")).fails(2, &[sentence]);
+    }
+}
+
+#[test]
 fn verbose_is_a_table_with_latencies() {
     let scratch = Scratch::new();
     scratch.run("generate uniform -n 500 -o p.csv").ok();

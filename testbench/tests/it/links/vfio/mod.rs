@@ -23,8 +23,8 @@ fn jobs(card: &VfioCard, counts: &[usize]) {
     let options = Options::default().timeout(LIMIT);
     for (seed, &count) in (1..).zip(counts) {
         let points = random_points(count, seed);
-        let mesh = session.triangulate_with(&points, &options).unwrap_or_else(|error| panic!("{count}: {error}"));
-        assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()), "{count} points");
+        let solution = session.triangulate_with(&points, &options).unwrap_or_else(|error| panic!("{count}: {error}"));
+        assert!(is_one_mesh(&solution.mesh, &incircle::triangulate(&points).unwrap()), "{count} points");
     }
     assert_eq!(driver.untold(), 0);
 }
@@ -48,8 +48,8 @@ fn jobs_of_a_batch_go_one_behind_the_other() {
         let options = Options::default().timeout(LIMIT);
         let meshes = session.triangulate_batch(&jobs, &options).unwrap();
         assert_eq!(meshes.len(), jobs.len());
-        for (mesh, points) in meshes.iter().zip(&jobs) {
-            assert!(is_one_mesh(mesh, &incircle::triangulate(points).unwrap()), "{} points", points.len());
+        for (solution, points) in meshes.iter().zip(&jobs) {
+            assert!(is_one_mesh(&solution.mesh, &incircle::triangulate(points).unwrap()), "{} points", points.len());
         }
         assert_eq!(driver.untold(), 0);
     });
