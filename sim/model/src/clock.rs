@@ -1,7 +1,8 @@
 //! The core, clock by clock: what every root port of the Verilog says at every clock.
 //!
-//! One [`ClockModel::clock`] is one rising edge. Every block of the core has its file here with the same registers, as a
-//! small `Copy` struct. An edge takes a copy of all registers as they were, derives the wires from it, and lets
+//! One [`ClockModel::clock`] is one rising edge. The parts of the core stand here in files of their own, each a small `Copy` struct
+//! with the registers that decide what the root ports say and when; a part here may be several blocks there, and has fewer registers than
+//! they, since nothing is pipelined but in time. An edge takes a copy of all registers as they were, derives the wires from it, and lets
 //! each block compute its next state from that copy, so no order of evaluation matters, as in hardware. What is pipelined
 //! there (memories, predicates) is computed at the clock its record is read and handed over when the hardware is done.
 //! Nothing is shared with the hardware but the protocol.

@@ -15,7 +15,7 @@ mod clock {
 }
 
 mod mesh {
-    mod guides;
+    mod approach;
     mod insertion;
 }
 
