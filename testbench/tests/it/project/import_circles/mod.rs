@@ -31,7 +31,7 @@ const KNOWN: [(&str, usize); 6] = [
     ("incircle", 37),
     ("incircle-cli", 18),
     ("incircle-geometry", 2),
-    ("incircle-hdl", 43),
+    ("incircle-hdl", 36),
     ("incircle-model", 3),
     ("incircle-research", 3),
 ];
