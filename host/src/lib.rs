@@ -60,6 +60,6 @@ pub mod order {
 /// # Errors
 /// A coordinate of more than 31 bits, more than [`MAX_POINTS`] points, or a job that takes longer than
 /// [`Options::default_timeout`].
-pub fn triangulate<P: Into<Point> + Copy>(points: impl AsRef<[P]>) -> Result<Mesh, Error> {
+pub fn triangulate<P: Into<Point> + Copy>(points: &(impl AsRef<[P]> + ?Sized)) -> Result<Mesh, Error> {
     Device::cpu(None).session()?.triangulate(points).map(|solution| solution.mesh)
 }

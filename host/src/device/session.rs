@@ -18,7 +18,7 @@ use incircle_geometry::MAX_POINTS;
 ///
 /// let mut device = Device::open("cpu")?;
 /// let mut session = device.session()?;
-/// let solution = session.triangulate([(0, 0), (4, 0), (0, 4)])?;
+/// let solution = session.triangulate(&[(0, 0), (4, 0), (0, 4)])?;
 /// assert_eq!(solution.mesh.triangles, [[0, 1, 2]]);
 /// assert_eq!(solution.report.backend, "cpu");
 /// # Ok::<(), incircle::Error>(())
@@ -42,7 +42,10 @@ impl<'d> Session<'d> {
     ///
     /// # Errors
     /// As [`Session::triangulate_with`].
-    pub fn triangulate<P: Into<Point> + Copy>(&mut self, points: impl AsRef<[P]>) -> Result<Solution, Error> {
+    pub fn triangulate<P: Into<Point> + Copy>(
+        &mut self,
+        points: &(impl AsRef<[P]> + ?Sized),
+    ) -> Result<Solution, Error> {
         self.triangulate_with(points, &Options::default())
     }
 
@@ -58,7 +61,7 @@ impl<'d> Session<'d> {
     /// the device worked, the session is out of step: open the device again. After all others it can be used again.
     pub fn triangulate_with<P: Into<Point> + Copy>(
         &mut self,
-        points: impl AsRef<[P]>,
+        points: &(impl AsRef<[P]> + ?Sized),
         options: &Options<'_>,
     ) -> Result<Solution, Error> {
         self.triangulate_owned(own(points.as_ref()), options)

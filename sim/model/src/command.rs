@@ -47,7 +47,8 @@ impl fmt::Display for ModelError {
 
 impl std::error::Error for ModelError {}
 
-/// What the next words mean.
+/// What the next words mean. They are read here anew, not by the protocol's `CommandReader`: the core's own reading is compared with this one, so
+/// it shares no code with a host that writes commands.
 #[derive(Clone, Copy, Debug)]
 enum Awaited {
     Command,

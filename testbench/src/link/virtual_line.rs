@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use incircle::serial::{Params, SerialProtocol, Statistics};
+use incircle::transports::parts::{Params, SerialProtocol, Statistics};
 use incircle::transports::{receive_in_pieces, AnswerHead, Capabilities};
 use incircle::{Transport, TransportError};
 use incircle_protocol::Command;

@@ -10,15 +10,13 @@
 mod address;
 mod buffer;
 mod fault;
-mod files;
-mod left_behind;
+pub(super) mod files;
+pub(super) mod left_behind;
 mod registers;
 mod streams;
 mod transport;
 
 pub use address::{cards, CardAddress, CardInfo};
 pub use fault::{CardFault, PcieFault};
-pub use files::{CardFiles, RegisterFile};
-pub use left_behind::calls_left_behind;
 pub use registers::CardRegisters;
 pub use transport::PcieTransport;

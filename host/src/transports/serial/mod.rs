@@ -1,8 +1,8 @@
 //! The serial link: frames with check sums through a UART, nothing lost, nothing believed.
 //!
-//! `protocol/SERIAL.md` says what host and device tell each other. [`SerialProtocol`] is the host's half of it without a port and without a clock:
-//! bytes and times go in, bytes and times come out, so it runs in virtual time as well as on a line. [`SerialTransport`] drives it over a
-//! port of the operating system, and is what `Device::open("serial:/dev/ttyUSB0")` makes. [`greet`] asks who is at a port, and
+//! `protocol/SERIAL.md` says what host and device tell each other. [`SerialProtocol`](super::parts::SerialProtocol) is the host's half of it
+//! without a port and without a clock: bytes and times go in, bytes and times come out, so it runs in virtual time as well as on a line.
+//! [`SerialTransport`] drives it over a port of the operating system, and is what `Device::open("serial:/dev/ttyUSB0")` makes. [`greet`] asks who is at a port, and
 //! [`ports`] lists them.
 //!
 //! What it holds is bounded by the command under way and its answer, each once, and 16 frames; what a device sends cannot make it
@@ -15,7 +15,7 @@ mod connect;
 mod fault;
 mod low_latency;
 mod port;
-mod protocol;
+pub(super) mod protocol;
 mod reader;
 mod sender;
 mod timing;
@@ -25,5 +25,5 @@ pub use address::Address;
 pub(crate) use connect::LONGEST;
 pub use fault::SerialFault;
 pub use port::{ports, PortFault, PortInfo};
-pub use protocol::{Params, SerialProtocol, Statistics, DEFAULT_RATE};
+pub use protocol::DEFAULT_RATE;
 pub use transport::{greet, SerialTransport};

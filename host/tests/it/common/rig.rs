@@ -5,7 +5,8 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use incircle::serial::{Params, SerialFault, SerialProtocol};
+use incircle::serial::SerialFault;
+use incircle::transports::parts::{Params, SerialProtocol};
 use incircle::transports::{receive_in_pieces, AnswerHead, Capabilities};
 use incircle::{Transport, TransportError};
 use incircle_protocol::Command;

@@ -3,7 +3,8 @@
 
 use std::time::{Duration, Instant};
 
-use incircle::pcie::{calls_left_behind, PcieTransport};
+use incircle::pcie::PcieTransport;
+use incircle::transports::parts::calls_left_behind;
 use incircle::{Device, Error, ErrorKind, Mesh, Options, Point};
 use incircle_model::stream::{ModelCore, StreamModel};
 use incircle_protocol::SMALL;
@@ -216,7 +217,7 @@ fn a_call_that_hangs_is_left_behind_in_time_and_keeps_its_card() {
     let before = calls_left_behind();
     let begun = Instant::now();
     let options = Options::default().timeout(Duration::from_secs(1));
-    let result = device.session().unwrap().triangulate_with(random_points(600, 2), &options);
+    let result = device.session().unwrap().triangulate_with(&random_points(600, 2), &options);
     let error = result.expect_err("the call hangs");
     assert!(matches!(error.kind(), ErrorKind::Timeout | ErrorKind::Link), "{error}");
     drop(device);

@@ -86,7 +86,7 @@ fn a_frame_takes_what_is_expected() {
     ] {
         let options = Options::default().contexts(contexts);
         let clocks = |seed| {
-            let mesh = session.triangulate_with(points(seed, count), &options).expect("a mesh");
+            let mesh = session.triangulate_with(&points(seed, count), &options).expect("a mesh");
             mesh.report.counters.expect("they are counted").insert_cycles
         };
         let mean = (0..16).map(clocks).sum::<u64>() / 16;

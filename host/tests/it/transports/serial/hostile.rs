@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crate::common::board::{cobs_decode, crc32, crc32_more, frame, greeting};
 use crate::common::heap;
-use incircle::serial::{Params, SerialProtocol};
+use incircle::transports::parts::{Params, SerialProtocol};
 use incircle_protocol::{Command, RecordRange};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};

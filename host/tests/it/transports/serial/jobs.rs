@@ -5,7 +5,8 @@ use std::time::Duration;
 use crate::common::by_engine;
 use crate::common::rig::{Fate, Rig};
 use crate::common::Random;
-use incircle::serial::{Params, SerialFault};
+use incircle::serial::SerialFault;
+use incircle::transports::parts::Params;
 use incircle::{Device, Error, ErrorKind, Point, Solution, TransportError};
 use incircle_protocol::{Command, RecordRange};
 
@@ -297,7 +298,8 @@ fn other_devices_are_refused_with_what_to_do() {
 fn a_host_that_was_killed_leaves_a_device_that_the_next_one_finds() {
     let mut rig = rig();
     rig.ask(&HELLO).expect("a sound line");
-    let killed = std::mem::replace(&mut rig.engine, incircle::serial::SerialProtocol::new(Params::default()));
+    let killed =
+        std::mem::replace(&mut rig.engine, incircle::transports::parts::SerialProtocol::new(Params::default()));
     assert_eq!(killed.rate(), 12_000_000);
     let since = rig.now;
     rig.ask(&HELLO).expect("after the silence");

@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use crate::common::board;
 use crate::common::rig::{Fate, Rig};
-use incircle::serial::{Params, SerialFault, SerialProtocol};
+use incircle::serial::SerialFault;
+use incircle::transports::parts::{Params, SerialProtocol};
 use incircle_protocol::{Command, FIRST_RATE, MAX_SILENCE_MS};
 
 const HELLO: Command<&[u32]> = Command::Hello;

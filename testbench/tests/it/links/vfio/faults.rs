@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use incircle::pcie::CardFiles;
+use incircle::transports::parts::CardFiles;
 use incircle::{Error, ErrorKind, Mesh, Point};
 use incircle_testbench::card::vfio::{Descriptor, Transfers, VfioCard, VfioDriver, Way};
 use incircle_testbench::link::{is_one_mesh, random_points};

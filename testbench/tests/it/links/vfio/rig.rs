@@ -4,7 +4,8 @@ use std::io::{self, Read, Write};
 use std::sync::mpsc::{channel, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use incircle::pcie::{CardFiles, PcieTransport};
+use incircle::pcie::PcieTransport;
+use incircle::transports::parts::CardFiles;
 use incircle::{Device, Error, Mesh, Options, Point};
 use incircle_model::stream::{ModelCore, StreamModel};
 use incircle_protocol::SMALL;
