@@ -4,12 +4,12 @@
 
 use crate::rig::common::batches::Batch;
 use crate::rig::common::Random;
-use incircle_cli::generate::SplitMix64;
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{
     Config, Counter, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, SMALL, TINY,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Stalls};
+use incircle_testkit::SplitMix64;
 
 struct Rig {
     pair: Lockstep,

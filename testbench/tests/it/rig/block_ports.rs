@@ -1,8 +1,6 @@
 //! Ports of a block by name and as numbers: those of its Rust form, and those of its Verilated Verilog. Packed structures travel as
 //! one number.
 
-#![allow(dead_code)] // Every test that includes this uses a part of it.
-
 use incircle_hdl::engine::{
     Attempt, Bundle, CommitJob, Deal, Entry, Plan, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
 };
@@ -94,7 +92,6 @@ pub trait NamedPorts: Block {
 
 /// Gives a block [`NamedPorts`]: its type, its inputs, its outputs, and `clock` if it has one. Before the type may stand generic
 /// parameters in brackets, or none: `[]`.
-#[allow(unused_macros)] // As above.
 macro_rules! named_ports {
     ([$($generics:tt)*] $block:ty, [$($input:ident),*], [$($output:ident),*] $(, $clock:ident)?) => {
         impl<$($generics)*> $crate::rig::block_ports::NamedPorts for $block {

@@ -1,13 +1,13 @@
 //! Runs jobs on a pair of core and model, compares the answers with the model by commands, and on a mismatch leaves a waveform.
 
 use incircle::Point;
-use incircle_cli::generate::{generate, Distribution, SplitMix64};
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{
     command_word, Config, Counter, Layout, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS,
     LATENCY_BUCKETS,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
+use incircle_testkit::{generate, Distribution, SplitMix64};
 use std::path::PathBuf;
 
 use super::common::mesh_check;
@@ -69,7 +69,6 @@ impl Rig {
     }
 
     /// Out of the state that an ECP5 has after configuration.
-    #[allow(dead_code, reason = "only netlists have that state")]
     pub fn configured(name: &'static str, config: Config) -> Self {
         Self { pair: Lockstep::configured(name, config), ..Self::new(name, config, 1) }
     }
