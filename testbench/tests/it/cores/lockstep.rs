@@ -301,8 +301,8 @@ fn a_core_that_reads_what_is_not_written_yet_is_caught() {
     expect_caught("faulty_core_long_list_one", &["watermark"], ONE_CONTEXT_LONG_LIST, &jobs);
 }
 
-/// Twenty starts out of random flip-flops: the sound core passes all of them, and a core with a block that is not reset passes none, or
-/// nearly none. The jobs clear nothing before they insert, so nothing but the reset mends what a block holds at first.
+/// Twenty starts out of random flip-flops: the sound core passes all of them, and a core with a block that is not reset fails
+/// in a quarter of them at least, for most blocks in nearly all. The jobs clear nothing before they insert, so nothing but the reset mends what a block holds at first.
 #[test]
 fn cores_with_a_block_that_is_not_reset_are_caught() {
     const STARTS: u32 = 20;
@@ -323,7 +323,7 @@ fn cores_with_a_block_that_is_not_reset_are_caught() {
     for (number, fault) in blocks.enumerate() {
         let caught = caught(&[fault]);
         println!("{number} {fault}: {caught} of {STARTS} starts");
-        assert!(caught > 0, "{fault}");
+        assert!(caught >= STARTS as usize / 4, "{fault}: {caught} of {STARTS} starts");
     }
 }
 

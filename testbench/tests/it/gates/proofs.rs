@@ -86,17 +86,17 @@ fn must_fail(text: &str, (name, has_several_clocks): (&str, bool), (old, new): (
 }
 
 fn prove_fifo<const P: usize>() {
-    let begun = std::time::Instant::now();
     gate::prove(&fifo::<P>(), FIFO, true, STEPS).unwrap_or_else(|error| panic!("pointers of {P} bits: {error}"));
-    println!("{} entries: {:?}", 1 << (P - 1), begun.elapsed());
 }
 
+/// The FIFO is proven with 4, 8 and 16 entries. The real one has 512: its Verilog is the same text, in which the depth
+/// sets only the widths of pointers, addresses and one mask. That carries the proof over by reading, not by a tool.
+/// The time grows with the depth too fast for more: 32 entries take ten times as long as 16.
 #[test]
 fn the_fifo_is_proven() {
     prove_fifo::<3>();
     prove_fifo::<4>();
     prove_fifo::<5>();
-    
 }
 
 #[test]
