@@ -3,7 +3,7 @@
 //! The build script of the test bench translates this list, and the tests look blocks up in it.
 
 mod control;
-mod export;
+mod exported;
 mod leaf;
 mod links;
 mod serial;

@@ -1,4 +1,4 @@
-//! Parameters of serial links for simulation.
+//! Links in front of the blocks of the serial link, quick to simulate.
 
 use incircle_protocol::LinkConfig;
 

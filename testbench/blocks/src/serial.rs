@@ -2,7 +2,7 @@
 
 use incircle_protocol::SMALL;
 
-use crate::export::{block, named};
+use crate::exported::{block, named};
 use crate::links::{HASTY_LINK, QUICK_LINK};
 use incircle_hdl::export::serial_link;
 use incircle_hdl::serial::{
