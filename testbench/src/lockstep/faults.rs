@@ -43,7 +43,7 @@ pub const FAULTS: &[Fault] = &[
             "p_before_r1 & p_before_r2",
         )],
     },
-    // Rule 1: a test does not mind that another context holds the lock.
+    // Rule L1: a test does not mind that another context holds the lock.
     Fault {
         name: "foreign_lock",
         pieces: &[
@@ -51,18 +51,18 @@ pub const FAULTS: &[Fault] = &[
             piece("test_is_refused$d = @;", "tests & foreign & (~is_waiter)", "1'b0"),
         ],
     },
-    // Rule 1: an attempt that fails releases its locks while visits of it are still out.
+    // Rule L1: an attempt that fails releases its locks while visits of it are still out.
     Fault { name: "drain", pieces: &[piece("is_over = @;", "ends_here", "ends_here | gives_up")] },
-    // Rule 1: an attempt that has failed does not rest.
+    // Rule L1: an attempt that has failed does not rest.
     Fault {
         name: "rest",
         pieces: &[piece("is_rested = @;", "(~busy[index]) & (round$q == resting_round)", "~busy[index]")],
     },
-    // Rule 2: nobody takes the waiting token.
+    // Rule L2: nobody takes the waiting token.
     Fault { name: "token", pieces: &[piece("takes = @;", "asks_to_wait & (~token_is_held$q)", "1'b0")] },
-    // Rule 2a: the others do not yield to the context that waits.
+    // Rule L3: the others do not yield to the context that waits.
     Fault { name: "yield", pieces: &[piece("may_try = @;", "(~is_urgent) | (passed$q == waiter)", "1'b1")] },
-    // Rule 3: locks are released when the ring is finished, before the star is written.
+    // Rule L4: locks are released when the ring is finished, before the star is written.
     Fault {
         name: "release",
         pieces: &[
@@ -75,7 +75,7 @@ pub const FAULTS: &[Fault] = &[
             ),
         ],
     },
-    // Rule 4: a locked root is believed to hold the point still.
+    // Rule L5: a locked root is believed to hold the point still.
     Fault {
         name: "root",
         pieces: &[
@@ -89,9 +89,9 @@ pub const FAULTS: &[Fault] = &[
             piece("root_duplicate = @;", "root_is_held$q & is_corner", "1'b0"),
         ],
     },
-    // Rule 5: a context opens a cavity while its own commit or release is due.
+    // Rule L6: a context opens a cavity while its own commit or release is due.
     Fault { name: "busy", pieces: &[piece("context_is_busy$d = @;", "is_busy", "1'b0")] },
-    // Rule 6: a walk does not mind that a record is not written yet, or is being written.
+    // Rule L7: a walk does not mind that a record is not written yet, or is being written.
     Fault { name: "watermark", pieces: &[piece("again1$d = @;", "is_torn | (~is_written)", "is_torn")] },
     Fault {
         name: "torn",
@@ -101,9 +101,9 @@ pub const FAULTS: &[Fault] = &[
             "1'b0",
         )],
     },
-    // Rule 7: all contexts work from the first triangle on.
+    // Rule L8: all contexts work from the first triangle on.
     Fault { name: "first_round", pieces: &[piece("may_work = @;", "all_work$q", "seeded")] },
-    // Rule 8: a context takes its own locks for those of another one.
+    // Rule L9: a context takes its own locks for those of another one.
     Fault {
         name: "own_lock",
         pieces: &[piece(
@@ -112,8 +112,9 @@ pub const FAULTS: &[Fault] = &[
             "met_clear3$q | (takes3$q & found_set$q)",
         )],
     },
-    // The watchdog, and each place that hears of it, but for `CommandGate`: a core that gets stuck over a lock has its first triangle, and the
-    // gate has nothing to hold then. `tests/it/blocks/choices.rs` holds the gate.
+    // The watchdog, and each place that hears of it, but for `CommandGate`: the gate holds back a point only while a
+    // first triangle is looked at, and a job that hangs over a lock has its first triangle already.
+    // `tests/it/blocks/link/command_gate.rs` and `command_port.rs` hold the gate and its wire.
     Fault { name: "watchdog_is_silent", pieces: &[piece("is_stuck$d = @;", "1'b1", "1'b0")] },
     Fault { name: "command_port_ignores_stuck", pieces: &[piece("command_port$stuck = @;", "engine$stuck", "1'b0")] },
     Fault { name: "settle_ignores_stuck", pieces: &[piece("if (@) begin", "is_quiet | stuck", "is_quiet")] },
