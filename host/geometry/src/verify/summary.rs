@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 /// What the validator counted in a right mesh.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct VerifySummary {
     /// Points given.
     pub points: usize,
