@@ -1,6 +1,8 @@
 //! Commands, how they are written as words and read from them, and what their answers begin with.
 
-use crate::{Layout, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};
+use crate::counters::{COUNTER_WORDS, LATENCY_BUCKETS};
+use crate::layout::{Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS};
+use crate::status::Status;
 
 /// The number of a command. The opcode stands in the top byte of a command word; the rest is zero but where said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,13 +9,16 @@
 
 mod answer;
 mod attempts;
+mod beat;
 mod command_port;
 mod commit;
+mod commit_job;
 mod contexts;
 mod counters;
 mod defect;
 mod memory;
 mod pipeline;
+mod ports;
 mod record_reads;
 mod release;
 mod responder;
@@ -26,95 +29,18 @@ mod starter;
 mod watchdog;
 mod wires;
 
-use attempts::{Outcome, Tables};
-use command_port::CommandPort;
-use commit::Commit;
-use contexts::Contexts;
-use counters::{Counters, Latencies};
+use attempts::Tables;
+use counters::Latencies;
 use incircle_protocol::{Config, ConfigError};
 use memory::Memory;
-use pipeline::{Bundle, Pipeline};
+use pipeline::Pipeline;
 use release::Release;
-use responder::Responder;
 use ring::RingReader;
-use seeder::Seeder;
-use solo::Solo;
-use starter::Starter;
-use watchdog::{Progress, Watchdog};
+use wires::Registers;
 
 pub use defect::Defect;
 pub use memory::Write;
-
-/// What drives the core before a clock edge.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Synchronous reset, active high.
-    pub reset: bool,
-    /// A command word is offered.
-    pub command_valid: bool,
-    /// The word.
-    pub command_data: u32,
-    /// The host takes an answer word.
-    pub response_ready: bool,
-}
-
-/// What the core shows before a clock edge. All outputs are functions of registers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The core takes a command word.
-    pub command_ready: bool,
-    /// An answer word is offered, or two.
-    pub response_valid: bool,
-    /// The word in the low half, the one that follows it in the high; holds the last while none is offered.
-    pub response_data: u64,
-    /// There is one that follows it.
-    pub response_both: bool,
-    /// The last word of the answer is among them.
-    pub response_last: bool,
-    /// The write port of the triangle memory (simulation builds).
-    pub write: Write,
-}
-
-impl Outputs {
-    /// The answer words that are offered, in their order.
-    pub fn answer_words(&self) -> impl Iterator<Item = u32> {
-        let words = usize::from(self.response_valid) * (1 + usize::from(self.response_both));
-        [self.response_data as u32, (self.response_data >> 32) as u32].into_iter().take(words)
-    }
-}
-
-/// The registers of the core, but those of the visit pipeline, the ring reader and the lock release.
-#[derive(Clone, Copy, Debug, Default)]
-struct Registers {
-    command: CommandPort,
-    responder: Responder,
-    contexts: Contexts,
-    /// The contexts as they were a clock ago: part of what a visit means is decided ahead.
-    noted: Contexts,
-    starter: Starter,
-    seeder: Seeder,
-    commit: Commit,
-    solo: Solo,
-    progress: Progress,
-    watchdog: Watchdog,
-    counters: Counters,
-    /// The counters as they were a clock ago: the hardware counts an event a clock after it.
-    counted: Counters,
-    /// What the visit that completed in the clock before leads to: contexts take note of it in this clock.
-    outcome: Option<Outcome>,
-    /// The bundle that enters the queue in this clock.
-    push: Option<Bundle>,
-    write: Write,
-}
-
-impl Registers {
-    fn after_reset(config: Config) -> Self {
-        let mut registers = Self::default();
-        registers.command.contexts = config.contexts;
-        registers.contexts.reset(config.contexts);
-        registers
-    }
-}
+pub use ports::{Inputs, Outputs};
 
 /// The core at a clock.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
-use crate::block;
+use crate::exported::block;
 use incircle_hdl::engine::{
     AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FreshIds,
     InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, PlanTable, Progress, PushPort,

@@ -8,7 +8,7 @@ use incircle_hdl::predicate::{
     CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
 };
 
-use crate::block;
+use crate::exported::block;
 
 /// The name of each root module, and its Verilog.
 pub(crate) fn blocks() -> Vec<(String, String)> {

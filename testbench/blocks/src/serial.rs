@@ -2,7 +2,8 @@
 
 use incircle_protocol::SMALL;
 
-use crate::{block, named, HASTY_LINK, QUICK_LINK};
+use crate::exported::{block, named};
+use crate::links::{HASTY_LINK, QUICK_LINK};
 use incircle_hdl::export::serial_link;
 use incircle_hdl::serial::{
     AnswerPacker, BitClock, CobsDecoder, CobsEncoder, CommandProgress, CommandWords, Crc32, FrameBytes, FrameChoice,

@@ -2,7 +2,7 @@
 
 use incircle_protocol::SMALL;
 
-use crate::{block, named};
+use crate::exported::{block, named};
 use incircle_hdl::export::stream_link;
 use incircle_hdl::leaf::{DualClockMemory, Synchroniser};
 use incircle_hdl::stream::{

@@ -2,7 +2,7 @@
 
 use incircle_protocol::{SMALL, TINY};
 
-use crate::block;
+use crate::exported::block;
 use incircle_hdl::engine::{
     Issue, LinkWrite, RecordWrite, SeedWrites, VerdictLogic, VisitJudge, VisitPipeline, VisitReader, WritePort,
 };

@@ -20,6 +20,5 @@ mod mesh {
 }
 
 mod serial {
-    mod exchange;
     mod page;
 }

@@ -1,6 +1,6 @@
-//! Point sets as words.
+//! Point sets as words: x in the lower 16 bits, y in the upper.
 
-use super::Random;
+use crate::random32::Random32;
 
 /// The points behind three that span a triangle.
 pub fn started(points: Vec<u32>) -> Vec<u32> {
@@ -8,12 +8,12 @@ pub fn started(points: Vec<u32>) -> Vec<u32> {
 }
 
 /// Points of a box: in a small one most fall together.
-pub fn boxed(random: &mut Random, count: u32, side: u32) -> Vec<u32> {
+pub fn boxed(random: &mut Random32, count: u32, side: u32) -> Vec<u32> {
     (0..count).map(|_| random.below(side) | random.below(side) << 16).collect()
 }
 
 /// As `boxed`, but every other point is one of the eight before it: duplicates of points that are still in flight.
-pub fn stuttering(random: &mut Random, count: u32, side: u32) -> Vec<u32> {
+pub fn stuttering(random: &mut Random32, count: u32, side: u32) -> Vec<u32> {
     let mut points: Vec<u32> = Vec::new();
     for _ in 0..count {
         let back = random.below(16) as usize;
@@ -27,14 +27,14 @@ pub fn stuttering(random: &mut Random, count: u32, side: u32) -> Vec<u32> {
 }
 
 /// Points of a parabola: all on the hull, and the cavities of a point above it are large.
-pub fn parabola(random: &mut Random, count: u32) -> Vec<u32> {
+pub fn parabola(random: &mut Random32, count: u32) -> Vec<u32> {
     let mut points: Vec<u32> = (0..count).map(|x| x | ((x * x) & 0xffff) << 16).collect();
     random.shuffle(&mut points);
     points
 }
 
 /// Many points of one circle, which all see each other, and a few inside, in any order.
-pub fn wheel(random: &mut Random, count: u32) -> Vec<u32> {
+pub fn wheel(random: &mut Random32, count: u32) -> Vec<u32> {
     let mut points = rim(random);
     points.truncate(count as usize);
     let inside = count - points.len() as u32;
@@ -44,14 +44,14 @@ pub fn wheel(random: &mut Random, count: u32) -> Vec<u32> {
 }
 
 /// The same, the circle first: the first point inside removes nearly all triangles.
-pub fn wheel_from_outside(random: &mut Random, inside: u32) -> Vec<u32> {
+pub fn wheel_from_outside(random: &mut Random32, inside: u32) -> Vec<u32> {
     let mut points = rim(random);
     points.extend(hub(random, inside));
     points
 }
 
 /// Points on one circle.
-fn rim(random: &mut Random) -> Vec<u32> {
+fn rim(random: &mut Random32) -> Vec<u32> {
     // 1105 = 5 * 13 * 17 is the hypotenuse of many triangles with whole sides.
     const RADIUS: i64 = 1105;
     let mut points = Vec::new();
@@ -66,6 +66,6 @@ fn rim(random: &mut Random) -> Vec<u32> {
 }
 
 /// Points around its centre.
-fn hub(random: &mut Random, count: u32) -> Vec<u32> {
+fn hub(random: &mut Random32, count: u32) -> Vec<u32> {
     boxed(random, count, 400).into_iter().map(|point| point + 900 * 0x1_0001).collect()
 }

@@ -1,7 +1,4 @@
-//! The exchange in `protocol/SERIAL.md`, as bytes.
-
-/// The page.
-pub const PAGE: &str = include_str!("../../../../../protocol/SERIAL.md");
+//! The exchange that a page about the serial link shows, as bytes.
 
 /// The bytes of a line without its direction and its comment.
 fn bytes(line: &str) -> Vec<u8> {
@@ -9,9 +6,12 @@ fn bytes(line: &str) -> Vec<u8> {
     said.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).expect(line)).collect()
 }
 
-/// Bytes to the device, then those that come back.
-pub fn steps() -> Vec<(Vec<u8>, Vec<u8>)> {
-    let (_, block) = PAGE.split_once("```line\n").expect("an exchange");
+/// The steps of the exchange that `protocol/SERIAL.md` shows: bytes to the device, then those that come back.
+///
+/// # Panics
+/// If the page shows no exchange, or one in another form.
+pub fn exchange_steps(page: &str) -> Vec<(Vec<u8>, Vec<u8>)> {
+    let (_, block) = page.split_once("```line\n").expect("an exchange");
     let block = block.split("```").next().expect("its body");
     let mut steps: Vec<(Vec<u8>, Vec<u8>)> = Vec::new();
     for line in block.lines().filter(|line| !line.trim().is_empty()) {
