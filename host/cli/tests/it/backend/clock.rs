@@ -161,17 +161,13 @@ fn an_address_chooses_what_an_argument_chooses() {
     for (bad, sentence) in [
         ("clock?config=full --config full", "both choose"),
         ("cpu?threads=1 --threads 1", "both choose"),
+        ("clock?config=huge", "there are tiny, small, full, large"),
+        ("clock?threads=2", "\"config\" is known"),
         ("model --config full", "it needs --backend clock"),
     ] {
         // Some are refused as values of the argument, before the command begins, in a form of their own.
         let run = scratch.run(&format!("info --backend {bad}"));
         assert!(run.code == Some(2) && run.stdout.is_empty() && run.stderr.contains(sentence), "{bad}: {run:?}");
-    }
-    for (bad, sentence) in
-        [("clock?config=huge", "there are tiny, small, full, large"), ("clock?threads=2", "\"config\" is known")]
-    {
-        let run = scratch.run(&format!("info --backend {bad}"));
-        assert!(run.code == Some(2) && run.stderr.contains(sentence), "{run:?}");
     }
 }
 
