@@ -21,6 +21,7 @@
 
 use crate::engine::{Counters, InsertionEngine, Latencies, Write};
 use crate::link::{AnswerHead, AnswerWords, CommandPort, Responder};
+use crate::mesh::Record;
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
@@ -64,6 +65,7 @@ pub struct Core {
     all_contexts: Constant<Bits<24>>,
     patience: Constant<Bits<22>>,
     sweeps: Signal<Local, Bit>,
+    record: Signal<Local, Record>,
 }
 
 impl Core {
@@ -100,6 +102,7 @@ impl Core {
             all_contexts: Constant::new(((1u64 << config.contexts) - 1).into()),
             patience: Constant::new(u64::from(patience(config.points)).into()),
             sweeps: Signal::default(),
+            record: Signal::default(),
         })
     }
 }
@@ -113,7 +116,7 @@ impl Logic for Core {
         self.engine.reset.next = self.reset.val();
         self.counters.reset.next = self.reset.val();
         self.latencies.reset.next = self.reset.val();
-        self.sweeps.next = self.engine.sweeps.val() | self.latencies.sweeps.val();
+        self.sweeps.next = self.engine.state.val().sweeps | self.latencies.sweeps.val();
 
         // The command stream.
         self.command_port.capacity.next = self.capacity.val();
@@ -122,10 +125,10 @@ impl Logic for Core {
         self.command_port.command_data.next = self.command_data.val();
         self.command_ready.next = self.command_port.command_ready.val();
         self.command_port.sweeps.next = self.sweeps.val();
-        self.command_port.start_is_open.next = self.engine.start_is_open.val();
-        self.command_port.collinear.next = self.engine.collinear.val();
-        self.command_port.stuck.next = self.engine.stuck.val();
-        self.command_port.is_quiet.next = self.engine.is_quiet.val();
+        self.command_port.start_is_open.next = self.engine.state.val().start_is_open;
+        self.command_port.collinear.next = self.engine.state.val().collinear;
+        self.command_port.stuck.next = self.engine.state.val().stuck;
+        self.command_port.is_quiet.next = self.engine.state.val().is_quiet;
         self.command_port.responder_is_idle.next = self.responder.is_idle.val();
         self.command_port.answer_ends.next = self.responder.ends.val();
         self.command_port.answer_is_taken.next = self.responder.is_taken.val();
@@ -135,9 +138,9 @@ impl Logic for Core {
         self.answer_head.first.next = self.command_port.first.val();
         self.answer_head.count.next = self.command_port.count.val();
         self.answer_head.is_refused.next = self.command_port.is_refused.val();
-        self.answer_head.records.next = self.engine.records.val();
-        self.answer_head.collinear.next = self.engine.collinear.val();
-        self.answer_head.stuck.next = self.engine.stuck.val();
+        self.answer_head.records.next = self.engine.state.val().records;
+        self.answer_head.collinear.next = self.engine.state.val().collinear;
+        self.answer_head.stuck.next = self.engine.state.val().stuck;
         self.answer_head.some_refused.next = self.command_port.some_refused.val();
         self.answer_words.opcode.next = self.command_port.opcode.val();
         self.answer_words.arrived.next = self.command_port.arrived.val();
@@ -145,7 +148,7 @@ impl Logic for Core {
         self.answer_words.capacity.next = self.capacity.val();
         self.answer_words.contexts.next = self.contexts.val();
         self.answer_words.ring.next = self.ring.val();
-        self.answer_words.records.next = self.engine.records.val();
+        self.answer_words.records.next = self.engine.state.val().records;
         self.answer_words.insertions.next = self.counters.insertions.val();
         self.answer_words.duplicates.next = self.counters.duplicates.val();
         self.answer_words.index.next = self.responder.index.val();
@@ -162,14 +165,15 @@ impl Logic for Core {
         self.responder.word.next = self.answer_words.word.val();
         self.responder.is_read.next = self.answer_head.is_read.val();
         self.responder.is_packed.next = self.answer_head.is_packed.val();
-        self.responder.read_done.next = self.engine.read_done.val();
-        self.responder.v0.next = self.engine.v0.val();
-        self.responder.v1.next = self.engine.v1.val();
-        self.responder.v2.next = self.engine.v2.val();
-        self.responder.n0.next = self.engine.n0.val();
-        self.responder.n1.next = self.engine.n1.val();
-        self.responder.n2.next = self.engine.n2.val();
-        self.responder.was_set.next = self.engine.was_set.val();
+        self.record.next = self.engine.read_out.val().record;
+        self.responder.read_done.next = self.engine.read_out.val().valid;
+        self.responder.v0.next = self.record.val().v0;
+        self.responder.v1.next = self.record.val().v1;
+        self.responder.v2.next = self.record.val().v2;
+        self.responder.n0.next = self.record.val().n0;
+        self.responder.n1.next = self.record.val().n1;
+        self.responder.n2.next = self.record.val().n2;
+        self.responder.was_set.next = self.record.val().was_set;
         self.responder.response_ready.next = self.response_ready.val();
         self.response_valid.next = self.responder.response_valid.val();
         self.response_data.next = self.responder.response_data.val();
@@ -177,19 +181,19 @@ impl Logic for Core {
         self.response_last.next = self.responder.response_last.val();
 
         // The engine.
-        self.engine.infinite.next = self.infinite.val();
-        self.engine.ring.next = self.ring.val();
-        self.engine.last_id.next = self.last_id.val();
-        self.engine.all.next = self.all_contexts.val();
-        self.engine.patience.next = self.patience.val();
+        self.engine.limits.next.infinite = self.infinite.val();
+        self.engine.limits.next.ring = self.ring.val();
+        self.engine.limits.next.last_id = self.last_id.val();
+        self.engine.limits.next.all = self.all_contexts.val();
+        self.engine.limits.next.patience = self.patience.val();
         self.engine.deal.next = self.command_port.deal.val();
         self.engine.clears.next = self.command_port.clears.val();
-        self.engine.came.next = self.command_port.came.val();
-        self.engine.came_id.next = self.command_port.came_id.val();
-        self.engine.point.next = self.command_port.point.val();
+        self.engine.arrival.next.valid = self.command_port.came.val();
+        self.engine.arrival.next.id = self.command_port.came_id.val();
+        self.engine.arrival.next.point = self.command_port.point.val();
         self.engine.arrived.next = self.command_port.arrived.val();
-        self.engine.read.next = self.responder.read.val();
-        self.engine.read_id.next = self.responder.read_id.val();
+        self.engine.read.next.valid = self.responder.read.val();
+        self.engine.read.next.id = self.responder.read_id.val();
         self.engine.now.next = self.counters.now.val();
         self.write.next = self.engine.write.val();
 
@@ -197,30 +201,9 @@ impl Logic for Core {
         self.counters.clears.next = self.command_port.clears.val();
         self.counters.inserting.next = self.command_port.inserting.val();
         self.counters.waiting.next =
-            self.command_port.inserting.val() & self.command_port.awaits_point.val() & self.engine.is_quiet.val();
+            self.command_port.inserting.val() & self.command_port.awaits_point.val() & self.engine.state.val().is_quiet;
         self.counters.reading.next = self.command_port.reading.val();
-        self.counters.seeds.next = self.engine.events.val().seeds;
-        self.counters.commit_ends.next = self.engine.events.val().commit_ends;
-        self.counters.since.next = self.engine.events.val().since;
-        self.counters.solo_inserts.next = self.engine.events.val().solo_inserts;
-        self.counters.solo_duplicate.next = self.engine.events.val().solo_duplicate;
-        self.counters.solo_test.next = self.engine.events.val().solo_test;
-        self.counters.flip.next = self.engine.events.val().flip;
-        self.counters.duplicate.next = self.engine.events.val().duplicate;
-        self.counters.walk_visit.next = self.engine.events.val().walk_visit;
-        self.counters.root_visit.next = self.engine.events.val().root_visit;
-        self.counters.test.next = self.engine.events.val().test;
-        self.counters.revisit.next = self.engine.events.val().revisit;
-        self.counters.overflows.next = self.engine.events.val().overflow;
-        self.counters.gives_up.next = self.engine.events.val().gives_up;
-        self.counters.retries.next = self.engine.events.val().root_retry;
-        self.counters.takes_token.next = self.engine.events.val().takes_token;
-        self.counters.cavity_ends.next = self.engine.events.val().cavity_ends;
-        self.counters.cavity_triangles.next = self.engine.events.val().cavity_triangles;
-        self.counters.is_issuing.next = self.engine.events.val().is_issuing;
-        self.counters.is_writing.next = self.engine.events.val().is_writing;
-        self.counters.is_committing.next = self.engine.events.val().is_committing;
-        self.counters.is_releasing.next = self.engine.events.val().is_releasing;
+        self.counters.events.next = self.engine.events.val();
         self.counters.refused.next = self.command_port.refused.val();
         self.counters.select.next = self.responder.index_ahead.val().get_bits::<5>(0);
         self.latencies.clears.next = self.command_port.clears.val();
