@@ -73,7 +73,7 @@ struct Receiving {
 impl Receiving {
     fn new() -> Self {
         let mut this = Self {
-            block: Stepper::new("serial_uart_receiver", UartReceiver::default(), 2),
+            block: Stepper::new("serial_uart_receiver", UartReceiver::new(), 2),
             bytes: Vec::new(),
             noise: 0,
         };
@@ -199,7 +199,7 @@ fn receiver_ignores_glitches_and_tells_a_missing_stop_bit_once() {
 #[test]
 fn transmitter_sends_bytes_without_a_gap_or_when_they_come() {
     let mut random = SplitMix64::new(6);
-    let mut block = Stepper::new("serial_uart_transmitter", UartTransmitter::default(), 2);
+    let mut block = Stepper::new("serial_uart_transmitter", UartTransmitter::new(), 2);
     block.set("byte_valid", false);
     block.set("byte_data", 0u8);
     block.set("step", MAX_STEP);

@@ -61,7 +61,7 @@ fn only_whole_beats_are_pushed() {
 
 fn cuts<const W: usize>(name: &'static str) {
     let mut random = SplitMix64::new(2);
-    let mut block = Stepper::new(name, BeatWords::<W>::default(), 1);
+    let mut block = Stepper::new(name, BeatWords::<W>::new(), 1);
     let mut held: VecDeque<u32> = VecDeque::new();
     let mut words = 0;
     for clock in 0..8000 {
@@ -103,7 +103,7 @@ fn beats_are_cut_into_words() {
 
 #[test]
 fn beat_words_show_the_wave_of_their_header() {
-    let mut block = Stepper::new("stream_beat_words_64", BeatWords::<64>::default(), 1);
+    let mut block = Stepper::new("stream_beat_words_64", BeatWords::<64>::new(), 1);
     let mut wave = Wave::default();
     let mut beats: VecDeque<u32> = [1, 3].into();
     for clock in 0..9 {
@@ -274,7 +274,7 @@ fn answer_pairs_show_the_wave_of_their_header() {
 
 fn collects<const W: usize>(name: &'static str) {
     let mut random = SplitMix64::new(4);
-    let mut block = Stepper::new(name, AnswerBeats::<W>::default(), 1);
+    let mut block = Stepper::new(name, AnswerBeats::<W>::new(), 1);
     let (mut half, mut expected): (Option<u64>, VecDeque<(u128, bool)>) = Default::default();
     let mut passed = 0;
     for clock in 0..12_000 {

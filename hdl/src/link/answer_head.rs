@@ -1,17 +1,5 @@
 //! The first two words of an answer: status and length, in three ranks of registers.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `opcode`, `first`, `count` | in | 8, 32, 32 | the command and its arguments |
-//! | `is_refused` | in | 1 | it is a `Clear` that asks for more contexts than there are |
-//! | `records` | in | 15 | records of the mesh |
-//! | `collinear`, `stuck` | in | 1 | the first three points are collinear; nothing is finished any more |
-//! | `some_refused` | in | 1 | points have been refused |
-//! | `header` | out | 32 | first word of the answer |
-//! | `length`, `is_empty` | out | 32, 1 | words of the payload; whether there are none |
-//! | `is_read`, `is_packed` | out | 1 | the payload consists of records; it has their vertices alone |
-//!
 //! 1. A read is in range if its last record is one; the end of the range and the ids of the records are computed in the first rank,
 //!    the end is compared in the second, and the third chooses. Words of a `Read` are as many as these ids; of `Triangles` half as many, rounded up.
 //! 2. `opcode` and `is_refused` stand still from the command to the end of its answer, so they enter at the last rank.
@@ -25,33 +13,27 @@ use rust_hdl_widgets::prelude::*;
 /// Status and length of an answer; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerHead {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// The command.
+    /// The command and its arguments.
     pub opcode: Signal<In, Bits<8>>,
-    /// First record of a read.
     pub first: Signal<In, Bits<32>>,
-    /// Records of a read.
     pub count: Signal<In, Bits<32>>,
-    /// The command asks for too many contexts.
+    /// It is a `Clear` that asks for more contexts than there are.
     pub is_refused: Signal<In, Bit>,
     /// Records of the mesh.
     pub records: Signal<In, Bits<15>>,
-    /// The start was collinear.
+    /// The first three points are collinear; nothing is finished any more.
     pub collinear: Signal<In, Bit>,
-    /// Nothing is finished any more.
     pub stuck: Signal<In, Bit>,
     /// Points have been refused.
     pub some_refused: Signal<In, Bit>,
     /// First word of the answer.
     pub header: Signal<Out, Bits<32>>,
-    /// Words of the payload.
+    /// Words of the payload; whether there are none.
     pub length: Signal<Out, Bits<32>>,
-    /// There are none.
     pub is_empty: Signal<Out, Bit>,
-    /// The payload consists of records.
+    /// The payload consists of records; it has their vertices alone.
     pub is_read: Signal<Out, Bit>,
-    /// It has their vertices alone.
     pub is_packed: Signal<Out, Bit>,
     /// First rank.
     range_end: DFF<Bits<33>>,

@@ -1,26 +1,5 @@
 //! Takes command words: opcodes, arguments, and points one at a time.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset awaits a command; all contexts work |
-//! | `capacity`, `built` | in | 15, 5 | points the core holds, and contexts it has; constants |
-//! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
-//! | `sweeps` | in | 1 | memories are being cleared: the core is not ready for commands |
-//! | `start_is_open`, `collinear` | in | 1 | three points are being looked at for a first triangle; such three are collinear |
-//! | `stuck` | in | 1 | nothing is finished any more: points are refused, and nothing is waited for |
-//! | `is_quiet` | in | 1 | every point that has come is finished, and no lock is held |
-//! | `came`, `came_id` | out | 1, 15 | a point has come, and is written into the vertex memory at this edge |
-//! | `point` | out | 32 | that point: x in the low half, y in the high |
-//! | `clears` | out | 1 | forget the mesh at this edge |
-//! | `deal` | out | Deal | contexts that work, and which points are theirs |
-//! | `is_refused` | out | 1 | the last command is a `Clear` that asks for more contexts than there are |
-//! | `answers` | out | 1 | an answer is due, until `answer_ends` |
-//! | `opcode`, `first`, `count` | out | 8, 32, 32 | the command and its arguments |
-//! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
-//! | `some_refused` | out | 1 | there are some of these |
-//! | `responder_is_idle`, `answer_ends`, `answer_is_taken` | in | 1 | the responder |
-//! | `inserting`, `reading`, `awaits_point` | out | 1 | what the cycle counters count |
-//!
 //! 1. `command_ready` depends on registers only and does not wait for `command_valid`.
 //! 2. A point is taken when the one before has been stored; the fourth waits until the first three are known to span a triangle.
 //! 3. A `Clear` for no number of contexts is one for all. One for too many changes nothing, and `clears` stays low.
@@ -67,67 +46,54 @@ pub enum CommandState {
 /// The command stream; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandPort {
-    /// Clock.
+    /// Reset awaits a command; all contexts work.
     pub clock: Signal<In, Clock>,
-    /// Awaits a command.
     pub reset: Signal<In, Bit>,
-    /// Points the core holds.
+    /// Points the core holds, and contexts it has; constants.
     pub capacity: Signal<In, Bits<15>>,
-    /// Contexts it has.
     pub built: Signal<In, Bits<5>>,
-    /// A word is offered.
+    /// The command stream.
     pub command_valid: Signal<In, Bit>,
-    /// A word is taken.
     pub command_ready: Signal<Out, Bit>,
-    /// The word.
     pub command_data: Signal<In, Bits<32>>,
-    /// The core is not ready yet.
+    /// Memories are being cleared: the core is not ready for commands.
     pub sweeps: Signal<In, Bit>,
-    /// Three points are being looked at for a first triangle.
+    /// Three points are being looked at for a first triangle; such three are collinear.
     pub start_is_open: Signal<In, Bit>,
-    /// The first three points are collinear.
     pub collinear: Signal<In, Bit>,
-    /// Nothing is finished any more.
+    /// Nothing is finished any more: points are refused, and nothing is waited for.
     pub stuck: Signal<In, Bit>,
-    /// The engine has finished.
+    /// Every point that has come is finished, and no lock is held.
     pub is_quiet: Signal<In, Bit>,
-    /// A point has come.
+    /// A point has come, and is written into the vertex memory at this edge.
     pub came: Signal<Out, Bit>,
-    /// Its vertex id.
     pub came_id: Signal<Out, Bits<15>>,
-    /// Its coordinates.
+    /// That point: x in the low half, y in the high.
     pub point: Signal<Out, Bits<32>>,
-    /// Forget the mesh.
+    /// Forget the mesh at this edge.
     pub clears: Signal<Out, Bit>,
     /// Contexts that work, and which points are theirs.
     pub deal: Signal<Out, Deal>,
-    /// The last command is a `Clear` for too many.
+    /// The last command is a `Clear` that asks for more contexts than there are.
     pub is_refused: Signal<Out, Bit>,
-    /// An answer is due.
+    /// An answer is due, until `answer_ends`.
     pub answers: Signal<Out, Bit>,
-    /// The command.
+    /// The command and its arguments.
     pub opcode: Signal<Out, Bits<8>>,
-    /// First argument of a read.
     pub first: Signal<Out, Bits<32>>,
-    /// Second argument of a read; points still to come of an insert.
     pub count: Signal<Out, Bits<32>>,
-    /// Points that were given an id.
+    /// Points that were given an id, and points that were not.
     pub arrived: Signal<Out, Bits<15>>,
-    /// Points that were refused.
     pub refused: Signal<Out, Bits<32>>,
-    /// There are such points.
+    /// There are some of these.
     pub some_refused: Signal<Out, Bit>,
-    /// The responder is idle.
+    /// The responder.
     pub responder_is_idle: Signal<In, Bit>,
-    /// It loads its last word.
     pub answer_ends: Signal<In, Bit>,
-    /// No answer word waits, or it is taken.
     pub answer_is_taken: Signal<In, Bit>,
-    /// A job is under way.
+    /// What the cycle counters count.
     pub inserting: Signal<Out, Bit>,
-    /// A read-out is under way.
     pub reading: Signal<Out, Bit>,
-    /// A point may come.
     pub awaits_point: Signal<Out, Bit>,
     state: DFF<CommandState>,
     command: DFF<Bits<8>>,

@@ -1,15 +1,5 @@
 //! The point that has just come, and the count of points.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset drops the point; reset and clear set the counts to zero |
-//! | `capacity` | in | 15 | points the core holds, a constant |
-//! | `collinear`, `stuck` | in | 1 | the first three points are collinear, or the core is stuck: points are refused |
-//! | `accepts`, `word` | in | 1, 32 | a point comes |
-//! | `came`, `came_id`, `point` | out | 1, 15, 32 | it came with the last edge and is not refused: it is to be stored at this edge |
-//! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
-//! | `some_refused` | out | 1 | there is one of these |
-//!
 //! 1. `came_id` and `point` are good only with `came`: their registers take in whatever comes, so that nothing has to reach all of them.
 //! 2. No point comes in the clock of `came`: the counts are compared in it.
 //!
@@ -21,33 +11,26 @@ use rust_hdl_widgets::prelude::*;
 /// The last point; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PointSlot {
-    /// Clock.
+    /// Reset drops the point; reset and clear set the counts to zero.
     pub clock: Signal<In, Clock>,
-    /// Drops the point.
     pub reset: Signal<In, Bit>,
-    /// Sets the counts to zero.
     pub clears: Signal<In, Bit>,
-    /// Points the core holds.
+    /// Points the core holds, a constant.
     pub capacity: Signal<In, Bits<15>>,
-    /// The first three points are collinear.
+    /// The first three points are collinear, or the core is stuck: points are refused.
     pub collinear: Signal<In, Bit>,
-    /// The core is stuck.
     pub stuck: Signal<In, Bit>,
     /// A point comes.
     pub accepts: Signal<In, Bit>,
-    /// It.
     pub word: Signal<In, Bits<32>>,
-    /// It came with the last edge.
+    /// It came with the last edge and is not refused: it is to be stored at this edge.
     pub came: Signal<Out, Bit>,
-    /// Its vertex id.
     pub came_id: Signal<Out, Bits<15>>,
-    /// Its coordinates.
     pub point: Signal<Out, Bits<32>>,
-    /// Points with an id.
+    /// Points that were given an id, and points that were not.
     pub arrived: Signal<Out, Bits<15>>,
-    /// Points refused.
     pub refused: Signal<Out, Bits<32>>,
-    /// Points are refused.
+    /// There is one of these.
     pub some_refused: Signal<Out, Bit>,
     is_new: DFF<Bit>,
     last_id: DFF<Bits<15>>,

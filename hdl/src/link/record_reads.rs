@@ -1,16 +1,5 @@
 //! The payload of a read-out: reads records, one at a time for their words, or one a clock for their vertices alone.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset drops everything |
-//! | `starts`, `first`, `count` | in | 1, 15, 15 | the payload is of so many records from this one on; only when nothing of another one is left |
-//! | `is_packed` | in | 1 | it has their vertices alone; stands still from the clock before `runs` on |
-//! | `runs` | in | 1 | the payload is being sent |
-//! | `read`, `read_id` | out | 1, 15 | a record is wanted |
-//! | `read_done`, `v0..v2`, `n0..n2`, `was_set` | in | 1, 15, 1 | it has come; records come in the order in which they were wanted |
-//! | `valid`, `beat` | out | 1, AnswerBeat | the first beat of the payload that is left; the payload ends with the one that says `last` |
-//! | `takes` | in | 1 | it is taken at this edge; only while `valid` |
-//!
 //! 1. `read` goes on to the addresses of the triangle memory, so `is_packed` passes a register before it.
 //! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
 //! 3. `valid` and `beat` are registers: whether a beat is the last decides in the same clock what the whole command port does next.
@@ -24,45 +13,33 @@ use rust_hdl_widgets::prelude::*;
 /// The payload of a read-out; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordReads {
-    /// Clock.
+    /// Reset drops everything.
     pub clock: Signal<In, Clock>,
-    /// Drops everything.
     pub reset: Signal<In, Bit>,
-    /// A payload begins.
+    /// The payload is of so many records from this one on; only when nothing of another one is left.
     pub starts: Signal<In, Bit>,
-    /// Its first record.
     pub first: Signal<In, Bits<15>>,
-    /// Its records.
     pub count: Signal<In, Bits<15>>,
-    /// It has vertices alone.
+    /// It has their vertices alone; stands still from the clock before `runs` on.
     pub is_packed: Signal<In, Bit>,
-    /// It is being sent.
+    /// The payload is being sent.
     pub runs: Signal<In, Bit>,
     /// A record is wanted.
     pub read: Signal<Out, Bit>,
-    /// Its id.
     pub read_id: Signal<Out, Bits<15>>,
-    /// It has come.
+    /// It has come; records come in the order in which they were wanted.
     pub read_done: Signal<In, Bit>,
-    /// Its column.
     pub v0: Signal<In, Bits<15>>,
-    /// Its column.
     pub v1: Signal<In, Bits<15>>,
-    /// Its column.
     pub v2: Signal<In, Bits<15>>,
-    /// Its column.
     pub n0: Signal<In, Bits<15>>,
-    /// Its column.
     pub n1: Signal<In, Bits<15>>,
-    /// Its column.
     pub n2: Signal<In, Bits<15>>,
-    /// Its lock bit.
     pub was_set: Signal<In, Bit>,
-    /// A beat is left.
+    /// The first beat of the payload that is left; the payload ends with the one that says `last`.
     pub valid: Signal<Out, Bit>,
-    /// The first.
     pub beat: Signal<Out, AnswerBeat>,
-    /// It is taken.
+    /// It is taken at this edge; only while `valid`.
     pub takes: Signal<In, Bit>,
     vertices_alone: DFF<Bit>,
     record_id: DFF<Bits<15>>,

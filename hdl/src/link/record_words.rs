@@ -1,10 +1,5 @@
 //! A record as the three words of an answer.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `v0..v2`, `n0..n2`, `was_set` | in | 15, 1 | columns and lock bit of a record |
-//! | `word0..word2` | out | 32 | `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit |
-//!
 //! Latency: none (combinational).
 
 use rust_hdl_core::prelude::*;
@@ -12,25 +7,17 @@ use rust_hdl_core::prelude::*;
 /// Words of a record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordWords {
-    /// Column.
+    /// Columns and lock bit of a record.
     pub v0: Signal<In, Bits<15>>,
-    /// Column.
     pub v1: Signal<In, Bits<15>>,
-    /// Column.
     pub v2: Signal<In, Bits<15>>,
-    /// Column.
     pub n0: Signal<In, Bits<15>>,
-    /// Column.
     pub n1: Signal<In, Bits<15>>,
-    /// Column.
     pub n2: Signal<In, Bits<15>>,
-    /// Lock bit.
     pub was_set: Signal<In, Bit>,
-    /// First word.
+    /// `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
     pub word0: Signal<Out, Bits<32>>,
-    /// Second word.
     pub word1: Signal<Out, Bits<32>>,
-    /// Third word.
     pub word2: Signal<Out, Bits<32>>,
     lock: Signal<Local, Bits<32>>,
     vertex0: Signal<Local, Bits<32>>,

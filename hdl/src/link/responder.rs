@@ -1,23 +1,6 @@
 //! Sends answers: header and length in one beat, then the payload. Records are read from the triangle memory one at a time, or one a
 //! clock where their vertices alone are sent.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset drops an answer |
-//! | `answers` | in | 1 | an answer is due, held until `ends` |
-//! | `sweeps` | in | 1 | counts are being cleared: no answer begins |
-//! | `first`, `count` | in | 32 | first record of a read, and number of its records |
-//! | `header`, `length`, `is_empty`, `is_read`, `is_packed` | in | | the answer, from `AnswerHead`, good 3 clocks after `answers` comes |
-//! | `word` | in | 32 | a word of the payload, from `AnswerWords`, good from `chooses` to the next one |
-//! | `index` | out | 7 | word of the payload that is wanted |
-//! | `index_ahead` | out | 7 | what `index` becomes at this edge, if it changes |
-//! | `chooses` | out | 1 | the word that `index` was a clock ago is taken into a register at this edge, and is then `word` |
-//! | `read`, `read_id` | out | 1, 15 | a record is wanted |
-//! | `read_done`, `v0..n2`, `was_set` | in | | it has come; records come in the order in which they were wanted |
-//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 64 | the answer stream |
-//! | `response_both`, `response_last` | out | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
-//! | `is_idle`, `ends`, `is_taken` | out | 1 | no answer is under way; its last word is loaded at this edge; no word waits, or it is taken |
-//!
 //! 1. What is offered is held until it is taken; `response_valid` does not wait for `response_ready`.
 //! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
 //! 3. The second word is zero where there is none.
@@ -61,47 +44,35 @@ pub enum AnswerState {
 /// The answer stream; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Responder {
-    /// Clock.
+    /// Reset drops an answer.
     pub clock: Signal<In, Clock>,
-    /// Drops an answer.
     pub reset: Signal<In, Bit>,
-    /// An answer is due.
+    /// An answer is due, held until `ends`.
     pub answers: Signal<In, Bit>,
-    /// Counts are being cleared.
+    /// Counts are being cleared: no answer begins.
     pub sweeps: Signal<In, Bit>,
-    /// First record of a read.
+    /// First record of a read, and number of its records.
     pub first: Signal<In, Bits<32>>,
-    /// Its records.
     pub count: Signal<In, Bits<32>>,
-    /// First word of the answer.
     pub header: Signal<In, Bits<32>>,
-    /// Words of the payload.
     pub length: Signal<In, Bits<32>>,
-    /// There are none.
     pub is_empty: Signal<In, Bit>,
-    /// Word of the payload.
-    pub word: Signal<In, Bits<32>>,
-    /// The payload consists of records.
     pub is_read: Signal<In, Bit>,
-    /// It has their vertices alone.
     pub is_packed: Signal<In, Bit>,
+    /// A word of the payload, from `AnswerWords`, good from `chooses` to the next one.
+    pub word: Signal<In, Bits<32>>,
     /// Word of the payload that is wanted.
     pub index: Signal<Out, Bits<7>>,
-    /// The one after it, in time for what takes a clock longer to choose.
+    /// What `index` becomes at this edge, if it changes.
     pub index_ahead: Signal<Out, Bits<7>>,
-    /// The word is taken into a register.
+    /// The word that `index` was a clock ago is taken into a register at this edge, and is then `word`.
     pub chooses: Signal<Out, Bit>,
     /// A record is wanted.
     pub read: Signal<Out, Bit>,
-    /// Its id.
     pub read_id: Signal<Out, Bits<15>>,
-    /// It has come.
     pub read_done: Signal<In, Bit>,
-    /// Its column.
     pub v0: Signal<In, Bits<15>>,
-    /// Its column.
     pub v1: Signal<In, Bits<15>>,
-    /// Its column.
     pub v2: Signal<In, Bits<15>>,
     /// Its column.
     pub n0: Signal<In, Bits<15>>,
@@ -109,23 +80,17 @@ pub struct Responder {
     pub n1: Signal<In, Bits<15>>,
     /// Its column.
     pub n2: Signal<In, Bits<15>>,
-    /// Its lock bit.
     pub was_set: Signal<In, Bit>,
-    /// A word is offered, or two.
+    /// The answer stream.
     pub response_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub response_ready: Signal<In, Bit>,
-    /// The word in the low half, the one that follows it in the high.
     pub response_data: Signal<Out, Bits<64>>,
-    /// There is one that follows it.
+    /// Bits 63 to 32 are a second word, which follows the first; the last word of the answer is here.
     pub response_both: Signal<Out, Bit>,
-    /// The last word of the answer is among them.
     pub response_last: Signal<Out, Bit>,
-    /// No answer is under way.
+    /// No answer is under way; its last word is loaded at this edge; no word waits, or it is taken.
     pub is_idle: Signal<Out, Bit>,
-    /// The last word is loaded.
     pub ends: Signal<Out, Bit>,
-    /// No word waits, or it is taken.
     pub is_taken: Signal<Out, Bit>,
     state: DFF<AnswerState>,
     following: DFF<Bits<7>>,

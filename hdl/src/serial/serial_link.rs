@@ -1,15 +1,5 @@
 //! The serial link: a line on one side, the streams of a core on the other.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
-//! | `rx`, `tx` | in, out | 1 | the line, high when idle |
-//! | `alive`, `busy`, `error` | out | 1 | for lamps: a beat, or steady in a session; a command is under way; a frame was dropped in this session |
-//! | `core_reset` | out | 1 | reset of the core |
-//! | `command_valid`, `command_ready`, `command_data` | out, in, out | 1, 1, 32 | the command stream |
-//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 64 | the answer stream |
-//! | `response_both`, `response_last` | in | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
-//!
 //! 1. `protocol/SERIAL.md` says what passes on the line.
 //! 2. The core is held in reset while no session is open, and reset when one begins.
 //!
@@ -29,39 +19,30 @@ use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The serial link; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct SerialLink {
-    /// Clock.
+    /// One clock; synchronous reset, active high.
     pub clock: Signal<In, Clock>,
-    /// Synchronous reset.
     pub reset: Signal<In, Bit>,
-    /// The line from the host.
+    /// The line, high when idle.
     pub rx: Signal<In, Bit>,
-    /// The line to the host.
     pub tx: Signal<Out, Bit>,
-    /// A beat, or steady in a session.
+    /// For lamps: a beat, or steady in a session; a command is under way; a frame was dropped in this session.
     pub alive: Signal<Out, Bit>,
-    /// A command is under way.
     pub busy: Signal<Out, Bit>,
-    /// A frame was dropped.
     pub error: Signal<Out, Bit>,
     /// Reset of the core.
     pub core_reset: Signal<Out, Bit>,
-    /// A command word is offered.
+    /// The command stream.
     pub command_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub command_ready: Signal<In, Bit>,
-    /// The word.
     pub command_data: Signal<Out, Bits<32>>,
-    /// An answer word is offered, or two.
+    /// The answer stream.
     pub response_valid: Signal<In, Bit>,
-    /// It is taken.
     pub response_ready: Signal<Out, Bit>,
-    /// The word in the low half, the one that follows it in the high.
     pub response_data: Signal<In, Bits<64>>,
-    /// There is one that follows it.
+    /// Bits 63 to 32 are a second word, which follows the first; the last word of the answer is here.
     pub response_both: Signal<In, Bit>,
-    /// The last word of the answer is among them.
     pub response_last: Signal<In, Bit>,
     receiver: LinkReceiver,
     transmitter: LinkTransmitter,
@@ -106,34 +87,11 @@ impl SerialLink {
     pub fn new(config: Config, link: LinkConfig) -> Result<Self, SerialError> {
         let (config, link) = (config.check()?, link.check()?);
         Ok(Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            rx: Signal::default(),
-            tx: Signal::default(),
-            alive: Signal::default(),
-            busy: Signal::default(),
-            error: Signal::default(),
-            core_reset: Signal::default(),
-            command_valid: Signal::default(),
-            command_ready: Signal::default(),
-            command_data: Signal::default(),
-            response_valid: Signal::default(),
-            response_ready: Signal::default(),
-            response_data: Signal::default(),
-            response_both: Signal::default(),
-            response_last: Signal::default(),
-            is_offered: Signal::default(),
             receiver: LinkReceiver::new(link),
             transmitter: LinkTransmitter::new(config, link),
-            session: SessionState::default(),
             rate: RateControl::new(link),
             timers: LineTimers::new(link),
-            progress: CommandProgress::default(),
-            resets_core: DFF::default(),
-            has_failed: DFF::default(),
-            dropped: DFF::default(),
-            takes_command: Signal::default(),
-            clears: Signal::default(),
+            ..Self::default()
         })
     }
 }

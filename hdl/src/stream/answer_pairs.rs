@@ -1,14 +1,5 @@
 //! Answer words, one or two at a time, as pairs; each answer begins with a new pair.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the core's clock; reset forgets all words |
-//! | `response_valid`, `response_ready` | in, out | 1 | words of an answer are offered; they are taken |
-//! | `response_data`, `response_both`, `response_last` | in | 64, 1, 1 | a word in bits 31 to 0; a second one in bits 63 to 32; the last word of its answer is among them |
-//! | `pair_valid`, `pair_data`, `pair_last` | out | 1, 64, 1 | a pair; the last one of its answer |
-//! | `is_stalled` | in | 1 | it cannot go on at this edge |
-//! | `is_held` | out | 1 | words are held |
-//!
 //! 1. A pair that is offered stays while `is_stalled`.
 //! 2. An answer with an odd number of words ends in a pair with zeros in bits 63 to 32.
 //! 3. `response_ready` depends on registers and `is_stalled`, and not on `response_valid`. It is low for a clock where an answer leaves
@@ -34,27 +25,21 @@ use rust_hdl_widgets::prelude::*;
 /// Pairs of answer words; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerPairs {
-    /// Clock of the core.
+    /// The core's clock; reset forgets all words.
     pub clock: Signal<In, Clock>,
-    /// Forgets all words.
     pub reset: Signal<In, Bit>,
-    /// Words are offered.
+    /// Words of an answer are offered; they are taken.
     pub response_valid: Signal<In, Bit>,
-    /// They are taken.
     pub response_ready: Signal<Out, Bit>,
-    /// They.
+    /// A word in bits 31 to 0; a second one in bits 63 to 32; the last word of its answer is among them.
     pub response_data: Signal<In, Bits<64>>,
-    /// There are two of them.
     pub response_both: Signal<In, Bit>,
-    /// The last one of an answer is among them.
     pub response_last: Signal<In, Bit>,
-    /// A pair is offered.
+    /// A pair; the last one of its answer.
     pub pair_valid: Signal<Out, Bit>,
-    /// It.
     pub pair_data: Signal<Out, Bits<64>>,
-    /// The last one of its answer.
     pub pair_last: Signal<Out, Bit>,
-    /// It cannot go on.
+    /// It cannot go on at this edge.
     pub is_stalled: Signal<In, Bit>,
     /// Words are held.
     pub is_held: Signal<Out, Bit>,

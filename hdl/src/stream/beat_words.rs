@@ -1,12 +1,5 @@
 //! Beats as the words of the core's command stream, little end first.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the core's clock; reset forgets the words of a beat |
-//! | `beat_valid`, `beat_data`, `takes` | in, in, out | 1, W, 1 | a beat; it is taken at this edge |
-//! | `command_valid`, `command_ready`, `command_data` | out, in, out | 1, 1, 32 | the command stream |
-//! | `is_held` | out | 1 | words of a beat are held |
-//!
 //! 1. A word once offered stays until it is taken. `command_valid` and `command_data` are registers.
 //! 2. With the last word of a beat taken, the next beat is taken at the same edge: a word at every clock.
 //!
@@ -21,29 +14,25 @@
 //! command_data      .  .  1  2  2  3  4  .  .
 //! ```
 
+use crate::leaf::Parameter;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Words of beats; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct BeatWords<const W: usize> {
-    /// Clock of the core.
+    /// The core's clock; reset forgets the words of a beat.
     pub clock: Signal<In, Clock>,
-    /// Forgets the words of a beat.
     pub reset: Signal<In, Bit>,
-    /// A beat is there.
+    /// A beat; it is taken at this edge.
     pub beat_valid: Signal<In, Bit>,
-    /// It.
     pub beat_data: Signal<In, Bits<W>>,
-    /// It is taken.
     pub takes: Signal<Out, Bit>,
-    /// A word is offered.
+    /// The command stream.
     pub command_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub command_ready: Signal<In, Bit>,
-    /// The word.
     pub command_data: Signal<Out, Bits<32>>,
-    /// Words are held.
+    /// Words of a beat are held.
     pub is_held: Signal<Out, Bit>,
     words: DFF<Bits<W>>,
     /// Words that are held; the first one is on the output.
@@ -54,37 +43,25 @@ pub struct BeatWords<const W: usize> {
     loads: Signal<Local, Bit>,
     after: Signal<Local, Bits<3>>,
     later: Signal<Local, Bits<W>>,
-    one: Constant<Bits<3>>,
-    two: Constant<Bits<3>>,
-    all: Constant<Bits<3>>,
-    word_bits: Constant<Bits<8>>,
+    one: Parameter<Bits<3>>,
+    two: Parameter<Bits<3>>,
+    all: Parameter<Bits<3>>,
+    word_bits: Parameter<Bits<8>>,
 }
 
-impl<const W: usize> Default for BeatWords<W> {
-    fn default() -> Self {
+impl<const W: usize> BeatWords<W> {
+    /// The words of beats of W bits.
+    ///
+    /// # Panics
+    /// If W is not 64 or 128.
+    pub fn new() -> Self {
         assert!(W == 64 || W == 128, "a beat has 64 or 128 bits, not {W}");
         Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            beat_valid: Signal::default(),
-            beat_data: Signal::default(),
-            takes: Signal::default(),
-            command_valid: Signal::default(),
-            command_ready: Signal::default(),
-            command_data: Signal::default(),
-            is_held: Signal::default(),
-            words: DFF::default(),
-            left: DFF::default(),
-            holds: DFF::default(),
-            is_last: DFF::default(),
-            moves: Signal::default(),
-            loads: Signal::default(),
-            after: Signal::default(),
-            later: Signal::default(),
-            one: Constant::new(Bits::from(1)),
-            two: Constant::new(Bits::from(2)),
-            all: Constant::new(Bits::from(W as u64 / 32)),
-            word_bits: Constant::new(Bits::from(32)),
+            one: Parameter::new(Bits::from(1)),
+            two: Parameter::new(Bits::from(2)),
+            all: Parameter::new(Bits::from(W as u64 / 32)),
+            word_bits: Parameter::new(Bits::from(32)),
+            ..Self::default()
         }
     }
 }

@@ -1,15 +1,5 @@
 //! The register block: AXI4-Lite port, registers and counters.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the bus's clock and reset |
-//! | `s_axi_...` | | | as in `RegisterPort` |
-//! | `resets`, `core_runs`, `is_busy` | in | 1 | for the status |
-//! | `took_command`, `command_waited`, `dropped` | in | 1 | what happened to a command beat |
-//! | `took_answer`, `answer_waited`, `answer_ended` | in | 1 | what happened to an answer beat |
-//! | `failed`, `header` | in | 1, 32 | an answer failed; its header |
-//! | `asks_reset` | out | 1 | a reset is written to the control register |
-//!
 //! 1. `protocol/STREAM.md` says what stands where.
 //!
 //! Latency: see the blocks.
@@ -20,11 +10,10 @@ use rust_hdl_core::prelude::*;
 use super::{Faults, RegisterPort, Registers, Traffic};
 
 /// The register block; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct RegisterBlock {
-    /// Clock of the bus.
+    /// The bus's clock and reset.
     pub clock: Signal<In, Clock>,
-    /// Its reset.
     pub reset: Signal<In, Bit>,
     /// An address to write is offered.
     pub s_axi_awvalid: Signal<In, Bit>,
@@ -60,29 +49,22 @@ pub struct RegisterBlock {
     pub s_axi_rdata: Signal<Out, Bits<32>>,
     /// Whether it is one.
     pub s_axi_rresp: Signal<Out, Bits<2>>,
-    /// A reset is under way.
+    /// For the status.
     pub resets: Signal<In, Bit>,
-    /// The core's clock runs.
     pub core_runs: Signal<In, Bit>,
-    /// Something is held or under way.
     pub is_busy: Signal<In, Bit>,
-    /// A command beat was taken.
+    /// What happened to a command beat.
     pub took_command: Signal<In, Bit>,
-    /// A command beat waited.
     pub command_waited: Signal<In, Bit>,
-    /// A command beat was dropped.
     pub dropped: Signal<In, Bit>,
-    /// An answer beat was taken.
+    /// What happened to an answer beat.
     pub took_answer: Signal<In, Bit>,
-    /// An answer beat waited.
     pub answer_waited: Signal<In, Bit>,
-    /// An answer ended.
     pub answer_ended: Signal<In, Bit>,
-    /// An answer failed.
+    /// An answer failed; its header.
     pub failed: Signal<In, Bit>,
-    /// Its header.
     pub header: Signal<In, Bits<32>>,
-    /// A reset is asked for.
+    /// A reset is written to the control register.
     pub asks_reset: Signal<Out, Bit>,
     port: RegisterPort,
     registers: Registers,
@@ -93,43 +75,7 @@ pub struct RegisterBlock {
 impl RegisterBlock {
     /// The registers of a core of this configuration, behind streams of so many bits a beat.
     pub fn new(config: Config, beat_bits: usize) -> Self {
-        Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            s_axi_awvalid: Signal::default(),
-            s_axi_awready: Signal::default(),
-            s_axi_awaddr: Signal::default(),
-            s_axi_wvalid: Signal::default(),
-            s_axi_wready: Signal::default(),
-            s_axi_wdata: Signal::default(),
-            s_axi_wstrb: Signal::default(),
-            s_axi_bvalid: Signal::default(),
-            s_axi_bready: Signal::default(),
-            s_axi_bresp: Signal::default(),
-            s_axi_arvalid: Signal::default(),
-            s_axi_arready: Signal::default(),
-            s_axi_araddr: Signal::default(),
-            s_axi_rvalid: Signal::default(),
-            s_axi_rready: Signal::default(),
-            s_axi_rdata: Signal::default(),
-            s_axi_rresp: Signal::default(),
-            resets: Signal::default(),
-            core_runs: Signal::default(),
-            is_busy: Signal::default(),
-            took_command: Signal::default(),
-            command_waited: Signal::default(),
-            dropped: Signal::default(),
-            took_answer: Signal::default(),
-            answer_waited: Signal::default(),
-            answer_ended: Signal::default(),
-            failed: Signal::default(),
-            header: Signal::default(),
-            asks_reset: Signal::default(),
-            port: RegisterPort::default(),
-            registers: Registers::new(config, beat_bits),
-            faults: Faults::default(),
-            traffic: Traffic::default(),
-        }
+        Self { registers: Registers::new(config, beat_bits), ..Self::default() }
     }
 }
 

@@ -1,80 +1,52 @@
 //! The map of the registers: what is written where, and what is read.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `write_enable`, `write_address`, `write_data`, `write_bytes` | in | 1, 12, 32, 4 | a register is written at this edge |
-//! | `write_is_known` | out | 1 | it can be written |
-//! | `asks_reset`, `clears_dropped`, `clears_failed` | out | 1 | what the write does |
-//! | `read_enable`, `read_address` | in | 1, 12 | a register is read at this edge |
-//! | `read_data`, `read_is_known` | out | 32, 1 | its value, 0 if there is none; there is one |
-//! | `keeps_clocks` | out | 1 | it is the low half of the clocks |
-//! | `resets`, `core_runs`, `is_busy` | in | 1 | the status |
-//! | `was_dropped`, `has_failed`, `fault` | in | 1, 1, 32 | what went wrong |
-//! | `clocks_low`, `clocks_high`, `command_beats`, `answer_beats`, `answers`, `command_waits`, `answer_waits` | in | 32 | the counters |
-//!
 //! 1. `protocol/STREAM.md` says what stands where.
 //!
 //! Latency: none.
 
+use crate::leaf::Parameter;
 use incircle_protocol::{
     Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
 };
 use rust_hdl_core::prelude::*;
 
 /// The registers; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct Registers {
-    /// A register is written.
+    /// A register is written at this edge.
     pub write_enable: Signal<In, Bit>,
-    /// Which one.
     pub write_address: Signal<In, Bits<12>>,
-    /// With what.
     pub write_data: Signal<In, Bits<32>>,
-    /// Bytes of it that count.
     pub write_bytes: Signal<In, Bits<4>>,
     /// It can be written.
     pub write_is_known: Signal<Out, Bit>,
-    /// A register is read.
-    pub read_enable: Signal<In, Bit>,
-    /// Which one.
-    pub read_address: Signal<In, Bits<12>>,
-    /// Its value.
-    pub read_data: Signal<Out, Bits<32>>,
-    /// There is one.
-    pub read_is_known: Signal<Out, Bit>,
-    /// A reset is under way.
-    pub resets: Signal<In, Bit>,
-    /// The core's clock runs.
-    pub core_runs: Signal<In, Bit>,
-    /// Something is held or under way.
-    pub is_busy: Signal<In, Bit>,
-    /// A beat was dropped.
-    pub was_dropped: Signal<In, Bit>,
-    /// An answer failed.
-    pub has_failed: Signal<In, Bit>,
-    /// Its header.
-    pub fault: Signal<In, Bits<32>>,
-    /// A reset is asked for.
+    /// What the write does.
     pub asks_reset: Signal<Out, Bit>,
-    /// Forget that a beat was dropped.
     pub clears_dropped: Signal<Out, Bit>,
-    /// Forget that an answer failed.
     pub clears_failed: Signal<Out, Bit>,
-    /// The low half of the clocks is read.
+    /// A register is read at this edge.
+    pub read_enable: Signal<In, Bit>,
+    pub read_address: Signal<In, Bits<12>>,
+    /// Its value, 0 if there is none; there is one.
+    pub read_data: Signal<Out, Bits<32>>,
+    pub read_is_known: Signal<Out, Bit>,
+    /// It is the low half of the clocks.
     pub keeps_clocks: Signal<Out, Bit>,
-    /// Clocks, low half.
+    /// The status.
+    pub resets: Signal<In, Bit>,
+    pub core_runs: Signal<In, Bit>,
+    pub is_busy: Signal<In, Bit>,
+    /// What went wrong.
+    pub was_dropped: Signal<In, Bit>,
+    pub has_failed: Signal<In, Bit>,
+    pub fault: Signal<In, Bits<32>>,
+    /// The counters.
     pub clocks_low: Signal<In, Bits<32>>,
-    /// Clocks, high half.
     pub clocks_high: Signal<In, Bits<32>>,
-    /// Command beats.
     pub command_beats: Signal<In, Bits<32>>,
-    /// Answer beats.
     pub answer_beats: Signal<In, Bits<32>>,
-    /// Answers.
     pub answers: Signal<In, Bits<32>>,
-    /// Clocks that a command beat waited.
     pub command_waits: Signal<In, Bits<32>>,
-    /// Clocks that an answer beat waited.
     pub answer_waits: Signal<In, Bits<32>>,
     read_index: Signal<Local, Bits<10>>,
     write_index: Signal<Local, Bits<10>>,
@@ -87,19 +59,19 @@ pub struct Registers {
     control: Signal<Local, Bits<32>>,
     dropped_bit: Signal<Local, Bits<32>>,
     failed_bit: Signal<Local, Bits<32>>,
-    magic: Constant<Bits<32>>,
-    stream_version: Constant<Bits<32>>,
-    protocol_version: Constant<Bits<32>>,
-    core_version: Constant<Bits<32>>,
-    coord_bits: Constant<Bits<32>>,
-    capacity: Constant<Bits<32>>,
-    contexts: Constant<Bits<32>>,
-    ring: Constant<Bits<32>>,
-    beat_bits: Constant<Bits<32>>,
-    fifo_beats: Constant<Bits<32>>,
-    control_index: Constant<Bits<10>>,
-    errors_index: Constant<Bits<10>>,
-    clocks_index: Constant<Bits<10>>,
+    magic: Parameter<Bits<32>>,
+    stream_version: Parameter<Bits<32>>,
+    protocol_version: Parameter<Bits<32>>,
+    core_version: Parameter<Bits<32>>,
+    coord_bits: Parameter<Bits<32>>,
+    capacity: Parameter<Bits<32>>,
+    contexts: Parameter<Bits<32>>,
+    ring: Parameter<Bits<32>>,
+    beat_bits: Parameter<Bits<32>>,
+    fifo_beats: Parameter<Bits<32>>,
+    control_index: Parameter<Bits<10>>,
+    errors_index: Parameter<Bits<10>>,
+    clocks_index: Parameter<Bits<10>>,
 }
 
 // The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
@@ -118,46 +90,9 @@ const _: () = {
 impl Registers {
     /// The registers of a core of this configuration, behind streams of so many bits a beat.
     pub fn new(config: Config, beat_bits: usize) -> Self {
-        let word = |value: u32| Constant::new(Bits::from(u64::from(value)));
-        let index = |register: StreamRegister| Constant::new(Bits::from(u64::from(register.offset() / 4)));
+        let word = |value: u32| Parameter::new(Bits::from(u64::from(value)));
+        let index = |register: StreamRegister| Parameter::new(Bits::from(u64::from(register.offset() / 4)));
         Self {
-            write_enable: Signal::default(),
-            write_address: Signal::default(),
-            write_data: Signal::default(),
-            write_bytes: Signal::default(),
-            write_is_known: Signal::default(),
-            read_enable: Signal::default(),
-            read_address: Signal::default(),
-            read_data: Signal::default(),
-            read_is_known: Signal::default(),
-            resets: Signal::default(),
-            core_runs: Signal::default(),
-            is_busy: Signal::default(),
-            was_dropped: Signal::default(),
-            has_failed: Signal::default(),
-            fault: Signal::default(),
-            asks_reset: Signal::default(),
-            clears_dropped: Signal::default(),
-            clears_failed: Signal::default(),
-            keeps_clocks: Signal::default(),
-            clocks_low: Signal::default(),
-            clocks_high: Signal::default(),
-            command_beats: Signal::default(),
-            answer_beats: Signal::default(),
-            answers: Signal::default(),
-            command_waits: Signal::default(),
-            answer_waits: Signal::default(),
-            read_index: Signal::default(),
-            write_index: Signal::default(),
-            writes_low: Signal::default(),
-            clears: Signal::default(),
-            runs_bit: Signal::default(),
-            busy_bit: Signal::default(),
-            resets_bit: Signal::default(),
-            error_bit: Signal::default(),
-            control: Signal::default(),
-            dropped_bit: Signal::default(),
-            failed_bit: Signal::default(),
             magic: word(MAGIC),
             stream_version: word(STREAM_VERSION),
             protocol_version: word(PROTOCOL_VERSION),
@@ -171,6 +106,7 @@ impl Registers {
             control_index: index(StreamRegister::Control),
             errors_index: index(StreamRegister::Errors),
             clocks_index: index(StreamRegister::ClocksLow),
+            ..Self::default()
         }
     }
 }

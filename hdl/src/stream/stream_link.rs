@@ -1,15 +1,5 @@
 //! The stream link: AXI on one side, the streams of a core on the other, each with its own clock.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `bus_clock`, `bus_reset_n` | in | 1 | clock and reset of the AXI ports; the reset is active low and synchronous |
-//! | `s_axis_tvalid`, `s_axis_tready`, `s_axis_tdata`, `s_axis_tkeep` | in, out, in, in | 1, 1, W, K | command beats |
-//! | `m_axis_tvalid`, `m_axis_tready`, `m_axis_tdata`, `m_axis_tkeep`, `m_axis_tlast` | out, in, out, out, out | 1, 1, W, K, 1 | answer beats |
-//! | `s_axi_...` | | | the registers, as in `RegisterPort` |
-//! | `core_clock`, `core_reset` | in, out | 1 | clock of the core; its reset |
-//! | `command_valid`, `command_ready`, `command_data` | out, in, out | 1, 1, 32 | the command stream |
-//! | `response_valid`, `response_ready`, `response_data`, `response_both`, `response_last` | in, out, in, in, in | 1, 1, 64, 1, 1 | the answer stream, as in `AnswerPairs` |
-//!
 //! 1. `protocol/STREAM.md` says what passes. W is 64 or 128, K the bytes of a beat, E the bits of an entry of the answer FIFO: W and one.
 //! 2. What is named after the core, `command` and `response` belong to `core_clock`, all else to `bus_clock`. What crosses is a register that
 //!    goes into a `Synchroniser`, or passes through the memory of an `AsyncFifo`.
@@ -34,29 +24,21 @@ const POINTER_BITS: usize = 10;
 const _: () = assert!(AsyncFifo::<POINTER_BITS, 1>::DEPTH == STREAM_FIFO_BEATS as usize);
 
 /// The stream link; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct StreamLink<const W: usize, const K: usize, const E: usize> {
-    /// Clock of the AXI ports.
+    /// Clock and reset of the AXI ports; the reset is active low and synchronous.
     pub bus_clock: Signal<In, Clock>,
-    /// Their reset, active low.
     pub bus_reset_n: Signal<In, Bit>,
-    /// A command beat is offered.
+    /// Command beats.
     pub s_axis_tvalid: Signal<In, Bit>,
-    /// It is taken.
     pub s_axis_tready: Signal<Out, Bit>,
-    /// It.
     pub s_axis_tdata: Signal<In, Bits<W>>,
-    /// Its bytes.
     pub s_axis_tkeep: Signal<In, Bits<K>>,
-    /// An answer beat is offered.
+    /// Answer beats.
     pub m_axis_tvalid: Signal<Out, Bit>,
-    /// It is taken.
     pub m_axis_tready: Signal<In, Bit>,
-    /// It.
     pub m_axis_tdata: Signal<Out, Bits<W>>,
-    /// Its bytes: all.
     pub m_axis_tkeep: Signal<Out, Bits<K>>,
-    /// It is the last one of its answer.
     pub m_axis_tlast: Signal<Out, Bit>,
     /// An address to write is offered.
     pub s_axi_awvalid: Signal<In, Bit>,
@@ -92,25 +74,18 @@ pub struct StreamLink<const W: usize, const K: usize, const E: usize> {
     pub s_axi_rdata: Signal<Out, Bits<32>>,
     /// Whether it is one.
     pub s_axi_rresp: Signal<Out, Bits<2>>,
-    /// Clock of the core.
+    /// Clock of the core; its reset.
     pub core_clock: Signal<In, Clock>,
-    /// Reset of the core.
     pub core_reset: Signal<Out, Bit>,
-    /// A command word is offered.
+    /// The command stream.
     pub command_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub command_ready: Signal<In, Bit>,
-    /// The word.
     pub command_data: Signal<Out, Bits<32>>,
-    /// Answer words are offered.
+    /// The answer stream, as in `AnswerPairs`.
     pub response_valid: Signal<In, Bit>,
-    /// They are taken.
     pub response_ready: Signal<Out, Bit>,
-    /// The words.
     pub response_data: Signal<In, Bits<64>>,
-    /// There are two of them.
     pub response_both: Signal<In, Bit>,
-    /// The last one of an answer is among them.
     pub response_last: Signal<In, Bit>,
     bus: BusSide<W, K, E>,
     commands: AsyncFifo<POINTER_BITS, W>,
@@ -128,48 +103,11 @@ impl<const W: usize, const K: usize, const E: usize> StreamLink<W, K, E> {
     /// If W is not 64 or 128, K not W / 8, or E not W + 1.
     pub fn new(config: Config) -> Result<Self, ConfigError> {
         Ok(Self {
-            bus_clock: Signal::default(),
-            bus_reset_n: Signal::default(),
-            s_axis_tvalid: Signal::default(),
-            s_axis_tready: Signal::default(),
-            s_axis_tdata: Signal::default(),
-            s_axis_tkeep: Signal::default(),
-            m_axis_tvalid: Signal::default(),
-            m_axis_tready: Signal::default(),
-            m_axis_tdata: Signal::default(),
-            m_axis_tkeep: Signal::default(),
-            m_axis_tlast: Signal::default(),
-            s_axi_awvalid: Signal::default(),
-            s_axi_awready: Signal::default(),
-            s_axi_awaddr: Signal::default(),
-            s_axi_wvalid: Signal::default(),
-            s_axi_wready: Signal::default(),
-            s_axi_wdata: Signal::default(),
-            s_axi_wstrb: Signal::default(),
-            s_axi_bvalid: Signal::default(),
-            s_axi_bready: Signal::default(),
-            s_axi_bresp: Signal::default(),
-            s_axi_arvalid: Signal::default(),
-            s_axi_arready: Signal::default(),
-            s_axi_araddr: Signal::default(),
-            s_axi_rvalid: Signal::default(),
-            s_axi_rready: Signal::default(),
-            s_axi_rdata: Signal::default(),
-            s_axi_rresp: Signal::default(),
-            core_clock: Signal::default(),
-            core_reset: Signal::default(),
-            command_valid: Signal::default(),
-            command_ready: Signal::default(),
-            command_data: Signal::default(),
-            response_valid: Signal::default(),
-            response_ready: Signal::default(),
-            response_data: Signal::default(),
-            response_both: Signal::default(),
-            response_last: Signal::default(),
             bus: BusSide::new(config.check()?),
-            commands: AsyncFifo::default(),
-            answers: AsyncFifo::default(),
-            core: CoreSide::default(),
+            commands: AsyncFifo::new(),
+            answers: AsyncFifo::new(),
+            core: CoreSide::new(),
+            ..Self::default()
         })
     }
 }

@@ -1,13 +1,5 @@
 //! Counts what passes and what waits on the streams.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the bus's clock; reset sets all to 0 |
-//! | `keeps` | in | 1 | keep the high half of the clocks |
-//! | `took_command`, `command_waited`, `took_answer`, `answer_ended`, `answer_waited` | in | 1 | count one |
-//! | `clocks_low`, `clocks_high` | out | 32 | clocks since reset: the low half as it is, the high half as it was kept |
-//! | `command_beats`, `command_waits`, `answer_beats`, `answers`, `answer_waits` | out | 32 | how many there were, modulo 2^32 |
-//!
 //! Latency: 1 clock.
 
 use rust_hdl_core::prelude::*;
@@ -16,35 +8,25 @@ use rust_hdl_widgets::prelude::*;
 /// Counters of the streams; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Traffic {
-    /// Clock of the bus.
+    /// The bus's clock; reset sets all to 0.
     pub clock: Signal<In, Clock>,
-    /// Sets all to 0.
     pub reset: Signal<In, Bit>,
     /// Keep the high half of the clocks.
     pub keeps: Signal<In, Bit>,
-    /// A command beat was taken.
+    /// Count one.
     pub took_command: Signal<In, Bit>,
-    /// A command beat waited.
     pub command_waited: Signal<In, Bit>,
-    /// An answer beat was taken.
     pub took_answer: Signal<In, Bit>,
-    /// An answer ended.
     pub answer_ended: Signal<In, Bit>,
-    /// An answer beat waited.
     pub answer_waited: Signal<In, Bit>,
-    /// Clocks, low half.
+    /// Clocks since reset: the low half as it is, the high half as it was kept.
     pub clocks_low: Signal<Out, Bits<32>>,
-    /// High half, as it was kept.
     pub clocks_high: Signal<Out, Bits<32>>,
-    /// Command beats taken.
+    /// How many there were, modulo 2^32.
     pub command_beats: Signal<Out, Bits<32>>,
-    /// Clocks that one waited.
     pub command_waits: Signal<Out, Bits<32>>,
-    /// Answer beats taken.
     pub answer_beats: Signal<Out, Bits<32>>,
-    /// Answers that ended.
     pub answers: Signal<Out, Bits<32>>,
-    /// Clocks that an answer beat waited.
     pub answer_waits: Signal<Out, Bits<32>>,
     clocks: DFF<Bits<64>>,
     kept: DFF<Bits<32>>,

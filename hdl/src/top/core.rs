@@ -1,13 +1,5 @@
 //! The core: command stream in, answer stream out, one insertion engine between them.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
-//! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
-//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 64 | the answer stream |
-//! | `response_both`, `response_last` | out | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
-//! | `write` | out | Write | the write port of the triangle memory, for simulation |
-//!
 //! 1. All outputs are functions of registers.
 //! 2. After reset the lock memory is swept, a clock for each record, and the histogram of latencies beside it; until then
 //!    `command_ready` is low.
@@ -27,27 +19,21 @@ use rust_hdl_core::prelude::*;
 /// The core; see the top of this file.
 #[derive(LogicBlock)]
 pub struct Core {
-    /// Clock.
+    /// One clock; synchronous reset, active high.
     pub clock: Signal<In, Clock>,
-    /// Synchronous reset.
     pub reset: Signal<In, Bit>,
-    /// A command word is offered.
+    /// The command stream.
     pub command_valid: Signal<In, Bit>,
-    /// It is taken.
     pub command_ready: Signal<Out, Bit>,
-    /// The word.
     pub command_data: Signal<In, Bits<32>>,
-    /// An answer word is offered, or two.
+    /// The answer stream.
     pub response_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub response_ready: Signal<In, Bit>,
-    /// The word in the low half, the one that follows it in the high.
     pub response_data: Signal<Out, Bits<64>>,
-    /// There is one that follows it.
+    /// Bits 63 to 32 are a second word, which follows the first; the last word of the answer is here.
     pub response_both: Signal<Out, Bit>,
-    /// The last word of the answer is among them.
     pub response_last: Signal<Out, Bit>,
-    /// The write port of the triangle memory.
+    /// The write port of the triangle memory, for simulation.
     pub write: Signal<Out, Write>,
     command_port: CommandPort,
     answer_head: AnswerHead,

@@ -1,12 +1,5 @@
 //! A whole device: the core behind its serial link.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
-//! | `rx`, `tx` | in, out | 1 | the line, high when idle |
-//! | `leds` | out | 3 | alive, busy, error, from bit 0 up; see `SerialLink` |
-//! | `write` | out | Write | the write port of the triangle memory, for simulation |
-//!
 //! 1. `reset` is needed once, after power-up, for two clocks or more: it passes a register, since the pin's side of it may be far away.
 //!
 //! Latency: see the blocks.
@@ -21,17 +14,15 @@ use rust_hdl_widgets::prelude::*;
 /// The core behind its serial link; see the top of this file.
 #[derive(LogicBlock)]
 pub struct SerialTop {
-    /// Clock.
+    /// One clock; synchronous reset, active high.
     pub clock: Signal<In, Clock>,
-    /// Synchronous reset.
     pub reset: Signal<In, Bit>,
-    /// The line from the host.
+    /// The line, high when idle.
     pub rx: Signal<In, Bit>,
-    /// The line to the host.
     pub tx: Signal<Out, Bit>,
-    /// Alive, busy, error.
+    /// Alive, busy, error, from bit 0 up; see `SerialLink`.
     pub leds: Signal<Out, Bits<3>>,
-    /// The write port of the triangle memory.
+    /// The write port of the triangle memory, for simulation.
     pub write: Signal<Out, Write>,
     core: Core,
     link: SerialLink,

@@ -1,12 +1,5 @@
 //! A whole device: the core behind its stream link.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `bus_clock`, `bus_reset_n` | in | 1 | clock and reset of the AXI ports; the reset is active low and synchronous |
-//! | `s_axis_...`, `m_axis_...`, `s_axi_...` | | | commands, answers and registers, as in `StreamLink` |
-//! | `core_clock` | in | 1 | clock of the core |
-//! | `write` | out | Write | the write port of the triangle memory, in the core's clock, for simulation |
-//!
 //! 1. `bus_reset_n` is needed once, after power-up. The core's reset follows from it.
 //!
 //! Latency: see the blocks.
@@ -20,9 +13,8 @@ use rust_hdl_core::prelude::*;
 /// The core behind its stream link; see the top of this file.
 #[derive(LogicBlock)]
 pub struct StreamTop<const W: usize, const K: usize, const E: usize> {
-    /// Clock of the AXI ports.
+    /// Clock and reset of the AXI ports; the reset is active low and synchronous.
     pub bus_clock: Signal<In, Clock>,
-    /// Their reset, active low.
     pub bus_reset_n: Signal<In, Bit>,
     /// A command beat is offered.
     pub s_axis_tvalid: Signal<In, Bit>,
@@ -78,7 +70,7 @@ pub struct StreamTop<const W: usize, const K: usize, const E: usize> {
     pub s_axi_rresp: Signal<Out, Bits<2>>,
     /// Clock of the core.
     pub core_clock: Signal<In, Clock>,
-    /// The write port of the triangle memory.
+    /// The write port of the triangle memory, in the core's clock, for simulation.
     pub write: Signal<Out, Write>,
     core: Core,
     link: StreamLink<W, K, E>,
