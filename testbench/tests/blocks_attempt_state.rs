@@ -192,5 +192,5 @@ fn attempt_points_show_the_wave_of_their_header() {
             points[taker as usize] = Some((clock, [taken_id, now]));
         }
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/attempt_points.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/attempt/attempt_points.rs"));
 }

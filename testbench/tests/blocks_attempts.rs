@@ -457,5 +457,5 @@ fn attempts_show_the_wave_of_their_header() {
             ("commit_enable", Cell::Bit(outcome.commit.is_some())),
         ]);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/attempts.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/attempt/attempts.rs"));
 }

@@ -376,5 +376,5 @@ fn commit_shows_the_wave_of_its_header() {
             ("records", number(shown.records)),
         ]);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/commit.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/commit/commit.rs"));
 }

@@ -240,7 +240,7 @@ fn visit_case_shows_the_wave_of_its_header() {
             ("may_ask", Cell::Bit(bits.done)),
         ]);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/visit_case.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/attempt/visit_case.rs"));
 }
 
 /// A visit that completes, and what follows: its bundle, of as many bits as count.
@@ -366,7 +366,7 @@ fn next_visits_show_the_wave_of_their_header() {
         ]);
         follow = upcoming;
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/next_visits.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/attempt/next_visits.rs"));
 }
 
 #[test]

@@ -304,7 +304,7 @@ fn context_flags_show_the_wave_of_their_header() {
         ]);
         reference.edge(&events);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/context_flags.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/dispatch/context_flags.rs"));
 }
 
 /// Inputs of `Progress` in a clock.
@@ -430,5 +430,5 @@ fn progress_shows_the_wave_of_its_header() {
             ("is_quiet", Cell::Bit(is_quiet)),
         ]);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/progress.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/dispatch/progress.rs"));
 }

@@ -148,5 +148,5 @@ fn latencies_show_the_wave_of_their_header() {
         }
         block.edge();
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/latencies.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/count/latencies.rs"));
 }

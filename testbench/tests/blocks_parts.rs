@@ -223,7 +223,7 @@ fn seeder_shows_the_wave_of_its_header() {
         }
         block.edge();
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/seeder.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/seed/seeder.rs"));
 }
 
 /// Points that were stored, in their order, and how many were not.
@@ -460,5 +460,5 @@ fn watchdog_shows_the_wave_of_its_header() {
         }
         block.edge();
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/watchdog.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/dispatch/watchdog.rs"));
 }

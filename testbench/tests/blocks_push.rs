@@ -129,5 +129,5 @@ fn push_port_shows_the_wave_of_its_header() {
         ]);
         shown = push_clock(&mut block, &asking, shown);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/push_port.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/visit/push_port.rs"));
 }

@@ -256,5 +256,5 @@ fn release_shows_the_wave_of_its_header() {
             ("released_owner", number(shown.and_then(|lock| lock.last_of))),
         ]);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/release.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/commit/release.rs"));
 }

@@ -245,7 +245,7 @@ fn ring_reader_shows_the_wave_of_its_header() {
             ("takes", Cell::Bit(drive.takes)),
         ]);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/ring_reader.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/commit/ring_reader.rs"));
 }
 
 /// One clock of a queue of up to four jobs and of its list: a job is listed a clock after it came.
@@ -308,5 +308,5 @@ fn job_queue_shows_the_wave_of_its_header() {
             ("head", number(head)),
         ]);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/job_queue.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/commit/job_queue.rs"));
 }

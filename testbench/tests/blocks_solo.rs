@@ -376,7 +376,7 @@ fn solo_shows_the_wave_of_its_header() {
             ("write.id", number(written)),
         ]);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/solo.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/solo/solo.rs"));
 }
 
 /// A finding that no write may depend on.

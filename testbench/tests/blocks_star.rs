@@ -129,7 +129,7 @@ fn fresh_ids_show_the_wave_of_their_header() {
         ]);
         count_clock(&mut block, &mut count, event);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/fresh_ids.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/commit/fresh_ids.rs"));
 }
 
 /// The lists of inner triangles, and the one that is read.
@@ -245,5 +245,5 @@ fn inner_list_shows_the_wave_of_its_header() {
         ]);
         rig.clock(None, restarts.then_some(1), steps);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/inner_list.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/commit/inner_list.rs"));
 }

@@ -484,5 +484,5 @@ fn starter_shows_the_wave_of_its_header() {
             ("u", number(wanted.filter(|_| seen.starts).map(|(_, u)| u))),
         ]);
     }
-    wave.assert_drawn_in(include_str!("../../hdl/src/engine/starter.rs"));
+    wave.assert_drawn_in(include_str!("../../hdl/src/engine/dispatch/starter.rs"));
 }

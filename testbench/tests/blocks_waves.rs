@@ -157,7 +157,7 @@ fn issue_shows_the_wave_of_its_header() {
         ("read_valid", "read_valid", 0, 1, When::Always),
         ("token.u", "token", 40, 15, When::If("read_valid")),
     ];
-    draw("issue_5", Issue::new(5), &stimuli, 9, &lanes).assert_drawn_in(include_str!("../../hdl/src/engine/issue.rs"));
+    draw("issue_5", Issue::new(5), &stimuli, 9, &lanes).assert_drawn_in(include_str!("../../hdl/src/engine/visit/issue.rs"));
 }
 
 /// A write of a record with these columns; `columns` has a bit for the vertices and one for each link.
@@ -180,7 +180,7 @@ fn write_port_shows_the_wave_of_its_header() {
         ("enables.link1", "enables", 2, 1, When::Always),
     ];
     draw("write_port", WritePort::default(), &stimuli, 7, &lanes)
-        .assert_drawn_in(include_str!("../../hdl/src/engine/write_port.rs"));
+        .assert_drawn_in(include_str!("../../hdl/src/engine/write/write_port.rs"));
 }
 
 #[test]
@@ -279,7 +279,7 @@ fn visit_reader_shows_the_wave_of_its_header() {
     ];
     let reader = VisitReader::default();
     draw("visit_reader", reader, &stimuli, 7, &lanes)
-        .assert_drawn_in(include_str!("../../hdl/src/engine/visit_reader.rs"));
+        .assert_drawn_in(include_str!("../../hdl/src/engine/visit/visit_reader.rs"));
 }
 
 #[test]
@@ -297,7 +297,7 @@ fn visit_judge_shows_the_wave_of_its_header() {
         ("corner", "verdict", 2, 1, When::At(&[10])),
     ];
     draw("visit_judge", VisitJudge::default(), &stimuli, 12, &lanes)
-        .assert_drawn_in(include_str!("../../hdl/src/engine/visit_judge.rs"));
+        .assert_drawn_in(include_str!("../../hdl/src/engine/visit/visit_judge.rs"));
 }
 
 #[test]
@@ -316,5 +316,5 @@ fn visit_pipeline_shows_the_wave_of_its_header() {
     ];
     let pipeline = VisitPipeline::new(TINY);
     draw("visit_pipeline_tiny", pipeline, &stimuli, 24, &lanes)
-        .assert_drawn_in(include_str!("../../hdl/src/engine/visit_pipeline.rs"));
+        .assert_drawn_in(include_str!("../../hdl/src/engine/visit/visit_pipeline.rs"));
 }

@@ -23,7 +23,12 @@
 //! ```
 //! Latency: see the blocks.
 
-use super::{Deal, Events, Insertions, PushPort, Seeder, Solo, VisitPipeline, Write, WritePort};
+use super::insertions::Insertions;
+use super::seed::Seeder;
+use super::solo::Solo;
+use super::types::{Deal, Events, Write};
+use super::visit::{PushPort, VisitPipeline};
+use super::write::WritePort;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 

@@ -21,7 +21,10 @@
 //!
 //! Latency: see the blocks.
 
-use super::{Attempts, Bundle, CommitPath, Deal, Dispatcher, Events, Token, Turned, Verdict, Write};
+use super::attempt::Attempts;
+use super::commit::CommitPath;
+use super::dispatch::Dispatcher;
+use super::types::{Bundle, Deal, Events, Token, Turned, Verdict, Write};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 

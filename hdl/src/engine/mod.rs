@@ -1,99 +1,43 @@
-//! The insertion engine: visits, contexts, cavities, commits, and what an insertion goes through.
+//! The insertion engine: points in, triangle records kept, up to 24 insertions in flight on one pipeline.
+//!
+//! ```text
+//!                        +---------------------- up to three visits -----------------------+
+//!                        v                                                                 |
+//! points -> dispatch -> visit -> record, verdict -> attempt -> rings, locks -> commit      |
+//!              ^           ^                          |  |                       | |       |
+//!              |           | locks, records           |  +-----------------------|-|-------+
+//!              |           +------- write <-----------|--------------------------+ |
+//!              |                      ^               |                            |
+//!              +--- sleeps, fails ----|---------------+                            |
+//!              +--- finished, released|--------------------------------------------+
+//!                                     |
+//!                               seed, solo        count: what happened
+//! ```
+//! The folder is the instance tree: [`InsertionEngine`] holds the blocks of the rooms `visit`, `solo`, `seed` and `write`, and
+//! [`Insertions`], which holds those of `dispatch`, `attempt` and `commit`. The core (`top/core.rs`) holds `count` beside the engine.
+//! `types` is what travels between rooms. Each room's page draws its blocks and names the lock rules L1 to L9 of `docs/engine.md`
+//! that it implements; the code cites a rule where it carries it out.
 
-mod attempt_lists;
-mod attempt_points;
-mod attempt_step;
-mod attempt_store;
-mod attempts;
+mod attempt;
 mod commit;
-mod commit_path;
-mod context_address;
-mod context_flags;
-mod counters;
-mod cycle_counters;
-mod dispatcher;
-mod event_counter;
-mod fresh_ids;
-mod inner_list;
+mod count;
+mod dispatch;
 mod insertion_engine;
 mod insertions;
-mod issue;
-mod job_queue;
-mod latencies;
-mod latency_bucket;
-mod latency_range;
-mod next_point;
-mod next_visits;
-mod plan_table;
-mod progress;
-mod push_port;
-mod release;
-mod ring_list;
-mod ring_reader;
-mod seed_writes;
-mod seeder;
+mod seed;
 mod solo;
-mod solo_star;
-mod solo_visit;
-mod solo_writes;
-mod star_id;
-mod starter;
-mod types;
-mod verdict_logic;
-mod visit_case;
-mod visit_counters;
-mod visit_judge;
-mod visit_pipeline;
-mod visit_reader;
-mod watchdog;
-mod write_port;
-mod write_request;
+pub(crate) mod types;
+mod visit;
+mod write;
 
-pub use attempt_lists::AttemptLists;
-pub use attempt_points::AttemptPoints;
-pub use attempt_step::AttemptStep;
-pub use attempt_store::AttemptStore;
-pub use attempts::Attempts;
-pub use commit::{Commit, CommitState};
-pub use commit_path::CommitPath;
-pub use context_address::ContextAddress;
-pub use context_flags::ContextFlags;
-pub use counters::Counters;
-pub use cycle_counters::CycleCounters;
-pub use dispatcher::Dispatcher;
-pub use event_counter::{EventCounter, WideCounter};
-pub use fresh_ids::FreshIds;
-pub use inner_list::InnerList;
+pub use attempt::*;
+pub use commit::*;
+pub use count::*;
+pub use dispatch::*;
 pub use insertion_engine::InsertionEngine;
 pub use insertions::Insertions;
-pub use issue::Issue;
-pub use job_queue::JobQueue;
-pub use latencies::Latencies;
-pub use latency_bucket::LatencyBucket;
-pub use latency_range::LatencyRange;
-pub use next_point::NextPoint;
-pub use next_visits::NextVisits;
-pub use plan_table::PlanTable;
-pub use progress::Progress;
-pub use push_port::PushPort;
-pub use release::Release;
-pub use ring_list::RingList;
-pub use ring_reader::RingReader;
-pub use seed_writes::SeedWrites;
-pub use seeder::Seeder;
-pub use solo::{Solo, SoloState};
-pub use solo_star::SoloStar;
-pub use solo_visit::SoloVisit;
-pub use solo_writes::SoloWrites;
-pub use star_id::StarId;
-pub use starter::Starter;
+pub use seed::*;
+pub use solo::*;
 pub use types::*;
-pub use verdict_logic::VerdictLogic;
-pub use visit_case::VisitCase;
-pub use visit_counters::VisitCounters;
-pub use visit_judge::VisitJudge;
-pub use visit_pipeline::VisitPipeline;
-pub use visit_reader::VisitReader;
-pub use watchdog::Watchdog;
-pub use write_port::{WriteEnables, WritePort};
-pub use write_request::{LinkWrite, RecordWrite};
+pub use visit::*;
+pub use write::*;

@@ -303,4 +303,20 @@ crate::packed! {
         /// See `v0`.
         pub n2: Bits<15>,
     }
+
+    /// What of a [`Write`] is written into the memories, and where.
+    pub struct WriteEnables {
+        /// The vertex columns.
+        pub vertices: bool,
+        /// Link column 0.
+        pub link0: bool,
+        /// Link column 1.
+        pub link1: bool,
+        /// Link column 2.
+        pub link2: bool,
+        /// The record, for the vertex columns.
+        pub vertices_id: Bits<15>,
+        /// The record, for the link columns.
+        pub links_id: Bits<15>,
+    }
 }

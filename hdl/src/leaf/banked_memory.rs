@@ -23,7 +23,7 @@
 
 use rust_hdl_core::prelude::*;
 
-use super::{assert_shape, low_part, unused_part, zero_extended};
+use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 
 /// A memory with banks; see the top of this file.
 #[derive(LogicBlock)]
@@ -87,7 +87,7 @@ impl<const M: usize, const B: usize, const A: usize, const D: usize> BankedMemor
 
 impl<const M: usize, const B: usize, const A: usize, const D: usize> Default for BankedMemory<M, B, A, D> {
     fn default() -> Self {
-        Self::new(M, A.min(super::MAX_ADDRESS_BITS), D)
+        Self::new(M, A.min(MAX_ADDRESS_BITS), D)
     }
 }
 

@@ -25,7 +25,8 @@
 
 use rust_hdl_core::prelude::*;
 
-use super::{assert_shape, ecp5, low_part, unused_part, zero_extended};
+use super::ecp5;
+use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 
 /// A memory with one write and one read port; see the top of this file.
 #[derive(LogicBlock)]
@@ -82,7 +83,7 @@ impl<const A: usize, const D: usize> BlockMemory<A, D> {
 
 impl<const A: usize, const D: usize> Default for BlockMemory<A, D> {
     fn default() -> Self {
-        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+        Self::new(A.min(MAX_ADDRESS_BITS), D)
     }
 }
 

@@ -37,7 +37,9 @@
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{BlockMemory, LutMemory};
+use super::block_memory::BlockMemory;
+use super::lut_memory::LutMemory;
+use super::memory_shape::MAX_ADDRESS_BITS;
 
 /// A deep buffer; see the top of this file.
 #[derive(LogicBlock)]
@@ -156,7 +158,7 @@ impl<const A: usize, const D: usize> DeepFifo<A, D> {
 
 impl<const A: usize, const D: usize> Default for DeepFifo<A, D> {
     fn default() -> Self {
-        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+        Self::new(A.min(MAX_ADDRESS_BITS), D)
     }
 }
 

@@ -16,7 +16,7 @@
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::LutMemory;
+use super::lut_memory::LutMemory;
 
 /// Bits of the counter; the ring uses as many of them as it needs.
 const COUNTER_BITS: usize = 6;

@@ -24,7 +24,7 @@
 
 use rust_hdl_core::prelude::*;
 
-use super::{assert_shape, low_part, unused_part, zero_extended};
+use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended};
 
 /// A memory between two clocks; see the top of this file.
 #[derive(LogicBlock)]

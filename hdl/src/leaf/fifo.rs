@@ -22,7 +22,8 @@
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::LutMemory;
+use super::lut_memory::LutMemory;
+use super::memory_shape::MAX_ADDRESS_BITS;
 
 /// A buffer; see the top of this file.
 #[derive(LogicBlock)]
@@ -85,7 +86,7 @@ impl<const A: usize, const D: usize> Fifo<A, D> {
 
 impl<const A: usize, const D: usize> Default for Fifo<A, D> {
     fn default() -> Self {
-        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+        Self::new(A.min(MAX_ADDRESS_BITS), D)
     }
 }
 

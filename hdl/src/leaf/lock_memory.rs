@@ -26,7 +26,8 @@
 
 use rust_hdl_core::prelude::*;
 
-use super::{assert_shape, ecp5, low_part, unused_part};
+use super::ecp5;
+use super::memory_shape::{assert_shape, low_part, unused_part, MAX_ADDRESS_BITS};
 
 /// A memory of lock bits; see the top of this file.
 #[derive(LogicBlock)]
@@ -74,7 +75,7 @@ impl<const A: usize> LockMemory<A> {
 
 impl<const A: usize> Default for LockMemory<A> {
     fn default() -> Self {
-        Self::new(A.min(super::MAX_ADDRESS_BITS))
+        Self::new(A.min(MAX_ADDRESS_BITS))
     }
 }
 

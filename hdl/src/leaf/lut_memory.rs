@@ -19,7 +19,7 @@
 
 use rust_hdl_core::prelude::*;
 
-use super::{assert_shape, low_part, unused_part, zero_extended};
+use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 
 /// A memory with a combinational read; see the top of this file.
 #[derive(LogicBlock)]
@@ -69,7 +69,7 @@ impl<const A: usize, const D: usize> LutMemory<A, D> {
 
 impl<const A: usize, const D: usize> Default for LutMemory<A, D> {
     fn default() -> Self {
-        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+        Self::new(A.min(MAX_ADDRESS_BITS), D)
     }
 }
 

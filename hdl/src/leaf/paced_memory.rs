@@ -27,7 +27,8 @@
 
 use rust_hdl_core::prelude::*;
 
-use super::{assert_shape, ecp5, low_part, unused_part, zero_extended};
+use super::ecp5;
+use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 
 /// A memory with a paced read port; see the top of this file.
 #[derive(LogicBlock)]
@@ -87,7 +88,7 @@ impl<const A: usize, const D: usize> PacedMemory<A, D> {
 
 impl<const A: usize, const D: usize> Default for PacedMemory<A, D> {
     fn default() -> Self {
-        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+        Self::new(A.min(MAX_ADDRESS_BITS), D)
     }
 }
 

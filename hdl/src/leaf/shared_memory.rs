@@ -27,7 +27,8 @@
 
 use rust_hdl_core::prelude::*;
 
-use super::{assert_shape, ecp5, low_part, unused_part, zero_extended};
+use super::ecp5;
+use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 
 /// A memory with a read port and a shared port; see the top of this file.
 #[derive(LogicBlock)]
@@ -89,7 +90,7 @@ impl<const A: usize, const D: usize> SharedMemory<A, D> {
 
 impl<const A: usize, const D: usize> Default for SharedMemory<A, D> {
     fn default() -> Self {
-        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+        Self::new(A.min(MAX_ADDRESS_BITS), D)
     }
 }
 

@@ -12,7 +12,7 @@
 //! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear at this edge |
 //!
 //! 1. A visit with `takes` that finds the lock clear sets it for its context. One that finds it set leaves it alone: `foreign` says
-//!    whether it is that of another context.
+//!    whether it is that of another context, for which the owner of each lock is stored (L9).
 //! 2. A lock that is cleared at the edge at which a visit wants it is cleared, and counts as foreign to that visit, whoever had it:
 //!    `LockMemory` could not do both.
 //! 3. `was_set` is arbitrary where a visit meets a clear of the same lock, and `took` and `foreign` are low without `takes`.
@@ -234,7 +234,7 @@ impl Logic for LockStore {
             self.told_is_owner.d.next = self.is_owner_before1.q.val();
         }
 
-        // Clock 3: the visit takes the lock, or compares itself with the holder.
+        // Clock 3, L9: the visit takes the lock and leaves its name, or compares itself with the holder.
         self.id4.d.next = self.id3.q.val();
         self.owner4.d.next = self.owner3.q.val();
         self.took4.d.next = self.takes_lock.val();

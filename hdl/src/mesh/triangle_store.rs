@@ -32,8 +32,8 @@
 //!
 //! Source: Cline and Renka's triangle-based structure: three vertices and three neighbours for each triangle.
 
-use super::LockStore;
-use crate::engine::{Write, WriteEnables};
+use super::lock_store::LockStore;
+use crate::engine::types::{Write, WriteEnables};
 use crate::leaf::BlockMemory;
 use rust_hdl_core::prelude::*;
 

@@ -28,7 +28,12 @@
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, WideProduct};
+use super::cross_product::CrossProduct;
+use super::dot_product::DotProduct;
+use super::edge_signs::EdgeSigns;
+use super::point_difference::PointDifference;
+use super::vertex_order::VertexOrder;
+use super::wide_product::WideProduct;
 
 /// Predicates of a visit; see the top of this file.
 #[derive(LogicBlock)]

@@ -134,14 +134,14 @@ fn differ(cycles: &[(u64, u64)]) -> bool {
 const CROWD: Jobs =
     Jobs { contexts: 8, ring: 32, points: |random| sets::started(sets::boxed(random, 100, 300)), most: 30 };
 
-/// Rule 1: a foreign lock aborts the attempt. Else two insertions rewrite the same records.
+/// L1: a foreign lock aborts the attempt. Else two insertions rewrite the same records.
 #[test]
 fn foreign_locks_count() {
     let jobs = Jobs { contexts: 4, ring: 32, points: |random| sets::started(sets::boxed(random, 17, 40)), most: 200 };
     jobs.expect(Defect::IgnoresForeignLocks, Symptom::is_wrong);
 }
 
-/// Rule 1: an attempt that aborts lets all its visits run out before it releases. Else a visit that is still out takes a lock that
+/// L1: an attempt that aborts lets all its visits run out before it releases. Else a visit that is still out takes a lock that
 /// nobody releases.
 #[test]
 fn attempts_drain_before_they_release() {
@@ -150,20 +150,20 @@ fn attempts_drain_before_they_release() {
     CROWD.expect(Defect::ReleasesBeforeDrained, |found| *found == Symptom::Stuck);
 }
 
-/// Rule 1: who has aborted rests before it tries again. No mesh and no end depends on that, since others yield to the one that waits.
+/// L1: who has aborted rests before it tries again. No mesh and no end depends on that, since others yield to the one that waits.
 #[test]
 fn aborted_attempts_back_off() {
     let jobs = Jobs { contexts: 16, ..CROWD };
     assert!(differ(&jobs.cycles(Defect::NeverBacksOff)));
 }
 
-/// Rule 2: one context may wait at foreign locks. Else contexts abort each other for ever.
+/// L2: one context may wait at foreign locks. Else contexts abort each other for ever.
 #[test]
 fn somebody_waits() {
     CROWD.expect(Defect::NobodyWaits, |found| *found == Symptom::Stuck);
 }
 
-/// Rule 2: while it waits in vain, who has given up does not start again. Else others hold the lock it waits for in turns, for ever.
+/// L3: while it waits in vain, who has given up does not start again. Else others hold the lock it waits for in turns, for ever.
 #[test]
 fn the_others_yield_to_the_one_that_waits() {
     let points = |random: &mut Random| sets::started(sets::stuttering(random, 100, 300));
@@ -171,19 +171,19 @@ fn the_others_yield_to_the_one_that_waits() {
     jobs.expect(Defect::NobodyYields, |found| *found == Symptom::Stuck);
 }
 
-/// Rule 3: locks are released after the last write. Else others see half a star.
+/// L4: locks are released after the last write. Else others see half a star.
 #[test]
 fn locks_are_held_until_the_last_write() {
     CROWD.expect(Defect::ReleasesBeforeWritten, Symptom::is_wrong);
 }
 
-/// Rule 4: the root is looked at again under its lock. Else a point is inserted into a triangle that has changed since.
+/// L5: the root is looked at again under its lock. Else a point is inserted into a triangle that has changed since.
 #[test]
 fn roots_are_looked_at_again() {
     CROWD.expect(Defect::TrustsTheWalk, Symptom::is_wrong);
 }
 
-/// Rule 5: a context opens no cavity while its own commit or release is due. Else the commit reads a boundary that the next cavity
+/// L6: a context opens no cavity while its own commit or release is due. Else the commit reads a boundary that the next cavity
 /// writes, and the release gives back locks that it holds.
 #[test]
 fn a_context_ends_before_it_begins() {
@@ -194,14 +194,14 @@ fn a_context_ends_before_it_begins() {
     jobs.expect(Defect::OpensWhileBusy, |found| found.cycles().is_none());
 }
 
-/// Rule 6: a walk that meets a record being written looks again. What it reads there is nothing, so it goes astray; the root's lock
+/// L7: a walk that meets a record being written looks again. What it reads there is nothing, so it goes astray; the root's lock
 /// keeps the mesh right all the same.
 #[test]
 fn records_being_written_are_read_again() {
     assert!(differ(&CROWD.cycles(Defect::ReadsTheTorn)));
 }
 
-/// Rule 6: new ids stay behind the watermark until the star is written. Only a long commit is still at work when a walk comes to
+/// L7: new ids stay behind the watermark until the star is written. Only a long commit is still at work when a walk comes to
 /// a new record that its first half has written: a record is written a few clocks after the first link to it, and the walk's
 /// next visit comes later than that.
 #[test]
@@ -210,14 +210,14 @@ fn new_records_are_met_when_all_are_written() {
     assert!(differ(&jobs.cycles(Defect::ReadsTheUnwritten)));
 }
 
-/// Rule 7: the first points are left to one context. Else all are in each other's way in a mesh of a few triangles.
+/// L8: the first points are left to one context. Else all are in each other's way in a mesh of a few triangles.
 #[test]
 fn one_context_begins() {
     let (with, without): (Vec<u64>, Vec<u64>) = CROWD.cycles(Defect::AllFromTheStart).into_iter().unzip();
     assert!(with.iter().sum::<u64>() < without.iter().sum());
 }
 
-/// Rule 8: a lock tells whose it is. A cavity meets its own locks whenever two of its edges border on one triangle.
+/// L9: a lock tells whose it is. A cavity meets its own locks whenever two of its edges border on one triangle.
 #[test]
 fn own_locks_are_told_from_foreign_ones() {
     CROWD.expect(Defect::TakesOwnForForeign, |found| *found == Symptom::Stuck);

@@ -77,10 +77,12 @@ pub(super) struct Around<'a> {
 }
 
 impl Around<'_> {
+    /// L6: a commit or release of the context's last point is due.
     fn is_busy(&self, context: usize) -> bool {
         self.was.noted.busy & 1 << context != 0 && self.defect != Some(Defect::OpensWhileBusy)
     }
 
+    /// L2: the context holds the waiting token.
     fn waits(&self, context: usize) -> bool {
         self.was.noted.waiter == Some(context)
     }
@@ -135,6 +137,7 @@ impl Outcome {
         self
     }
 
+    /// L5: the visit of the root under its lock; what the walk saw may not be true any more.
     fn root(mut self, done: &Completion, around: &Around) -> Self {
         let u = done.token.u;
         let trusts = around.defect == Some(Defect::TrustsTheWalk);
@@ -181,6 +184,7 @@ impl Outcome {
             self.waits = true;
             state.outstanding += 1;
         } else if foreign {
+            // L1: the attempt fails; its visits run out before its locks are released.
             state.drains = true;
             self.aborts = true;
             self.asks_to_wait = true;

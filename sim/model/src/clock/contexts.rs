@@ -102,6 +102,7 @@ impl Contexts {
         if outcome.stops_waiting && was.contexts.waiter == Some(context) {
             self.waiter = None;
         }
+        // L2: the waiting token goes to who asks while it is free.
         if outcome.asks_to_wait && was.contexts.waiter.is_none() && defect != Some(Defect::NobodyWaits) {
             self.waiter = Some(context);
             self.waits = 0;

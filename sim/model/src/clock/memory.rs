@@ -111,6 +111,7 @@ impl Memory {
             return (false, true);
         }
         if self.locks[place] {
+            // L9: the stored owner tells a cavity's second visit from a foreign one.
             let is_own = self.owners[place] == context && defect != Some(Defect::TakesOwnForForeign);
             return (false, !is_own);
         }

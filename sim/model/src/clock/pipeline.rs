@@ -181,7 +181,7 @@ impl Pipeline {
 
 /// Reads a record, takes its lock if asked to, and evaluates the predicates.
 fn visit(token: Token, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
-    // A record that is written while it is read comes out torn.
+    // L7: a record that is written while it is read comes out torn, and a new one counts once its commit has ended.
     let is_torn = was.write.valid && was.write.id == token.u;
     let is_written =
         token.u < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);

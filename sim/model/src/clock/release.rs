@@ -70,6 +70,7 @@ impl Release {
         }
         self.swept = self.sweep;
         self.sweep = self.sweep.map(|id| id + 1).filter(|&id| id < triangle_capacity(config.points));
+        // L4: the locks of a ring are due when its last record is written.
         let committed = if defect == Some(Defect::ReleasesBeforeWritten) {
             wires.outcome.and_then(|outcome| outcome.commit)
         } else {

@@ -68,11 +68,13 @@ impl Starter {
             return None;
         }
         if flags.keeps & bit != 0 {
+            // L1: who has failed rests. L3: nobody else tries again beside a holder that has waited for long.
             let rested = self.round == 0 || defect == Some(Defect::NeverBacksOff);
             let may = flags.may_try_again(context) || defect == Some(Defect::NobodyYields);
             let ready = flags.busy & bit == 0 && rested && may;
             return ready.then(|| Start { context, id: None, push: Bundle::look(context, tables.root[context]) });
         }
+        // L8: the first points go to context 0.
         let works = match context {
             0 => was.seeder.seeded || flags.began & 1 == 0,
             _ => self.all_work || (defect == Some(Defect::AllFromTheStart) && was.seeder.seeded),

@@ -1,0 +1,86 @@
+//! The point that each context inserts, and when it took it.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `takes`, `taker`, `taken_id`, `now` | in | 1, 5, 15, 22 | a context takes a point at this edge; the time |
+//! | `owner` | in | 5 | a context |
+//! | `p`, `since` | out | 15, 22 | its point; when it was taken |
+//!
+//! 1. There is no reset: what a context has taken is arbitrary until it takes something.
+//!
+//! Latency: a point is there 2 clocks after it is taken, long before any visit of it completes. A context is answered at once.
+//!
+//! Context 1 takes point 7 at time 3:
+//! ```text
+//! takes           /^^\________
+//! taker             1  .  .  .
+//! taken_id          7  .  .  .
+//! now               3  .  .  .
+//! owner             .  .  1  .
+//! p                 .  .  7  .
+//! since             .  .  3  .
+//! ```
+
+use crate::engine::types::context_bits;
+use crate::leaf::LutMemory;
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The points at hand; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct AttemptPoints {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// A context takes a point.
+    pub takes: Signal<In, Bit>,
+    /// Which context.
+    pub taker: Signal<In, Bits<5>>,
+    /// The vertex it takes.
+    pub taken_id: Signal<In, Bits<15>>,
+    /// The time.
+    pub now: Signal<In, Bits<22>>,
+    /// A context.
+    pub owner: Signal<In, Bits<5>>,
+    /// Its point.
+    pub p: Signal<Out, Bits<15>>,
+    /// When it was taken.
+    pub since: Signal<Out, Bits<22>>,
+    points: LutMemory<5, 15>,
+    times: LutMemory<5, 22>,
+    has_taken: DFF<Bit>,
+    last_taker: DFF<Bits<5>>,
+    last_taken: DFF<Bits<15>>,
+    taken_at: DFF<Bits<22>>,
+}
+
+impl AttemptPoints {
+    /// The points of a configuration.
+    pub fn new(config: Config) -> Self {
+        let bits = context_bits(config);
+        Self { points: LutMemory::new(bits, 15), times: LutMemory::new(bits, 22), ..Self::default() }
+    }
+}
+
+impl Logic for AttemptPoints {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, has_taken, last_taker, last_taken, taken_at);
+        clock!(self, clock, points, times);
+        self.has_taken.d.next = self.takes.val();
+        self.last_taker.d.next = self.taker.val();
+        self.last_taken.d.next = self.taken_id.val();
+        self.taken_at.d.next = self.now.val();
+        self.points.write_address.next = self.last_taker.q.val();
+        self.points.write_data.next = self.last_taken.q.val();
+        self.points.write_enable.next = self.has_taken.q.val();
+        self.times.write_address.next = self.last_taker.q.val();
+        self.times.write_data.next = self.taken_at.q.val();
+        self.times.write_enable.next = self.has_taken.q.val();
+        self.points.read_address.next = self.owner.val();
+        self.times.read_address.next = self.owner.val();
+        self.p.next = self.points.read_data.val();
+        self.since.next = self.times.read_data.val();
+    }
+}

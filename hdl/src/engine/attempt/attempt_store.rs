@@ -1,0 +1,275 @@
+//! The states of the attempts of all contexts, each at hand in the clock in which a visit of its context completes.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `ring` | in | 7 | entries a boundary list holds, a constant |
+//! | `early_owner`, `early_entry` | in | 5, 6 | the visit that completes in the next clock: its context, and the entry that names its `f` |
+//! | `owner`, `f_entry` | in | 5, 6 | the same of the visit of this clock |
+//! | `attempt` | out | Attempt | the state of its attempt |
+//! | `is_last`, `is_full` | out | 1 | one visit is out; the list holds as many entries as it can |
+//! | `edge_was_passed` | out | 1 | `attempt.half_open` at `f_entry` |
+//! | `entry_bit` | out | 64 | `f_entry`, a bit each |
+//! | `opens`, `is_test`, `splits`, `repeats` | in | 1 | from `VisitCase` |
+//! | `passes_root` | in | 1 | the second edge of the root is passed: bit 1 of `half_open` goes up |
+//! | `after` | in | Attempt | the state after a test |
+//!
+//! 1. Every visit is announced by `early_owner` and `early_entry` in the clock before its own. There may be pauses.
+//! 2. A visit sees what all visits before it have left, also a test of the clock before. The visit that opens an attempt is the only one
+//!    of its context: the next one comes later.
+//! 3. An attempt begins with the three tests of the root's neighbours and its one lock.
+//! 4. `is_last`, `is_full` and `edge_was_passed` say nothing that is not in `attempt`; they are ready sooner.
+//!
+//! Latency: 1 clock from `early_owner` to `attempt`. What is written in a clock is seen in the next.
+//!
+//! Source: a memory in LUTs, read a clock ahead, with a way round it.
+
+use crate::engine::types::{context_bits, ring_bits, Attempt, ATTEMPT_BITS, ENTRY_BITS};
+use crate::leaf::{LutMemory, Unpack};
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The states of all attempts; see the top of this file.
+#[derive(LogicBlock)]
+pub struct AttemptStore {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Entries a list holds.
+    pub ring: Signal<In, Bits<7>>,
+    /// The context whose visit completes in the next clock.
+    pub early_owner: Signal<In, Bits<5>>,
+    /// The entry that names the visit's `f`.
+    pub early_entry: Signal<In, Bits<6>>,
+    /// The context at work.
+    pub owner: Signal<In, Bits<5>>,
+    /// The entry that names its visit's `f`.
+    pub f_entry: Signal<In, Bits<6>>,
+    /// Its attempt.
+    pub attempt: Signal<Out, Attempt>,
+    /// One visit of it is out.
+    pub is_last: Signal<Out, Bit>,
+    /// Its list is full.
+    pub is_full: Signal<Out, Bit>,
+    /// One edge of the cavity triangle has been passed.
+    pub edge_was_passed: Signal<Out, Bit>,
+    /// The entry that names the visit's `f`, a bit each.
+    pub entry_bit: Signal<Out, Bits<64>>,
+    /// An attempt begins.
+    pub opens: Signal<In, Bit>,
+    /// A test passes through its edge.
+    pub splits: Signal<In, Bit>,
+    /// The same visit is made again.
+    pub repeats: Signal<In, Bit>,
+    /// A test completes.
+    pub is_test: Signal<In, Bit>,
+    /// The second edge of the root is passed.
+    pub passes_root: Signal<In, Bit>,
+    /// The state after a test.
+    pub after: Signal<In, Attempt>,
+    states: LutMemory<5, ATTEMPT_BITS>,
+    flags: LutMemory<5, 2>,
+    stored: Unpack<Attempt, ATTEMPT_BITS>,
+    written: Signal<Local, Attempt>,
+    written_bits: Signal<Local, Bits<ATTEMPT_BITS>>,
+    written_flags: Signal<Local, Bits<2>>,
+    state: DFF<Attempt>,
+    flag_bits: DFF<Bits<2>>,
+    /// Whether the edge has been passed, in the state that goes round and in the one that was stored, and which of the two counts.
+    kept_passed: DFF<Bit>,
+    stored_passed: DFF<Bit>,
+    went_round: DFF<Bit>,
+    named_entry: DFF<Bits<64>>,
+    goes_round: Signal<Local, Bit>,
+    is_same_entry: Signal<Local, Bit>,
+    is_second_entry: Signal<Local, Bit>,
+    kept_edges: Signal<Local, Bits<64>>,
+    edges_after: Signal<Local, Bits<64>>,
+    stored_edges: Signal<Local, Bits<64>>,
+    entry: Signal<Local, Bits<6>>,
+    wide_entry: Signal<Local, Bits<64>>,
+    first_bit: Signal<Local, Bits<64>>,
+    becomes_last: Signal<Local, Bit>,
+    becomes_full: Signal<Local, Bit>,
+    last_flag: Signal<Local, Bits<2>>,
+    full_flag: Signal<Local, Bits<2>>,
+    opens_full: Signal<Local, Bit>,
+    flags_after: Signal<Local, Bits<2>>,
+    outstanding: Signal<Local, Bits<7>>,
+    count: Signal<Local, Bits<7>>,
+    before_full: Signal<Local, Bits<7>>,
+    two: Signal<Local, Bits<7>>,
+    three: Signal<Local, Bits<7>>,
+    one: Signal<Local, Bits<7>>,
+    second_entry: Signal<Local, Bits<6>>,
+    /// A bit for each entry that a list of this configuration may have: those above are never kept.
+    all_entries: Constant<Bits<64>>,
+}
+
+impl AttemptStore {
+    /// The states of a configuration.
+    pub fn new(config: Config) -> Self {
+        let bits = context_bits(config);
+        let entries = 1 << ring_bits(config);
+        let kept = ATTEMPT_BITS - (1 << ENTRY_BITS) + entries;
+        Self {
+            clock: Signal::default(),
+            ring: Signal::default(),
+            early_owner: Signal::default(),
+            early_entry: Signal::default(),
+            owner: Signal::default(),
+            f_entry: Signal::default(),
+            attempt: Signal::default(),
+            is_last: Signal::default(),
+            is_full: Signal::default(),
+            edge_was_passed: Signal::default(),
+            entry_bit: Signal::default(),
+            opens: Signal::default(),
+            splits: Signal::default(),
+            repeats: Signal::default(),
+            is_test: Signal::default(),
+            passes_root: Signal::default(),
+            after: Signal::default(),
+            states: LutMemory::new(bits, kept),
+            flags: LutMemory::new(bits, 2),
+            stored: Unpack::default(),
+            written: Signal::default(),
+            written_bits: Signal::default(),
+            written_flags: Signal::default(),
+            state: DFF::default(),
+            flag_bits: DFF::default(),
+            kept_passed: DFF::default(),
+            stored_passed: DFF::default(),
+            went_round: DFF::default(),
+            named_entry: DFF::default(),
+            goes_round: Signal::default(),
+            is_same_entry: Signal::default(),
+            is_second_entry: Signal::default(),
+            kept_edges: Signal::default(),
+            edges_after: Signal::default(),
+            stored_edges: Signal::default(),
+            entry: Signal::default(),
+            wide_entry: Signal::default(),
+            first_bit: Signal::default(),
+            becomes_last: Signal::default(),
+            becomes_full: Signal::default(),
+            last_flag: Signal::default(),
+            full_flag: Signal::default(),
+            opens_full: Signal::default(),
+            flags_after: Signal::default(),
+            outstanding: Signal::default(),
+            count: Signal::default(),
+            before_full: Signal::default(),
+            two: Signal::default(),
+            three: Signal::default(),
+            one: Signal::default(),
+            second_entry: Signal::default(),
+            all_entries: Constant::new(Bits::<64>::mask() >> (64 - entries as u64)),
+        }
+    }
+}
+
+impl Default for AttemptStore {
+    fn default() -> Self {
+        Self::new(incircle_protocol::LARGE)
+    }
+}
+
+impl Logic for AttemptStore {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, state, flag_bits, kept_passed, stored_passed, went_round, named_entry);
+        clock!(self, clock, states, flags);
+        self.one.next = 1.into();
+        self.two.next = 2.into();
+        self.three.next = 3.into();
+        self.second_entry.next = 1.into();
+        self.attempt.next = self.state.q.val();
+        self.is_last.next = self.flag_bits.q.val().get_bit(0);
+        self.is_full.next = self.flag_bits.q.val().get_bit(1);
+        self.edge_was_passed.next = self.stored_passed.q.val();
+        if self.went_round.q.val() {
+            self.edge_was_passed.next = self.kept_passed.q.val();
+        }
+
+        // The flags after a test, from what stands in registers.
+        self.outstanding.next = self.state.q.val().outstanding;
+        self.count.next = self.state.q.val().count;
+        self.before_full.next = self.ring.val() - self.one.val();
+        self.becomes_last.next = self.outstanding.val() == self.two.val();
+        self.becomes_full.next = self.flag_bits.q.val().get_bit(1);
+        if self.repeats.val() {
+            self.becomes_last.next = self.flag_bits.q.val().get_bit(0);
+        }
+        if self.splits.val() {
+            self.becomes_last.next = false;
+            self.becomes_full.next = self.count.val() == self.before_full.val();
+        }
+        self.last_flag.next = 0.into();
+        self.full_flag.next = 0.into();
+        if self.becomes_last.val() {
+            self.last_flag.next = 1.into();
+        }
+        if self.becomes_full.val() {
+            self.full_flag.next = 2.into();
+        }
+        self.flags_after.next = self.last_flag.val() | self.full_flag.val();
+
+        // What is written: that, or the state of an attempt that begins.
+        self.written.next = self.after.val();
+        self.written_flags.next = self.flags_after.val();
+        self.opens_full.next = self.ring.val() == self.three.val();
+        if self.opens.val() {
+            self.written.next.drains = false;
+            self.written.next.outstanding = 3.into();
+            self.written.next.count = 3.into();
+            self.written.next.inners = 0.into();
+            self.written.next.logged = 1.into();
+            self.written.next.half_open = 0.into();
+            self.written_flags.next = 0.into();
+            if self.opens_full.val() {
+                self.written_flags.next = 2.into();
+            }
+        }
+        self.written_bits.next = self.written.val().into();
+
+        // The memory.
+        self.states.write_address.next = self.owner.val();
+        self.states.write_data.next = self.written_bits.val();
+        self.states.write_enable.next = self.is_test.val() | self.opens.val();
+        self.states.read_address.next = self.early_owner.val();
+        self.flags.write_address.next = self.owner.val();
+        self.flags.write_data.next = self.written_flags.val();
+        self.flags.write_enable.next = self.is_test.val() | self.opens.val();
+        self.flags.read_address.next = self.early_owner.val();
+        self.stored.bits.next = self.states.read_data.val();
+
+        // The edge that the next visit asks for.
+        self.entry.next = self.early_entry.val();
+        self.first_bit.next = 1.into();
+        self.wide_entry.next = bit_cast::<64, 6>(self.early_entry.val());
+        self.named_entry.d.next = self.first_bit.val() << self.wide_entry.val();
+        self.entry_bit.next = self.named_entry.q.val() & self.all_entries.val();
+        self.kept_edges.next = self.state.q.val().half_open;
+        self.stored_edges.next = self.stored.value.val().half_open;
+        self.is_same_entry.next = self.early_entry.val() == self.f_entry.val();
+        self.is_second_entry.next = self.early_entry.val() == self.second_entry.val();
+        self.stored_passed.d.next = self.stored_edges.val().get_bit(self.entry.val().index());
+        self.kept_passed.d.next = self.kept_edges.val().get_bit(self.entry.val().index())
+            | (self.splits.val() & self.is_same_entry.val())
+            | (self.passes_root.val() & self.is_second_entry.val());
+
+        self.edges_after.next = self.after.val().half_open;
+
+        // What the next visit sees: the memory, or what goes into it now.
+        self.goes_round.next = self.is_test.val() & (self.early_owner.val() == self.owner.val());
+        self.went_round.d.next = self.goes_round.val();
+        self.state.d.next = self.stored.value.val();
+        self.flag_bits.d.next = self.flags.read_data.val();
+        if self.goes_round.val() {
+            self.state.d.next = self.after.val();
+            self.state.d.next.half_open = self.edges_after.val() & self.all_entries.val();
+            self.flag_bits.d.next = self.flags_after.val();
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! What a completed visit means for its context: the heart of the engine.
+//!
+//! ```text
+//! visit, record, verdict -> VisitCase -> AttemptStep -> AttemptLists -> entries, inner triangles, locks, jobs: CommitPath
+//!                              |            ^   |           ^
+//!                              |            |   v           |
+//!                              |        AttemptStore    AttemptPoints
+//!                              v        (cavity)        (point of each context)
+//!                          NextVisits -> up to three visits: PushPort
+//! ```
+//! One insertion walks to the triangle of its point, locks it, and digs the cavity by tests, many of them in flight. Its whole state is
+//! one word of [`AttemptStore`], read, changed and written back in the clock in which one of its visits completes. So the visits of all
+//! contexts may complete in any order, one in each clock.
+//!
+//! Lock rules (see `docs/engine.md`): L1, an attempt that meets a foreign lock drains and releases ([`VisitCase`], [`AttemptStep`],
+//! [`Attempts`]); L2, the holder of the waiting token asks again instead ([`VisitCase`]); L5, the located triangle is visited once more
+//! under its lock ([`VisitCase`], [`NextVisits`]); L6, a walk looks again while its context's last commit or release is due
+//! ([`VisitCase`]); L7, a walk looks again at a record that was not written ([`VisitCase`]).
+
+mod attempt_lists;
+mod attempt_points;
+mod attempt_step;
+mod attempt_store;
+mod attempts;
+mod context_address;
+mod next_visits;
+mod visit_case;
+
+pub use attempt_lists::AttemptLists;
+pub use attempt_points::AttemptPoints;
+pub use attempt_step::AttemptStep;
+pub use attempt_store::AttemptStore;
+pub use attempts::Attempts;
+pub use context_address::ContextAddress;
+pub use next_visits::NextVisits;
+pub use visit_case::VisitCase;

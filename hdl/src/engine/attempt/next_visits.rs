@@ -1,0 +1,117 @@
+//! The visits that follow one that completes.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `early_token`, `early_turned` | in | | the visit that completes in the next clock, and its record |
+//! | `walks_on`, `locates` | in | 1 | from `VisitCase`, of the visit of this clock |
+//! | `walk_next` | in | 15 | where its walk goes on |
+//! | `entry` | in | 6 | the entry that it allocates if it is a test |
+//! | `bundle` | out | Bundle | the visits that it asks for, if it asks for any |
+//!
+//! 1. A root or a test whose lock is the context's own asks for what follows if it opens the cavity or passes through its edge; every
+//!    other visit asks for itself again, unless `walks_on` or `locates`.
+//!
+//! ```text
+//!           c                         c
+//!          / \                       ^ \
+//!         /   \       split       X /   \ Y       X = (a -> c), Y = (c -> b), both with u behind them
+//!        /  u  \     ------->      /     v
+//!       a ----> b                 a       b
+//!           p                         p
+//! ```
+//! Latency: 1 clock from the early inputs; none from the others.
+//!
+//! A walk goes on at record 6, a root opens, a test of entry 4 passes and allocates entry 9:
+//! ```text
+//! early.u           5  6  7  .  .
+//! early.n1          .  1  8  .  .
+//! walks_on        ___/^^\________
+//! bundle.u          .  6  0  8  .
+//! bundle.is_pair  ______/^^^^^\__
+//! bundle.f          .  .  6  7  .
+//! bundle.x          .  .  0  4  .
+//! bundle.after      .  .  1  9  .
+//! ```
+
+use crate::engine::types::{Bundle, Token, Turned};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The visits asked for; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct NextVisits {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// The visit that completes in the next clock.
+    pub early_token: Signal<In, Token>,
+    /// Its record.
+    pub early_turned: Signal<In, Turned>,
+    /// The walk goes on.
+    pub walks_on: Signal<In, Bit>,
+    /// The root is visited under its lock.
+    pub locates: Signal<In, Bit>,
+    /// Where a walk goes on.
+    pub walk_next: Signal<In, Bits<15>>,
+    /// A new entry.
+    pub entry: Signal<In, Bits<6>>,
+    /// The visits.
+    pub bundle: Signal<Out, Bundle>,
+    /// All that is known ahead.
+    prepared: DFF<Bundle>,
+    halves: DFF<Bit>,
+    opens: Signal<Local, Bit>,
+    splits: Signal<Local, Bit>,
+}
+
+impl Logic for NextVisits {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, prepared, halves);
+        self.opens.next =
+            (!self.early_token.val().rotates) & self.early_token.val().locks & (!self.early_turned.val().foreign);
+        self.splits.next = self.early_token.val().rotates & (!self.early_turned.val().foreign);
+
+        // The same visit again, but for what each case changes.
+        self.prepared.d.next.is_pair = self.opens.val() | self.splits.val();
+        self.prepared.d.next.is_triple = self.opens.val();
+        self.prepared.d.next.owner = self.early_token.val().owner;
+        self.prepared.d.next.rotates = self.early_token.val().rotates | self.opens.val();
+        self.prepared.d.next.locks = self.early_token.val().locks;
+        self.prepared.d.next.x = self.early_token.val().x;
+        self.prepared.d.next.after = self.early_token.val().after;
+        self.prepared.d.next.f_entry = self.early_token.val().f_entry;
+        self.prepared.d.next.f = self.early_token.val().f;
+        self.prepared.d.next.u = self.early_token.val().u;
+        self.prepared.d.next.second_after = self.early_token.val().after;
+        self.prepared.d.next.second_u = self.early_turned.val().n2;
+        self.prepared.d.next.third_u = self.early_turned.val().n2;
+        if self.splits.val() {
+            self.prepared.d.next.f = self.early_token.val().u;
+            self.prepared.d.next.u = self.early_turned.val().n1;
+        }
+        if self.opens.val() {
+            self.prepared.d.next.x = 0.into();
+            self.prepared.d.next.after = 1.into();
+            self.prepared.d.next.f_entry = 0.into();
+            self.prepared.d.next.f = self.early_token.val().u;
+            self.prepared.d.next.u = self.early_turned.val().n0;
+            self.prepared.d.next.second_after = 2.into();
+            self.prepared.d.next.second_u = self.early_turned.val().n1;
+        }
+        self.halves.d.next = self.splits.val();
+
+        self.bundle.next = self.prepared.q.val();
+        // L5: the same record again, this time under its lock.
+        if self.locates.val() {
+            self.bundle.next.locks = true;
+        }
+        if self.walks_on.val() {
+            self.bundle.next.u = self.walk_next.val();
+        }
+        if self.halves.q.val() {
+            self.bundle.next.after = self.entry.val();
+            self.bundle.next.f_entry = self.entry.val();
+        }
+    }
+}

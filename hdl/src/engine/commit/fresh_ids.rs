@@ -1,0 +1,114 @@
+//! Counts the records of the mesh: new ids as they are taken, and the records that are written.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset forgets all records |
+//! | `takes` | in | 1 | a ring takes the next new id |
+//! | `ends` | in | 1 | the last record of a ring is written |
+//! | `solo_inserts` | in | 1 | an insertion alone has written two new records |
+//! | `seeds` | in | 1 | a first triangle and its ghosts are written, four records |
+//! | `clears` | in | 1 | forgets all records |
+//! | `fresh` | out | 15 | the next new id |
+//! | `records` | out | 15 | ids from here on are not written yet |
+//!
+//! 1. New ids of a ring count as written when its last record has passed the write port and stands in the memory (L7).
+//! 2. At most one of `takes`, `ends`, `solo_inserts`, `seeds`, `clears` at a time, and the last three only while all new ids are
+//!    written: `fresh` and `records` are equal then.
+//! 3. A ring ends at the earliest three clocks after the one before it.
+//!
+//! Latency: 1 clock to `fresh`; from `ends` to `records` 3 clocks.
+//!
+//! The first triangle, then a ring that takes two ids:
+//! ```text
+//! seeds           ___/^^\__________________________
+//! takes           ____________/^^^^^\______________
+//! ends            _____________________/^^\________
+//! fresh             0  0  4  4  4  5  6  6  6  6  6
+//! records           0  0  4  4  4  4  4  4  4  4  6
+//! ```
+
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The count of records; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct FreshIds {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Forgets all records.
+    pub reset: Signal<In, Bit>,
+    /// A new id is taken.
+    pub takes: Signal<In, Bit>,
+    /// The last record of a ring is written.
+    pub ends: Signal<In, Bit>,
+    /// Two records of an insertion alone are written.
+    pub solo_inserts: Signal<In, Bit>,
+    /// Four records of a first triangle are written.
+    pub seeds: Signal<In, Bit>,
+    /// Forgets all records.
+    pub clears: Signal<In, Bit>,
+    /// The next new id.
+    pub fresh: Signal<Out, Bits<15>>,
+    /// Ids from here on are not written yet.
+    pub records: Signal<Out, Bits<15>>,
+    taken: DFF<Bits<15>>,
+    written: DFF<Bits<15>>,
+    /// What `written` becomes once the ring that has ended is in the memory.
+    ended: DFF<Bits<15>>,
+    /// A ring ended one clock ago, and two.
+    ended_before_1: DFF<Bit>,
+    ended_before_2: DFF<Bit>,
+    step: Signal<Local, Bits<15>>,
+    raised: Signal<Local, Bits<15>>,
+    none: Signal<Local, Bits<15>>,
+    one: Signal<Local, Bits<15>>,
+    two: Signal<Local, Bits<15>>,
+    seed_records: Signal<Local, Bits<15>>,
+}
+
+impl Logic for FreshIds {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, taken, written, ended, ended_before_1, ended_before_2);
+        self.none.next = 0.into();
+        self.one.next = 1.into();
+        self.two.next = 2.into();
+        self.seed_records.next = 4.into();
+        self.fresh.next = self.taken.q.val();
+        self.records.next = self.written.q.val();
+
+        // The sum does not wait for `takes`.
+        self.step.next = self.one.val();
+        if self.solo_inserts.val() {
+            self.step.next = self.two.val();
+        }
+        if self.seeds.val() {
+            self.step.next = self.seed_records.val();
+        }
+        self.raised.next = self.taken.q.val() + self.step.val();
+        if self.takes.val() | self.solo_inserts.val() | self.seeds.val() {
+            self.taken.d.next = self.raised.val();
+        }
+
+        // L7: the ids count once their records are in the memory: the write port takes a clock, the memory another.
+        self.ended_before_1.d.next = self.ends.val();
+        self.ended_before_2.d.next = self.ended_before_1.q.val();
+        if self.ends.val() {
+            self.ended.d.next = self.taken.q.val();
+        }
+        if self.ended_before_2.q.val() {
+            self.written.d.next = self.ended.q.val();
+        }
+        if self.solo_inserts.val() | self.seeds.val() {
+            self.written.d.next = self.raised.val();
+        }
+        if self.clears.val() | self.reset.val() {
+            self.taken.d.next = self.none.val();
+            self.written.d.next = self.none.val();
+        }
+        if self.reset.val() {
+            self.ended_before_1.d.next = false;
+            self.ended_before_2.d.next = false;
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The inner triangles of every cavity: those without an edge on the boundary, whose ids a commit gives back first.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `enable`, `owner`, `place`, `id` | in | 1, 5, 6, 15 | an inner triangle joins the list of a context |
+//! | `restarts`, `reader`, `inners` | in | 1, 5, 7 | another list is read from its start: its context and length |
+//! | `steps` | in | 1 | the triangle on the output is used |
+//! | `is_used_up` | out | 1 | none is left |
+//! | `is_awaited` | out | 1 | there is one, and it is not on the output yet |
+//! | `inner_id` | out | 15 | it, else |
+//!
+//! 1. `steps` only while neither `is_used_up` nor `is_awaited`.
+//! 2. A list is not written in the clock before one in which it is read, nor while it is.
+//!
+//! Latency: three clocks from `restarts` or `steps` to the next `inner_id` (block RAM, its output register, and one away from it);
+//! outputs are registers. There is no reset: the first `restarts` makes everything known.
+//!
+//! A list of two, 20 and 21:
+//! ```text
+//! restarts        ___/^^\________________________________
+//! steps           __________________/^^\________/^^\_____
+//! is_used_up        .  .___________________________/^^^^^
+//! is_awaited        .  ./^^^^^^^^\_____/^^^^^^^^\________
+//! inner_id          .  .  .  .  . 20 20  .  .  . 21  .  .
+//! ```
+
+use crate::engine::attempt::ContextAddress;
+use crate::engine::types::{context_bits, ring_bits, RING_ADDRESS_BITS};
+use crate::leaf::BlockMemory;
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The lists of inner triangles; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct InnerList {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// An inner triangle joins.
+    pub enable: Signal<In, Bit>,
+    /// Its context.
+    pub owner: Signal<In, Bits<5>>,
+    /// Its place in the list.
+    pub place: Signal<In, Bits<6>>,
+    /// It.
+    pub id: Signal<In, Bits<15>>,
+    /// A list is read from its start.
+    pub restarts: Signal<In, Bit>,
+    /// Its context.
+    pub reader: Signal<In, Bits<5>>,
+    /// Its length.
+    pub inners: Signal<In, Bits<7>>,
+    /// The triangle on the output is used.
+    pub steps: Signal<In, Bit>,
+    /// None is left.
+    pub is_used_up: Signal<Out, Bit>,
+    /// There is one, and it is not on the output yet.
+    pub is_awaited: Signal<Out, Bit>,
+    /// It, else.
+    pub inner_id: Signal<Out, Bits<15>>,
+    memory: BlockMemory<RING_ADDRESS_BITS, 15>,
+    written: DFF<Bit>,
+    written_owner: DFF<Bits<5>>,
+    written_place: DFF<Bits<6>>,
+    written_id: DFF<Bits<15>>,
+    list_owner: DFF<Bits<5>>,
+    list_inners: DFF<Bits<7>>,
+    index: DFF<Bits<7>>,
+    /// The next triangle is the last one, one clock late: it is looked at later still.
+    one_is_left: DFF<Bit>,
+    used_up: DFF<Bit>,
+    awaited: DFF<Bit>,
+    /// The address has stood for one clock, and for two.
+    stood_1: DFF<Bit>,
+    stood_2: DFF<Bit>,
+    arrival: DFF<Bits<15>>,
+    write_at: ContextAddress<6, RING_ADDRESS_BITS>,
+    read_at: ContextAddress<6, RING_ADDRESS_BITS>,
+    first_place: Signal<Local, Bits<7>>,
+    one: Signal<Local, Bits<7>>,
+    after_index: Signal<Local, Bits<7>>,
+}
+
+impl InnerList {
+    /// The lists of a configuration.
+    pub fn new(config: Config) -> Self {
+        let bits = ring_bits(config);
+        Self {
+            memory: BlockMemory::new(context_bits(config) + bits, 15),
+            write_at: ContextAddress::new(bits),
+            read_at: ContextAddress::new(bits),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for InnerList {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, written, written_owner, written_place, written_id, list_owner, list_inners);
+        dff_setup!(self, clock, index, one_is_left, used_up, awaited, stood_1, stood_2, arrival);
+        clock!(self, clock, memory);
+        self.one.next = 1.into();
+        self.first_place.next = 0.into();
+        self.written.d.next = self.enable.val();
+        self.written_owner.d.next = self.owner.val();
+        self.written_place.d.next = self.place.val();
+        self.written_id.d.next = self.id.val();
+        self.write_at.owner.next = self.written_owner.q.val();
+        self.write_at.place.next = self.written_place.q.val();
+        self.memory.write_address.next = self.write_at.address.val();
+        self.memory.write_data.next = self.written_id.q.val();
+        self.memory.write_enable.next = self.written.q.val();
+
+        self.read_at.owner.next = self.list_owner.q.val();
+        self.read_at.place.next = self.index.q.val().get_bits::<6>(0);
+        self.memory.read_address.next = self.read_at.address.val();
+        self.arrival.d.next = self.memory.read_data.val();
+        self.inner_id.next = self.arrival.q.val();
+        self.is_used_up.next = self.used_up.q.val();
+        self.is_awaited.next = self.awaited.q.val();
+
+        self.after_index.next = self.index.q.val() + self.one.val();
+        self.one_is_left.d.next = self.after_index.val() == self.list_inners.q.val();
+        self.stood_1.d.next = true;
+        self.stood_2.d.next = self.stood_1.q.val();
+        self.awaited.d.next = self.awaited.q.val() & (!self.stood_2.q.val());
+        if self.steps.val() {
+            self.index.d.next = self.after_index.val();
+            self.used_up.d.next = self.one_is_left.q.val();
+            self.awaited.d.next = !self.one_is_left.q.val();
+        }
+        if self.restarts.val() {
+            self.index.d.next = self.first_place.val();
+            self.list_owner.d.next = self.reader.val();
+            self.list_inners.d.next = self.inners.val();
+            self.used_up.d.next = self.inners.val() == self.first_place.val();
+            self.awaited.d.next = self.inners.val() != self.first_place.val();
+        }
+        if self.steps.val() | self.restarts.val() {
+            self.stood_1.d.next = false;
+            self.stood_2.d.next = false;
+        }
+    }
+}

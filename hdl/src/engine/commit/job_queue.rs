@@ -1,0 +1,132 @@
+//! Jobs of contexts, first come first served.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset forgets all jobs |
+//! | `enable`, `job` | in | 1, D | a job comes |
+//! | `waits`, `head` | out | 1, D | there is a job; the oldest one |
+//! | `takes` | in | 1 | the head is taken at this edge, if there is one |
+//!
+//! 1. Every context has one job here at most, so there is a place for each.
+//!
+//! Latency: 1 clock. The job stands in a register first: those who find out that there is one need all of their clock. `takes` may
+//! come as late: a job is stored even if it is taken at once, so only the pointer to the oldest one waits for that.
+//! ```text
+//! enable          ___/^^\__/^^^^^\______________
+//! job               .  5  .  6  7  .  .  .  .  .
+//! takes           /^^^^^^^^^^^\_____/^^\________
+//! waits           ______/^^\__/^^^^^^^^^^^^^^^^^
+//! head              .  .  5  .  6  6  6  7  7  7
+//! ```
+
+use crate::engine::types::CONTEXT_BITS;
+use crate::leaf::LutMemory;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// A queue of jobs; see the top of this file.
+#[derive(LogicBlock)]
+pub struct JobQueue<const D: usize> {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Forgets all jobs.
+    pub reset: Signal<In, Bit>,
+    /// A job comes.
+    pub enable: Signal<In, Bit>,
+    /// The job.
+    pub job: Signal<In, Bits<D>>,
+    /// The head is taken.
+    pub takes: Signal<In, Bit>,
+    /// There is a job.
+    pub waits: Signal<Out, Bit>,
+    /// The oldest one.
+    pub head: Signal<Out, Bits<D>>,
+    arrived: DFF<Bit>,
+    arrival: DFF<Bits<D>>,
+    jobs: LutMemory<CONTEXT_BITS, D>,
+    /// A job that came earlier waits.
+    holds_jobs: DFF<Bit>,
+    newest: DFF<Bits<CONTEXT_BITS>>,
+    oldest: DFF<Bits<CONTEXT_BITS>>,
+    pops: Signal<Local, Bit>,
+    after_newest: Signal<Local, Bits<CONTEXT_BITS>>,
+    after_oldest: Signal<Local, Bits<CONTEXT_BITS>>,
+    more_wait: Signal<Local, Bit>,
+    one: Constant<Bits<CONTEXT_BITS>>,
+    nothing: Constant<Bits<CONTEXT_BITS>>,
+}
+
+impl<const D: usize> JobQueue<D> {
+    /// A queue of `2^context_bits` jobs.
+    ///
+    /// # Panics
+    /// If `context_bits` is not in `1..=CONTEXT_BITS`.
+    pub fn new(context_bits: usize) -> Self {
+        Self {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            enable: Signal::default(),
+            job: Signal::default(),
+            takes: Signal::default(),
+            waits: Signal::default(),
+            head: Signal::default(),
+            arrived: DFF::default(),
+            arrival: DFF::default(),
+            jobs: LutMemory::new(context_bits, D),
+            holds_jobs: DFF::default(),
+            newest: DFF::default(),
+            oldest: DFF::default(),
+            pops: Signal::default(),
+            after_newest: Signal::default(),
+            after_oldest: Signal::default(),
+            more_wait: Signal::default(),
+            one: Constant::new(Bits::from(1)),
+            nothing: Constant::new(Bits::default()),
+        }
+    }
+}
+
+impl<const D: usize> Default for JobQueue<D> {
+    fn default() -> Self {
+        Self::new(CONTEXT_BITS)
+    }
+}
+
+impl<const D: usize> Logic for JobQueue<D> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, arrived, arrival, holds_jobs, newest, oldest);
+        clock!(self, clock, jobs);
+        self.arrived.d.next = self.enable.val() & (!self.reset.val());
+        self.arrival.d.next = self.job.val();
+        self.after_newest.next = self.newest.q.val() + self.one.val();
+        self.after_oldest.next = self.oldest.q.val() + self.one.val();
+        self.more_wait.next = self.after_oldest.val() != self.newest.q.val();
+        self.waits.next = self.holds_jobs.q.val() | self.arrived.q.val();
+        self.pops.next = self.takes.val() & self.waits.val();
+        self.jobs.read_address.next = self.oldest.q.val();
+        self.head.next = self.arrival.q.val();
+        if self.holds_jobs.q.val() {
+            self.head.next = self.jobs.read_data.val();
+        }
+
+        self.jobs.write_address.next = self.newest.q.val();
+        self.jobs.write_data.next = self.arrival.q.val();
+        self.jobs.write_enable.next = self.arrived.q.val();
+        if self.arrived.q.val() {
+            self.newest.d.next = self.after_newest.val();
+            self.holds_jobs.d.next = self.holds_jobs.q.val() | (!self.pops.val());
+        }
+        if self.pops.val() {
+            self.oldest.d.next = self.after_oldest.val();
+            if !self.arrived.q.val() {
+                self.holds_jobs.d.next = self.more_wait.val();
+            }
+        }
+        if self.reset.val() {
+            self.holds_jobs.d.next = false;
+            self.newest.d.next = self.nothing.val();
+            self.oldest.d.next = self.nothing.val();
+        }
+    }
+}

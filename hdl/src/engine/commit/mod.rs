@@ -1,0 +1,36 @@
+//! From a finished ring to the records of the new star, and from a finished attempt to released locks.
+//!
+//! ```text
+//! entries, rings -> RingReader -> Commit -----------------> WritePort
+//!                   JobQueue      FreshIds, InnerList         |
+//!                   RingList         |                        v
+//!                                    | last write        triangle memory
+//!                                    v
+//! locks, failures ---------------> Release -> LockStore: one lock cleared in each clock
+//!                                  JobQueue
+//! ```
+//! A ring is written in one pass, an entry or a link in each clock, while the context that dug it walks on with its next point. The
+//! cavity's records are written in place under their old ids, and two new ids are taken.
+//!
+//! Lock rules (see `docs/engine.md`): L4, the locks of a ring are released after its last write ([`CommitPath`], [`Release`]); L7, new
+//! ids count as not written until their commit has ended ([`FreshIds`]).
+
+mod commit;
+mod commit_path;
+mod fresh_ids;
+mod inner_list;
+mod job_queue;
+mod release;
+mod ring_list;
+mod ring_reader;
+mod star_id;
+
+pub use commit::{Commit, CommitState};
+pub use commit_path::CommitPath;
+pub use fresh_ids::FreshIds;
+pub use inner_list::InnerList;
+pub use job_queue::JobQueue;
+pub use release::Release;
+pub use ring_list::RingList;
+pub use ring_reader::RingReader;
+pub use star_id::StarId;

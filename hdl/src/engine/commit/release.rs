@@ -1,0 +1,228 @@
+//! Releases the locks of finished and of failed insertions, one a clock. After reset it clears the whole lock memory.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset forgets all that is due and starts the sweep |
+//! | `last_id` | in | 15 | the highest record id, a constant |
+//! | `lock_enable`, `lock_owner`, `lock_place`, `lock_id` | in | 1, 5, 7, 15 | a lock joins the log of a context |
+//! | `commit_enable`, `commit_job` | in | 1, ReleaseJob | the last record of a ring is written: its locks are due (L4) |
+//! | `failure_enable`, `failure_job` | in | 1, ReleaseJob | a failed attempt has run out: its locks are due (L1) |
+//! | `sweeps` | out | 1 | the lock memory is being cleared after reset |
+//! | `clear_enable`, `clear_id` | out | 1, 15 | a lock to clear at this edge |
+//! | `released`, `released_owner` | out | 1, 5 | it is the last one of this context |
+//!
+//! 1. Locks of rings go first; among equals, those that came first.
+//! 2. A context has one job at a time, of at least one lock, and its log is not written from the job on until `released`. The
+//!    log is complete when the job comes, or at the same edge.
+//! 3. While anything is due, a lock is cleared in every clock: there is no pause between jobs.
+//! 4. Nothing is due while the memory is swept: no visit is made then.
+//!
+//! Latency: 5 clocks from an idle unit's job to its first `clear_enable`; the sweep takes one clock for each record.
+//!
+//! A sweep of four records; then two failures, of contexts 1 and 0, and a ring of context 3, which overtakes the second one:
+//! ```text
+//! reset           /^^\_______________________________________________
+//! sweeps          ___/^^^^^^^^^^^\___________________________________
+//! lock_enable     _________/^^^^^^^^\__/^^\__________________________
+//! lock_id           .  .  . 27 28 26  . 25  .  .  .  .  .  .  .  .  .
+//! failure_enable  __________________/^^^^^\__________________________
+//! commit_enable   ________________________/^^\_______________________
+//! clear_enable    ______/^^^^^^^^^^^\______________/^^^^^^^^^^^\_____
+//! clear_id          .  .  0  1  2  3  .  .  .  .  . 27 28 26 25  .  .
+//! released        ____________________________________/^^^^^^^^\_____
+//! released_owner    .  .  .  .  .  .  .  .  .  .  .  .  1  3  0  .  .
+//! ```
+
+use super::job_queue::JobQueue;
+use crate::engine::attempt::ContextAddress;
+use crate::engine::types::{context_bits, ring_bits, ReleaseJob, LOG_ADDRESS_BITS, RELEASE_JOB_BITS};
+use crate::leaf::{BlockMemory, Unpack};
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The lock log and its release; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Release {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Starts the sweep.
+    pub reset: Signal<In, Bit>,
+    /// Highest record id.
+    pub last_id: Signal<In, Bits<15>>,
+    /// A lock joins a log.
+    pub lock_enable: Signal<In, Bit>,
+    /// Its context.
+    pub lock_owner: Signal<In, Bits<5>>,
+    /// Its place in the log.
+    pub lock_place: Signal<In, Bits<7>>,
+    /// The record.
+    pub lock_id: Signal<In, Bits<15>>,
+    /// A ring is written.
+    pub commit_enable: Signal<In, Bit>,
+    /// Its locks.
+    pub commit_job: Signal<In, ReleaseJob>,
+    /// A failed attempt has run out.
+    pub failure_enable: Signal<In, Bit>,
+    /// Its locks.
+    pub failure_job: Signal<In, ReleaseJob>,
+    /// The lock memory is being cleared.
+    pub sweeps: Signal<Out, Bit>,
+    /// Clear a lock.
+    pub clear_enable: Signal<Out, Bit>,
+    /// The lock.
+    pub clear_id: Signal<Out, Bits<15>>,
+    /// The last lock of a context.
+    pub released: Signal<Out, Bit>,
+    /// The context.
+    pub released_owner: Signal<Out, Bits<5>>,
+    commits: JobQueue<RELEASE_JOB_BITS>,
+    failures: JobQueue<RELEASE_JOB_BITS>,
+    commit_bits: Signal<Local, Bits<RELEASE_JOB_BITS>>,
+    failure_bits: Signal<Local, Bits<RELEASE_JOB_BITS>>,
+    /// The job that comes next.
+    upcoming: Unpack<ReleaseJob, RELEASE_JOB_BITS>,
+    log: BlockMemory<LOG_ADDRESS_BITS, 15>,
+    write_at: ContextAddress<7, LOG_ADDRESS_BITS>,
+    read_at: ContextAddress<7, LOG_ADDRESS_BITS>,
+    /// The job at work and its next place in the log.
+    works: DFF<Bit>,
+    at_work: DFF<ReleaseJob>,
+    place: DFF<Bits<7>>,
+    /// Its next lock is the last one, or the one before that.
+    one_is_left: DFF<Bit>,
+    two_are_left: DFF<Bit>,
+    left: DFF<Bits<7>>,
+    /// A lock in the log's array, and in its output register.
+    array_valid: DFF<Bit>,
+    array_is_last: DFF<Bit>,
+    array_owner: DFF<Bits<5>>,
+    output_valid: DFF<Bit>,
+    output_is_last: DFF<Bit>,
+    output_owner: DFF<Bits<5>>,
+    /// The lock being cleared; during the sweep it counts.
+    clears: DFF<Bit>,
+    cleared: DFF<Bits<15>>,
+    is_last: DFF<Bit>,
+    owner: DFF<Bits<5>>,
+    sweeping: DFF<Bit>,
+    takes: Signal<Local, Bit>,
+    fetches_last: Signal<Local, Bit>,
+    after_place: Signal<Local, Bits<7>>,
+    after_cleared: Signal<Local, Bits<15>>,
+    first_place: Signal<Local, Bits<7>>,
+    one_place: Signal<Local, Bits<7>>,
+    two_places: Signal<Local, Bits<7>>,
+    three_places: Signal<Local, Bits<7>>,
+    one: Signal<Local, Bits<15>>,
+    before_first: Signal<Local, Bits<15>>,
+    before_last: Signal<Local, Bits<15>>,
+}
+
+impl Release {
+    /// The log of a configuration: an insertion sets at most `2 * ring - 2` locks.
+    pub fn new(config: Config) -> Self {
+        let bits = ring_bits(config) + 1;
+        Self {
+            commits: JobQueue::new(context_bits(config)),
+            failures: JobQueue::new(context_bits(config)),
+            log: BlockMemory::new(context_bits(config) + bits, 15),
+            write_at: ContextAddress::new(bits),
+            read_at: ContextAddress::new(bits),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for Release {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, one_is_left, two_are_left, left);
+        dff_setup!(self, clock, works, at_work, place, array_valid, array_is_last, array_owner);
+        dff_setup!(self, clock, output_valid, output_is_last, output_owner, clears, cleared, is_last, owner, sweeping);
+        clock!(self, clock, commits, failures, log);
+        self.one.next = 1.into();
+        self.one_place.next = 1.into();
+        self.first_place.next = 0.into();
+        self.before_first.next = 0x7fff.into();
+        self.sweeps.next = self.sweeping.q.val();
+        self.clear_enable.next = self.clears.q.val();
+        self.clear_id.next = self.cleared.q.val();
+        self.released.next = self.is_last.q.val();
+        self.released_owner.next = self.owner.q.val();
+
+        // The log.
+        self.write_at.owner.next = self.lock_owner.val();
+        self.write_at.place.next = self.lock_place.val();
+        self.log.write_address.next = self.write_at.address.val();
+        self.log.write_data.next = self.lock_id.val();
+        self.log.write_enable.next = self.lock_enable.val();
+        self.read_at.owner.next = self.at_work.q.val().owner;
+        self.read_at.place.next = self.place.q.val();
+        self.log.read_address.next = self.read_at.address.val();
+
+        // The job at work, and the next one with its last lock.
+        self.after_place.next = self.place.q.val() + self.one_place.val();
+        self.fetches_last.next = self.works.q.val() & self.one_is_left.q.val();
+        self.takes.next = (!self.works.q.val()) | self.fetches_last.val();
+        self.commit_bits.next = self.commit_job.val().into();
+        self.commits.reset.next = self.reset.val();
+        self.commits.enable.next = self.commit_enable.val();
+        self.commits.job.next = self.commit_bits.val();
+        self.commits.takes.next = self.takes.val();
+        self.failure_bits.next = self.failure_job.val().into();
+        self.failures.reset.next = self.reset.val();
+        self.failures.enable.next = self.failure_enable.val();
+        self.failures.job.next = self.failure_bits.val();
+        self.failures.takes.next = self.takes.val() & (!self.commits.waits.val());
+        self.upcoming.bits.next = self.failures.head.val();
+        if self.commits.waits.val() {
+            self.upcoming.bits.next = self.commits.head.val();
+        }
+        // How many are left is counted down, so that the last one is known ahead.
+        self.three_places.next = 3.into();
+        self.two_places.next = 2.into();
+        self.place.d.next = self.after_place.val();
+        self.left.d.next = self.left.q.val() - self.one_place.val();
+        self.one_is_left.d.next = self.two_are_left.q.val();
+        self.two_are_left.d.next = self.left.q.val() == self.three_places.val();
+        if self.takes.val() {
+            self.works.d.next = self.commits.waits.val() | self.failures.waits.val();
+            self.at_work.d.next = self.upcoming.value.val();
+            self.place.d.next = self.first_place.val();
+            self.left.d.next = self.upcoming.value.val().locks;
+            self.one_is_left.d.next = self.upcoming.value.val().locks == self.one_place.val();
+            self.two_are_left.d.next = self.upcoming.value.val().locks == self.two_places.val();
+        }
+
+        // A lock on its way through the log's memory.
+        self.array_valid.d.next = self.works.q.val();
+        self.array_is_last.d.next = self.fetches_last.val();
+        self.array_owner.d.next = self.at_work.q.val().owner;
+        self.output_valid.d.next = self.array_valid.q.val();
+        self.output_is_last.d.next = self.array_is_last.q.val();
+        self.output_owner.d.next = self.array_owner.q.val();
+        self.clears.d.next = self.output_valid.q.val() | self.sweeping.q.val();
+        self.cleared.d.next = self.log.read_data.val();
+        self.is_last.d.next = self.output_is_last.q.val();
+        self.owner.d.next = self.output_owner.q.val();
+
+        self.after_cleared.next = self.cleared.q.val() + self.one.val();
+        self.before_last.next = self.last_id.val() - self.one.val();
+        if self.sweeping.q.val() {
+            self.cleared.d.next = self.after_cleared.val();
+            self.sweeping.d.next = self.cleared.q.val() != self.before_last.val();
+        }
+        if self.reset.val() {
+            self.works.d.next = false;
+            self.array_valid.d.next = false;
+            self.array_is_last.d.next = false;
+            self.output_valid.d.next = false;
+            self.output_is_last.d.next = false;
+            self.clears.d.next = false;
+            self.cleared.d.next = self.before_first.val();
+            self.is_last.d.next = false;
+            self.sweeping.d.next = true;
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The boundary lists of all contexts: entries as they become final, and a ring's entries in their order.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `enable`, `owner`, `place`, `entry` | in | 1, 5, 6, Entry | an entry of a context becomes final |
+//! | `reader`, `reader_bit`, `read_place` | in | 5, 24, 6 | the entry to read; its context as a bit, too |
+//! | `moves` | in | 1 | it is read at this edge, and the one before it comes on the output |
+//! | `after`, `is_last` | out | 6, 1 | the entry after it, at once; there is none |
+//! | `read` | out | Entry | the entry that was read two moves ago; its `after` is 0 |
+//!
+//! 1. An entry is read two clocks after the one in which it becomes final or later, and not written again before it has left the
+//!    output.
+//! 2. `read` comes from afar: it goes into a register before anything is made of it.
+//!
+//! Latency: none from `read_place` to `after`, so that one entry a clock can be followed; two moves to `read`.
+//!
+//! Source: what leads on is in LUTs, the rest in block RAM. What is written stands in a register first, where it is found out which
+//! entry is the last: those who read have no time for that.
+
+use crate::engine::attempt::ContextAddress;
+use crate::engine::types::{context_bits, ring_bits, Entry, ENTRY_BITS, ENTRY_WORD_BITS, RING_ADDRESS_BITS};
+use crate::leaf::{BankedMemory, PacedMemory, Unpack};
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Bits of what leads on from an entry.
+const FOLLOWER_BITS: usize = ENTRY_BITS + 1;
+
+/// The boundary lists; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct RingList {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// An entry becomes final.
+    pub enable: Signal<In, Bit>,
+    /// Its context.
+    pub owner: Signal<In, Bits<5>>,
+    /// Its place.
+    pub place: Signal<In, Bits<6>>,
+    /// It.
+    pub entry: Signal<In, Entry>,
+    /// Context of the entry to read.
+    pub reader: Signal<In, Bits<5>>,
+    /// The same, a bit each.
+    pub reader_bit: Signal<In, Bits<24>>,
+    /// Its place.
+    pub read_place: Signal<In, Bits<6>>,
+    /// It is read at this edge.
+    pub moves: Signal<In, Bit>,
+    /// The entry after it.
+    pub after: Signal<Out, Bits<6>>,
+    /// There is none.
+    pub is_last: Signal<Out, Bit>,
+    /// The entry two moves before it.
+    pub read: Signal<Out, Entry>,
+    written: DFF<Bit>,
+    written_owner: DFF<Bits<5>>,
+    written_place: DFF<Bits<6>>,
+    written_entry: DFF<Entry>,
+    /// Of each entry, lowest bit first: whether it is the last one, and the entry after it.
+    followers: BankedMemory<24, 5, ENTRY_BITS, FOLLOWER_BITS>,
+    /// All of an entry but `after`, which is its last field.
+    edges: PacedMemory<RING_ADDRESS_BITS, ENTRY_WORD_BITS>,
+    write_at: ContextAddress<ENTRY_BITS, RING_ADDRESS_BITS>,
+    read_at: ContextAddress<ENTRY_BITS, RING_ADDRESS_BITS>,
+    entry_bits: Signal<Local, Bits<ENTRY_WORD_BITS>>,
+    first_place: Signal<Local, Bits<6>>,
+    wide_after: Signal<Local, Bits<FOLLOWER_BITS>>,
+    raised_after: Signal<Local, Bits<FOLLOWER_BITS>>,
+    last_bit: Signal<Local, Bits<FOLLOWER_BITS>>,
+    one: Signal<Local, Bits<FOLLOWER_BITS>>,
+    read_entry: Unpack<Entry, ENTRY_WORD_BITS>,
+}
+
+impl RingList {
+    /// The lists of a configuration.
+    pub fn new(config: Config) -> Self {
+        let bits = ring_bits(config);
+        let address_bits = context_bits(config) + bits;
+        Self {
+            followers: BankedMemory::new(config.contexts as usize, bits, bits + 1),
+            edges: PacedMemory::new(address_bits, ENTRY_WORD_BITS - ENTRY_BITS),
+            write_at: ContextAddress::new(bits),
+            read_at: ContextAddress::new(bits),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for RingList {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, written, written_owner, written_place, written_entry);
+        clock!(self, clock, followers, edges);
+        self.first_place.next = 0.into();
+        self.written.d.next = self.enable.val();
+        self.written_owner.d.next = self.owner.val();
+        self.written_place.d.next = self.place.val();
+        self.written_entry.d.next = self.entry.val();
+        self.write_at.owner.next = self.written_owner.q.val();
+        self.write_at.place.next = self.written_place.q.val();
+        self.entry_bits.next = self.written_entry.q.val().into();
+        self.one.next = 1.into();
+        self.wide_after.next = bit_cast::<FOLLOWER_BITS, ENTRY_BITS>(self.written_entry.q.val().after);
+        self.raised_after.next = self.wide_after.val() << self.one.val();
+        self.last_bit.next = 0.into();
+        if self.written_entry.q.val().after == self.first_place.val() {
+            self.last_bit.next = 1.into();
+        }
+        self.followers.write_bank.next = self.written_owner.q.val();
+        self.followers.write_address.next = self.written_place.q.val();
+        self.followers.write_data.next = self.raised_after.val() | self.last_bit.val();
+        self.followers.write_enable.next = self.written.q.val();
+        self.edges.write_address.next = self.write_at.address.val();
+        self.edges.write_data.next = self.entry_bits.val();
+        self.edges.write_enable.next = self.written.q.val();
+
+        self.read_at.owner.next = self.reader.val();
+        self.read_at.place.next = self.read_place.val();
+        self.followers.read_banks.next = self.reader_bit.val();
+        self.followers.read_address.next = self.read_place.val();
+        self.after.next = self.followers.read_data.val().get_bits::<ENTRY_BITS>(1);
+        self.is_last.next = self.followers.read_data.val().get_bit(0);
+        self.edges.read_address.next = self.read_at.address.val();
+        self.edges.read_enable.next = self.moves.val();
+        self.read_entry.bits.next = self.edges.read_data.val();
+        self.read.next = self.read_entry.value.val();
+    }
+}

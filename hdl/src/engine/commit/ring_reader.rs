@@ -1,0 +1,211 @@
+//! Reads finished boundary rings in their order, an entry a clock, one ring after the other.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset forgets all rings |
+//! | `entry_enable`, `entry_owner`, `entry_place`, `entry` | in | 1, 5, 6, Entry | an entry of a context becomes final |
+//! | `job_enable`, `job` | in | 1, CommitJob | a ring is finished |
+//! | `head_valid`, `head` | out | 1, Entry | the next entry; its `after` is 0 |
+//! | `head_is_last` | out | 1 | it ends its ring |
+//! | `head_shares` | out | 1 | the same cavity triangle lies behind the entry before it, or behind the first of its ring |
+//! | `head_job` | out | CommitJob | its ring; with the first entry |
+//! | `takes` | in | 1 | the head is taken at this edge, if there is one |
+//!
+//! 1. A ring starts at entry 0 and follows `after` until that is 0. It has three entries or more.
+//! 2. All its entries are final when `job_enable` comes, or become so at the same edge; none is written again until the last one
+//!    has been taken.
+//! 3. Without `takes` the head is held.
+//! 4. Five stages move together, when the head is free or taken: the pointer, the array of the list memory, its output register,
+//!    a register away from it, and the head. So the entries of a ring follow each other without a gap.
+//! 5. What is decided about an entry is decided on its way to the head; the head is a function of registers.
+//!    Whether an entry is the last one is known when it is in the array: the pointer runs one place too far, and between two rings one
+//!    place on the way is empty. Who takes the head has the end of a ring to see to in that clock.
+//! 6. A context has one ring here at a time.
+//!
+//! Latency: 6 clocks from `job_enable` to `head_valid` if no ring is before it.
+//!
+//! Two rings of three, of contexts 1 and 0, whose entries stand in the order 0, 2, 1 with `a` = 10, 12, 11 and 20, 22, 21; behind
+//! the first two of each lies one triangle:
+//! ```text
+//! entry_enable    ___/^^^^^^^^^^^^^^^^^\_____________________________
+//! entry_place       .  0  1  2  0  1  2  .  .  .  .  .  .  .  .  .  .
+//! job_enable      _________/^^\_____/^^\_____________________________
+//! head_valid      ___________________________/^^^^^^^^^^^\__/^^^^^^^^
+//! head.a            .  .  .  .  .  .  .  .  . 10 12 12 11  . 20 22 21
+//! head_is_last    ____________________________________/^^\________/^^
+//! head_shares     ______________________________/^^^^^\________/^^\__
+//! head_job.owner    .  .  .  .  .  .  .  .  .  1  .  .  .  .  0  .  .
+//! takes           ___________________________/^^\__/^^^^^\__/^^^^^^^^
+//! ```
+
+use super::job_queue::JobQueue;
+use super::ring_list::RingList;
+use crate::engine::types::{context_bits, CommitJob, Entry, COMMIT_JOB_BITS};
+use crate::leaf::Unpack;
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The reader of rings; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct RingReader {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Forgets all rings.
+    pub reset: Signal<In, Bit>,
+    /// An entry becomes final.
+    pub entry_enable: Signal<In, Bit>,
+    /// Its context.
+    pub entry_owner: Signal<In, Bits<5>>,
+    /// Its place.
+    pub entry_place: Signal<In, Bits<6>>,
+    /// It.
+    pub entry: Signal<In, Entry>,
+    /// A ring is finished.
+    pub job_enable: Signal<In, Bit>,
+    /// The ring.
+    pub job: Signal<In, CommitJob>,
+    /// The head is taken.
+    pub takes: Signal<In, Bit>,
+    /// There is an entry.
+    pub head_valid: Signal<Out, Bit>,
+    /// The entry.
+    pub head: Signal<Out, Entry>,
+    /// It ends its ring.
+    pub head_is_last: Signal<Out, Bit>,
+    /// The triangle behind it lies behind the entry before it too, or behind the first one.
+    pub head_shares: Signal<Out, Bit>,
+    /// Its ring.
+    pub head_job: Signal<Out, CommitJob>,
+    rings: JobQueue<COMMIT_JOB_BITS>,
+    oldest: Unpack<CommitJob, COMMIT_JOB_BITS>,
+    job_bits: Signal<Local, Bits<COMMIT_JOB_BITS>>,
+    list: RingList,
+    /// The ring that the pointer is in.
+    ring: DFF<CommitJob>,
+    /// Its context, a bit each.
+    ring_bit: DFF<Bits<24>>,
+    pointer_valid: DFF<Bit>,
+    pointer_is_first: DFF<Bit>,
+    pointer: DFF<Bits<6>>,
+    array_valid: DFF<Bit>,
+    array_is_first: DFF<Bit>,
+    array_is_last: DFF<Bit>,
+    output_valid: DFF<Bit>,
+    output_is_first: DFF<Bit>,
+    output_is_last: DFF<Bit>,
+    /// The ring of the output register's entry: the pointer is in it still when its first entry comes there. That one is on the
+    /// head before another ring's can follow, two entries behind.
+    output_ring: DFF<CommitJob>,
+    arrival_valid: DFF<Bit>,
+    arrival_is_first: DFF<Bit>,
+    arrival_is_last: DFF<Bit>,
+    arrival: DFF<Entry>,
+    entry_valid: DFF<Bit>,
+    entry_is_last: DFF<Bit>,
+    entry_shares: DFF<Bit>,
+    /// The head; the next one is compared with it.
+    last_entry: DFF<Entry>,
+    /// The triangle behind the first entry of its ring.
+    first_f: DFF<Bits<15>>,
+    moves: Signal<Local, Bit>,
+    ring_is_through: Signal<Local, Bit>,
+    /// The pointer is at an entry, not past the last one.
+    pointer_counts: Signal<Local, Bit>,
+    shares_with_last: Signal<Local, Bit>,
+    shares_with_first: Signal<Local, Bit>,
+    first_place: Signal<Local, Bits<6>>,
+    first_bit: Signal<Local, Bits<24>>,
+    wide_owner: Signal<Local, Bits<24>>,
+    oldest_bit: Signal<Local, Bits<24>>,
+}
+
+impl RingReader {
+    /// The reader of a configuration.
+    pub fn new(config: Config) -> Self {
+        Self { rings: JobQueue::new(context_bits(config)), list: RingList::new(config), ..Self::default() }
+    }
+}
+
+impl Logic for RingReader {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, ring, ring_bit, pointer_valid, pointer_is_first, pointer, array_valid, array_is_first);
+        dff_setup!(self, clock, array_is_last, output_valid, output_is_first, output_is_last, output_ring);
+        dff_setup!(self, clock, arrival_valid, arrival_is_first, arrival_is_last, arrival);
+        dff_setup!(self, clock, entry_valid, entry_is_last, entry_shares, last_entry, first_f);
+        clock!(self, clock, rings, list);
+        self.first_place.next = 0.into();
+        self.head_valid.next = self.entry_valid.q.val();
+        self.head.next = self.last_entry.q.val();
+        self.head_is_last.next = self.entry_is_last.q.val();
+        self.head_shares.next = self.entry_shares.q.val();
+        self.head_job.next = self.output_ring.q.val();
+        self.moves.next = (!self.entry_valid.q.val()) | self.takes.val();
+
+        // The list.
+        self.list.enable.next = self.entry_enable.val();
+        self.list.owner.next = self.entry_owner.val();
+        self.list.place.next = self.entry_place.val();
+        self.list.entry.next = self.entry.val();
+        self.list.reader.next = self.ring.q.val().owner;
+        self.list.reader_bit.next = self.ring_bit.q.val();
+        self.list.read_place.next = self.pointer.q.val();
+        self.list.moves.next = self.moves.val();
+
+        // The pointer follows its ring, whose last entry leads to place 0 again, and there begins the next ring.
+        self.ring_is_through.next = (!self.pointer_valid.q.val()) | self.array_is_last.q.val();
+        self.pointer_counts.next = self.pointer_valid.q.val() & (!self.array_is_last.q.val());
+        self.job_bits.next = self.job.val().into();
+        self.rings.reset.next = self.reset.val();
+        self.rings.enable.next = self.job_enable.val();
+        self.rings.job.next = self.job_bits.val();
+        self.rings.takes.next = self.moves.val() & self.ring_is_through.val();
+        self.oldest.bits.next = self.rings.head.val();
+        self.first_bit.next = 1.into();
+        self.wide_owner.next = bit_cast::<24, 5>(self.oldest.value.val().owner);
+        self.oldest_bit.next = self.first_bit.val() << self.wide_owner.val();
+        self.shares_with_last.next = self.arrival.q.val().f == self.last_entry.q.val().f;
+        self.shares_with_first.next = self.arrival.q.val().f == self.first_f.q.val();
+        if self.moves.val() {
+            self.pointer_is_first.d.next = self.ring_is_through.val();
+            if self.ring_is_through.val() {
+                self.pointer_valid.d.next = self.rings.waits.val();
+                self.ring.d.next = self.oldest.value.val();
+                self.ring_bit.d.next = self.oldest_bit.val();
+            }
+            self.pointer.d.next = self.first_place.val();
+            if self.pointer_counts.val() {
+                self.pointer.d.next = self.list.after.val();
+            }
+            self.array_valid.d.next = self.pointer_counts.val();
+            self.array_is_first.d.next = self.pointer_is_first.q.val();
+            self.array_is_last.d.next = self.list.is_last.val() & self.pointer_counts.val();
+            self.output_valid.d.next = self.array_valid.q.val();
+            self.output_is_first.d.next = self.array_is_first.q.val();
+            self.output_is_last.d.next = self.array_is_last.q.val();
+            if self.array_is_first.q.val() {
+                self.output_ring.d.next = self.ring.q.val();
+            }
+            self.arrival_valid.d.next = self.output_valid.q.val();
+            self.arrival_is_first.d.next = self.output_is_first.q.val();
+            self.arrival_is_last.d.next = self.output_is_last.q.val();
+            self.arrival.d.next = self.list.read.val();
+            self.entry_valid.d.next = self.arrival_valid.q.val();
+            self.entry_is_last.d.next = self.arrival_is_last.q.val();
+            self.entry_shares.d.next =
+                (!self.arrival_is_first.q.val()) & (self.shares_with_last.val() | self.shares_with_first.val());
+            self.last_entry.d.next = self.arrival.q.val();
+            if self.arrival_is_first.q.val() {
+                self.first_f.d.next = self.arrival.q.val().f;
+            }
+        }
+        if self.reset.val() {
+            self.pointer_valid.d.next = false;
+            self.array_valid.d.next = false;
+            self.output_valid.d.next = false;
+            self.arrival_valid.d.next = false;
+            self.entry_valid.d.next = false;
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The histogram of latencies: how many insertions took how long.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset`, `clears` | in | 1 | reset and clear start a sweep |
+//! | `comes`, `latency` | in | 1, 22 | an insertion took that long; not while it sweeps |
+//! | `sweeps` | out | 1 | the buckets are being cleared, one a clock |
+//! | `select` | in | 7 | bucket to read; see `latency_bucket` of the protocol |
+//! | `value` | out | 32 | insertions in it, a clock later, while none comes |
+//!
+//! 1. The memory has one read port: it serves what comes first, then `select`. Nobody reads while points are inserted.
+//! 2. Latencies come at least three clocks apart.
+//!
+//! Latency: a latency is counted at the fifth edge: its bucket is found in three clocks, read, and written; a sweep takes 128 clocks.
+//!
+//! The end of a sweep, and two insertions of 22 clocks:
+//! ```text
+//! sweeps          /^^^^^^^^\______________________________________
+//! comes           ____________/^^\_____/^^\_______________________
+//! latency           .  .  .  . 22  .  . 22  .  .  .  .  .  .  .  .
+//! value             .  .  .  .  0  0  0  0  .  0  1  .  1  2  2  2
+//! ```
+
+use super::latency_bucket::LatencyBucket;
+use crate::leaf::LutMemory;
+use incircle_protocol::LATENCY_BUCKETS;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Bits of a bucket's count: each of up to 16384 points is counted once.
+const COUNT_BITS: usize = 15;
+
+const _: () = assert!(LATENCY_BUCKETS == 128, "the address of this block's memory has seven bits");
+
+/// The histogram; see the top of this file.
+#[derive(LogicBlock)]
+pub struct Latencies {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Starts a sweep.
+    pub reset: Signal<In, Bit>,
+    /// Starts a sweep.
+    pub clears: Signal<In, Bit>,
+    /// An insertion is finished.
+    pub comes: Signal<In, Bit>,
+    /// How long it took.
+    pub latency: Signal<In, Bits<22>>,
+    /// The buckets are being cleared.
+    pub sweeps: Signal<Out, Bit>,
+    /// Bucket to read.
+    pub select: Signal<In, Bits<7>>,
+    /// Insertions in it.
+    pub value: Signal<Out, Bits<32>>,
+    is_sweeping: DFF<Bit>,
+    sweep_bucket: DFF<Bits<7>>,
+    shifts: DFF<Bit>,
+    seeks: DFF<Bit>,
+    finds: DFF<Bit>,
+    counts: DFF<Bit>,
+    counted_bucket: DFF<Bits<7>>,
+    found: DFF<Bits<15>>,
+    bucket: LatencyBucket,
+    memory: LutMemory<7, 15>,
+    last_bucket: Signal<Local, Bits<7>>,
+    one_bucket: Signal<Local, Bits<7>>,
+    one: Signal<Local, Bits<15>>,
+}
+
+impl Default for Latencies {
+    fn default() -> Self {
+        Self {
+            clock: Signal::default(),
+            reset: Signal::default(),
+            clears: Signal::default(),
+            comes: Signal::default(),
+            latency: Signal::default(),
+            sweeps: Signal::default(),
+            select: Signal::default(),
+            value: Signal::default(),
+            is_sweeping: DFF::default(),
+            sweep_bucket: DFF::default(),
+            shifts: DFF::default(),
+            seeks: DFF::default(),
+            finds: DFF::default(),
+            counts: DFF::default(),
+            counted_bucket: DFF::default(),
+            found: DFF::default(),
+            bucket: LatencyBucket::default(),
+            memory: LutMemory::new(7, COUNT_BITS),
+            last_bucket: Signal::default(),
+            one_bucket: Signal::default(),
+            one: Signal::default(),
+        }
+    }
+}
+
+impl Logic for Latencies {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, is_sweeping, sweep_bucket, shifts, seeks, finds, counts, counted_bucket, found);
+        clock!(self, clock, bucket, memory);
+        self.last_bucket.next = 127.into();
+        self.one_bucket.next = 1.into();
+        self.one.next = 1.into();
+        self.sweeps.next = self.is_sweeping.q.val();
+
+        // A latency finds its bucket in three clocks, reads its count in the next, and writes it in the fifth.
+        self.bucket.latency.next = self.latency.val();
+        self.shifts.d.next = self.comes.val();
+        self.seeks.d.next = self.shifts.q.val();
+        self.finds.d.next = self.seeks.q.val();
+        if self.seeks.q.val() {
+            self.counted_bucket.d.next = self.bucket.bucket.val();
+        }
+        self.counts.d.next = self.finds.q.val();
+        self.memory.read_address.next = self.select.val();
+        if self.finds.q.val() {
+            self.memory.read_address.next = self.counted_bucket.q.val();
+        }
+        self.found.d.next = self.memory.read_data.val();
+        self.value.next = bit_cast::<32, 15>(self.found.q.val());
+        self.memory.write_address.next = self.counted_bucket.q.val();
+        self.memory.write_data.next = self.found.q.val() + self.one.val();
+        self.memory.write_enable.next = self.counts.q.val();
+
+        if self.is_sweeping.q.val() {
+            self.memory.write_address.next = self.sweep_bucket.q.val();
+            self.memory.write_data.next = 0.into();
+            self.memory.write_enable.next = true;
+            self.sweep_bucket.d.next = self.sweep_bucket.q.val() + self.one_bucket.val();
+            if self.sweep_bucket.q.val() == self.last_bucket.val() {
+                self.is_sweeping.d.next = false;
+            }
+        }
+        if self.reset.val() | self.clears.val() {
+            self.is_sweeping.d.next = true;
+            self.sweep_bucket.d.next = 0.into();
+            self.shifts.d.next = false;
+            self.seeks.d.next = false;
+            self.finds.d.next = false;
+            self.counts.d.next = false;
+        }
+    }
+}

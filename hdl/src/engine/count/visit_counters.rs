@@ -1,0 +1,152 @@
+//! Counts of what visits have come to.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `zero` | in | 1 | `zero` forgets the clocks before |
+//! | `walk_visit`, `root_visit`, `test` | in | 1 | a visit of that kind completes |
+//! | `revisit` | in | 1 | it is made once more |
+//! | `gives_up`, `retries` | in | 1 | an attempt ends at a foreign lock; a located triangle no longer holds the point |
+//! | `takes_token` | in | 1 | the waiting token is taken |
+//! | `overflows`, `flip` | in | 1 | a boundary list has overflowed; a flip of an insertion alone is finished |
+//! | `cavity_ends`, `cavity_triangles` | in | 1, 7 | a cavity is complete, and consists of so many triangles |
+//! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
+//! | `value` | out | 32 | that word, if it is one of these, a clock later |
+//!
+//! Latency: 2 clocks; `value` follows `select` by 1.
+
+use super::event_counter::EventCounter;
+use incircle_protocol::Counter;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Counts of visits; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct VisitCounters {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Clears all.
+    pub zero: Signal<In, Bit>,
+    /// A walk visits a triangle.
+    pub walk_visit: Signal<In, Bit>,
+    /// A cavity test is finished, or a test of an insertion alone.
+    pub test: Signal<In, Bit>,
+    /// A list has overflowed.
+    pub overflows: Signal<In, Bit>,
+    /// A flip is finished.
+    pub flip: Signal<In, Bit>,
+    /// A located triangle is visited for its lock.
+    pub root_visit: Signal<In, Bit>,
+    /// A visit is made once more.
+    pub revisit: Signal<In, Bit>,
+    /// An attempt is given up at a foreign lock.
+    pub gives_up: Signal<In, Bit>,
+    /// A triangle no longer holds the point when it is locked.
+    pub retries: Signal<In, Bit>,
+    /// A context takes the waiting token.
+    pub takes_token: Signal<In, Bit>,
+    /// A cavity is complete.
+    pub cavity_ends: Signal<In, Bit>,
+    /// Its triangles.
+    pub cavity_triangles: Signal<In, Bits<7>>,
+    /// Word to read.
+    pub select: Signal<In, Bits<5>>,
+    /// It.
+    pub value: Signal<Out, Bits<32>>,
+    chosen: DFF<Bits<32>>,
+    last_triangles: DFF<Bits<7>>,
+    triangles: DFF<Bits<32>>,
+    walk_visits: EventCounter,
+    tests: EventCounter,
+    overflowed: EventCounter,
+    flips: EventCounter,
+    root_visits: EventCounter,
+    revisits: EventCounter,
+    aborts: EventCounter,
+    root_retries: EventCounter,
+    waiting_tokens: EventCounter,
+    wide_triangles: Signal<Local, Bits<32>>,
+}
+
+// `select` counts in the order of `Counter`; a change there must come here.
+const _: () = assert!(
+    Counter::WalkVisits as usize == 9
+        && Counter::Tests as usize == 10
+        && Counter::CavityTriangles as usize == 11
+        && Counter::Overflows as usize == 12
+        && Counter::Flips as usize == 13
+        && Counter::RootVisits as usize == 14
+        && Counter::Revisits as usize == 15
+        && Counter::Aborts as usize == 16
+        && Counter::RootRetries as usize == 17
+        && Counter::WaitingTokens as usize == 18,
+    "the words of this block follow the protocol"
+);
+
+impl Logic for VisitCounters {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, chosen, last_triangles, triangles);
+        clock!(self, clock, walk_visits, tests, overflowed, flips, root_visits);
+        clock!(self, clock, revisits, aborts, root_retries, waiting_tokens);
+        self.walk_visits.zero.next = self.zero.val();
+        self.tests.zero.next = self.zero.val();
+        self.overflowed.zero.next = self.zero.val();
+        self.flips.zero.next = self.zero.val();
+        self.root_visits.zero.next = self.zero.val();
+        self.revisits.zero.next = self.zero.val();
+        self.aborts.zero.next = self.zero.val();
+        self.root_retries.zero.next = self.zero.val();
+        self.waiting_tokens.zero.next = self.zero.val();
+        self.walk_visits.count.next = self.walk_visit.val();
+        self.tests.count.next = self.test.val();
+        self.overflowed.count.next = self.overflows.val();
+        self.flips.count.next = self.flip.val();
+        self.root_visits.count.next = self.root_visit.val();
+        self.revisits.count.next = self.revisit.val();
+        self.aborts.count.next = self.gives_up.val();
+        self.root_retries.count.next = self.retries.val();
+        self.waiting_tokens.count.next = self.takes_token.val();
+        self.last_triangles.d.next = 0.into();
+        if self.cavity_ends.val() {
+            self.last_triangles.d.next = self.cavity_triangles.val();
+        }
+        self.wide_triangles.next = bit_cast::<32, 7>(self.last_triangles.q.val());
+        self.triangles.d.next = self.triangles.q.val() + self.wide_triangles.val();
+        if self.zero.val() {
+            self.triangles.d.next = 0.into();
+        }
+        self.value.next = self.chosen.q.val();
+        match self.select.val().index() {
+            9 => {
+                self.chosen.d.next = self.walk_visits.value.val();
+            }
+            10 => {
+                self.chosen.d.next = self.tests.value.val();
+            }
+            11 => {
+                self.chosen.d.next = self.triangles.q.val();
+            }
+            12 => {
+                self.chosen.d.next = self.overflowed.value.val();
+            }
+            13 => {
+                self.chosen.d.next = self.flips.value.val();
+            }
+            14 => {
+                self.chosen.d.next = self.root_visits.value.val();
+            }
+            15 => {
+                self.chosen.d.next = self.revisits.value.val();
+            }
+            16 => {
+                self.chosen.d.next = self.aborts.value.val();
+            }
+            17 => {
+                self.chosen.d.next = self.root_retries.value.val();
+            }
+            _ => {
+                self.chosen.d.next = self.waiting_tokens.value.val();
+            }
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! The vertex that a context takes next, and the one after a vertex that is taken.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `deal` | in | Deal | contexts that work, and whether each has a mesh of its own |
+//! | `turn`, `third` | in | 5, 7 | the context, and `3 turn + 2` |
+//! | `first` | out | Plan | the vertex it takes first |
+//! | `first_dealt` | out | 7 | the one that it takes after that, in a batch |
+//! | `taker`, `taken` | in | 5, 15 | another context, and a vertex that it takes |
+//! | `took_seed`, `taken_dealt` | in | 1, 7 | that is the third of its first triangle, in a batch; what then stood on `first_dealt` |
+//! | `taken_is_dealt` | out | 1 | that vertex is behind the first round |
+//! | `after_taken` | out | 15 | the vertex that it takes after that |
+//! | `first_record` | out | 15 | the first record of that context's mesh |
+//!
+//! 1. Context 0 takes vertex 2, whose arrival completes the first triangle, and then those below 16 one by one (L8).
+//! 2. From there on points are dealt: vertex `j` belongs to context `(j - 16) mod contexts`.
+//! 3. In a batch context `c` takes vertex `3c + 2`, the third of its own first triangle, whose first record is `4c`. From
+//!    `dealt_from = 3 contexts` on vertex `j` belongs to context `(j - dealt_from) mod contexts`. That a vertex is such a third is known when
+//!    it is chosen, a clock ahead of what follows it: a comparison with `dealt_from` before the sum would set the clock of the core.
+//!
+//! Latency: none (combinational).
+
+use crate::engine::types::{Deal, Plan};
+use incircle_protocol::FIRST_ROUND;
+use rust_hdl_core::prelude::*;
+
+/// The next vertex of a context; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct NextPoint {
+    /// How points are dealt.
+    pub deal: Signal<In, Deal>,
+    /// The context.
+    pub turn: Signal<In, Bits<5>>,
+    /// The third vertex of its own first triangle, in a batch.
+    pub third: Signal<In, Bits<7>>,
+    /// The vertex it takes first.
+    pub first: Signal<Out, Plan>,
+    /// The one after such a third.
+    pub first_dealt: Signal<Out, Bits<7>>,
+    /// Another context.
+    pub taker: Signal<In, Bits<5>>,
+    /// A vertex that it takes.
+    pub taken: Signal<In, Bits<15>>,
+    /// That is the third of its first triangle.
+    pub took_seed: Signal<In, Bit>,
+    /// The one after such a third.
+    pub taken_dealt: Signal<In, Bits<7>>,
+    /// That vertex is behind the first round.
+    pub taken_is_dealt: Signal<Out, Bit>,
+    /// The one after it.
+    pub after_taken: Signal<Out, Bits<15>>,
+    /// The first record of its mesh.
+    pub first_record: Signal<Out, Bits<15>>,
+    is_batch: Signal<Local, Bit>,
+    is_early: Signal<Local, Bit>,
+    is_dealt: Signal<Local, Bit>,
+    rounds: Signal<Local, Bits<11>>,
+    from: Signal<Local, Bits<15>>,
+    step: Signal<Local, Bits<15>>,
+    wide_turn: Signal<Local, Bits<15>>,
+    wide_taker: Signal<Local, Bits<15>>,
+    narrow_turn: Signal<Local, Bits<7>>,
+    dealt_from: Signal<Local, Bits<7>>,
+    first_round: Signal<Local, Bits<15>>,
+    first_context: Signal<Local, Bits<5>>,
+    one: Signal<Local, Bits<15>>,
+    two: Signal<Local, Bits<15>>,
+}
+
+// The kernel writes it as a literal, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+const _: () = assert!(FIRST_ROUND == 16, "the first round of this block follows the protocol");
+
+impl Logic for NextPoint {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.first_round.next = 16.into();
+        self.first_context.next = 0.into();
+        self.one.next = 1.into();
+        self.two.next = 2.into();
+        self.is_batch.next = self.deal.val().is_batch;
+        self.wide_turn.next = bit_cast::<15, 5>(self.turn.val());
+        self.wide_taker.next = bit_cast::<15, 5>(self.taker.val());
+        self.narrow_turn.next = bit_cast::<7, 5>(self.turn.val());
+        self.dealt_from.next = self.deal.val().dealt_from;
+        self.first_dealt.next = self.dealt_from.val() + self.narrow_turn.val();
+        // Not compared with 16: that would be a carry chain in front of the sum.
+        self.rounds.next = self.taken.val().get_bits::<11>(4);
+        self.is_dealt.next = self.rounds.val().any();
+        self.taken_is_dealt.next = self.is_dealt.val();
+        // L8: below the first round the next vertex is context 0's again.
+        self.is_early.next = (!self.is_dealt.val()) & (!self.is_batch.val());
+        self.from.next = self.taken.val();
+        self.step.next = bit_cast::<15, 5>(self.deal.val().contexts);
+        if self.is_early.val() {
+            self.step.next = self.one.val();
+        }
+        if self.took_seed.val() {
+            self.from.next = bit_cast::<15, 7>(self.taken_dealt.val());
+            self.step.next = 0.into();
+        }
+        self.after_taken.next = self.from.val() + self.step.val();
+        self.first_record.next = 0.into();
+        if self.is_batch.val() {
+            self.first_record.next = self.wide_taker.val() << self.two.val();
+        }
+        self.first.next.id = self.wide_turn.val() + self.first_round.val();
+        // That of context 0 is 2 either way.
+        if self.is_batch.val() | (self.turn.val() == self.first_context.val()) {
+            self.first.next.id = bit_cast::<15, 7>(self.third.val());
+        }
+        self.first.next.is_seed = self.is_batch.val();
+    }
+}

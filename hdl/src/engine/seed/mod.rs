@@ -1,0 +1,17 @@
+//! The first triangle of a mesh, and its three ghosts.
+//!
+//! ```text
+//! points that have come -> Seeder <- verdict on the first three points
+//!                             |
+//!                             +-> SeedWrites -> WritePort: four records
+//! ```
+//! Every later insertion walks through a mesh that exists, so the first one is special. In a batch the seeder makes the first triangle
+//! of each job in turn.
+//!
+//! Lock rules: none. No other context works before the first triangle stands.
+
+mod seed_writes;
+mod seeder;
+
+pub use seed_writes::SeedWrites;
+pub use seeder::Seeder;

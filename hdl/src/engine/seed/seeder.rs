@@ -1,0 +1,166 @@
+//! Makes the first triangle and its ghosts out of the first three points, in a batch one after the other for each job.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset`, `clears` | in | 1 | reset and clear forget the first triangles |
+//! | `infinite` | in | 15 | the infinite vertex, a constant |
+//! | `deal` | in | Deal | whether there is a batch, and of how many jobs |
+//! | `came`, `came_id`, `arrived` | in | 1, 15, 15 | a point is stored at this edge; points that have come |
+//! | `looks`, `verdict` | in | 1, Verdict | the visit that completes is the look at three points, for the third of them |
+//! | `seeded` | out | 1 | every first triangle stands |
+//! | `start_is_open` | out | 1 | three points for the first triangle that is due have come, and it does not stand yet |
+//! | `collinear` | out | 1 | such three are collinear, and no more triangles will be made |
+//! | `has_no_start` | out | 1 | no first triangle is being made, and none can be from the points that have come |
+//! | `seeds` | out | 1 | the last record of one is written at this edge |
+//! | `write` | out | Write | a record, registered |
+//!
+//! 1. When the first of three points comes, a record with their vertices is written for the look, which says on which side of the first
+//!    two the third lies; collinear points write nothing more.
+//! 2. Job `c` of a batch has the vertices `3c` to `3c + 2` and the records `4c` to `4c + 3`. No point of the next job comes before its
+//!    first triangle stands, because `start_is_open` holds it back.
+//!
+//! Latency: 4 clocks from the look to `seeds`; 1 from `arrived` to `start_is_open` and `has_no_start`.
+//!
+//! Of a batch of two jobs, the three points of job 0, which turn left, and the first of job 1:
+//! ```text
+//! came            /^^\__/^^\__/^^\_______________________/^^\_____
+//! looks           _____________________/^^\_______________________
+//! start_is_open   _______________/^^^^^^^^^^^^^^^^^^^^^^^\________
+//! has_no_start    /^^^^^^^^^^^^^^\_______________________/^^^^^^^^
+//! write.valid     ___/^^\____________________/^^^^^^^^^^^\__/^^\__
+//! write.id          .  0  .  .  .  .  .  .  .  0  1  2  3  .  4  .
+//! seeds           _________________________________/^^\___________
+//! seeded          ________________________________________________
+//! ```
+
+use super::seed_writes::SeedWrites;
+use crate::engine::types::{Deal, Verdict, Write};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The first triangles; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Seeder {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Forgets the first triangles.
+    pub reset: Signal<In, Bit>,
+    /// Forgets the first triangles.
+    pub clears: Signal<In, Bit>,
+    /// The infinite vertex.
+    pub infinite: Signal<In, Bits<15>>,
+    /// Whether there is a batch.
+    pub deal: Signal<In, Deal>,
+    /// A point is stored.
+    pub came: Signal<In, Bit>,
+    /// Its vertex id.
+    pub came_id: Signal<In, Bits<15>>,
+    /// Points that have come.
+    pub arrived: Signal<In, Bits<15>>,
+    /// The look completes.
+    pub looks: Signal<In, Bit>,
+    /// What it found out.
+    pub verdict: Signal<In, Verdict>,
+    /// Every first triangle stands.
+    pub seeded: Signal<Out, Bit>,
+    /// Three points are being looked at.
+    pub start_is_open: Signal<Out, Bit>,
+    /// Three points are collinear.
+    pub collinear: Signal<Out, Bit>,
+    /// There is no triangle and none is due.
+    pub has_no_start: Signal<Out, Bit>,
+    /// The last record is written.
+    pub seeds: Signal<Out, Bit>,
+    /// A record.
+    pub write: Signal<Out, Write>,
+    step: DFF<Bits<3>>,
+    is_seeded: DFF<Bit>,
+    is_collinear: DFF<Bit>,
+    turns_left: DFF<Bit>,
+    request: DFF<Write>,
+    /// The job whose first triangle is due: its first vertex and record, the points that have come with its third, and the number of the
+    /// job after it.
+    vertex: DFF<Bits<15>>,
+    record: DFF<Bits<15>>,
+    triple: DFF<Bits<15>>,
+    following: DFF<Bits<5>>,
+    has_triple: DFF<Bit>,
+    writes: SeedWrites,
+    prepares: Signal<Local, Bit>,
+    is_writing: Signal<Local, Bit>,
+    is_last: Signal<Local, Bit>,
+    is_last_job: Signal<Local, Bit>,
+    look_step: Signal<Local, Bits<3>>,
+    last_step: Signal<Local, Bits<3>>,
+    one: Signal<Local, Bits<3>>,
+    one_job: Signal<Local, Bits<5>>,
+    three_vertices: Signal<Local, Bits<15>>,
+    four_records: Signal<Local, Bits<15>>,
+}
+
+impl Logic for Seeder {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, step, is_seeded, is_collinear, turns_left, request);
+        dff_setup!(self, clock, vertex, record, triple, following, has_triple);
+        self.look_step.next = 0.into();
+        self.last_step.next = 4.into();
+        self.one.next = 1.into();
+        self.one_job.next = 1.into();
+        self.three_vertices.next = 3.into();
+        self.four_records.next = 4.into();
+        self.is_writing.next = self.step.q.val() != self.look_step.val();
+        self.is_last.next = self.step.q.val() == self.last_step.val();
+        self.seeded.next = self.is_seeded.q.val();
+        self.collinear.next = self.is_collinear.q.val();
+        self.seeds.next = self.is_last.val();
+        self.start_is_open.next = self.has_triple.q.val() & (!self.is_seeded.q.val()) & (!self.is_collinear.q.val());
+        self.has_no_start.next = ((!self.has_triple.q.val()) | self.is_collinear.q.val()) & (!self.is_writing.val());
+
+        self.prepares.next = self.came.val() & (self.came_id.val() == self.vertex.q.val());
+        self.writes.step.next = self.step.q.val();
+        self.writes.first_vertex.next = self.vertex.q.val();
+        self.writes.first_record.next = self.record.q.val();
+        self.writes.turns_left.next = self.turns_left.q.val();
+        self.writes.infinite.next = self.infinite.val();
+        self.request.d.next = self.writes.write.val();
+        self.request.d.next.valid = self.is_writing.val() | self.prepares.val();
+        self.write.next = self.request.q.val();
+
+        self.has_triple.d.next = self.arrived.val() >= self.triple.q.val();
+        self.is_last_job.next = (!self.deal.val().is_batch) | (self.following.q.val() == self.deal.val().contexts);
+        if self.is_writing.val() {
+            self.step.d.next = self.step.q.val() + self.one.val();
+        }
+        if self.is_last.val() {
+            self.step.d.next = 0.into();
+            self.is_seeded.d.next = self.is_last_job.val();
+            if !self.is_last_job.val() {
+                self.vertex.d.next = self.vertex.q.val() + self.three_vertices.val();
+                self.record.d.next = self.record.q.val() + self.four_records.val();
+                self.triple.d.next = self.triple.q.val() + self.three_vertices.val();
+                self.following.d.next = self.following.q.val() + self.one_job.val();
+            }
+        }
+        if self.looks.val() {
+            self.turns_left.d.next = self.verdict.val().is_left;
+            self.is_collinear.d.next = self.verdict.val().is_straight;
+            if !self.verdict.val().is_straight {
+                self.step.d.next = 1.into();
+            }
+        }
+        if self.clears.val() | self.reset.val() {
+            self.is_seeded.d.next = false;
+            self.is_collinear.d.next = false;
+            self.has_triple.d.next = false;
+            self.vertex.d.next = 0.into();
+            self.record.d.next = 0.into();
+            self.triple.d.next = 3.into();
+            self.following.d.next = 1.into();
+        }
+        if self.reset.val() {
+            self.step.d.next = 0.into();
+            self.request.d.next.valid = false;
+        }
+    }
+}

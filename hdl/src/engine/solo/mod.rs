@@ -1,0 +1,23 @@
+//! The insertion alone: a point whose boundary is longer than a list, inserted by flips while everybody else sleeps.
+//!
+//! ```text
+//! Dispatcher -> Solo -> visit -> PushPort           Solo: locates the point, then turns round it, test by test
+//!                |
+//!                +-> SoloStar -> SoloWrites -> WritePort     the first triangle is split, then edges are flipped
+//!                       |
+//!                       +-> SoloVisit: the visit that follows
+//! ```
+//! The state is constant however large the star becomes, so no list can overflow. It is slow and rare.
+//!
+//! Lock rules: none. No other visit is out and no lock is held while an insertion is alone; [`ContextFlags`](super::ContextFlags) and
+//! [`Starter`](super::Starter) see to that.
+
+mod solo;
+mod solo_star;
+mod solo_visit;
+mod solo_writes;
+
+pub use solo::{Solo, SoloState};
+pub use solo_star::SoloStar;
+pub use solo_visit::SoloVisit;
+pub use solo_writes::SoloWrites;

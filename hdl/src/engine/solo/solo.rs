@@ -1,0 +1,260 @@
+//! Insertion alone, in constant state: locates the point, splits the triangle into three, then flips once round the star.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset ends the insertion |
+//! | `starts` | in | 1 | begin at this edge: no visit is out and no lock held; only while idle |
+//! | `owner`, `p`, `start` | in | 5, 15, 15 | taken at `starts`: the context, the new vertex, where the walk begins |
+//! | `records` | in | 15 | the next new id |
+//! | `done`, `token`, `turned`, `verdict` | in | | the visit that completes |
+//! | `push`, `bundle` | out | 1, Bundle | a visit to make; it bears the owner |
+//! | `write` | out | Write | a record or a link, registered |
+//! | `tests`, `flips` | out | 1 | a test or a flip was finished at the last edge |
+//! | `ends`, `inserts` | out | 1 | the insertion was over at the last edge; it has inserted its point, which is no duplicate |
+//! | `is_at_work` | out | 1 | every visit that completes is its own, from the clock after `starts` has been taken to `ends` |
+//!
+//! 1. The mesh has changed since the attempt that overflowed, so the point is located again, from the triangle that held it then.
+//! 2. Its visits set no locks, and at most one is out.
+//! 3. While the triangle outside the star triangle at work is in conflict, the edge is flipped and the same position is tested again;
+//!    otherwise the link that leads back is mended and the next star triangle is taken. It ends where the round began.
+//! 4. All outputs come a clock later than they could: other blocks have their clock for themselves, and speed is no matter here.
+//!
+//! ```text
+//!        apex                  apex
+//!        /  \                  /| \            star triangle  (p, a, apex)
+//!      a ---- b     ----->    a |  b           flipped        (p, apex, b)
+//!        \  /                  \| /
+//!         p                     p
+//! ```
+//! Latency, with `w` triangles walked through and `f` flips: `w + 3 f + 8` visits one after the other (2 mends, `f + 3` fetches,
+//! `2 f + 3` tests), each two clocks more than the visit latency, and `3 f + 5` clocks. A duplicate takes `w` visits and
+//! two clocks.
+//!
+//! A walk of two triangles, the split, and the first mend, with visits of two clocks:
+//! ```text
+//! starts          ___/^^\_________________________________________
+//! is_at_work      _________/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+//! push            _________/^^\________/^^\_________________/^^\__
+//! bundle.u          .  .  .  2  .  .  .  0  .  .  .  .  .  .  2  .
+//! done            _______________/^^\________/^^\_________________
+//! located           .  .  .  .  .___  .  .  ./^^  .  .  .  .  .  .
+//! write.valid     ____________________________________/^^^^^^^^\__
+//! write.id          .  .  .  .  .  .  .  .  .  .  .  .  0  4  5  .
+//! ```
+//!
+//! Source: Lawson's flips, in the order of the star.
+
+use super::solo_star::SoloStar;
+use crate::engine::types::{Bundle, Token, Turned, Verdict, Write};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// What an insertion alone does.
+#[derive(Clone, Copy, Debug, PartialEq, LogicState)]
+pub enum SoloState {
+    /// Awaits an insertion.
+    Idle,
+    /// Walks to the triangle that holds the point.
+    Locate,
+    /// Writes the three records that replace it.
+    Split,
+    /// Mends the links of the outer neighbours of the second and third.
+    Mend,
+    /// Reads the star triangle at work.
+    Fetch,
+    /// Tests the triangle outside.
+    Test,
+    /// Flips the edge between the two.
+    Flip,
+}
+
+/// Insertion alone; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Solo {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Ends the insertion.
+    pub reset: Signal<In, Bit>,
+    /// Begin.
+    pub starts: Signal<In, Bit>,
+    /// The context.
+    pub owner: Signal<In, Bits<5>>,
+    /// The new vertex.
+    pub p: Signal<In, Bits<15>>,
+    /// Where the walk begins.
+    pub start: Signal<In, Bits<15>>,
+    /// The next new id.
+    pub records: Signal<In, Bits<15>>,
+    /// A visit completes.
+    pub done: Signal<In, Bit>,
+    /// The visit.
+    pub token: Signal<In, Token>,
+    /// Its record.
+    pub turned: Signal<In, Turned>,
+    /// What it found out.
+    pub verdict: Signal<In, Verdict>,
+    /// A visit to make.
+    pub push: Signal<Out, Bit>,
+    /// The visit.
+    pub bundle: Signal<Out, Bundle>,
+    /// A record or a link.
+    pub write: Signal<Out, Write>,
+    /// A test is finished.
+    pub tests: Signal<Out, Bit>,
+    /// A flip is finished.
+    pub flips: Signal<Out, Bit>,
+    /// The insertion is over.
+    pub ends: Signal<Out, Bit>,
+    /// The point is in the mesh.
+    pub inserts: Signal<Out, Bit>,
+    /// The visits that complete are its own.
+    pub is_at_work: Signal<Out, Bit>,
+    state: DFF<SoloState>,
+    step: DFF<Bits<2>>,
+    awaits: DFF<Bit>,
+    at_work_for: DFF<Bits<5>>,
+    vertex: DFF<Bits<15>>,
+    root_id: DFF<Bits<15>>,
+    root: DFF<Turned>,
+    star: SoloStar,
+    works: DFF<Bit>,
+    asks: DFF<Bit>,
+    ended: DFF<Bit>,
+    inserted: DFF<Bit>,
+    is_locate: Signal<Local, Bit>,
+    is_mend: Signal<Local, Bit>,
+    is_fetch: Signal<Local, Bit>,
+    is_test: Signal<Local, Bit>,
+    is_visiting: Signal<Local, Bit>,
+    is_last_step: Signal<Local, Bit>,
+    is_duplicate: Signal<Local, Bit>,
+    rests: Signal<Local, Bit>,
+    inserts_now: Signal<Local, Bit>,
+    ends_now: Signal<Local, Bit>,
+    third_step: Signal<Local, Bits<2>>,
+    one: Signal<Local, Bits<2>>,
+}
+
+impl Logic for Solo {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, state, step, awaits, at_work_for, vertex, root_id, root, works, asks, ended, inserted);
+        clock!(self, clock, star);
+        self.one.next = 1.into();
+        self.third_step.next = 2.into();
+        self.is_locate.next = self.state.q.val() == SoloState::Locate;
+        self.is_mend.next = self.state.q.val() == SoloState::Mend;
+        self.is_fetch.next = self.state.q.val() == SoloState::Fetch;
+        self.is_test.next = self.state.q.val() == SoloState::Test;
+        self.is_last_step.next = self.step.q.val() == self.third_step.val();
+        self.works.d.next = (self.state.q.val() != SoloState::Idle) & (!self.reset.val());
+        self.is_at_work.next = self.works.q.val();
+
+        self.star.reset.next = self.reset.val();
+        self.star.owner.next = self.at_work_for.q.val();
+        self.star.is_locate.next = self.is_locate.val();
+        self.star.is_split.next = self.state.q.val() == SoloState::Split;
+        self.star.is_mend.next = self.is_mend.val();
+        self.star.is_fetch.next = self.is_fetch.val();
+        self.star.is_test.next = self.is_test.val();
+        self.star.is_flip.next = self.state.q.val() == SoloState::Flip;
+        self.star.step.next = self.step.q.val();
+        self.star.p.next = self.vertex.q.val();
+        self.star.records.next = self.records.val();
+        self.star.root_id.next = self.root_id.q.val();
+        self.star.root.next = self.root.q.val();
+        self.star.done.next = self.done.val();
+        self.star.token.next = self.token.val();
+        self.star.turned.next = self.turned.val();
+        self.star.conflict.next = self.verdict.val().conflict;
+        self.bundle.next = self.star.bundle.val();
+        self.write.next = self.star.write.val();
+
+        self.is_visiting.next = self.is_locate.val() | self.is_mend.val() | self.is_fetch.val() | self.is_test.val();
+        self.asks.d.next = self.is_visiting.val() & (!self.awaits.q.val()) & (!self.reset.val());
+        self.push.next = self.asks.q.val();
+        self.awaits.d.next = self.is_visiting.val() & (!self.done.val());
+
+        self.tests.next = self.star.tests.val();
+        self.flips.next = self.star.flips.val();
+        self.rests.next = self.is_test.val() & self.done.val() & (!self.verdict.val().conflict);
+        self.inserts_now.next = self.rests.val() & self.star.is_round.val();
+        self.inserted.d.next = self.inserts_now.val() & (!self.reset.val());
+        self.inserts.next = self.inserted.q.val();
+        self.is_duplicate.next = self.verdict.val().located & self.verdict.val().falls_onto_corner;
+        self.ends_now.next =
+            self.inserts_now.val() | (self.is_locate.val() & self.done.val() & self.is_duplicate.val());
+        self.ended.d.next = self.ends_now.val() & (!self.reset.val());
+        self.ends.next = self.ended.q.val();
+
+        match self.state.q.val() {
+            SoloState::Idle => {
+                if self.starts.val() {
+                    self.at_work_for.d.next = self.owner.val();
+                    self.vertex.d.next = self.p.val();
+                    self.root_id.d.next = self.start.val();
+                    self.state.d.next = SoloState::Locate;
+                }
+            }
+            SoloState::Locate => {
+                self.step.d.next = 0.into();
+                if self.done.val() {
+                    self.root.d.next = self.turned.val();
+                    if self.verdict.val().located {
+                        self.state.d.next = SoloState::Split;
+                    } else {
+                        self.root_id.d.next = self.verdict.val().walk_next;
+                    }
+                    if self.is_duplicate.val() {
+                        self.state.d.next = SoloState::Idle;
+                    }
+                }
+            }
+            SoloState::Split => {
+                self.step.d.next = self.step.q.val() + self.one.val();
+                if self.is_last_step.val() {
+                    self.step.d.next = 0.into();
+                    self.state.d.next = SoloState::Mend;
+                }
+            }
+            SoloState::Mend => {
+                if self.done.val() {
+                    self.step.d.next = 1.into();
+                    if self.step.q.val() == self.one.val() {
+                        self.state.d.next = SoloState::Fetch;
+                    }
+                }
+            }
+            SoloState::Fetch => {
+                if self.done.val() {
+                    self.state.d.next = SoloState::Test;
+                }
+            }
+            SoloState::Test => {
+                self.step.d.next = 0.into();
+                if self.done.val() {
+                    self.state.d.next = SoloState::Flip;
+                }
+                if self.rests.val() {
+                    self.state.d.next = SoloState::Fetch;
+                }
+                if self.inserts_now.val() {
+                    self.state.d.next = SoloState::Idle;
+                }
+            }
+            SoloState::Flip => {
+                self.step.d.next = self.step.q.val() + self.one.val();
+                if self.is_last_step.val() {
+                    self.state.d.next = SoloState::Test;
+                }
+            }
+            _ => {
+                self.state.d.next = SoloState::Idle;
+            }
+        }
+        if self.reset.val() {
+            self.state.d.next = SoloState::Idle;
+            self.awaits.d.next = false;
+        }
+    }
+}

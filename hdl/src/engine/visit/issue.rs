@@ -1,0 +1,160 @@
+//! Queues bundles and issues their visits, one a clock, first in first out.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock`, `reset` | in | 1 | reset empties the queue |
+//! | `push`, `bundle` | in | 1, Bundle | a bundle enters the queue |
+//! | `read`, `read_id` | in | 1, 15 | a read-out wants this record; only while the queue is empty |
+//! | `token_valid`, `token` | out | 1, Token | the visit issued; in a read-out `token.u` alone counts |
+//! | `vertices_id`, `links_id` | out | 15 | `token.u` from two more registers; arbitrary after a reset until the next visit or read-out |
+//! | `read_valid` | out | 1 | the issue register holds a read-out |
+//!
+//! 1. A bundle takes a clock for each of its one to three visits, the first visit first; see `Bundle` for what tells them apart.
+//! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring has entries,
+//!    so it never overflows.
+//! 3. The record's id goes to all block RAMs of the triangle memory. Three registers hold it, so that each may stand near the RAMs that it
+//!    drives; reset gives each another value, or synthesis would make one register of them.
+//!
+//! Latency: 1 clock from `push` to `token` when the queue is empty.
+//!
+//! A bundle of three visits and one of one, then a read-out:
+//! ```text
+//! push            ___/^^^^^\_________________
+//! bundle.x          .  1  4  .  .  .  .  .  .
+//! token_valid     ______/^^^^^^^^^^^\________
+//! token.x           .  .  1  2  3  4  .  .  .
+//! read            __________________/^^\_____
+//! read_valid      _____________________/^^\__
+//! token.u           .  .  .  .  .  .  .  9  .
+//! ```
+
+use crate::engine::types::{Bundle, Token, BUNDLE_BITS, RING_ADDRESS_BITS};
+use crate::leaf::{DeepFifo, Unpack};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The queue and the issue register; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct Issue {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// Empties the queue.
+    pub reset: Signal<In, Bit>,
+    /// A bundle enters.
+    pub push: Signal<In, Bit>,
+    /// The bundle.
+    pub bundle: Signal<In, Bundle>,
+    /// A read-out wants a record.
+    pub read: Signal<In, Bit>,
+    /// The record.
+    pub read_id: Signal<In, Bits<15>>,
+    /// A visit is issued.
+    pub token_valid: Signal<Out, Bit>,
+    /// The visit.
+    pub token: Signal<Out, Token>,
+    /// Its record again, for the vertex columns.
+    pub vertices_id: Signal<Out, Bits<15>>,
+    /// Its record again, for the link columns.
+    pub links_id: Signal<Out, Bits<15>>,
+    /// A read-out is issued.
+    pub read_valid: Signal<Out, Bit>,
+    queue: DeepFifo<RING_ADDRESS_BITS, BUNDLE_BITS>,
+    head: Unpack<Bundle, BUNDLE_BITS>,
+    bundle_bits: Signal<Local, Bits<BUNDLE_BITS>>,
+    issued: DFF<Token>,
+    vertices_copy: DFF<Bits<15>>,
+    links_copy: DFF<Bits<15>>,
+    issued_valid: DFF<Bit>,
+    issued_read: DFF<Bit>,
+    second_is_due: DFF<Bit>,
+    third_is_due: DFF<Bit>,
+    record: Signal<Local, Bits<15>>,
+    no_record: Signal<Local, Bits<15>>,
+    is_at_first: Signal<Local, Bit>,
+    second_follows: Signal<Local, Bit>,
+    third_follows: Signal<Local, Bit>,
+}
+
+impl Issue {
+    /// Fewest address bits of the queue: it is a deep one.
+    const MIN_ADDRESS_BITS: usize = DeepFifo::<RING_ADDRESS_BITS, BUNDLE_BITS>::WINDOW_BITS + 1;
+
+    /// A queue of `2^address_bits` bundles, 32 at least.
+    ///
+    /// # Panics
+    /// If `address_bits` is above `RING_ADDRESS_BITS`.
+    pub fn new(address_bits: usize) -> Self {
+        Self { queue: DeepFifo::new(address_bits.max(Self::MIN_ADDRESS_BITS), BUNDLE_BITS), ..Self::default() }
+    }
+}
+
+impl Logic for Issue {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(
+            self,
+            clock,
+            issued,
+            vertices_copy,
+            links_copy,
+            issued_valid,
+            issued_read,
+            second_is_due,
+            third_is_due
+        );
+        clock!(self, clock, queue);
+        self.queue.reset.next = self.reset.val();
+        self.queue.push.next = self.push.val();
+        self.bundle_bits.next = self.bundle.val().into();
+        self.queue.push_data.next = self.bundle_bits.val();
+        self.head.bits.next = self.queue.data.val();
+        self.token.next = self.issued.q.val();
+        self.token_valid.next = self.issued_valid.q.val();
+        self.vertices_id.next = self.vertices_copy.q.val();
+        self.links_id.next = self.links_copy.q.val();
+        self.read_valid.next = self.issued_read.q.val();
+
+        self.is_at_first.next = (!self.second_is_due.q.val()) & (!self.third_is_due.q.val());
+        self.second_follows.next = self.head.value.val().is_pair & self.is_at_first.val();
+        self.third_follows.next = self.head.value.val().is_triple & self.second_is_due.q.val();
+        self.queue.pop.next = self.queue.valid.val() & (!self.second_follows.val()) & (!self.third_follows.val());
+        self.second_is_due.d.next = self.queue.valid.val() & self.second_follows.val();
+        self.third_is_due.d.next = self.queue.valid.val() & self.third_follows.val();
+
+        self.issued_valid.d.next = self.queue.valid.val();
+        self.issued_read.d.next = self.read.val();
+        self.issued.d.next.owner = self.head.value.val().owner;
+        self.issued.d.next.rotates = self.head.value.val().rotates;
+        self.issued.d.next.locks = self.head.value.val().locks;
+        self.issued.d.next.f_entry = self.head.value.val().f_entry;
+        self.issued.d.next.f = self.head.value.val().f;
+        self.issued.d.next.x = self.head.value.val().x;
+        self.issued.d.next.after = self.head.value.val().after;
+        self.record.next = self.head.value.val().u;
+        if self.second_is_due.q.val() {
+            self.issued.d.next.x = self.head.value.val().after;
+            self.issued.d.next.after = self.head.value.val().second_after;
+            self.record.next = self.head.value.val().second_u;
+        }
+        if self.third_is_due.q.val() {
+            self.issued.d.next.x = self.head.value.val().second_after;
+            self.issued.d.next.after = 0.into();
+            self.record.next = self.head.value.val().third_u;
+        }
+        if self.read.val() {
+            self.record.next = self.read_id.val();
+        }
+        self.issued.d.next.u = self.record.val();
+        self.vertices_copy.d.next = self.record.val();
+        self.links_copy.d.next = self.record.val();
+        self.no_record.next = 0.into();
+        if self.reset.val() {
+            self.vertices_copy.d.next = self.no_record.val();
+            self.links_copy.d.next = !self.no_record.val();
+            self.issued_valid.d.next = false;
+            self.issued_read.d.next = false;
+            self.second_is_due.d.next = false;
+            self.third_is_due.d.next = false;
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! One pass over one triangle record: from the request to the verdict on its triangle.
+//!
+//! ```text
+//! Attempts, Dispatcher, Solo
+//!    |
+//!    v
+//! PushPort -> Issue -> TriangleStore (record) -> VisitReader -> VertexStore -> VisitJudge -----> verdict
+//!             queue    LockStore (lock)          turns the      corners        VisitPredicates,  to Attempts,
+//!                                                record                        VerdictLogic      Solo, Seeder
+//! clock       0        1 and 2                   3 and 4        5              5 to 15           16
+//! ```
+//! All contexts share one pipeline, because the read port of the triangle memory is what limits the core: every clock should read a
+//! record. Each visit takes the same time, so visits complete in the order in which they were issued and no arbiter is needed.
+//!
+//! Lock rules (see `docs/engine.md`): L7, the visit of a record that is not written yet, or is being written in the same clock, is
+//! marked `again` ([`VisitPipeline`]). The locks themselves, with their owners (L9), lie in [`LockStore`](crate::mesh::LockStore).
+
+mod issue;
+mod push_port;
+mod verdict_logic;
+mod visit_judge;
+mod visit_pipeline;
+mod visit_reader;
+
+pub use issue::Issue;
+pub use push_port::PushPort;
+pub use verdict_logic::VerdictLogic;
+pub use visit_judge::VisitJudge;
+pub use visit_pipeline::VisitPipeline;
+pub use visit_reader::VisitReader;

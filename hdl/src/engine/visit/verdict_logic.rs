@@ -1,0 +1,170 @@
+//! Turns the signs of a visit into its verdict.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `turned` | in | Turned | the record turned |
+//! | `e0_negative` ... `r1_before_r2` | in | 1 | the flags of `VisitPredicates` for its corners as stored |
+//! | `verdict` | out | Verdict | what the visit found out |
+//!
+//! 1. A finite record is in conflict iff the point lies inside its circle, or on it and the tie rule says so: the
+//!    diagonal takes the lexicographically smallest of the four points.
+//! 2. A ghost is in conflict iff the point lies strictly beyond its hull edge, or on the line strictly between the edge's ends. (Of
+//!    the ends themselves the lower one counts as between; a point there is a duplicate, and no cavity is dug for it.)
+//! 3. Corners come as stored and the record turned, since only one thing depends on the turn: the tie rule, of whose diagonals one ends in
+//!    the corner that comes first. The corners of a finite record differ.
+//! 4. A walk ends in a finite triangle with no negative side and in a ghost strictly beyond whose edge the point lies. It leaves a
+//!    finite triangle over the most negative side (the first of equals), a ghost over its finite side. No walk turns its records:
+//!    `walk_next` of a finite one, `is_left` and `is_straight` count only with slot 0.
+//!
+//! Latency: none (combinational).
+
+use crate::engine::types::{Turned, Verdict};
+use rust_hdl_core::prelude::*;
+
+/// Verdict of a visit; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct VerdictLogic {
+    /// The record turned.
+    pub turned: Signal<In, Turned>,
+    /// The point lies right of side 0.
+    pub e0_negative: Signal<In, Bit>,
+    /// Right of side 1.
+    pub e1_negative: Signal<In, Bit>,
+    /// Right of side 2.
+    pub e2_negative: Signal<In, Bit>,
+    /// On the line of side 0.
+    pub e0_zero: Signal<In, Bit>,
+    /// On the line of side 1.
+    pub e1_zero: Signal<In, Bit>,
+    /// On the line of side 2.
+    pub e2_zero: Signal<In, Bit>,
+    /// Side 1 is lower than side 0.
+    pub e1_below_e0: Signal<In, Bit>,
+    /// Side 2 is lower than side 0.
+    pub e2_below_e0: Signal<In, Bit>,
+    /// Side 2 is lower than side 1.
+    pub e2_below_e1: Signal<In, Bit>,
+    /// The point lies inside the circle.
+    pub incircle_positive: Signal<In, Bit>,
+    /// On the circle.
+    pub incircle_zero: Signal<In, Bit>,
+    /// The point comes before corner 0.
+    pub p_before_r0: Signal<In, Bit>,
+    /// Before corner 1.
+    pub p_before_r1: Signal<In, Bit>,
+    /// Before corner 2.
+    pub p_before_r2: Signal<In, Bit>,
+    /// The point is corner 0.
+    pub p_equals_r0: Signal<In, Bit>,
+    /// Corner 1.
+    pub p_equals_r1: Signal<In, Bit>,
+    /// Corner 2.
+    pub p_equals_r2: Signal<In, Bit>,
+    /// Corner 0 comes before corner 1.
+    pub r0_before_r1: Signal<In, Bit>,
+    /// Before corner 2.
+    pub r0_before_r2: Signal<In, Bit>,
+    /// Corner 1 comes before corner 2.
+    pub r1_before_r2: Signal<In, Bit>,
+    /// What the visit found out.
+    pub verdict: Signal<Out, Verdict>,
+    is_ghost: Signal<Local, Bit>,
+    second_slot: Signal<Local, Bits<2>>,
+    third_slot: Signal<Local, Bits<2>>,
+    is_second: Signal<Local, Bit>,
+    is_third: Signal<Local, Bit>,
+    infinite1: Signal<Local, Bit>,
+    infinite2: Signal<Local, Bit>,
+    is_beyond: Signal<Local, Bit>,
+    is_on_hull_line: Signal<Local, Bit>,
+    is_between: Signal<Local, Bit>,
+    takes_tie: Signal<Local, Bit>,
+    is_outside_some_side: Signal<Local, Bit>,
+    leaves_by_side1: Signal<Local, Bit>,
+    leaves_by_side2: Signal<Local, Bit>,
+}
+
+impl Logic for VerdictLogic {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.is_ghost.next = self.turned.val().infinite0 | self.turned.val().infinite1 | self.turned.val().infinite2;
+
+        // The turn, undone: which corner is infinite as stored.
+        self.second_slot.next = 1.into();
+        self.third_slot.next = 2.into();
+        self.is_second.next = self.turned.val().slot == self.second_slot.val();
+        self.is_third.next = self.turned.val().slot == self.third_slot.val();
+        self.infinite1.next = self.turned.val().infinite1;
+        self.infinite2.next = self.turned.val().infinite2;
+        if self.is_second.val() {
+            self.infinite1.next = self.turned.val().infinite0;
+            self.infinite2.next = self.turned.val().infinite1;
+        }
+        if self.is_third.val() {
+            self.infinite1.next = self.turned.val().infinite2;
+            self.infinite2.next = self.turned.val().infinite0;
+        }
+
+        // A ghost: where the point lies from its one finite side.
+        self.is_beyond.next = (!self.e0_negative.val()) & (!self.e0_zero.val());
+        self.is_on_hull_line.next = self.e0_zero.val();
+        self.is_between.next = self.p_before_r1.val() ^ self.p_before_r2.val();
+        if self.infinite1.val() {
+            self.is_beyond.next = (!self.e1_negative.val()) & (!self.e1_zero.val());
+            self.is_on_hull_line.next = self.e1_zero.val();
+            self.is_between.next = self.p_before_r2.val() ^ self.p_before_r0.val();
+        }
+        if self.infinite2.val() {
+            self.is_beyond.next = (!self.e2_negative.val()) & (!self.e2_zero.val());
+            self.is_on_hull_line.next = self.e2_zero.val();
+            self.is_between.next = self.p_before_r0.val() ^ self.p_before_r1.val();
+        }
+
+        // min(p, r0) < min(r1, r2), with the corners turned.
+        self.takes_tie.next =
+            (self.p_before_r1.val() & self.p_before_r2.val()) | (self.r0_before_r1.val() & self.r0_before_r2.val());
+        if self.is_second.val() {
+            self.takes_tie.next = (self.p_before_r2.val() & self.p_before_r0.val())
+                | (self.r1_before_r2.val() & (!self.r0_before_r1.val()));
+        }
+        if self.is_third.val() {
+            self.takes_tie.next = (self.p_before_r0.val() & self.p_before_r1.val())
+                | ((!self.r0_before_r2.val()) & (!self.r1_before_r2.val()));
+        }
+        if self.is_ghost.val() {
+            self.verdict.next.conflict = self.is_beyond.val() | (self.is_on_hull_line.val() & self.is_between.val());
+        } else {
+            self.verdict.next.conflict =
+                self.incircle_positive.val() | (self.incircle_zero.val() & self.takes_tie.val());
+        }
+
+        // The walk.
+        self.is_outside_some_side.next = self.e0_negative.val() | self.e1_negative.val() | self.e2_negative.val();
+        self.leaves_by_side2.next =
+            (self.e1_below_e0.val() & self.e2_below_e1.val()) | ((!self.e1_below_e0.val()) & self.e2_below_e0.val());
+        self.leaves_by_side1.next = self.e1_below_e0.val() & (!self.e2_below_e1.val());
+        self.verdict.next.walk_next = self.turned.val().n0;
+        if self.is_ghost.val() {
+            self.verdict.next.located = self.is_beyond.val();
+            self.verdict.next.falls_onto_corner = false;
+            if self.turned.val().infinite1 {
+                self.verdict.next.walk_next = self.turned.val().n1;
+            }
+            if self.turned.val().infinite2 {
+                self.verdict.next.walk_next = self.turned.val().n2;
+            }
+        } else {
+            self.verdict.next.located = !self.is_outside_some_side.val();
+            self.verdict.next.falls_onto_corner =
+                self.p_equals_r0.val() | self.p_equals_r1.val() | self.p_equals_r2.val();
+            if self.leaves_by_side1.val() {
+                self.verdict.next.walk_next = self.turned.val().n1;
+            }
+            if self.leaves_by_side2.val() {
+                self.verdict.next.walk_next = self.turned.val().n2;
+            }
+        }
+        self.verdict.next.is_straight = self.e2_zero.val();
+        self.verdict.next.is_left = (!self.e2_negative.val()) & (!self.e2_zero.val());
+    }
+}

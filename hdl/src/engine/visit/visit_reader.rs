@@ -1,0 +1,179 @@
+//! Reads the record of a visit, turns it, and takes in the coordinates of its corners.
+//!
+//! | port | direction | bits | meaning |
+//! |---|---|---|---|
+//! | `clock` | in | 1 | everything happens at its rising edge |
+//! | `infinite` | in | 15 | the id of the infinite vertex, a constant |
+//! | `token` | in | Token | the visit, in clock 0 |
+//! | `v0..n2` | in | 15 | its record from the triangle memory, in clock 2 |
+//! | `again` | in | 1 | whether the record counts, in clock 2 |
+//! | `took`, `foreign` | in | 1 | what became of its lock, in clock 3 |
+//! | `position0..2` | in | 32 | coordinates of `v0..v2`, in clock 4 |
+//! | `turned` | out | Turned | the record turned, in clock 5 |
+//! | `r0..r2` | out | 32 | coordinates of its vertices, not turned, in clock 5 |
+//!
+//! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does. The links of a record differ.
+//! 2. `took`, `foreign` and `again` pass unchanged into `turned`.
+//! 3. Nothing is computed between a memory's output and the first register: block RAM lies far from everything. That is why the corners
+//!    stay as stored; what of the verdict depends on the turn is turned there.
+//!
+//! Latency: see the clocks above; `LATENCY` is that of the corners.
+//!
+//! A visit that comes through link 1, so that vertex 1 comes first, and takes the lock:
+//! ```text
+//! token.f          30  .  .  .  .  .  .
+//! n1                .  . 30  .  .  .  .
+//! v0                .  . 11  .  .  .  .
+//! v1                .  . 12  .  .  .  .
+//! again           ______/^^\___________
+//! took            _________/^^\________
+//! turned.v0         .  .  .  .  . 12  .
+//! turned.slot       .  .  .  .  .  1  .
+//! turned.again      .  .  .  .  ./^^  .
+//! turned.took       .  .  .  .  ./^^  .
+//! position0         .  .  .  . 51  .  .
+//! r0                .  .  .  .  . 51  .
+//! ```
+
+use crate::engine::types::{Token, Turned};
+use crate::mesh::{TriangleStore, VertexStore};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// Slot search, rotation and corners; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct VisitReader {
+    /// Clock.
+    pub clock: Signal<In, Clock>,
+    /// The id of the infinite vertex, a constant.
+    pub infinite: Signal<In, Bits<15>>,
+    /// The visit issued.
+    pub token: Signal<In, Token>,
+    /// Column of the record.
+    pub v0: Signal<In, Bits<15>>,
+    /// Column of the record.
+    pub v1: Signal<In, Bits<15>>,
+    /// Column of the record.
+    pub v2: Signal<In, Bits<15>>,
+    /// Column of the record.
+    pub n0: Signal<In, Bits<15>>,
+    /// Column of the record.
+    pub n1: Signal<In, Bits<15>>,
+    /// Column of the record.
+    pub n2: Signal<In, Bits<15>>,
+    /// The visit took the lock.
+    pub took: Signal<In, Bit>,
+    /// It would have, but another context has it, or it was being cleared.
+    pub foreign: Signal<In, Bit>,
+    /// The record was not written yet, or being written.
+    pub again: Signal<In, Bit>,
+    /// Coordinates of `v0`.
+    pub position0: Signal<In, Bits<32>>,
+    /// Coordinates of `v1`.
+    pub position1: Signal<In, Bits<32>>,
+    /// Coordinates of `v2`.
+    pub position2: Signal<In, Bits<32>>,
+    /// The record turned.
+    pub turned: Signal<Out, Turned>,
+    /// The token of the record on the columns, for the delay to the verdict.
+    pub token_at_record: Signal<Out, Token>,
+    /// Corner of the record as stored.
+    pub r0: Signal<Out, Bits<32>>,
+    /// Corner of the record as stored.
+    pub r1: Signal<Out, Bits<32>>,
+    /// Corner of the record as stored.
+    pub r2: Signal<Out, Bits<32>>,
+    token1: DFF<Token>,
+    token2: DFF<Token>,
+    token3: DFF<Token>,
+    /// The record as it comes.
+    stored: DFF<Turned>,
+    /// The record as stored; `slot` is the one that will come first.
+    found: DFF<Turned>,
+    rotated: DFF<Turned>,
+    corner0: DFF<Bits<32>>,
+    corner1: DFF<Bits<32>>,
+    corner2: DFF<Bits<32>>,
+    first_slot: Signal<Local, Bits<2>>,
+    second_slot: Signal<Local, Bits<2>>,
+    third_slot: Signal<Local, Bits<2>>,
+}
+
+impl VisitReader {
+    /// Clocks from the token to the corners.
+    pub const LATENCY: usize = TriangleStore::LATENCY + VertexStore::LATENCY + 1;
+    /// Clocks from the token to the turned record: the record, a register, the slot, the rotation.
+    pub const TURNED_LATENCY: usize = TriangleStore::LATENCY + 3;
+}
+
+impl Logic for VisitReader {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, token1, token2, token3, stored, found, rotated, corner0, corner1, corner2);
+        self.first_slot.next = 0.into();
+        self.second_slot.next = 1.into();
+        self.third_slot.next = 2.into();
+        self.token1.d.next = self.token.val();
+        self.token2.d.next = self.token1.q.val();
+        self.token_at_record.next = self.token2.q.val();
+
+        // Clock 2: the record as it comes.
+        self.token3.d.next = self.token2.q.val();
+        self.stored.d.next.v0 = self.v0.val();
+        self.stored.d.next.v1 = self.v1.val();
+        self.stored.d.next.v2 = self.v2.val();
+        self.stored.d.next.n0 = self.n0.val();
+        self.stored.d.next.n1 = self.n1.val();
+        self.stored.d.next.n2 = self.n2.val();
+        self.stored.d.next.again = self.again.val();
+
+        // Clock 3: the slot that comes first, the infinite vertex, and what became of the lock.
+        self.found.d.next = self.stored.q.val();
+        self.found.d.next.took = self.took.val();
+        self.found.d.next.foreign = self.foreign.val();
+        self.found.d.next.infinite0 = self.stored.q.val().v0 == self.infinite.val();
+        self.found.d.next.infinite1 = self.stored.q.val().v1 == self.infinite.val();
+        self.found.d.next.infinite2 = self.stored.q.val().v2 == self.infinite.val();
+        self.found.d.next.slot = self.first_slot.val();
+        if self.token3.q.val().rotates & (self.stored.q.val().n1 == self.token3.q.val().f) {
+            self.found.d.next.slot = self.second_slot.val();
+        }
+        if self.token3.q.val().rotates & (self.stored.q.val().n2 == self.token3.q.val().f) {
+            self.found.d.next.slot = self.third_slot.val();
+        }
+
+        // Clock 4: the record turned.
+        self.rotated.d.next = self.found.q.val();
+        if self.found.q.val().slot == self.second_slot.val() {
+            self.rotated.d.next.v0 = self.found.q.val().v1;
+            self.rotated.d.next.v1 = self.found.q.val().v2;
+            self.rotated.d.next.v2 = self.found.q.val().v0;
+            self.rotated.d.next.n0 = self.found.q.val().n1;
+            self.rotated.d.next.n1 = self.found.q.val().n2;
+            self.rotated.d.next.n2 = self.found.q.val().n0;
+            self.rotated.d.next.infinite0 = self.found.q.val().infinite1;
+            self.rotated.d.next.infinite1 = self.found.q.val().infinite2;
+            self.rotated.d.next.infinite2 = self.found.q.val().infinite0;
+        }
+        if self.found.q.val().slot == self.third_slot.val() {
+            self.rotated.d.next.v0 = self.found.q.val().v2;
+            self.rotated.d.next.v1 = self.found.q.val().v0;
+            self.rotated.d.next.v2 = self.found.q.val().v1;
+            self.rotated.d.next.n0 = self.found.q.val().n2;
+            self.rotated.d.next.n1 = self.found.q.val().n0;
+            self.rotated.d.next.n2 = self.found.q.val().n1;
+            self.rotated.d.next.infinite0 = self.found.q.val().infinite2;
+            self.rotated.d.next.infinite1 = self.found.q.val().infinite0;
+            self.rotated.d.next.infinite2 = self.found.q.val().infinite1;
+        }
+        self.turned.next = self.rotated.q.val();
+
+        // Clock 4, too: the corners as they come.
+        self.corner0.d.next = self.position0.val();
+        self.corner1.d.next = self.position1.val();
+        self.corner2.d.next = self.position2.val();
+        self.r0.next = self.corner0.q.val();
+        self.r1.next = self.corner1.q.val();
+        self.r2.next = self.corner2.q.val();
+    }
+}

@@ -1,0 +1,15 @@
+//! The one write port of the triangle memory.
+//!
+//! ```text
+//! Commit, Solo, Seeder -> RecordWrite, LinkWrite -> Write -> WritePort -> TriangleStore
+//! ```
+//! A write is a whole record or one link. Its three sources never write in the same clock, so the port only merges them and adds a
+//! register.
+//!
+//! Lock rules: none. Who writes holds the locks of all records that it writes.
+
+mod write_port;
+mod write_request;
+
+pub use write_port::WritePort;
+pub use write_request::{LinkWrite, RecordWrite};
