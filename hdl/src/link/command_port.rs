@@ -52,10 +52,7 @@ pub struct CommandPort {
     /// Points the core holds, and contexts it has; constants.
     pub capacity: Signal<In, Bits<15>>,
     pub built: Signal<In, Bits<5>>,
-    /// The command stream.
-    pub command_valid: Signal<In, Bit>,
-    pub command_ready: Signal<Out, Bit>,
-    pub command_data: Signal<In, Bits<32>>,
+    pub command: CommandSink,
     /// Memories are being cleared: the core is not ready for commands.
     pub sweeps: Signal<In, Bit>,
     /// Three points are being looked at for a first triangle; such three are collinear.
@@ -96,7 +93,7 @@ pub struct CommandPort {
     pub reading: Signal<Out, Bit>,
     pub awaits_point: Signal<Out, Bit>,
     state: DFF<CommandState>,
-    command: DFF<Bits<8>>,
+    code: DFF<Bits<8>>,
     first_word: DFF<Bits<32>>,
     left: DFF<Bits<32>>,
     /// No point is left; good while points come.
@@ -161,22 +158,22 @@ impl Logic for CommandPort {
         self.gate.start_is_open.next = self.start_is_open.val();
         self.gate.stuck.next = self.stuck.val();
         self.awaits_point.next = self.gate.awaits_point.val();
-        self.command_ready.next = self.gate.ready.val();
-        self.is_padding.next = self.command_data.val() == self.none.val();
-        self.accepts_command.next = self.command_valid.val() & self.gate.takes_command.val() & (!self.is_padding.val());
-        self.accepts_point.next = self.command_valid.val() & self.gate.takes_point.val();
+        self.command.ready.next = self.gate.ready.val();
+        self.is_padding.next = self.command.data.val() == self.none.val();
+        self.accepts_command.next = self.command.valid.val() & self.gate.takes_command.val() & (!self.is_padding.val());
+        self.accepts_point.next = self.command.valid.val() & self.gate.takes_point.val();
         self.clear.reset.next = self.reset.val();
         self.clear.built.next = self.built.val();
         self.clear.accepts.next = self.accepts_command.val();
-        self.clear.word.next = self.command_data.val();
+        self.clear.word.next = self.command.data.val();
         self.slot.reset.next = self.reset.val();
         self.slot.clears.next = self.clear.clears.val();
         self.slot.capacity.next = self.capacity.val();
         self.slot.collinear.next = self.collinear.val();
         self.slot.stuck.next = self.stuck.val();
         self.slot.accepts.next = self.accepts_point.val();
-        self.slot.word.next = self.command_data.val();
-        self.code.next = self.command_data.val().get_bits::<8>(24);
+        self.slot.word.next = self.command.data.val();
+        self.code.next = self.command.data.val().get_bits::<8>(24);
 
         if (self.state.q.val() != CommandState::Answer) & self.responder_is_idle.val() & self.answer_is_taken.val() {
             self.is_reading.d.next = false;
@@ -195,15 +192,15 @@ impl Logic for CommandPort {
                 }
             }
             CommandState::First => {
-                if self.command_valid.val() {
-                    self.first_word.d.next = self.command_data.val();
+                if self.command.valid.val() {
+                    self.first_word.d.next = self.command.data.val();
                     self.state.d.next = CommandState::Count;
                 }
             }
             CommandState::Count => {
-                if self.command_valid.val() {
-                    self.left.d.next = self.command_data.val();
-                    self.none_is_left.d.next = self.command_data.val() == self.none.val();
+                if self.command.valid.val() {
+                    self.left.d.next = self.command.data.val();
+                    self.none_is_left.d.next = self.command.data.val() == self.none.val();
                     if self.command.q.val() == self.insert_code.val() {
                         self.state.d.next = CommandState::Points;
                     } else {

@@ -3,6 +3,7 @@
 mod answer_beat;
 mod answer_head;
 mod answer_words;
+mod channels;
 mod clear_command;
 mod command_gate;
 mod command_port;
@@ -17,6 +18,7 @@ mod vertex_stream;
 pub use answer_beat::{AnswerBeat, WordPair, ANSWER_BEAT_BITS, WORD_PAIR_BITS};
 pub use answer_head::AnswerHead;
 pub use answer_words::AnswerWords;
+pub use channels::{AnswerSink, AnswerSource, CommandSink, CommandSource};
 pub use clear_command::ClearCommand;
 pub use command_gate::CommandGate;
 pub use command_port::{CommandPort, CommandState};

@@ -19,6 +19,7 @@
 //! second            .  .  2  0  .  5  7  0  .  .  .
 //! ```
 
+use crate::link::AnswerSink;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -28,13 +29,7 @@ pub struct AnswerPairs {
     /// The core's clock; reset forgets all words.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// Words of an answer are offered; they are taken.
-    pub response_valid: Signal<In, Bit>,
-    pub response_ready: Signal<Out, Bit>,
-    /// A word in bits 31 to 0; a second one in bits 63 to 32; the last word of its answer is among them.
-    pub response_data: Signal<In, Bits<64>>,
-    pub response_both: Signal<In, Bit>,
-    pub response_last: Signal<In, Bit>,
+    pub response: AnswerSink,
     /// A pair; the last one of its answer.
     pub pair_valid: Signal<Out, Bit>,
     pub pair_data: Signal<Out, Bits<64>>,
@@ -78,16 +73,16 @@ impl Logic for AnswerPairs {
         self.is_held.next = self.is_offered.q.val() | self.awaits.q.val() | self.ends.q.val();
         self.is_free.next = !(self.is_offered.q.val() & self.is_stalled.val());
         self.is_ready.next = self.is_free.val() & (!self.ends.q.val());
-        self.response_ready.next = self.is_ready.val();
-        self.takes.next = self.response_valid.val() & self.is_ready.val();
-        self.low.next = self.response_data.val().get_bits::<32>(0);
+        self.response.ready.next = self.is_ready.val();
+        self.takes.next = self.response.valid.val() & self.is_ready.val();
+        self.low.next = self.response.data.val().get_bits::<32>(0);
         self.high.next = 0.into();
-        if self.response_both.val() {
-            self.high.next = self.response_data.val().get_bits::<32>(32);
+        if self.response.both.val() {
+            self.high.next = self.response.data.val().get_bits::<32>(32);
         }
         // One word alone stays, to await its second; so does the second of two behind one that waited.
-        self.keeps.next = (self.awaits.q.val() & self.response_both.val())
-            | ((!self.awaits.q.val()) & (!self.response_both.val()) & (!self.response_last.val()));
+        self.keeps.next = (self.awaits.q.val() & self.response.both.val())
+            | ((!self.awaits.q.val()) & (!self.response.both.val()) & (!self.response.last.val()));
 
         if self.is_free.val() {
             self.is_offered.d.next = false;
@@ -99,14 +94,14 @@ impl Logic for AnswerPairs {
             }
         }
         if self.takes.val() {
-            self.is_offered.d.next = self.awaits.q.val() | self.response_both.val() | self.response_last.val();
-            self.is_last.d.next = self.response_last.val() & (!self.keeps.val());
+            self.is_offered.d.next = self.awaits.q.val() | self.response.both.val() | self.response.last.val();
+            self.is_last.d.next = self.response.last.val() & (!self.keeps.val());
             self.waiting.d.next = self.low.val();
-            if self.response_both.val() {
+            if self.response.both.val() {
                 self.waiting.d.next = self.high.val();
             }
-            self.awaits.d.next = self.keeps.val() & (!self.response_last.val());
-            self.ends.d.next = self.keeps.val() & self.response_last.val();
+            self.awaits.d.next = self.keeps.val() & (!self.response.last.val());
+            self.ends.d.next = self.keeps.val() & self.response.last.val();
         }
         if self.ends.q.val() & self.is_free.val() {
             self.is_offered.d.next = true;

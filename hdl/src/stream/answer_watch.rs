@@ -6,6 +6,8 @@ use incircle_protocol::{answer_header, Status};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
+use super::AnswerEvents;
+
 /// The watch on answers; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerWatch<const W: usize> {
@@ -14,18 +16,12 @@ pub struct AnswerWatch<const W: usize> {
     pub reset: Signal<In, Bit>,
     /// The FIFOs are in reset: the next beat is the first of an answer.
     pub resets: Signal<In, Bit>,
-    /// The answers.
+    /// The answers that are offered and taken.
     pub m_axis_tvalid: Signal<In, Bit>,
     pub m_axis_tready: Signal<In, Bit>,
     pub m_axis_tdata: Signal<In, Bits<W>>,
     pub m_axis_tlast: Signal<In, Bit>,
-    /// In the clock before a beat was taken; waited; was taken and was the last of its answer.
-    pub took: Signal<Out, Bit>,
-    pub waited: Signal<Out, Bit>,
-    pub ended: Signal<Out, Bit>,
-    /// In the clock before the first beat of an answer with another status was taken; its header word.
-    pub failed: Signal<Out, Bit>,
-    pub header: Signal<Out, Bits<32>>,
+    pub events: Signal<Out, AnswerEvents>,
     /// A beat of an answer was taken, and not its last one.
     is_inside: DFF<Bit>,
     takes: DFF<Bit>,
@@ -66,11 +62,11 @@ impl<const W: usize> Logic for AnswerWatch<W> {
             self.ends.d.next = false;
             self.begins.d.next = false;
         }
-        self.took.next = self.takes.q.val();
-        self.waited.next = self.waits.q.val();
-        self.ended.next = self.ends.q.val();
-        self.header.next = self.word.q.val();
+        self.events.next.took = self.takes.q.val();
+        self.events.next.waited = self.waits.q.val();
+        self.events.next.ended = self.ends.q.val();
+        self.events.next.header = self.word.q.val();
         self.status.next = self.word.q.val().get_bits::<8>(16);
-        self.failed.next = self.begins.q.val() & self.status.val().any();
+        self.events.next.failed = self.begins.q.val() & self.status.val().any();
     }
 }

@@ -15,6 +15,7 @@
 //! ```
 
 use crate::leaf::Parameter;
+use crate::link::CommandSource;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -28,10 +29,7 @@ pub struct BeatWords<const W: usize> {
     pub beat_valid: Signal<In, Bit>,
     pub beat_data: Signal<In, Bits<W>>,
     pub takes: Signal<Out, Bit>,
-    /// The command stream.
-    pub command_valid: Signal<Out, Bit>,
-    pub command_ready: Signal<In, Bit>,
-    pub command_data: Signal<Out, Bits<32>>,
+    pub command: CommandSource,
     /// Words of a beat are held.
     pub is_held: Signal<Out, Bit>,
     words: DFF<Bits<W>>,
@@ -70,12 +68,12 @@ impl<const W: usize> Logic for BeatWords<W> {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, words, left, holds, is_last);
-        self.command_valid.next = self.holds.q.val();
-        self.command_data.next = self.words.q.val().get_bits::<32>(0);
+        self.command.valid.next = self.holds.q.val();
+        self.command.data.next = self.words.q.val().get_bits::<32>(0);
         self.is_held.next = self.holds.q.val();
-        self.moves.next = self.holds.q.val() & self.command_ready.val();
+        self.moves.next = self.holds.q.val() & self.command.ready.val();
         self.loads.next =
-            self.beat_valid.val() & ((!self.holds.q.val()) | (self.is_last.q.val() & self.command_ready.val()));
+            self.beat_valid.val() & ((!self.holds.q.val()) | (self.is_last.q.val() & self.command.ready.val()));
         self.takes.next = self.loads.val();
         self.after.next = self.left.q.val() - self.one.val();
         self.later.next = self.words.q.val() >> self.word_bits.val();

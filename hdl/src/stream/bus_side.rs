@@ -8,7 +8,7 @@ use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{AnswerWatch, BeatGate, RegisterBlock, ResetRequest};
+use super::{AnswerWatch, AxiLite, AxisSink, AxisSource, BeatGate, RegisterBlock, ResetRequest};
 use crate::leaf::{Parameter, Synchroniser};
 
 /// The bus's side; see the top of this file.
@@ -17,51 +17,12 @@ pub struct BusSide<const W: usize, const K: usize, const E: usize> {
     /// The bus's clock; its reset, active low.
     pub clock: Signal<In, Clock>,
     pub bus_reset_n: Signal<In, Bit>,
-    /// A command beat is offered; its bytes.
-    pub s_axis_tvalid: Signal<In, Bit>,
-    pub s_axis_tkeep: Signal<In, Bits<K>>,
-    /// Answer beats.
-    pub m_axis_tvalid: Signal<Out, Bit>,
-    pub m_axis_tready: Signal<In, Bit>,
-    pub m_axis_tdata: Signal<Out, Bits<W>>,
-    pub m_axis_tkeep: Signal<Out, Bits<K>>,
-    pub m_axis_tlast: Signal<Out, Bit>,
-    /// An address to write is offered.
-    pub s_axi_awvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_awready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_awaddr: Signal<In, Bits<12>>,
-    /// Data to write is offered.
-    pub s_axi_wvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_wready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_wdata: Signal<In, Bits<32>>,
-    /// Its bytes that count.
-    pub s_axi_wstrb: Signal<In, Bits<4>>,
-    /// A write is answered.
-    pub s_axi_bvalid: Signal<Out, Bit>,
-    /// That is taken.
-    pub s_axi_bready: Signal<In, Bit>,
-    /// Whether it was done.
-    pub s_axi_bresp: Signal<Out, Bits<2>>,
-    /// An address to read is offered.
-    pub s_axi_arvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_arready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_araddr: Signal<In, Bits<12>>,
-    /// A read is answered.
-    pub s_axi_rvalid: Signal<Out, Bit>,
-    /// That is taken.
-    pub s_axi_rready: Signal<In, Bit>,
-    /// The value.
-    pub s_axi_rdata: Signal<Out, Bits<32>>,
-    /// Whether it is one.
-    pub s_axi_rresp: Signal<Out, Bits<2>>,
+    pub s_axis: AxisSink<W, K>,
+    pub m_axis: AxisSource<W, K>,
+    pub s_axi: AxiLite,
     /// Writer's side of the command FIFO.
     pub push: Signal<Out, Bit>,
+    pub push_data: Signal<Out, Bits<W>>,
     pub is_full: Signal<In, Bit>,
     pub is_fetched: Signal<In, Bit>,
     /// Reader's side of the answer FIFO; the highest bit of an entry marks the last beat of an answer.
@@ -118,6 +79,8 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
         dff_setup!(self, clock, busy_before, busy_earlier);
         clock!(self, clock, gate, watch, registers, resetting, reply_seen, beat_seen, busy_seen);
 
+        AxiLite::link(&mut self.s_axi, &mut self.registers.s_axi);
+
         // Resets.
         self.reset.next = !self.bus_reset_n.val();
         self.gate.reset.next = self.reset.val();
@@ -136,31 +99,27 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
         self.registers.core_runs.next = self.resetting.core_runs.val();
 
         // Commands.
-        self.gate.s_axis_tvalid.next = self.s_axis_tvalid.val();
-        self.gate.s_axis_tkeep.next = self.s_axis_tkeep.val();
+        self.gate.s_axis_tvalid.next = self.s_axis.tvalid.val();
+        self.gate.s_axis_tkeep.next = self.s_axis.tkeep.val();
         self.gate.is_full.next = self.is_full.val();
+        self.s_axis.tready.next = !self.is_full.val();
         self.push.next = self.gate.push.val();
-        self.registers.took_command.next = self.gate.took.val();
-        self.registers.command_waited.next = self.gate.waited.val();
-        self.registers.dropped.next = self.gate.dropped.val();
+        self.push_data.next = self.s_axis.tdata.val();
+        self.registers.commands.next = self.gate.events.val();
 
         // Answers.
         self.last_mark.next = self.entry.val() & self.mark.val();
         self.is_last.next = self.last_mark.val().any();
-        self.m_axis_tvalid.next = self.entry_valid.val();
-        self.m_axis_tdata.next = bit_cast::<W, E>(self.entry.val());
-        self.m_axis_tkeep.next = self.all_bytes.val();
-        self.m_axis_tlast.next = self.is_last.val();
-        self.pop.next = self.entry_valid.val() & self.m_axis_tready.val();
+        self.m_axis.tvalid.next = self.entry_valid.val();
+        self.m_axis.tdata.next = bit_cast::<W, E>(self.entry.val());
+        self.m_axis.tkeep.next = self.all_bytes.val();
+        self.m_axis.tlast.next = self.is_last.val();
+        self.pop.next = self.entry_valid.val() & self.m_axis.tready.val();
         self.watch.m_axis_tvalid.next = self.entry_valid.val();
-        self.watch.m_axis_tready.next = self.m_axis_tready.val();
+        self.watch.m_axis_tready.next = self.m_axis.tready.val();
         self.watch.m_axis_tdata.next = bit_cast::<W, E>(self.entry.val());
         self.watch.m_axis_tlast.next = self.is_last.val();
-        self.registers.took_answer.next = self.watch.took.val();
-        self.registers.answer_waited.next = self.watch.waited.val();
-        self.registers.answer_ended.next = self.watch.ended.val();
-        self.registers.failed.next = self.watch.failed.val();
-        self.registers.header.next = self.watch.header.val();
+        self.registers.answers.next = self.watch.events.val();
 
         // What is under way.
         self.busy_seen.sent.next = self.core_busy.val();
@@ -169,23 +128,5 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
         self.busy_earlier.d.next = self.busy_before.q.val();
         self.registers.is_busy.next = self.is_busy.val() | self.busy_before.q.val() | self.busy_earlier.q.val();
 
-        // Registers.
-        self.registers.s_axi_awvalid.next = self.s_axi_awvalid.val();
-        self.s_axi_awready.next = self.registers.s_axi_awready.val();
-        self.registers.s_axi_awaddr.next = self.s_axi_awaddr.val();
-        self.registers.s_axi_wvalid.next = self.s_axi_wvalid.val();
-        self.s_axi_wready.next = self.registers.s_axi_wready.val();
-        self.registers.s_axi_wdata.next = self.s_axi_wdata.val();
-        self.registers.s_axi_wstrb.next = self.s_axi_wstrb.val();
-        self.s_axi_bvalid.next = self.registers.s_axi_bvalid.val();
-        self.registers.s_axi_bready.next = self.s_axi_bready.val();
-        self.s_axi_bresp.next = self.registers.s_axi_bresp.val();
-        self.registers.s_axi_arvalid.next = self.s_axi_arvalid.val();
-        self.s_axi_arready.next = self.registers.s_axi_arready.val();
-        self.registers.s_axi_araddr.next = self.s_axi_araddr.val();
-        self.s_axi_rvalid.next = self.registers.s_axi_rvalid.val();
-        self.registers.s_axi_rready.next = self.s_axi_rready.val();
-        self.s_axi_rdata.next = self.registers.s_axi_rdata.val();
-        self.s_axi_rresp.next = self.registers.s_axi_rresp.val();
     }
 }

@@ -9,6 +9,7 @@ use rust_hdl_widgets::prelude::*;
 
 use super::{AnswerBeats, AnswerPairs, BeatWords, Progress, ResetReply};
 use crate::leaf::{Parameter, Synchroniser};
+use crate::link::{AnswerSink, CommandSource};
 
 /// The core's side; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -17,16 +18,8 @@ pub struct CoreSide<const W: usize, const E: usize> {
     pub clock: Signal<In, Clock>,
     /// Reset of the core, and of the core's side of both FIFOs. A register.
     pub core_reset: Signal<Out, Bit>,
-    /// The command stream.
-    pub command_valid: Signal<Out, Bit>,
-    pub command_ready: Signal<In, Bit>,
-    pub command_data: Signal<Out, Bits<32>>,
-    /// The answer stream, as in `AnswerPairs`.
-    pub response_valid: Signal<In, Bit>,
-    pub response_ready: Signal<Out, Bit>,
-    pub response_data: Signal<In, Bits<64>>,
-    pub response_both: Signal<In, Bit>,
-    pub response_last: Signal<In, Bit>,
+    pub command: CommandSource,
+    pub response: AnswerSink,
     /// Reader's side of the command FIFO.
     pub beat_valid: Signal<In, Bit>,
     pub beat_data: Signal<In, Bits<W>>,
@@ -95,17 +88,11 @@ impl<const W: usize, const E: usize> Logic for CoreSide<W, E> {
         self.words.beat_valid.next = self.beat_valid.val();
         self.words.beat_data.next = self.beat_data.val();
         self.takes.next = self.words.takes.val();
-        self.command_valid.next = self.words.command_valid.val();
-        self.command_data.next = self.words.command_data.val();
-        self.words.command_ready.next = self.command_ready.val();
+        CommandSource::link(&mut self.command, &mut self.words.command);
 
         // Answers.
-        self.pairs.response_valid.next = self.response_valid.val();
-        self.pairs.response_data.next = self.response_data.val();
-        self.pairs.response_both.next = self.response_both.val();
-        self.pairs.response_last.next = self.response_last.val();
+        AnswerSink::link(&mut self.response, &mut self.pairs.response);
         self.pairs.is_stalled.next = self.beats.is_stalled.val();
-        self.response_ready.next = self.pairs.response_ready.val();
         self.beats.pair_valid.next = self.pairs.pair_valid.val();
         self.beats.pair_data.next = self.pairs.pair_data.val();
         self.beats.pair_last.next = self.pairs.pair_last.val();
@@ -119,11 +106,11 @@ impl<const W: usize, const E: usize> Logic for CoreSide<W, E> {
         self.entry.next = self.wide_beat.val() | self.last_mark.val();
 
         // What is under way.
-        self.last_offered.next = self.response_valid.val() & self.response_last.val();
-        self.progress.takes.next = self.words.command_valid.val() & self.command_ready.val();
-        self.progress.word.next = self.words.command_data.val();
+        self.last_offered.next = self.response.valid.val() & self.response.last.val();
+        self.progress.takes.next = self.command.valid.val() & self.command.ready.val();
+        self.progress.word.next = self.command.data.val();
         self.progress.offers_last.next = self.last_offered.val();
-        self.progress.ends.next = self.last_offered.val() & self.pairs.response_ready.val();
+        self.progress.ends.next = self.last_offered.val() & self.response.ready.val();
         self.busy.d.next = (!self.is_empty.val())
             | self.words.is_held.val()
             | self.progress.is_busy.val()

@@ -25,34 +25,15 @@
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
+use super::AxiLite;
+
 /// The AXI4-Lite port; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RegisterPort {
     /// The bus's clock; reset forgets all transactions.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// Address of a write.
-    pub s_axi_awvalid: Signal<In, Bit>,
-    pub s_axi_awready: Signal<Out, Bit>,
-    pub s_axi_awaddr: Signal<In, Bits<12>>,
-    /// Its data.
-    pub s_axi_wvalid: Signal<In, Bit>,
-    pub s_axi_wready: Signal<Out, Bit>,
-    pub s_axi_wdata: Signal<In, Bits<32>>,
-    pub s_axi_wstrb: Signal<In, Bits<4>>,
-    /// Its answer.
-    pub s_axi_bvalid: Signal<Out, Bit>,
-    pub s_axi_bready: Signal<In, Bit>,
-    pub s_axi_bresp: Signal<Out, Bits<2>>,
-    /// Address of a read.
-    pub s_axi_arvalid: Signal<In, Bit>,
-    pub s_axi_arready: Signal<Out, Bit>,
-    pub s_axi_araddr: Signal<In, Bits<12>>,
-    /// Its answer.
-    pub s_axi_rvalid: Signal<Out, Bit>,
-    pub s_axi_rready: Signal<In, Bit>,
-    pub s_axi_rdata: Signal<Out, Bits<32>>,
-    pub s_axi_rresp: Signal<Out, Bits<2>>,
+    pub s_axi: AxiLite,
     /// A register is written at this edge.
     pub write_enable: Signal<Out, Bit>,
     pub write_address: Signal<Out, Bits<12>>,
@@ -63,7 +44,7 @@ pub struct RegisterPort {
     /// A register is read at this edge.
     pub read_enable: Signal<Out, Bit>,
     pub read_address: Signal<Out, Bits<12>>,
-    /// It; there is one at that address.
+    /// Its value; there is a register at that address.
     pub read_data: Signal<In, Bits<32>>,
     pub read_is_known: Signal<In, Bit>,
     has_address: DFF<Bit>,
@@ -94,26 +75,26 @@ impl Logic for RegisterPort {
         dff_setup!(self, clock, has_read, read_from, is_read, value, read_response);
 
         // Writes.
-        self.s_axi_awready.next = !self.has_address.q.val();
-        self.s_axi_wready.next = !self.has_data.q.val();
-        self.s_axi_bvalid.next = self.is_written.q.val();
-        self.s_axi_bresp.next = self.write_response.q.val();
+        self.s_axi.awready.next = !self.has_address.q.val();
+        self.s_axi.wready.next = !self.has_data.q.val();
+        self.s_axi.bvalid.next = self.is_written.q.val();
+        self.s_axi.bresp.next = self.write_response.q.val();
         self.writes.next = self.has_address.q.val() & self.has_data.q.val() & (!self.is_written.q.val());
         self.write_enable.next = self.writes.val();
         self.write_address.next = self.address.q.val();
         self.write_data.next = self.data.q.val();
         self.write_bytes.next = self.bytes.q.val();
-        if self.s_axi_bready.val() {
+        if self.s_axi.bready.val() {
             self.is_written.d.next = false;
         }
         if !self.has_address.q.val() {
-            self.has_address.d.next = self.s_axi_awvalid.val();
-            self.address.d.next = self.s_axi_awaddr.val();
+            self.has_address.d.next = self.s_axi.awvalid.val();
+            self.address.d.next = self.s_axi.awaddr.val();
         }
         if !self.has_data.q.val() {
-            self.has_data.d.next = self.s_axi_wvalid.val();
-            self.data.d.next = self.s_axi_wdata.val();
-            self.bytes.d.next = self.s_axi_wstrb.val();
+            self.has_data.d.next = self.s_axi.wvalid.val();
+            self.data.d.next = self.s_axi.wdata.val();
+            self.bytes.d.next = self.s_axi.wstrb.val();
         }
         if self.writes.val() {
             self.has_address.d.next = false;
@@ -126,19 +107,19 @@ impl Logic for RegisterPort {
         }
 
         // Reads.
-        self.s_axi_arready.next = !self.has_read.q.val();
-        self.s_axi_rvalid.next = self.is_read.q.val();
-        self.s_axi_rdata.next = self.value.q.val();
-        self.s_axi_rresp.next = self.read_response.q.val();
+        self.s_axi.arready.next = !self.has_read.q.val();
+        self.s_axi.rvalid.next = self.is_read.q.val();
+        self.s_axi.rdata.next = self.value.q.val();
+        self.s_axi.rresp.next = self.read_response.q.val();
         self.reads.next = self.has_read.q.val() & (!self.is_read.q.val());
         self.read_enable.next = self.reads.val();
         self.read_address.next = self.read_from.q.val();
-        if self.s_axi_rready.val() {
+        if self.s_axi.rready.val() {
             self.is_read.d.next = false;
         }
         if !self.has_read.q.val() {
-            self.has_read.d.next = self.s_axi_arvalid.val();
-            self.read_from.d.next = self.s_axi_araddr.val();
+            self.has_read.d.next = self.s_axi.arvalid.val();
+            self.read_from.d.next = self.s_axi.araddr.val();
         }
         if self.reads.val() {
             self.has_read.d.next = false;

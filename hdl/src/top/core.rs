@@ -12,7 +12,7 @@
 //! Latency: see the blocks.
 
 use crate::engine::{Counters, InsertionEngine, Latencies, Write};
-use crate::link::{AnswerHead, AnswerWords, CommandPort, Responder};
+use crate::link::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
@@ -22,17 +22,8 @@ pub struct Core {
     /// One clock; synchronous reset, active high.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// The command stream.
-    pub command_valid: Signal<In, Bit>,
-    pub command_ready: Signal<Out, Bit>,
-    pub command_data: Signal<In, Bits<32>>,
-    /// The answer stream.
-    pub response_valid: Signal<Out, Bit>,
-    pub response_ready: Signal<In, Bit>,
-    pub response_data: Signal<Out, Bits<64>>,
-    /// Bits 63 to 32 are a second word, which follows the first; the last word of the answer is here.
-    pub response_both: Signal<Out, Bit>,
-    pub response_last: Signal<Out, Bit>,
+    pub command: CommandSink,
+    pub response: AnswerSource,
     /// The write port of the triangle memory, for simulation.
     pub write: Signal<Out, Write>,
     command_port: CommandPort,
@@ -62,14 +53,8 @@ impl Core {
         Ok(Self {
             clock: Signal::default(),
             reset: Signal::default(),
-            command_valid: Signal::default(),
-            command_ready: Signal::default(),
-            command_data: Signal::default(),
-            response_valid: Signal::default(),
-            response_ready: Signal::default(),
-            response_data: Signal::default(),
-            response_both: Signal::default(),
-            response_last: Signal::default(),
+            command: CommandSink::default(),
+            response: AnswerSource::default(),
             write: Signal::default(),
             command_port: CommandPort::default(),
             answer_head: AnswerHead::default(),
@@ -104,9 +89,7 @@ impl Logic for Core {
         // The command stream.
         self.command_port.capacity.next = self.capacity.val();
         self.command_port.built.next = self.contexts.val();
-        self.command_port.command_valid.next = self.command_valid.val();
-        self.command_port.command_data.next = self.command_data.val();
-        self.command_ready.next = self.command_port.command_ready.val();
+        CommandSink::link(&mut self.command, &mut self.command_port.command);
         self.command_port.sweeps.next = self.sweeps.val();
         self.command_port.start_is_open.next = self.engine.start_is_open.val();
         self.command_port.collinear.next = self.engine.collinear.val();
@@ -156,11 +139,7 @@ impl Logic for Core {
         self.responder.n1.next = self.engine.n1.val();
         self.responder.n2.next = self.engine.n2.val();
         self.responder.was_set.next = self.engine.was_set.val();
-        self.responder.response_ready.next = self.response_ready.val();
-        self.response_valid.next = self.responder.response_valid.val();
-        self.response_data.next = self.responder.response_data.val();
-        self.response_both.next = self.responder.response_both.val();
-        self.response_last.next = self.responder.response_last.val();
+        AnswerSource::link(&mut self.response, &mut self.responder.response);
 
         // The engine.
         self.engine.infinite.next = self.infinite.val();

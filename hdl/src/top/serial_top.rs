@@ -6,6 +6,7 @@
 
 use super::Core;
 use crate::engine::Write;
+use crate::link::{AnswerSink, CommandSource};
 use crate::serial::{SerialError, SerialLink};
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;
@@ -65,14 +66,8 @@ impl Logic for SerialTop {
         self.link.rx.next = self.rx.val();
         self.tx.next = self.link.tx.val();
         self.core.reset.next = self.link.core_reset.val();
-        self.core.command_valid.next = self.link.command_valid.val();
-        self.core.command_data.next = self.link.command_data.val();
-        self.link.command_ready.next = self.core.command_ready.val();
-        self.link.response_valid.next = self.core.response_valid.val();
-        self.link.response_data.next = self.core.response_data.val();
-        self.link.response_both.next = self.core.response_both.val();
-        self.link.response_last.next = self.core.response_last.val();
-        self.core.response_ready.next = self.link.response_ready.val();
+        CommandSource::join(&mut self.link.command, &mut self.core.command);
+        AnswerSink::join(&mut self.link.response, &mut self.core.response);
         self.write.next = self.core.write.val();
 
         self.alive.next = 0.into();
