@@ -1,18 +1,5 @@
 //! The insertion engine: points in, triangle records kept, many insertions in flight on one pipeline.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets everything but the memories, and sweeps the locks |
-//! | `infinite`, `ring`, `last_id`, `all`, `patience` | in | 15, 7, 15, 24, 22 | parameters, constants |
-//! | `deal` | in | Deal | contexts that work, and which points are theirs; changes only with `clears` |
-//! | `clears` | in | 1 | forget the mesh at this edge; only while quiet |
-//! | `came`, `came_id`, `point`, `arrived` | in | 1, 15, 32, 15 | a point is stored at this edge; points that have come |
-//! | `read`, `read_id`, `read_done`, `v0..n2`, `was_set` | in, out | | read-out of a record; only while quiet |
-//! | `start_is_open`, `collinear`, `records` | out | 1, 1, 15 | state of the mesh, see `Seeder` |
-//! | `is_quiet`, `stuck`, `sweeps` | out | 1 | every point is finished; nothing is finished any more; locks are being swept |
-//! | `write` | out | Write | the write port of the triangle memory |
-//! | `events` | out | Events | what happens at this edge, for the counters |
-//!
 //! ```text
 //!                 +------------------- visits, one to three a push -----------------------------+
 //!                 v                                                                            |
@@ -35,57 +22,31 @@ use rust_hdl_core::prelude::*;
 /// The engine; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct InsertionEngine {
-    /// Clock.
+    /// Reset forgets everything but the memories, and sweeps the locks.
     pub clock: Signal<In, Clock>,
-    /// Forgets everything but the memories.
     pub reset: Signal<In, Bit>,
-    /// The infinite vertex.
+    /// Parameters, constants.
     pub infinite: Signal<In, Bits<15>>,
-    /// Entries of a boundary list.
     pub ring: Signal<In, Bits<7>>,
-    /// The highest record id.
     pub last_id: Signal<In, Bits<15>>,
-    /// Contexts that are built, a bit each.
     pub all: Signal<In, Bits<24>>,
-    /// Clocks without a finished point.
     pub patience: Signal<In, Bits<22>>,
-    /// Contexts that work, and which points are theirs.
+    /// Contexts that work, and which points are theirs; changes only with `clears`.
     pub deal: Signal<In, Deal>,
-    /// Forget the mesh.
+    /// Forget the mesh at this edge; only while quiet.
     pub clears: Signal<In, Bit>,
-    /// A point is stored.
+    /// A point is stored at this edge; points that have come.
     pub came: Signal<In, Bit>,
-    /// Its vertex id.
     pub came_id: Signal<In, Bits<15>>,
-    /// Its coordinates.
     pub point: Signal<In, Bits<32>>,
-    /// Points that have come.
     pub arrived: Signal<In, Bits<15>>,
-    /// A read-out wants a record.
     pub read: Signal<In, Bit>,
-    /// The record.
     pub read_id: Signal<In, Bits<15>>,
     /// The time.
     pub now: Signal<In, Bits<22>>,
-    /// Three points are being looked at for a first triangle.
-    pub start_is_open: Signal<Out, Bit>,
-    /// Such three are collinear.
-    pub collinear: Signal<Out, Bit>,
-    /// Records of the mesh.
-    pub records: Signal<Out, Bits<15>>,
-    /// Every point is finished, and no lock is held.
-    pub is_quiet: Signal<Out, Bit>,
-    /// Nothing is finished any more.
-    pub stuck: Signal<Out, Bit>,
-    /// The lock memory is being cleared after reset.
-    pub sweeps: Signal<Out, Bit>,
-    /// The record read stands on the columns.
     pub read_done: Signal<Out, Bit>,
-    /// Column read.
     pub v0: Signal<Out, Bits<15>>,
-    /// Column read.
     pub v1: Signal<Out, Bits<15>>,
-    /// Column read.
     pub v2: Signal<Out, Bits<15>>,
     /// Column read.
     pub n0: Signal<Out, Bits<15>>,
@@ -93,11 +54,18 @@ pub struct InsertionEngine {
     pub n1: Signal<Out, Bits<15>>,
     /// Column read.
     pub n2: Signal<Out, Bits<15>>,
-    /// Lock bit read.
     pub was_set: Signal<Out, Bit>,
+    /// State of the mesh, see `Seeder`.
+    pub start_is_open: Signal<Out, Bit>,
+    pub collinear: Signal<Out, Bit>,
+    pub records: Signal<Out, Bits<15>>,
+    /// Every point is finished; nothing is finished any more; locks are being swept.
+    pub is_quiet: Signal<Out, Bit>,
+    pub stuck: Signal<Out, Bit>,
+    pub sweeps: Signal<Out, Bit>,
     /// The write port of the triangle memory.
     pub write: Signal<Out, Write>,
-    /// What happens at this edge.
+    /// What happens at this edge, for the counters.
     pub events: Signal<Out, Events>,
     insertions: Insertions,
     pipeline: VisitPipeline,

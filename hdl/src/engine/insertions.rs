@@ -1,24 +1,5 @@
 //! The contexts and what their visits lead to: who starts, what follows a visit, stars written, locks released.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset drops everything at work; clear forgets the mesh |
-//! | `ring`, `last_id`, `all`, `patience` | in | 7, 15, 24, 22 | parameters, constants |
-//! | `deal`, `arrived`, `came`, `now` | in | Deal, 15, 1, 22 | contexts that work, and which points are theirs; points that have come; one is being stored; the time |
-//! | `early_done`, `early_token`, `early_turned` | in | | the visit that completes in the next clock; none while an insertion alone is at work |
-//! | `token`, `turned`, `verdict` | in | | the visit that completes |
-//! | `seeded`, `has_no_start`, `seeds` | in | 1 | the first triangle, see `Seeder` |
-//! | `solo_is_at_work`, `solo_ends`, `solo_inserts` | in | 1 | the insertion alone |
-//! | `asks`, `may_ask`, `follows` | out | 1, 1, Bundle | the visit that completes asks for others; it may; they |
-//! | `starts`, `starter`, `u` | out | 1, 5, 15 | a context starts to walk at this record, while nobody may ask |
-//! | `looks` | out | 1 | the visit that completes is the look at the first three points |
-//! | `fetch_id`, `position_enable`, `position_owner` | out | 15, 1, 5 | a point to fetch; its context, when it has come |
-//! | `solo_starts`, `solo_owner`, `solo_p` | out | 1, 5, 15 | an insertion alone starts, from `u` on |
-//! | `write`, `records`, `fresh` | out | Write, 15, 15 | a record or a link; records from this id on are not written yet; the next new id |
-//! | `clear_enable`, `clear_id`, `sweeps` | out | 1, 15, 1 | a lock to clear; the lock memory is being cleared after reset |
-//! | `is_quiet`, `stuck` | out | 1 | every point is finished; nothing is finished any more |
-//! | `events` | out | Events | what happens at this edge, but for what others know |
-//!
 //! Latency: see the blocks.
 
 use super::attempt::Attempts;
@@ -31,95 +12,64 @@ use rust_hdl_core::prelude::*;
 /// Insertions in flight; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Insertions {
-    /// Clock.
+    /// Reset drops everything at work; clear forgets the mesh.
     pub clock: Signal<In, Clock>,
-    /// Drops everything at work.
     pub reset: Signal<In, Bit>,
-    /// Forgets the mesh.
     pub clears: Signal<In, Bit>,
-    /// Entries of a boundary list.
+    /// Parameters, constants.
     pub ring: Signal<In, Bits<7>>,
-    /// The highest record id.
     pub last_id: Signal<In, Bits<15>>,
-    /// Contexts that are built, a bit each.
     pub all: Signal<In, Bits<24>>,
-    /// Clocks without a finished point.
     pub patience: Signal<In, Bits<22>>,
-    /// Contexts that work, and which points are theirs.
+    /// Contexts that work, and which points are theirs; points that have come; one is being stored; the time.
     pub deal: Signal<In, Deal>,
-    /// Points that have come.
     pub arrived: Signal<In, Bits<15>>,
-    /// A point is being stored.
     pub came: Signal<In, Bit>,
-    /// The time.
     pub now: Signal<In, Bits<22>>,
-    /// A visit completes in the next clock.
     pub early_done: Signal<In, Bit>,
-    /// The visit.
     pub early_token: Signal<In, Token>,
-    /// Its record.
     pub early_turned: Signal<In, Turned>,
-    /// The visit that completes.
     pub token: Signal<In, Token>,
-    /// Its record.
     pub turned: Signal<In, Turned>,
-    /// What it found out.
     pub verdict: Signal<In, Verdict>,
-    /// The first triangle stands.
+    /// The first triangle, see `Seeder`.
     pub seeded: Signal<In, Bit>,
-    /// There is none and none is due.
     pub has_no_start: Signal<In, Bit>,
-    /// The last record of one is written.
     pub seeds: Signal<In, Bit>,
-    /// An insertion alone is under way.
+    /// The insertion alone.
     pub solo_is_at_work: Signal<In, Bit>,
-    /// It is over.
     pub solo_ends: Signal<In, Bit>,
-    /// It has inserted its point.
     pub solo_inserts: Signal<In, Bit>,
-    /// The visit that completes asks for others.
+    /// The visit that completes asks for others; it may; they.
     pub asks: Signal<Out, Bit>,
-    /// It may.
     pub may_ask: Signal<Out, Bit>,
-    /// The visits that follow.
     pub follows: Signal<Out, Bundle>,
-    /// A context starts to walk.
+    /// A context starts to walk at this record, while nobody may ask.
     pub starts: Signal<Out, Bit>,
-    /// Which.
     pub starter: Signal<Out, Bits<5>>,
-    /// Where.
     pub u: Signal<Out, Bits<15>>,
-    /// The look at the first three points.
+    /// The visit that completes is the look at the first three points.
     pub looks: Signal<Out, Bit>,
-    /// A point to fetch.
+    /// A point to fetch; its context, when it has come.
     pub fetch_id: Signal<Out, Bits<15>>,
-    /// It has come.
     pub position_enable: Signal<Out, Bit>,
-    /// Its context.
     pub position_owner: Signal<Out, Bits<5>>,
-    /// An insertion alone starts.
+    /// An insertion alone starts, from `u` on.
     pub solo_starts: Signal<Out, Bit>,
-    /// Its context.
     pub solo_owner: Signal<Out, Bits<5>>,
-    /// Its point.
     pub solo_p: Signal<Out, Bits<15>>,
-    /// A record or a link.
+    /// A record or a link; records from this id on are not written yet; the next new id.
     pub write: Signal<Out, Write>,
-    /// Records that are written.
     pub records: Signal<Out, Bits<15>>,
-    /// The next new id.
     pub fresh: Signal<Out, Bits<15>>,
-    /// A lock to clear.
+    /// A lock to clear; the lock memory is being cleared after reset.
     pub clear_enable: Signal<Out, Bit>,
-    /// Which.
     pub clear_id: Signal<Out, Bits<15>>,
-    /// The lock memory is being cleared.
     pub sweeps: Signal<Out, Bit>,
-    /// Every point is finished.
+    /// Every point is finished; nothing is finished any more.
     pub is_quiet: Signal<Out, Bit>,
-    /// Nothing is finished any more.
     pub stuck: Signal<Out, Bit>,
-    /// What happens at this edge.
+    /// What happens at this edge, but for what others know.
     pub events: Signal<Out, Events>,
     dispatcher: Dispatcher,
     attempts: Attempts,

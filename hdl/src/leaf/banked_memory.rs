@@ -1,16 +1,6 @@
 //! A small memory in LUTs with a bank of words for each of many users: one write port, and a read port that answers at once. The bank
 //! to read is named by a bit each.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | writes happen at its rising edge |
-//! | `write_bank`, `write_address` | in | B, A | word to write |
-//! | `write_data` | in | D | its new value |
-//! | `write_enable` | in | 1 | write at this edge |
-//! | `read_banks` | in | M | bit `b`: bank `b` is read; at most one is high |
-//! | `read_address` | in | A | word to read |
-//! | `read_data` | out | D | its value, zero above the stored bits; zero if no bank is named |
-//!
 //! 1. `read_data` follows `read_banks` and `read_address` without a clock; a word written at an edge is seen right after it.
 //! 2. Only the low `banks` bits of `read_banks`, the low `address_bits` of an address and the low `stored_bits` of a word count. A write
 //!    into a bank that is not there is lost.
@@ -28,21 +18,20 @@ use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MA
 /// A memory with banks; see the top of this file.
 #[derive(LogicBlock)]
 pub struct BankedMemory<const M: usize, const B: usize, const A: usize, const D: usize> {
-    /// Clock.
+    /// Writes happen at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Bank to write.
-    pub write_bank: Signal<In, Bits<B>>,
     /// Word to write.
+    pub write_bank: Signal<In, Bits<B>>,
     pub write_address: Signal<In, Bits<A>>,
     /// Its new value.
     pub write_data: Signal<In, Bits<D>>,
     /// Write at this edge.
     pub write_enable: Signal<In, Bit>,
-    /// Bank to read.
+    /// Bit `b`: bank `b` is read; at most one is high.
     pub read_banks: Signal<In, Bits<M>>,
     /// Word to read.
     pub read_address: Signal<In, Bits<A>>,
-    /// Its value, in the same cycle.
+    /// Its value, zero above the stored bits; zero if no bank is named.
     pub read_data: Signal<Out, Bits<D>>,
     _banks: usize,
     _address_bits: usize,

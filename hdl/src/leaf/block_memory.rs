@@ -1,14 +1,5 @@
 //! A memory in block RAM with one write port and one read port.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `write_address` | in | A | word to write |
-//! | `write_data` | in | D | its new value |
-//! | `write_enable` | in | 1 | write at this edge |
-//! | `read_address` | in | A | word to read |
-//! | `read_data` | out | D | its value, zero above the stored bits |
-//!
 //! 1. One write and one read can happen at every edge.
 //! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
 //! 3. Reading and writing one word at the same edge is undefined in silicon. The design never uses such a read; simulation in
@@ -31,7 +22,7 @@ use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MA
 /// A memory with one write and one read port; see the top of this file.
 #[derive(LogicBlock)]
 pub struct BlockMemory<const A: usize, const D: usize> {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Word to write.
     pub write_address: Signal<In, Bits<A>>,
@@ -41,7 +32,7 @@ pub struct BlockMemory<const A: usize, const D: usize> {
     pub write_enable: Signal<In, Bit>,
     /// Word to read.
     pub read_address: Signal<In, Bits<A>>,
-    /// Its value, [`LATENCY`](BlockMemory::LATENCY) edges later.
+    /// Its value, zero above the stored bits.
     pub read_data: Signal<Out, Bits<D>>,
     _address_bits: usize,
     _stored_bits: usize,

@@ -1,15 +1,5 @@
 //! A [`Fifo`](super::Fifo) that is deep: seen from outside the same, with its entries in block RAM.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `reset` | in | 1 | empty the buffer at this edge |
-//! | `push` | in | 1 | take `push_data` |
-//! | `push_data` | in | D | new entry |
-//! | `pop` | in | 1 | remove the entry on the output at this edge |
-//! | `valid` | out | 1 | there is an entry on the output |
-//! | `data` | out | D | the oldest entry, zero above the stored bits |
-//!
 //! 1. Empty: `valid = push` and `data = push_data` in the same cycle. Otherwise `data` is the oldest entry.
 //! 2. `pop` only while `valid`. Without it `valid` stays and `data` is held.
 //! 3. Push and pop at one edge are allowed in every state; on an empty buffer the entry passes.
@@ -44,19 +34,19 @@ use super::memory_shape::MAX_ADDRESS_BITS;
 /// A deep buffer; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DeepFifo<const A: usize, const D: usize> {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Empty the buffer.
+    /// Empty the buffer at this edge.
     pub reset: Signal<In, Bit>,
     /// Take `push_data`.
     pub push: Signal<In, Bit>,
     /// New entry.
     pub push_data: Signal<In, Bits<D>>,
-    /// Remove the entry on the output.
+    /// Remove the entry on the output at this edge.
     pub pop: Signal<In, Bit>,
     /// There is an entry on the output.
     pub valid: Signal<Out, Bit>,
-    /// The oldest entry.
+    /// The oldest entry, zero above the stored bits.
     pub data: Signal<Out, Bits<D>>,
     ring: BlockMemory<A, D>,
     new_bank: LutMemory<4, D>,

@@ -1,11 +1,5 @@
 //! Data delayed by a few clocks, kept in a ring buffer of LUTs.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `data_in` | in | D | taken at every edge |
-//! | `data_out` | out | D | `data_in` of `stages` edges ago |
-//!
 //! 1. There is no reset and no valid bit. The output is arbitrary until `stages` edges have passed; users carry a valid bit beside.
 //!
 //! Latency: data that stands before edge 1 is on the output after edge `stages`.
@@ -24,11 +18,11 @@ const COUNTER_BITS: usize = 6;
 /// A delay; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DelayLine<const D: usize> {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Taken at every edge.
     pub data_in: Signal<In, Bits<D>>,
-    /// The same, `stages` edges later.
+    /// `data_in` of `stages` edges ago.
     pub data_out: Signal<Out, Bits<D>>,
     ring: LutMemory<COUNTER_BITS, D>,
     position: DFF<Bits<COUNTER_BITS>>,

@@ -1,16 +1,5 @@
 //! A memory in block RAM that is written by one clock and read by another.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `write_clock` | in | 1 | writes happen at its rising edge |
-//! | `write_address` | in | A | word to write |
-//! | `write_data` | in | D | its new value |
-//! | `write_enable` | in | 1 | write at this edge |
-//! | `read_clock` | in | 1 | reads happen at its rising edge |
-//! | `read_address` | in | A | word to read |
-//! | `read_enable` | in | 1 | the read port moves at this edge |
-//! | `read_data` | out | D | its value, zero above the stored bits |
-//!
 //! 1. Without `read_enable` both ranks of the read port, array and output register, hold. Writes go on.
 //! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
 //! 3. A word that is written less than a clock of either side before it is read, or at the same time, is undefined in silicon. The design
@@ -29,7 +18,7 @@ use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended};
 /// A memory between two clocks; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DualClockMemory<const A: usize, const D: usize> {
-    /// Clock of the write port.
+    /// Writes happen at its rising edge.
     pub write_clock: Signal<In, Clock>,
     /// Word to write.
     pub write_address: Signal<In, Bits<A>>,
@@ -37,13 +26,13 @@ pub struct DualClockMemory<const A: usize, const D: usize> {
     pub write_data: Signal<In, Bits<D>>,
     /// Write at this edge.
     pub write_enable: Signal<In, Bit>,
-    /// Clock of the read port.
+    /// Reads happen at its rising edge.
     pub read_clock: Signal<In, Clock>,
     /// Word to read.
     pub read_address: Signal<In, Bits<A>>,
     /// The read port moves at this edge.
     pub read_enable: Signal<In, Bit>,
-    /// Its value, [`LATENCY`](DualClockMemory::LATENCY) enabled edges later.
+    /// Its value, zero above the stored bits.
     pub read_data: Signal<Out, Bits<D>>,
     _address_bits: usize,
     _stored_bits: usize,

@@ -1,11 +1,5 @@
 //! A flag delayed by a fixed number of clocks, in plain registers.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `flag_in` | in | 1 | taken at every edge |
-//! | `flag_out` | out | 1 | `flag_in` of `stages` edges ago |
-//!
 //! 1. There is no reset: the output is arbitrary until `stages` edges have passed.
 //!
 //! Latency: a flag that stands before edge 1 is on the output after edge `stages`.
@@ -17,11 +11,11 @@ use rust_hdl_core::prelude::*;
 /// A delayed flag; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FlagDelay {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Taken at every edge.
     pub flag_in: Signal<In, Bit>,
-    /// The same, `stages` edges later.
+    /// `flag_in` of `stages` edges ago.
     pub flag_out: Signal<Out, Bit>,
     _line: Vec<bool>,
 }

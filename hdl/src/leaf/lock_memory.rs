@@ -1,14 +1,5 @@
 //! One lock bit per word: a port that tests and sets, and a port that clears.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `test_address` | in | A | lock to test |
-//! | `test_set` | in | 1 | set it at this edge |
-//! | `was_set` | out | 1 | its value before this edge |
-//! | `clear_address` | in | A | lock to clear |
-//! | `clear_enable` | in | 1 | clear it at this edge |
-//!
 //! 1. Every edge tests one lock; with `test_set` it also sets it. The test sees the lock as it was before the edge.
 //! 2. With `clear_enable` the other port clears one lock; tests from the next edge on see it clear.
 //! 3. The two ports never meet at one lock and one edge while either changes it. Clearing and setting together has no winner in
@@ -32,13 +23,13 @@ use super::memory_shape::{assert_shape, low_part, unused_part, MAX_ADDRESS_BITS}
 /// A memory of lock bits; see the top of this file.
 #[derive(LogicBlock)]
 pub struct LockMemory<const A: usize> {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Lock to test.
     pub test_address: Signal<In, Bits<A>>,
     /// Set it at this edge.
     pub test_set: Signal<In, Bit>,
-    /// Its value before the edge, [`LATENCY`](LockMemory::LATENCY) edges later.
+    /// Its value before this edge.
     pub was_set: Signal<Out, Bit>,
     /// Lock to clear.
     pub clear_address: Signal<In, Bits<A>>,

@@ -1,14 +1,5 @@
 //! A small memory in LUTs: one write port, and a read port that answers at once.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | writes happen at its rising edge |
-//! | `write_address` | in | A | word to write |
-//! | `write_data` | in | D | its new value |
-//! | `write_enable` | in | 1 | write at this edge |
-//! | `read_address` | in | A | word to read |
-//! | `read_data` | out | D | its value, zero above the stored bits |
-//!
 //! 1. `read_data` follows `read_address` without a clock; a word written at an edge is seen right after it.
 //! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
 //! 3. Contents are arbitrary until written.
@@ -24,7 +15,7 @@ use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MA
 /// A memory with a combinational read; see the top of this file.
 #[derive(LogicBlock)]
 pub struct LutMemory<const A: usize, const D: usize> {
-    /// Clock.
+    /// Writes happen at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Word to write.
     pub write_address: Signal<In, Bits<A>>,
@@ -34,7 +25,7 @@ pub struct LutMemory<const A: usize, const D: usize> {
     pub write_enable: Signal<In, Bit>,
     /// Word to read.
     pub read_address: Signal<In, Bits<A>>,
-    /// Its value, in the same cycle.
+    /// Its value, zero above the stored bits.
     pub read_data: Signal<Out, Bits<D>>,
     _address_bits: usize,
     _stored_bits: usize,

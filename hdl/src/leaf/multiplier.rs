@@ -1,11 +1,5 @@
 //! An 18 x 18 bit signed multiplier with the three register ranks of a DSP block.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `a`, `b` | in | 18 | factors, two's complement |
-//! | `product` | out | 36 | `a * b`, two's complement |
-//!
 //! 1. A new pair of factors is taken at every edge.
 //! 2. There is no reset: the product is arbitrary until [`LATENCY`](Multiplier::LATENCY) edges have passed.
 //!
@@ -22,13 +16,12 @@ use rust_hdl_core::prelude::*;
 /// A multiplier; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Multiplier {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// First factor, two's complement.
+    /// Factors, two's complement.
     pub a: Signal<In, Bits<18>>,
-    /// Second factor, two's complement.
     pub b: Signal<In, Bits<18>>,
-    /// Product, two's complement.
+    /// `a * b`, two's complement.
     pub product: Signal<Out, Bits<36>>,
     _a_input: i64,
     _b_input: i64,

@@ -1,15 +1,5 @@
 //! A memory in block RAM whose read port can stand still: one write port and one read port with an enable.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `write_address` | in | A | word to write |
-//! | `write_data` | in | D | its new value |
-//! | `write_enable` | in | 1 | write at this edge |
-//! | `read_address` | in | A | word to read |
-//! | `read_enable` | in | 1 | the read port moves at this edge |
-//! | `read_data` | out | D | its value, zero above the stored bits |
-//!
 //! 1. One write and one read can happen at every edge.
 //! 2. Without `read_enable` both ranks of the read port, array and output register, hold. Writes go on.
 //! 3. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
@@ -33,7 +23,7 @@ use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MA
 /// A memory with a paced read port; see the top of this file.
 #[derive(LogicBlock)]
 pub struct PacedMemory<const A: usize, const D: usize> {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Word to write.
     pub write_address: Signal<In, Bits<A>>,
@@ -45,7 +35,7 @@ pub struct PacedMemory<const A: usize, const D: usize> {
     pub read_address: Signal<In, Bits<A>>,
     /// The read port moves at this edge.
     pub read_enable: Signal<In, Bit>,
-    /// Its value, [`LATENCY`](PacedMemory::LATENCY) enabled edges later.
+    /// Its value, zero above the stored bits.
     pub read_data: Signal<Out, Bits<D>>,
     _address_bits: usize,
     _stored_bits: usize,

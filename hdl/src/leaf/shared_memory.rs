@@ -1,15 +1,5 @@
 //! A memory in block RAM with one port that reads, and one that reads or writes.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `read_address` | in | A | word to read |
-//! | `read_data` | out | D | its value, zero above the stored bits |
-//! | `shared_address` | in | A | word to write or to read |
-//! | `write_data` | in | D | its new value |
-//! | `write_enable` | in | 1 | write it at this edge; otherwise it is read |
-//! | `shared_data` | out | D | its value, zero above the stored bits |
-//!
 //! 1. Two reads, or a read and a write, can happen at every edge.
 //! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
 //! 3. Reading and writing one word at the same edge is undefined in silicon, and so is what `shared_data` gives for an edge that
@@ -33,19 +23,19 @@ use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MA
 /// A memory with a read port and a shared port; see the top of this file.
 #[derive(LogicBlock)]
 pub struct SharedMemory<const A: usize, const D: usize> {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Word to read.
     pub read_address: Signal<In, Bits<A>>,
-    /// Its value, [`LATENCY`](SharedMemory::LATENCY) edges later.
+    /// Its value, zero above the stored bits.
     pub read_data: Signal<Out, Bits<D>>,
     /// Word to write or to read.
     pub shared_address: Signal<In, Bits<A>>,
     /// Its new value.
     pub write_data: Signal<In, Bits<D>>,
-    /// Write at this edge.
+    /// Write it at this edge; otherwise it is read.
     pub write_enable: Signal<In, Bit>,
-    /// Its value, [`LATENCY`](SharedMemory::LATENCY) edges later.
+    /// Its value, zero above the stored bits.
     pub shared_data: Signal<Out, Bits<D>>,
     _address_bits: usize,
     _stored_bits: usize,

@@ -1,11 +1,5 @@
 //! Two cells that bring a value from another clock.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | the receiver's; everything happens at its rising edge |
-//! | `sent` | in | T | a register of the sender's clock, with no logic behind it |
-//! | `received` | out | T | its value |
-//!
 //! 1. Of a `sent` of several bits, one changes at a time (Gray code), or each is a flag on its own.
 //!
 //! Latency: 2 clocks, and where `sent` changes at the edge itself perhaps one more.
@@ -18,9 +12,9 @@ use rust_hdl_core::prelude::*;
 /// Two cells; see the top of this file.
 #[derive(LogicBlock)]
 pub struct Synchroniser<T: Synth> {
-    /// Clock of the receiver.
+    /// The receiver's; everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// A register of the sender.
+    /// A register of the sender's clock, with no logic behind it.
     pub sent: Signal<In, T>,
     /// Its value.
     pub received: Signal<Out, T>,

@@ -1,10 +1,5 @@
 //! Bits as a structure: what a memory stores, read by field.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `bits` | in | N | packed fields, the first in the lowest bits |
-//! | `value` | out | T | the same as a structure |
-//!
 //! Latency: none. No logic: both sides are the same wires.
 
 use rust_hdl_core::prelude::*;
@@ -58,9 +53,9 @@ macro_rules! packed {
 /// Bits as a structure; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Unpack<T: Unpacked, const N: usize> {
-    /// Packed fields.
+    /// Packed fields, the first in the lowest bits.
     pub bits: Signal<In, Bits<N>>,
-    /// The structure.
+    /// The same as a structure.
     pub value: Signal<Out, T>,
 }
 

@@ -1,16 +1,5 @@
 //! The locks of the triangle records, each with the context that holds it.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `id` | in | 15 | the lock that a visit comes to, in clock 0 |
-//! | `owner` | in | 5 | the visit's context, in clock 0 |
-//! | `takes` | in | 1 | the visit wants the lock, in clock 0 |
-//! | `took` | out | 1 | it has it now, and had it not before, in clock 3 |
-//! | `foreign` | out | 1 | it wants it, but another context holds it or it was just being cleared, in clock 3 |
-//! | `was_set` | out | 1 | the lock was set before the visit, in clock 2 |
-//! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear at this edge |
-//!
 //! 1. A visit with `takes` that finds the lock clear sets it for its context. One that finds it set leaves it alone: `foreign` says
 //!    whether it is that of another context, for which the owner of each lock is stored (L9).
 //! 2. A lock that is cleared at the edge at which a visit wants it is cleared, and counts as foreign to that visit, whoever had it:
@@ -41,23 +30,22 @@ use rust_hdl_widgets::prelude::*;
 /// Locks and their owners; see the top of this file.
 #[derive(LogicBlock)]
 pub struct LockStore {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// The lock that a visit comes to.
+    /// The lock that a visit comes to, in clock 0.
     pub id: Signal<In, Bits<15>>,
-    /// The visit's context.
+    /// The visit's context, in clock 0.
     pub owner: Signal<In, Bits<5>>,
-    /// The visit wants the lock.
+    /// The visit wants the lock, in clock 0.
     pub takes: Signal<In, Bit>,
-    /// It took it.
+    /// It has it now, and had it not before, in clock 3.
     pub took: Signal<Out, Bit>,
-    /// Another context has it, or it was being cleared.
+    /// It wants it, but another context holds it or it was just being cleared, in clock 3.
     pub foreign: Signal<Out, Bit>,
-    /// The lock before the visit.
+    /// The lock was set before the visit, in clock 2.
     pub was_set: Signal<Out, Bit>,
-    /// Lock to clear.
+    /// A lock to clear at this edge.
     pub clear_id: Signal<In, Bits<15>>,
-    /// Clear it.
     pub clear_enable: Signal<In, Bit>,
     locks: LockMemory<15>,
     owners: BlockMemory<15, 5>,

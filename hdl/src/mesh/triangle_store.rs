@@ -1,15 +1,5 @@
 //! The triangle records, a memory per column so that a link can be written alone, and a lock for each.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `write`, `enables` | in | Write, WriteEnables | a record or one link, written at this edge; only `enables` says what of it and where |
-//! | `read_id`, `vertices_id`, `links_id` | in | 15 | record to read: its lock, its vertex and its link columns |
-//! | `read_locks`, `owner` | in | 1, 5 | take its lock at this edge, for this context |
-//! | `v0..v2`, `n0..n2` | out | 15 | its columns |
-//! | `was_set`, `took`, `foreign` | out | 1 | what became of that, the last two a clock after the columns; see `LockStore` |
-//! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear at this edge |
-//!
 //! 1. A write is seen by every read from the next edge on. A record that is read and written at the same edge comes out torn: every
 //!    column that is written is arbitrary. Walks do that, and must look again; a visit that takes or holds the lock does not, because
 //!    only the holder writes.
@@ -40,43 +30,31 @@ use rust_hdl_core::prelude::*;
 /// The triangle memory; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct TriangleStore {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// A record or one link to write.
+    /// A record or one link, written at this edge; only `enables` says what of it and where.
     pub write: Signal<In, Write>,
-    /// What of it is written.
     pub enables: Signal<In, WriteEnables>,
-    /// Record to read: its lock.
+    /// Record to read: its lock, its vertex and its link columns.
     pub read_id: Signal<In, Bits<15>>,
-    /// The same for the vertex columns, from a register of its own.
     pub vertices_id: Signal<In, Bits<15>>,
-    /// The same for the link columns, from a register of its own.
     pub links_id: Signal<In, Bits<15>>,
-    /// Take its lock.
+    /// Take its lock at this edge, for this context.
     pub read_locks: Signal<In, Bit>,
-    /// The context that takes it.
     pub owner: Signal<In, Bits<5>>,
-    /// First vertex.
+    /// Its columns.
     pub v0: Signal<Out, Bits<15>>,
-    /// Second vertex.
     pub v1: Signal<Out, Bits<15>>,
-    /// Third vertex.
     pub v2: Signal<Out, Bits<15>>,
-    /// Link opposite the first vertex.
     pub n0: Signal<Out, Bits<15>>,
-    /// Link opposite the second vertex.
     pub n1: Signal<Out, Bits<15>>,
-    /// Link opposite the third vertex.
     pub n2: Signal<Out, Bits<15>>,
-    /// The read took the lock.
-    pub took: Signal<Out, Bit>,
-    /// It would have, but another context has it, or it was being cleared.
-    pub foreign: Signal<Out, Bit>,
-    /// The lock before this read.
+    /// What became of that, the last two a clock after the columns; see `LockStore`.
     pub was_set: Signal<Out, Bit>,
-    /// Lock to clear.
+    pub took: Signal<Out, Bit>,
+    pub foreign: Signal<Out, Bit>,
+    /// A lock to clear at this edge.
     pub clear_id: Signal<In, Bits<15>>,
-    /// Clear it.
     pub clear_enable: Signal<In, Bit>,
     vertices: [BlockMemory<15, 15>; 3],
     links: [BlockMemory<15, 15>; 3],

@@ -1,14 +1,5 @@
 //! The coordinates of the vertices, in three copies so that a triangle's three are read at once.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `write_id`, `write_position`, `write_enable` | in | 15, 32, 1 | a vertex written at this edge: x in the low half, y in the high |
-//! | `id0..id2` | in | 15 | vertices to read |
-//! | `position0..position2` | out | 32 | their coordinates |
-//! | `fetch_id` | in | 15 | another vertex to read, at an edge without a write |
-//! | `fetched` | out | 32 | its coordinates |
-//!
 //! 1. The infinite vertex has no coordinates: reading it gives an arbitrary word that decides nothing.
 //! 2. Writes and fetches share a port of the first copy, so that a fetch costs no fourth copy. What is fetched at an edge with a
 //!    write is arbitrary.
@@ -30,27 +21,21 @@ use rust_hdl_core::prelude::*;
 /// The vertex memory; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexStore {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Vertex to write.
+    /// A vertex written at this edge: x in the low half, y in the high.
     pub write_id: Signal<In, Bits<15>>,
-    /// Its coordinates.
     pub write_position: Signal<In, Bits<32>>,
-    /// Write at this edge.
     pub write_enable: Signal<In, Bit>,
-    /// First vertex to read.
+    /// Vertices to read.
     pub id0: Signal<In, Bits<15>>,
-    /// Second.
     pub id1: Signal<In, Bits<15>>,
-    /// Third.
     pub id2: Signal<In, Bits<15>>,
-    /// Coordinates of the first.
+    /// Their coordinates.
     pub position0: Signal<Out, Bits<32>>,
-    /// Of the second.
     pub position1: Signal<Out, Bits<32>>,
-    /// Of the third.
     pub position2: Signal<Out, Bits<32>>,
-    /// Another vertex to read.
+    /// Another vertex to read, at an edge without a write.
     pub fetch_id: Signal<In, Bits<15>>,
     /// Its coordinates.
     pub fetched: Signal<Out, Bits<32>>,

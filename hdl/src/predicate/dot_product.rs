@@ -1,11 +1,5 @@
 //! The dot product of two vectors: two multipliers and an addition.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `a_x`, `a_y`, `b_x`, `b_y` | in | 18 | the vectors, two's complement |
-//! | `product` | out | 36 | `a_x * b_x + a_y * b_y`, two's complement |
-//!
 //! 1. New vectors are taken at every edge. There is no reset.
 //! 2. Parts of the vectors are differences of 16-bit coordinates, so each product is below `2^32` and the result fits 34 bits; the
 //!    upper bits of the 36 repeat the sign.
@@ -25,17 +19,14 @@ use crate::leaf::Multiplier;
 /// A dot product; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct DotProduct {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// First vector, horizontal.
+    /// The vectors, two's complement.
     pub a_x: Signal<In, Bits<18>>,
-    /// First vector, vertical.
     pub a_y: Signal<In, Bits<18>>,
-    /// Second vector, horizontal.
     pub b_x: Signal<In, Bits<18>>,
-    /// Second vector, vertical.
     pub b_y: Signal<In, Bits<18>>,
-    /// Product, two's complement.
+    /// `a_x * b_x + a_y * b_y`, two's complement.
     pub product: Signal<Out, Bits<36>>,
     x_by_x: Multiplier,
     y_by_y: Multiplier,

@@ -1,13 +1,5 @@
 //! Signs and signed order of the three orientations of a visit.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `e0`, `e1`, `e2` | in | 36 | orientations, two's complement, each in `-2^32 .. 2^32` |
-//! | `e0_negative`, `e1_negative`, `e2_negative` | out | 1 | below zero |
-//! | `e0_zero`, `e1_zero`, `e2_zero` | out | 1 | zero |
-//! | `e1_below_e0`, `e2_below_e0`, `e2_below_e1` | out | 1 | signed comparison |
-//!
 //! 1. New orientations are taken at every edge. There is no reset.
 //! 2. Bits 33 to 35 of an input repeat its sign and are cut off.
 //!
@@ -24,31 +16,23 @@ use crate::leaf::FlagDelay;
 /// Flags of three orientations; see the top of this file.
 #[derive(LogicBlock)]
 pub struct EdgeSigns {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Orientation of edge 0.
+    /// Orientations, two's complement, each in `-2^32 .. 2^32`.
     pub e0: Signal<In, Bits<36>>,
-    /// Orientation of edge 1.
     pub e1: Signal<In, Bits<36>>,
-    /// Orientation of edge 2.
     pub e2: Signal<In, Bits<36>>,
-    /// `e0 < 0`.
+    /// Below zero.
     pub e0_negative: Signal<Out, Bit>,
-    /// `e1 < 0`.
     pub e1_negative: Signal<Out, Bit>,
-    /// `e2 < 0`.
     pub e2_negative: Signal<Out, Bit>,
-    /// `e0 = 0`.
+    /// Zero.
     pub e0_zero: Signal<Out, Bit>,
-    /// `e1 = 0`.
     pub e1_zero: Signal<Out, Bit>,
-    /// `e2 = 0`.
     pub e2_zero: Signal<Out, Bit>,
-    /// `e1 < e0`.
+    /// Signed comparison.
     pub e1_below_e0: Signal<Out, Bit>,
-    /// `e2 < e0`.
     pub e2_below_e0: Signal<Out, Bit>,
-    /// `e2 < e1`.
     pub e2_below_e1: Signal<Out, Bit>,
     value_0: Signal<Local, Bits<33>>,
     value_1: Signal<Local, Bits<33>>,

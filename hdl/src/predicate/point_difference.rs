@@ -1,10 +1,5 @@
 //! The vector from one point to another, ready for a multiplier.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `from`, `to` | in | 32 | points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned |
-//! | `x`, `y` | out | 18 | `to - from`, two's complement |
-//!
 //! 1. Coordinates are widened by two zero bits before the subtraction, so it never wraps: 17 bits hold the result, 18 carry it.
 //!
 //! Latency: none (combinational).
@@ -16,13 +11,11 @@ use rust_hdl_core::prelude::*;
 /// A vector between two points; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PointDifference {
-    /// Start.
+    /// Points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned.
     pub from: Signal<In, Bits<32>>,
-    /// End.
     pub to: Signal<In, Bits<32>>,
-    /// Horizontal part, two's complement.
+    /// `to - from`, two's complement.
     pub x: Signal<Out, Bits<18>>,
-    /// Vertical part, two's complement.
     pub y: Signal<Out, Bits<18>>,
     from_x: Signal<Local, Bits<16>>,
     from_y: Signal<Local, Bits<16>>,

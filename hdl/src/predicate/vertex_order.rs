@@ -1,13 +1,5 @@
 //! The lexicographic order of the new point and a triangle's vertices.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `r0`, `r1`, `r2`, `p` | in | 32 | points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned |
-//! | `p_before_r0`, `p_before_r1`, `p_before_r2` | out | 1 | `p` comes before that vertex: by `x`, then by `y` |
-//! | `p_equals_r0`, `p_equals_r1`, `p_equals_r2` | out | 1 | `p` is that vertex |
-//! | `r0_before_r1`, `r0_before_r2`, `r1_before_r2` | out | 1 | the one vertex comes before the other |
-//!
 //! 1. New points are taken at every edge. There is no reset.
 //!
 //! Latency: points that stand before edge 1 give all flags after edge `latency` of the constructor.
@@ -21,33 +13,24 @@ use crate::leaf::FlagDelay;
 /// Order of four points; see the top of this file.
 #[derive(LogicBlock)]
 pub struct VertexOrder {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// First vertex.
+    /// Points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned.
     pub r0: Signal<In, Bits<32>>,
-    /// Second vertex.
     pub r1: Signal<In, Bits<32>>,
-    /// Third vertex.
     pub r2: Signal<In, Bits<32>>,
-    /// New point.
     pub p: Signal<In, Bits<32>>,
-    /// `p` comes before `r0`.
+    /// `p` comes before that vertex: by `x`, then by `y`.
     pub p_before_r0: Signal<Out, Bit>,
-    /// `p` comes before `r1`.
     pub p_before_r1: Signal<Out, Bit>,
-    /// `p` comes before `r2`.
     pub p_before_r2: Signal<Out, Bit>,
-    /// `p` is `r0`.
+    /// `p` is that vertex.
     pub p_equals_r0: Signal<Out, Bit>,
-    /// `p` is `r1`.
     pub p_equals_r1: Signal<Out, Bit>,
-    /// `p` is `r2`.
     pub p_equals_r2: Signal<Out, Bit>,
-    /// `r0` comes before `r1`.
+    /// The one vertex comes before the other.
     pub r0_before_r1: Signal<Out, Bit>,
-    /// `r0` comes before `r2`.
     pub r0_before_r2: Signal<Out, Bit>,
-    /// `r1` comes before `r2`.
     pub r1_before_r2: Signal<Out, Bit>,
     key_r0: SortKey,
     key_r1: SortKey,

@@ -1,18 +1,5 @@
 //! All predicates that one visit of a triangle needs, for one new visit per clock.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `r0`, `r1`, `r2` | in | 32 | vertices: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned |
-//! | `p` | in | 32 | new point, in the same form |
-//! | `e0_negative`, `e1_negative`, `e2_negative` | out | 1 | `E_k < 0`: `p` lies right of edge `k` |
-//! | `e0_zero`, `e1_zero`, `e2_zero` | out | 1 | `E_k = 0`: `p` lies on the line of edge `k` |
-//! | `e1_below_e0`, `e2_below_e0`, `e2_below_e1` | out | 1 | `E_i < E_j`, signed |
-//! | `incircle_positive`, `incircle_zero` | out | 1 | sign of `I` |
-//! | `p_before_r0`, `p_before_r1`, `p_before_r2` | out | 1 | `p` comes before that vertex: by `x`, then by `y` |
-//! | `p_equals_r0`, `p_equals_r1`, `p_equals_r2` | out | 1 | `p` is that vertex |
-//! | `r0_before_r1`, `r0_before_r2`, `r1_before_r2` | out | 1 | the one vertex comes before the other |
-//!
 //! 1. Inputs come straight from registers. New ones are taken at every edge; there is no reset.
 //! 2. `E_k = orient2d(r[k+1], r[k+2], p)`, indices modulo 3: edge `k` is opposite vertex `k`.
 //! 3. `I = E_0 * dot(r1 - r0, r2 - r0) - orient2d(r0, r1, r2) * dot(r1 - p, r2 - p)`. For `r0`, `r1`, `r2` counter-clockwise, `I > 0` if
@@ -38,55 +25,40 @@ use super::wide_product::WideProduct;
 /// Predicates of a visit; see the top of this file.
 #[derive(LogicBlock)]
 pub struct VisitPredicates {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// First vertex, the apex.
+    /// Vertices: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned.
     pub r0: Signal<In, Bits<32>>,
-    /// Second vertex.
     pub r1: Signal<In, Bits<32>>,
-    /// Third vertex.
     pub r2: Signal<In, Bits<32>>,
-    /// New point.
+    /// New point, in the same form.
     pub p: Signal<In, Bits<32>>,
-    /// `E_0 < 0`.
+    /// `E_k < 0`: `p` lies right of edge `k`.
     pub e0_negative: Signal<Out, Bit>,
-    /// `E_1 < 0`.
     pub e1_negative: Signal<Out, Bit>,
-    /// `E_2 < 0`.
     pub e2_negative: Signal<Out, Bit>,
-    /// `E_0 = 0`.
+    /// `E_k = 0`: `p` lies on the line of edge `k`.
     pub e0_zero: Signal<Out, Bit>,
-    /// `E_1 = 0`.
     pub e1_zero: Signal<Out, Bit>,
-    /// `E_2 = 0`.
     pub e2_zero: Signal<Out, Bit>,
-    /// `E_1 < E_0`.
+    /// `E_i < E_j`, signed.
     pub e1_below_e0: Signal<Out, Bit>,
-    /// `E_2 < E_0`.
     pub e2_below_e0: Signal<Out, Bit>,
-    /// `E_2 < E_1`.
     pub e2_below_e1: Signal<Out, Bit>,
-    /// `I > 0`.
+    /// Sign of `I`.
     pub incircle_positive: Signal<Out, Bit>,
-    /// `I = 0`.
     pub incircle_zero: Signal<Out, Bit>,
-    /// `p` comes before `r0`.
+    /// `p` comes before that vertex: by `x`, then by `y`.
     pub p_before_r0: Signal<Out, Bit>,
-    /// `p` comes before `r1`.
     pub p_before_r1: Signal<Out, Bit>,
-    /// `p` comes before `r2`.
     pub p_before_r2: Signal<Out, Bit>,
-    /// `p` is `r0`.
+    /// `p` is that vertex.
     pub p_equals_r0: Signal<Out, Bit>,
-    /// `p` is `r1`.
     pub p_equals_r1: Signal<Out, Bit>,
-    /// `p` is `r2`.
     pub p_equals_r2: Signal<Out, Bit>,
-    /// `r0` comes before `r1`.
+    /// The one vertex comes before the other.
     pub r0_before_r1: Signal<Out, Bit>,
-    /// `r0` comes before `r2`.
     pub r0_before_r2: Signal<Out, Bit>,
-    /// `r1` comes before `r2`.
     pub r1_before_r2: Signal<Out, Bit>,
     p_to_r0: PointDifference,
     p_to_r1: PointDifference,

@@ -1,11 +1,5 @@
 //! A 34 x 34 bit signed product from four multipliers.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `a`, `b` | in | 36 | factors, two's complement, each in `-2^33 .. 2^33` |
-//! | `product` | out | 68 | `a * b`, two's complement |
-//!
 //! 1. New factors are taken at every edge. There is no reset.
 //! 2. Bits 34 and 35 of a factor repeat its sign (they are what a sum of two products of differences leaves there).
 //!
@@ -24,13 +18,12 @@ use crate::leaf::Multiplier;
 /// A wide product; see the top of this file.
 #[derive(LogicBlock)]
 pub struct WideProduct {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// First factor, two's complement.
+    /// Factors, two's complement, each in `-2^33 .. 2^33`.
     pub a: Signal<In, Bits<36>>,
-    /// Second factor, two's complement.
     pub b: Signal<In, Bits<36>>,
-    /// Product, two's complement.
+    /// `a * b`, two's complement.
     pub product: Signal<Out, Bits<68>>,
     high_by_high: Multiplier,
     high_by_low: Multiplier,

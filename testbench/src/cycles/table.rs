@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Mutex;
 
-use incircle_cli::generate::Distribution;
 use incircle_protocol::Counter;
+use incircle_testkit::Distribution;
 
 use super::{measure, measure_points, thinned_airports, Counters, MeasureError};
 

@@ -1,19 +1,5 @@
 //! What a visit adds to the lists of its context, and who gets the lists when the attempt is over.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `done`, `token`, `turned` | in | | the visit that completes |
-//! | `attempt`, `after` | in | Attempt | the state of its attempt before and afterwards |
-//! | `p`, `since` | in | 15, 22 | the point of its context, and when it was taken |
-//! | `is_root`, `settles` | in | 1 | from `VisitCase` |
-//! | `finds_inner`, `succeeds` | in | 1 | from `AttemptStep` |
-//! | `fails`, `stops_at_root` | in | 1 | a failed attempt is over; the root's visit is, with the root locked |
-//! | `entry_enable`, `entry_place`, `entry` | out | 1, 6, Entry | a final edge of the boundary |
-//! | `inner_enable`, `inner_place`, `inner_id` | out | 1, 6, 15 | an inner triangle |
-//! | `lock_enable`, `lock_place`, `lock_id` | out | 1, 7, 15 | a lock for the log |
-//! | `commit_enable`, `commit_job` | out | 1, CommitJob | the ring goes to the commit |
-//! | `release_enable`, `release_job` | out | 1, ReleaseJob | the locks go to the release |
-//!
 //! 1. An edge stands at its own place; inner triangles and locks stand in the order in which they came, the root's lock first.
 //! 2. A lock taken by an attempt's last visit counts in its job.
 //!
@@ -25,57 +11,41 @@ use rust_hdl_core::prelude::*;
 /// The lists of an attempt; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptLists {
-    /// A visit completes.
     pub done: Signal<In, Bit>,
-    /// The visit.
     pub token: Signal<In, Token>,
-    /// Its record.
     pub turned: Signal<In, Turned>,
-    /// The state before.
+    /// The state of its attempt before and afterwards.
     pub attempt: Signal<In, Attempt>,
-    /// The state afterwards.
     pub after: Signal<In, Attempt>,
-    /// The point.
+    /// The point of its context, and when it was taken.
     pub p: Signal<In, Bits<15>>,
-    /// When it was taken.
     pub since: Signal<In, Bits<22>>,
-    /// The visit is a root's.
+    /// From `VisitCase`.
     pub is_root: Signal<In, Bit>,
-    /// An edge is final.
     pub settles: Signal<In, Bit>,
-    /// A triangle is an inner one.
+    /// From `AttemptStep`.
     pub finds_inner: Signal<In, Bit>,
-    /// The ring is finished.
     pub succeeds: Signal<In, Bit>,
-    /// A failed attempt is over.
+    /// A failed attempt is over; the root's visit is, with the root locked.
     pub fails: Signal<In, Bit>,
-    /// The root is locked in vain.
     pub stops_at_root: Signal<In, Bit>,
-    /// An edge is final.
+    /// A final edge of the boundary.
     pub entry_enable: Signal<Out, Bit>,
-    /// Its place.
     pub entry_place: Signal<Out, Bits<6>>,
-    /// The edge.
     pub entry: Signal<Out, Entry>,
     /// An inner triangle.
     pub inner_enable: Signal<Out, Bit>,
-    /// Its place.
     pub inner_place: Signal<Out, Bits<6>>,
-    /// Its id.
     pub inner_id: Signal<Out, Bits<15>>,
-    /// A lock was taken.
+    /// A lock for the log.
     pub lock_enable: Signal<Out, Bit>,
-    /// Its place in the log.
     pub lock_place: Signal<Out, Bits<7>>,
-    /// The record.
     pub lock_id: Signal<Out, Bits<15>>,
-    /// A ring is finished.
+    /// The ring goes to the commit.
     pub commit_enable: Signal<Out, Bit>,
-    /// The ring.
     pub commit_job: Signal<Out, CommitJob>,
-    /// Locks are to be released.
+    /// The locks go to the release.
     pub release_enable: Signal<Out, Bit>,
-    /// The locks.
     pub release_job: Signal<Out, ReleaseJob>,
     inners: Signal<Local, Bits<7>>,
 }

@@ -1,12 +1,5 @@
 //! The point that each context inserts, and when it took it.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `takes`, `taker`, `taken_id`, `now` | in | 1, 5, 15, 22 | a context takes a point at this edge; the time |
-//! | `owner` | in | 5 | a context |
-//! | `p`, `since` | out | 15, 22 | its point; when it was taken |
-//!
 //! 1. There is no reset: what a context has taken is arbitrary until it takes something.
 //!
 //! Latency: a point is there 2 clocks after it is taken, long before any visit of it completes. A context is answered at once.
@@ -31,21 +24,17 @@ use rust_hdl_widgets::prelude::*;
 /// The points at hand; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptPoints {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// A context takes a point.
+    /// A context takes a point at this edge; the time.
     pub takes: Signal<In, Bit>,
-    /// Which context.
     pub taker: Signal<In, Bits<5>>,
-    /// The vertex it takes.
     pub taken_id: Signal<In, Bits<15>>,
-    /// The time.
     pub now: Signal<In, Bits<22>>,
     /// A context.
     pub owner: Signal<In, Bits<5>>,
-    /// Its point.
+    /// Its point; when it was taken.
     pub p: Signal<Out, Bits<15>>,
-    /// When it was taken.
     pub since: Signal<Out, Bits<22>>,
     points: LutMemory<5, 15>,
     times: LutMemory<5, 22>,

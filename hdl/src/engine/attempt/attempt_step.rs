@@ -1,18 +1,5 @@
 //! The state of an attempt after one of its tests.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `attempt` | in | Attempt | the state before |
-//! | `is_last`, `edge_was_passed` | in | 1 | of that state: one visit is out; `half_open` at `f_entry` |
-//! | `entry_bit` | in | 64 | the entry that names the cavity triangle the test came from, a bit each |
-//! | `took` | in | 1 | the visit took a lock |
-//! | `is_test`, `splits`, `repeats`, `gives_up`, `overflows` | in | 1 | from `VisitCase` |
-//! | `after` | out | Attempt | the state afterwards |
-//! | `is_over` | out | 1 | no visit of the attempt is out any more |
-//! | `succeeds` | out | 1 | and it has not failed: the ring is finished |
-//! | `finds_inner` | out | 1 | the cavity triangle behind the edge has no boundary edge left |
-//! | `passes_root` | out | 1 | the second edge of the root is passed |
-//!
 //! 1. A test is one visit less; if it passes through its edge, two more and one more entry.
 //! 2. A failed attempt drains: it is over when its last visit is, not before, because a visit that is out may take a lock (L1).
 //! 3. A cavity triangle brings two open edges, the root three; when the last is passed it is an inner one.
@@ -27,31 +14,26 @@ use rust_hdl_core::prelude::*;
 pub struct AttemptStep {
     /// The state before.
     pub attempt: Signal<In, Attempt>,
-    /// One visit is out.
+    /// Of that state: one visit is out; `half_open` at `f_entry`.
     pub is_last: Signal<In, Bit>,
-    /// One edge of the cavity triangle has been passed.
     pub edge_was_passed: Signal<In, Bit>,
-    /// Entry of the cavity triangle.
+    /// The entry that names the cavity triangle the test came from, a bit each.
     pub entry_bit: Signal<In, Bits<64>>,
-    /// A lock was taken.
+    /// The visit took a lock.
     pub took: Signal<In, Bit>,
-    /// A test completes.
+    /// From `VisitCase`.
     pub is_test: Signal<In, Bit>,
-    /// The test passes.
     pub splits: Signal<In, Bit>,
-    /// It is made again.
     pub repeats: Signal<In, Bit>,
-    /// The attempt fails.
     pub gives_up: Signal<In, Bit>,
-    /// It fails.
     pub overflows: Signal<In, Bit>,
     /// The state afterwards.
     pub after: Signal<Out, Attempt>,
-    /// No visit is out.
+    /// No visit of the attempt is out any more.
     pub is_over: Signal<Out, Bit>,
-    /// The ring is finished.
+    /// And it has not failed: the ring is finished.
     pub succeeds: Signal<Out, Bit>,
-    /// An inner triangle.
+    /// The cavity triangle behind the edge has no boundary edge left.
     pub finds_inner: Signal<Out, Bit>,
     /// The second edge of the root is passed.
     pub passes_root: Signal<Out, Bit>,

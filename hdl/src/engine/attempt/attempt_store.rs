@@ -1,19 +1,5 @@
 //! The states of the attempts of all contexts, each at hand in the clock in which a visit of its context completes.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `ring` | in | 7 | entries a boundary list holds, a constant |
-//! | `early_owner`, `early_entry` | in | 5, 6 | the visit that completes in the next clock: its context, and the entry that names its `f` |
-//! | `owner`, `f_entry` | in | 5, 6 | the same of the visit of this clock |
-//! | `attempt` | out | Attempt | the state of its attempt |
-//! | `is_last`, `is_full` | out | 1 | one visit is out; the list holds as many entries as it can |
-//! | `edge_was_passed` | out | 1 | `attempt.half_open` at `f_entry` |
-//! | `entry_bit` | out | 64 | `f_entry`, a bit each |
-//! | `opens`, `is_test`, `splits`, `repeats` | in | 1 | from `VisitCase` |
-//! | `passes_root` | in | 1 | the second edge of the root is passed: bit 1 of `half_open` goes up |
-//! | `after` | in | Attempt | the state after a test |
-//!
 //! 1. Every visit is announced by `early_owner` and `early_entry` in the clock before its own. There may be pauses.
 //! 2. A visit sees what all visits before it have left, also a test of the clock before. The visit that opens an attempt is the only one
 //!    of its context: the next one comes later.
@@ -33,37 +19,31 @@ use rust_hdl_widgets::prelude::*;
 /// The states of all attempts; see the top of this file.
 #[derive(LogicBlock)]
 pub struct AttemptStore {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Entries a list holds.
+    /// Entries a boundary list holds, a constant.
     pub ring: Signal<In, Bits<7>>,
-    /// The context whose visit completes in the next clock.
+    /// The visit that completes in the next clock: its context, and the entry that names its `f`.
     pub early_owner: Signal<In, Bits<5>>,
-    /// The entry that names the visit's `f`.
     pub early_entry: Signal<In, Bits<6>>,
-    /// The context at work.
+    /// The same of the visit of this clock.
     pub owner: Signal<In, Bits<5>>,
-    /// The entry that names its visit's `f`.
     pub f_entry: Signal<In, Bits<6>>,
-    /// Its attempt.
+    /// The state of its attempt.
     pub attempt: Signal<Out, Attempt>,
-    /// One visit of it is out.
+    /// One visit is out; the list holds as many entries as it can.
     pub is_last: Signal<Out, Bit>,
-    /// Its list is full.
     pub is_full: Signal<Out, Bit>,
-    /// One edge of the cavity triangle has been passed.
+    /// `attempt.half_open` at `f_entry`.
     pub edge_was_passed: Signal<Out, Bit>,
-    /// The entry that names the visit's `f`, a bit each.
+    /// `f_entry`, a bit each.
     pub entry_bit: Signal<Out, Bits<64>>,
-    /// An attempt begins.
+    /// From `VisitCase`.
     pub opens: Signal<In, Bit>,
-    /// A test passes through its edge.
-    pub splits: Signal<In, Bit>,
-    /// The same visit is made again.
-    pub repeats: Signal<In, Bit>,
-    /// A test completes.
     pub is_test: Signal<In, Bit>,
-    /// The second edge of the root is passed.
+    pub splits: Signal<In, Bit>,
+    pub repeats: Signal<In, Bit>,
+    /// The second edge of the root is passed: bit 1 of `half_open` goes up.
     pub passes_root: Signal<In, Bit>,
     /// The state after a test.
     pub after: Signal<In, Attempt>,

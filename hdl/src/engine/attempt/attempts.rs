@@ -1,28 +1,5 @@
 //! Takes each visit that completes to the next step of its context: the heart of the engine.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `ring` | in | 7 | entries a boundary list holds, a constant |
-//! | `early_done`, `early_token`, `early_turned` | in | | a visit completes in the next clock that is no insertion alone's |
-//! | `token`, `turned`, `verdict` | in | | the visit that completes, one clock after it stood there |
-//! | `seeded` | in | 1 | the first triangle stands |
-//! | `busy`, `waiter_valid`, `waiter` | in | 24, 1, 5 | contexts with a commit or release due; who holds the waiting token |
-//! | `takes`, `taker`, `taken_id`, `now` | in | 1, 5, 15, 22 | a context takes a point at this edge; the time |
-//! | `asks`, `may_ask`, `bundle` | out | 1, 1, Bundle | there are visits to make; there may be, see `VisitCase`; they |
-//! | `is_done`, `owner` | out | 1, 5 | a visit completes; the context of all outputs below |
-//! | `sleeps`, `keeps` | out | 1 | none of its visits is out any more; it will try its point again |
-//! | `root_enable`, `root` | out | 1, 15 | a root's visit says where a walk for the same point would start next |
-//! | `entry_enable`, `entry_place`, `entry` | out | 1, 6, Entry | a final edge of the boundary |
-//! | `inner_enable`, `inner_place`, `inner_id` | out | 1, 6, 15 | an inner triangle |
-//! | `lock_enable`, `lock_place`, `lock_id` | out | 1, 7, 15 | a lock for the log |
-//! | `commit_enable`, `commit_job` | out | 1, CommitJob | a ring is finished |
-//! | `release_enable`, `release_job` | out | 1, ReleaseJob | locks are to be released |
-//! | `asks_to_wait`, `waits`, `stops_waiting` | out | 1 | it wants the waiting token, meets a foreign lock with it, needs it no more |
-//! | `overflows`, `duplicate`, `looks` | out | 1 | its list overflows; its point is one already; the look at the first three points |
-//! | `walk_visit`, `root_visit`, `test`, `revisit`, `gives_up`, `retries` | out | 1 | events for the counters |
-//! | `cavity_triangles` | out | 7 | triangles of the ring that is finished |
-//!
 //! 1. A visit changes the state of its own context only, which is read a clock ahead, and changed and written back in one clock; so
 //!    visits of all contexts complete in any order, one a clock.
 //! 2. A failed attempt drains: its visits run out, locks that they take are logged, and then all its locks are released (L1).
@@ -63,107 +40,74 @@ use rust_hdl_core::prelude::*;
 /// The completion of visits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Attempts {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Entries a list holds.
+    /// Entries a boundary list holds, a constant.
     pub ring: Signal<In, Bits<7>>,
-    /// A visit completes in the next clock.
     pub early_done: Signal<In, Bit>,
-    /// The visit.
     pub early_token: Signal<In, Token>,
-    /// Its record.
     pub early_turned: Signal<In, Turned>,
-    /// The visit that completes.
     pub token: Signal<In, Token>,
-    /// Its record.
     pub turned: Signal<In, Turned>,
-    /// What it found out.
     pub verdict: Signal<In, Verdict>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
-    /// Contexts with a commit or release due.
+    /// Contexts with a commit or release due; who holds the waiting token.
     pub busy: Signal<In, Bits<24>>,
-    /// Somebody holds the waiting token.
     pub waiter_valid: Signal<In, Bit>,
-    /// Who.
     pub waiter: Signal<In, Bits<5>>,
-    /// A context takes a point.
+    /// A context takes a point at this edge; the time.
     pub takes: Signal<In, Bit>,
-    /// Which context.
     pub taker: Signal<In, Bits<5>>,
-    /// The vertex it takes.
     pub taken_id: Signal<In, Bits<15>>,
-    /// The time.
     pub now: Signal<In, Bits<22>>,
-    /// There are visits to make.
+    /// There are visits to make; there may be, see `VisitCase`; they.
     pub asks: Signal<Out, Bit>,
-    /// There may be.
     pub may_ask: Signal<Out, Bit>,
-    /// The visits.
     pub bundle: Signal<Out, Bundle>,
-    /// A visit completes.
+    /// A visit completes; the context of all outputs below.
     pub is_done: Signal<Out, Bit>,
-    /// The context at work.
     pub owner: Signal<Out, Bits<5>>,
-    /// No visit of it is out.
+    /// None of its visits is out any more; it will try its point again.
     pub sleeps: Signal<Out, Bit>,
-    /// It tries again.
     pub keeps: Signal<Out, Bit>,
-    /// Its goal is known.
+    /// A root's visit says where a walk for the same point would start next.
     pub root_enable: Signal<Out, Bit>,
-    /// The goal.
     pub root: Signal<Out, Bits<15>>,
-    /// An edge is final.
+    /// A final edge of the boundary.
     pub entry_enable: Signal<Out, Bit>,
-    /// Its place.
     pub entry_place: Signal<Out, Bits<6>>,
-    /// The edge.
     pub entry: Signal<Out, Entry>,
     /// An inner triangle.
     pub inner_enable: Signal<Out, Bit>,
-    /// Its place.
     pub inner_place: Signal<Out, Bits<6>>,
-    /// Its id.
     pub inner_id: Signal<Out, Bits<15>>,
-    /// A lock was taken.
+    /// A lock for the log.
     pub lock_enable: Signal<Out, Bit>,
-    /// Its place in the log.
     pub lock_place: Signal<Out, Bits<7>>,
-    /// The record.
     pub lock_id: Signal<Out, Bits<15>>,
     /// A ring is finished.
     pub commit_enable: Signal<Out, Bit>,
-    /// The ring.
     pub commit_job: Signal<Out, CommitJob>,
     /// Locks are to be released.
     pub release_enable: Signal<Out, Bit>,
-    /// The locks.
     pub release_job: Signal<Out, ReleaseJob>,
-    /// It wants the waiting token.
+    /// It wants the waiting token, meets a foreign lock with it, needs it no more.
     pub asks_to_wait: Signal<Out, Bit>,
-    /// It meets a foreign lock with it.
     pub waits: Signal<Out, Bit>,
-    /// It needs it no more.
     pub stops_waiting: Signal<Out, Bit>,
-    /// Its list overflows.
+    /// Its list overflows; its point is one already; the look at the first three points.
     pub overflows: Signal<Out, Bit>,
-    /// Its point is a duplicate.
     pub duplicate: Signal<Out, Bit>,
-    /// The look at the first three points.
     pub looks: Signal<Out, Bit>,
-    /// Event: a walk's visit.
+    /// Events for the counters.
     pub walk_visit: Signal<Out, Bit>,
-    /// Event: a root's visit.
     pub root_visit: Signal<Out, Bit>,
-    /// Event: a test.
     pub test: Signal<Out, Bit>,
-    /// Event: a visit is made again.
     pub revisit: Signal<Out, Bit>,
-    /// Event: an attempt is given up for a foreign lock.
     pub gives_up: Signal<Out, Bit>,
-    /// Event: a root had changed.
     pub retries: Signal<Out, Bit>,
-    /// Triangles of a finished ring.
+    /// Triangles of the ring that is finished.
     pub cavity_triangles: Signal<Out, Bits<7>>,
     store: AttemptStore,
     points: AttemptPoints,

@@ -1,11 +1,5 @@
 //! Where a context's word stands in a memory with as many words for each context.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `owner` | in | 5 | the context |
-//! | `place` | in | P | its word; less than `2^place_bits` |
-//! | `address` | out | A | `owner * 2^place_bits + place` |
-//!
 //! Latency: none. No logic: both sides are the same wires.
 
 use rust_hdl_core::prelude::*;
@@ -15,9 +9,9 @@ use rust_hdl_core::prelude::*;
 pub struct ContextAddress<const P: usize, const A: usize> {
     /// The context.
     pub owner: Signal<In, Bits<5>>,
-    /// Its word.
+    /// Its word; less than `2^place_bits`.
     pub place: Signal<In, Bits<P>>,
-    /// The address.
+    /// `owner * 2^place_bits + place`.
     pub address: Signal<Out, Bits<A>>,
     wide_owner: Signal<Local, Bits<A>>,
     wide_place: Signal<Local, Bits<A>>,

@@ -1,14 +1,5 @@
 //! The visits that follow one that completes.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `early_token`, `early_turned` | in | | the visit that completes in the next clock, and its record |
-//! | `walks_on`, `locates` | in | 1 | from `VisitCase`, of the visit of this clock |
-//! | `walk_next` | in | 15 | where its walk goes on |
-//! | `entry` | in | 6 | the entry that it allocates if it is a test |
-//! | `bundle` | out | Bundle | the visits that it asks for, if it asks for any |
-//!
 //! 1. A root or a test whose lock is the context's own asks for what follows if it opens the cavity or passes through its edge; every
 //!    other visit asks for itself again, unless `walks_on` or `locates`.
 //!
@@ -41,21 +32,18 @@ use rust_hdl_widgets::prelude::*;
 /// The visits asked for; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct NextVisits {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// The visit that completes in the next clock.
     pub early_token: Signal<In, Token>,
-    /// Its record.
     pub early_turned: Signal<In, Turned>,
-    /// The walk goes on.
+    /// From `VisitCase`, of the visit of this clock.
     pub walks_on: Signal<In, Bit>,
-    /// The root is visited under its lock.
     pub locates: Signal<In, Bit>,
-    /// Where a walk goes on.
+    /// Where its walk goes on.
     pub walk_next: Signal<In, Bits<15>>,
-    /// A new entry.
+    /// The entry that it allocates if it is a test.
     pub entry: Signal<In, Bits<6>>,
-    /// The visits.
+    /// The visits that it asks for, if it asks for any.
     pub bundle: Signal<Out, Bundle>,
     /// All that is known ahead.
     prepared: DFF<Bundle>,

@@ -1,28 +1,5 @@
 //! What a visit that completes means for its context.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `early_done`, `early_token`, `early_turned` | in | | the visit that completes in the next clock |
-//! | `seeded` | in | 1 | the first triangle stands |
-//! | `is_busy` | in | 1 | a commit or a release of the context of that visit is due |
-//! | `is_waiter` | in | 1 | this context holds the waiting token |
-//! | `verdict` | in | Verdict | what the visit that completes in this clock has found out |
-//! | `drains`, `is_full` | in | 1 | its attempt has failed; its list is full |
-//! | `is_done` | out | 1 | a visit completes |
-//! | `is_walk`, `is_root`, `is_test` | out | 1 | which kind of visit it is |
-//! | `looks` | out | 1 | the look at the first three points |
-//! | `repeats`, `waits` | out | 1 | the same visit is made again; because another context holds the lock |
-//! | `walks_on`, `locates` | out | 1 | the walk goes on; it has found the point's triangle |
-//! | `opens` | out | 1 | the root is locked and holds the point: its neighbours are tested |
-//! | `retries` | out | 1 | the root no longer holds the point |
-//! | `splits`, `settles` | out | 1 | a test passes through its edge; its edge is final |
-//! | `overflows` | out | 1 | a test would pass, and the list is full |
-//! | `gives_up_root`, `gives_up` | out | 1 | another context holds the lock, of the root or of a tested triangle |
-//! | `walk_duplicate`, `root_duplicate` | out | 1 | the point falls onto a corner |
-//! | `asks` | out | 1 | visits follow: it repeats, walks on, locates, opens or splits |
-//! | `may_ask` | out | 1 | they may, as far as is known soon: it is no test that finds its edge final |
-//!
 //! 1. Who meets a lock of another context gives up (L1), unless it holds the waiting token: then it asks again (L2).
 //! 2. A walk holds no locks. It looks again at a record that is not written yet or being written (L7), and at its goal while the
 //!    context still has locks of its last point (L6).
@@ -54,65 +31,54 @@ use rust_hdl_widgets::prelude::*;
 /// What a visit means; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitCase {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// A visit completes in the next clock.
     pub early_done: Signal<In, Bit>,
-    /// The visit.
     pub early_token: Signal<In, Token>,
-    /// Its record.
     pub early_turned: Signal<In, Turned>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
-    /// A commit or a release is due.
+    /// A commit or a release of the context of that visit is due.
     pub is_busy: Signal<In, Bit>,
-    /// The context waits at foreign locks.
+    /// This context holds the waiting token.
     pub is_waiter: Signal<In, Bit>,
-    /// What the visit that completes found out.
+    /// What the visit that completes in this clock has found out.
     pub verdict: Signal<In, Verdict>,
-    /// The attempt has failed.
+    /// Its attempt has failed; its list is full.
     pub drains: Signal<In, Bit>,
-    /// The list is full.
     pub is_full: Signal<In, Bit>,
     /// A visit completes.
     pub is_done: Signal<Out, Bit>,
-    /// Kind of visit.
+    /// Which kind of visit it is.
     pub is_walk: Signal<Out, Bit>,
-    /// Kind of visit.
     pub is_root: Signal<Out, Bit>,
-    /// Kind of visit.
     pub is_test: Signal<Out, Bit>,
     /// The look at the first three points.
     pub looks: Signal<Out, Bit>,
-    /// The same visit again.
+    /// The same visit is made again; because another context holds the lock.
     pub repeats: Signal<Out, Bit>,
-    /// For a foreign lock.
     pub waits: Signal<Out, Bit>,
-    /// The walk goes on.
+    /// The walk goes on; it has found the point's triangle.
     pub walks_on: Signal<Out, Bit>,
-    /// The walk has found the triangle.
     pub locates: Signal<Out, Bit>,
-    /// The cavity is opened.
+    /// The root is locked and holds the point: its neighbours are tested.
     pub opens: Signal<Out, Bit>,
-    /// The root has changed.
+    /// The root no longer holds the point.
     pub retries: Signal<Out, Bit>,
-    /// A test passes.
+    /// A test passes through its edge; its edge is final.
     pub splits: Signal<Out, Bit>,
-    /// An edge is final.
     pub settles: Signal<Out, Bit>,
-    /// The list overflows.
+    /// A test would pass, and the list is full.
     pub overflows: Signal<Out, Bit>,
-    /// The root is foreign.
+    /// Another context holds the lock, of the root or of a tested triangle.
     pub gives_up_root: Signal<Out, Bit>,
-    /// A tested triangle is foreign.
     pub gives_up: Signal<Out, Bit>,
-    /// A walk finds a duplicate.
+    /// The point falls onto a corner.
     pub walk_duplicate: Signal<Out, Bit>,
-    /// The visit of the root does.
     pub root_duplicate: Signal<Out, Bit>,
-    /// Visits follow.
+    /// Visits follow: it repeats, walks on, locates, opens or splits.
     pub asks: Signal<Out, Bit>,
-    /// They may.
+    /// They may, as far as is known soon: it is no test that finds its edge final.
     pub may_ask: Signal<Out, Bit>,
     completed: DFF<Bit>,
     looked: DFF<Bit>,

@@ -1,21 +1,5 @@
 //! One pass over a finished ring writes the star of the new point; one ring follows the other without a pause.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset drops the ring and forgets all records |
-//! | `head_valid`, `head`, `head_is_last` | in | 1, Entry, 1 | an entry of the list, and whether it ends its ring |
-//! | `head_shares` | in | 1 | the same cavity triangle lies behind the entry before it or the first one; low with the first |
-//! | `head_job` | in | CommitJob | its ring; looked at with the first entry |
-//! | `takes` | out | 1 | the entry is taken at this edge, if there is one |
-//! | `inner_enable`, `inner_owner`, `inner_place`, `inner_id` | in | 1, 5, 6, 15 | an inner triangle joins the list of a context |
-//! | `solo_inserts`, `seeds`, `clears` | in | 1 | two records are written alone; the first four; all are forgotten |
-//! | `write` | out | Write | a record or a link, registered; its data count while it is valid |
-//! | `ends` | out | 1 | the last write of the ring is requested at this edge |
-//! | `job` | out | CommitJob | the ring, while `ends` |
-//! | `hint` | out | 15 | the record of its first entry, while `ends` |
-//! | `fresh`, `records` | out | 15 | the next new id; ids from `records` on are not written yet |
-//! | `is_at_work` | out | 1 | a ring is being written |
-//!
 //! 1. Entry `i` writes the record `v = (p, a, b)`, `n = (u, id of i + 1, id of i - 1)`, then the link of `u` unless it is right.
 //! 2. Its id is that of the cavity triangle behind it, unless the entry before or the first entry took it: then an inner
 //!    triangle's, or a new one. Two new ones are taken in all. An id given so is never that of the triangle behind the entry.
@@ -64,47 +48,38 @@ pub enum CommitState {
 /// The commit; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Commit {
-    /// Clock.
+    /// Reset drops the ring and forgets all records.
     pub clock: Signal<In, Clock>,
-    /// Drops the ring, forgets all records.
     pub reset: Signal<In, Bit>,
-    /// There is an entry.
+    /// An entry of the list, and whether it ends its ring.
     pub head_valid: Signal<In, Bit>,
-    /// The entry.
     pub head: Signal<In, Entry>,
-    /// It ends its ring.
     pub head_is_last: Signal<In, Bit>,
-    /// Its cavity triangle has a record already.
+    /// The same cavity triangle lies behind the entry before it or the first one; low with the first.
     pub head_shares: Signal<In, Bit>,
-    /// Its ring.
+    /// Its ring; looked at with the first entry.
     pub head_job: Signal<In, CommitJob>,
-    /// It is taken.
+    /// The entry is taken at this edge, if there is one.
     pub takes: Signal<Out, Bit>,
-    /// An inner triangle joins a list.
+    /// An inner triangle joins the list of a context.
     pub inner_enable: Signal<In, Bit>,
-    /// Its context.
     pub inner_owner: Signal<In, Bits<5>>,
-    /// Its place in the list.
     pub inner_place: Signal<In, Bits<6>>,
-    /// It.
     pub inner_id: Signal<In, Bits<15>>,
-    /// Two records are written alone.
+    /// Two records are written alone; the first four; all are forgotten.
     pub solo_inserts: Signal<In, Bit>,
-    /// The first four records are written.
     pub seeds: Signal<In, Bit>,
-    /// All records are forgotten.
     pub clears: Signal<In, Bit>,
-    /// A record or a link.
+    /// A record or a link, registered; its data count while it is valid.
     pub write: Signal<Out, Write>,
-    /// The last write is requested.
+    /// The last write of the ring is requested at this edge.
     pub ends: Signal<Out, Bit>,
-    /// The ring.
+    /// The ring, while `ends`.
     pub job: Signal<Out, CommitJob>,
-    /// Its first record.
+    /// The record of its first entry, while `ends`.
     pub hint: Signal<Out, Bits<15>>,
-    /// The next new id.
+    /// The next new id; ids from `records` on are not written yet.
     pub fresh: Signal<Out, Bits<15>>,
-    /// Ids from here on are not written yet.
     pub records: Signal<Out, Bits<15>>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,

@@ -1,23 +1,5 @@
 //! From finished rings to written stars and released locks.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset drops all rings; clear forgets the records |
-//! | `last_id` | in | 15 | the highest record id, a constant |
-//! | `owner` | in | 5 | the context of the next twelve |
-//! | `entry_enable`, `entry_place`, `entry` | in | 1, 6, Entry | a final edge of the boundary |
-//! | `inner_enable`, `inner_place`, `inner_id` | in | 1, 6, 15 | an inner triangle |
-//! | `lock_enable`, `lock_place`, `lock_id` | in | 1, 7, 15 | a lock for the log |
-//! | `commit_enable`, `commit_job`, `release_enable`, `release_job` | in | 1, CommitJob, 1, ReleaseJob | a ring is finished; a failed attempt's locks |
-//! | `seeds`, `solo_inserts` | in | 1 | the first four records, two more records are written by others |
-//! | `write` | out | Write | a record or a link |
-//! | `ends`, `job`, `hint` | out | 1, CommitJob, 15 | a ring is written; which; a record of its star |
-//! | `records`, `fresh` | out | 15 | records from this id on are not written yet; the next new id |
-//! | `is_at_work` | out | 1 | a ring is being written |
-//! | `clear_enable`, `clear_id` | out | 1, 15 | a lock to clear |
-//! | `released`, `released_owner` | out | 1, 5 | the last lock of a context is cleared |
-//! | `sweeps` | out | 1 | the lock memory is being cleared after reset |
-//!
 //! 1. The locks of a ring are released when its last record is on its way to the memory: it is there before the first lock is
 //!    clear (L4).
 //! 2. Locks are logged a clock after they come: the log lies far from the logic that finds them. The job that comes with the last of
@@ -36,69 +18,52 @@ use rust_hdl_widgets::prelude::*;
 /// Rings to stars; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommitPath {
-    /// Clock.
+    /// Reset drops all rings; clear forgets the records.
     pub clock: Signal<In, Clock>,
-    /// Drops all rings.
     pub reset: Signal<In, Bit>,
-    /// Forgets the records.
     pub clears: Signal<In, Bit>,
-    /// Highest record id.
+    /// The highest record id, a constant.
     pub last_id: Signal<In, Bits<15>>,
-    /// The context of a visit that completes.
+    /// The context of the next twelve.
     pub owner: Signal<In, Bits<5>>,
-    /// An edge is final.
+    /// A final edge of the boundary.
     pub entry_enable: Signal<In, Bit>,
-    /// Its place.
     pub entry_place: Signal<In, Bits<6>>,
-    /// The edge.
     pub entry: Signal<In, Entry>,
     /// An inner triangle.
     pub inner_enable: Signal<In, Bit>,
-    /// Its place.
     pub inner_place: Signal<In, Bits<6>>,
-    /// Its id.
     pub inner_id: Signal<In, Bits<15>>,
-    /// A lock was taken.
+    /// A lock for the log.
     pub lock_enable: Signal<In, Bit>,
-    /// Its place in the log.
     pub lock_place: Signal<In, Bits<7>>,
-    /// The record.
     pub lock_id: Signal<In, Bits<15>>,
-    /// A ring is finished.
+    /// A ring is finished; a failed attempt's locks.
     pub commit_enable: Signal<In, Bit>,
-    /// The ring.
     pub commit_job: Signal<In, CommitJob>,
-    /// An attempt has failed.
     pub release_enable: Signal<In, Bit>,
-    /// Its locks.
     pub release_job: Signal<In, ReleaseJob>,
-    /// The first four records are written.
+    /// The first four records, two more records are written by others.
     pub seeds: Signal<In, Bit>,
-    /// Two more records are written.
     pub solo_inserts: Signal<In, Bit>,
     /// A record or a link.
     pub write: Signal<Out, Write>,
-    /// A ring is written.
+    /// A ring is written; which; a record of its star.
     pub ends: Signal<Out, Bit>,
-    /// Which.
     pub job: Signal<Out, CommitJob>,
-    /// A record of its star.
     pub hint: Signal<Out, Bits<15>>,
-    /// Records that are written.
+    /// Records from this id on are not written yet; the next new id.
     pub records: Signal<Out, Bits<15>>,
-    /// The next new id.
     pub fresh: Signal<Out, Bits<15>>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
     /// A lock to clear.
     pub clear_enable: Signal<Out, Bit>,
-    /// Which.
     pub clear_id: Signal<Out, Bits<15>>,
-    /// A context has no lock left.
+    /// The last lock of a context is cleared.
     pub released: Signal<Out, Bit>,
-    /// Which.
     pub released_owner: Signal<Out, Bits<5>>,
-    /// The lock memory is being cleared.
+    /// The lock memory is being cleared after reset.
     pub sweeps: Signal<Out, Bit>,
     rings: RingReader,
     commit: Commit,

@@ -1,16 +1,5 @@
 //! Counts the records of the mesh: new ids as they are taken, and the records that are written.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets all records |
-//! | `takes` | in | 1 | a ring takes the next new id |
-//! | `ends` | in | 1 | the last record of a ring is written |
-//! | `solo_inserts` | in | 1 | an insertion alone has written two new records |
-//! | `seeds` | in | 1 | a first triangle and its ghosts are written, four records |
-//! | `clears` | in | 1 | forgets all records |
-//! | `fresh` | out | 15 | the next new id |
-//! | `records` | out | 15 | ids from here on are not written yet |
-//!
 //! 1. New ids of a ring count as written when its last record has passed the write port and stands in the memory (L7).
 //! 2. At most one of `takes`, `ends`, `solo_inserts`, `seeds`, `clears` at a time, and the last three only while all new ids are
 //!    written: `fresh` and `records` are equal then.
@@ -33,17 +22,16 @@ use rust_hdl_widgets::prelude::*;
 /// The count of records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FreshIds {
-    /// Clock.
+    /// Reset forgets all records.
     pub clock: Signal<In, Clock>,
-    /// Forgets all records.
     pub reset: Signal<In, Bit>,
-    /// A new id is taken.
+    /// A ring takes the next new id.
     pub takes: Signal<In, Bit>,
     /// The last record of a ring is written.
     pub ends: Signal<In, Bit>,
-    /// Two records of an insertion alone are written.
+    /// An insertion alone has written two new records.
     pub solo_inserts: Signal<In, Bit>,
-    /// Four records of a first triangle are written.
+    /// A first triangle and its ghosts are written, four records.
     pub seeds: Signal<In, Bit>,
     /// Forgets all records.
     pub clears: Signal<In, Bit>,

@@ -1,15 +1,5 @@
 //! The inner triangles of every cavity: those without an edge on the boundary, whose ids a commit gives back first.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `enable`, `owner`, `place`, `id` | in | 1, 5, 6, 15 | an inner triangle joins the list of a context |
-//! | `restarts`, `reader`, `inners` | in | 1, 5, 7 | another list is read from its start: its context and length |
-//! | `steps` | in | 1 | the triangle on the output is used |
-//! | `is_used_up` | out | 1 | none is left |
-//! | `is_awaited` | out | 1 | there is one, and it is not on the output yet |
-//! | `inner_id` | out | 15 | it, else |
-//!
 //! 1. `steps` only while neither `is_used_up` nor `is_awaited`.
 //! 2. A list is not written in the clock before one in which it is read, nor while it is.
 //!
@@ -35,21 +25,16 @@ use rust_hdl_widgets::prelude::*;
 /// The lists of inner triangles; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct InnerList {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// An inner triangle joins.
+    /// An inner triangle joins the list of a context.
     pub enable: Signal<In, Bit>,
-    /// Its context.
     pub owner: Signal<In, Bits<5>>,
-    /// Its place in the list.
     pub place: Signal<In, Bits<6>>,
-    /// It.
     pub id: Signal<In, Bits<15>>,
-    /// A list is read from its start.
+    /// Another list is read from its start: its context and length.
     pub restarts: Signal<In, Bit>,
-    /// Its context.
     pub reader: Signal<In, Bits<5>>,
-    /// Its length.
     pub inners: Signal<In, Bits<7>>,
     /// The triangle on the output is used.
     pub steps: Signal<In, Bit>,

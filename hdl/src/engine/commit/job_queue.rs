@@ -1,12 +1,5 @@
 //! Jobs of contexts, first come first served.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets all jobs |
-//! | `enable`, `job` | in | 1, D | a job comes |
-//! | `waits`, `head` | out | 1, D | there is a job; the oldest one |
-//! | `takes` | in | 1 | the head is taken at this edge, if there is one |
-//!
 //! 1. Every context has one job here at most, so there is a place for each.
 //!
 //! Latency: 1 clock. The job stands in a register first: those who find out that there is one need all of their clock. `takes` may
@@ -27,20 +20,17 @@ use rust_hdl_widgets::prelude::*;
 /// A queue of jobs; see the top of this file.
 #[derive(LogicBlock)]
 pub struct JobQueue<const D: usize> {
-    /// Clock.
+    /// Reset forgets all jobs.
     pub clock: Signal<In, Clock>,
-    /// Forgets all jobs.
     pub reset: Signal<In, Bit>,
     /// A job comes.
     pub enable: Signal<In, Bit>,
-    /// The job.
     pub job: Signal<In, Bits<D>>,
-    /// The head is taken.
-    pub takes: Signal<In, Bit>,
-    /// There is a job.
+    /// There is a job; the oldest one.
     pub waits: Signal<Out, Bit>,
-    /// The oldest one.
     pub head: Signal<Out, Bits<D>>,
+    /// The head is taken at this edge, if there is one.
+    pub takes: Signal<In, Bit>,
     arrived: DFF<Bit>,
     arrival: DFF<Bits<D>>,
     jobs: LutMemory<CONTEXT_BITS, D>,

@@ -1,16 +1,5 @@
 //! Releases the locks of finished and of failed insertions, one a clock. After reset it clears the whole lock memory.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets all that is due and starts the sweep |
-//! | `last_id` | in | 15 | the highest record id, a constant |
-//! | `lock_enable`, `lock_owner`, `lock_place`, `lock_id` | in | 1, 5, 7, 15 | a lock joins the log of a context |
-//! | `commit_enable`, `commit_job` | in | 1, ReleaseJob | the last record of a ring is written: its locks are due (L4) |
-//! | `failure_enable`, `failure_job` | in | 1, ReleaseJob | a failed attempt has run out: its locks are due (L1) |
-//! | `sweeps` | out | 1 | the lock memory is being cleared after reset |
-//! | `clear_enable`, `clear_id` | out | 1, 15 | a lock to clear at this edge |
-//! | `released`, `released_owner` | out | 1, 5 | it is the last one of this context |
-//!
 //! 1. Locks of rings go first; among equals, those that came first.
 //! 2. A context has one job at a time, of at least one lock, and its log is not written from the job on until `released`. The
 //!    log is complete when the job comes, or at the same edge.
@@ -44,37 +33,29 @@ use rust_hdl_widgets::prelude::*;
 /// The lock log and its release; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Release {
-    /// Clock.
+    /// Reset forgets all that is due and starts the sweep.
     pub clock: Signal<In, Clock>,
-    /// Starts the sweep.
     pub reset: Signal<In, Bit>,
-    /// Highest record id.
+    /// The highest record id, a constant.
     pub last_id: Signal<In, Bits<15>>,
-    /// A lock joins a log.
+    /// A lock joins the log of a context.
     pub lock_enable: Signal<In, Bit>,
-    /// Its context.
     pub lock_owner: Signal<In, Bits<5>>,
-    /// Its place in the log.
     pub lock_place: Signal<In, Bits<7>>,
-    /// The record.
     pub lock_id: Signal<In, Bits<15>>,
-    /// A ring is written.
+    /// The last record of a ring is written: its locks are due (L4)
     pub commit_enable: Signal<In, Bit>,
-    /// Its locks.
     pub commit_job: Signal<In, ReleaseJob>,
-    /// A failed attempt has run out.
+    /// A failed attempt has run out: its locks are due (L1)
     pub failure_enable: Signal<In, Bit>,
-    /// Its locks.
     pub failure_job: Signal<In, ReleaseJob>,
-    /// The lock memory is being cleared.
+    /// The lock memory is being cleared after reset.
     pub sweeps: Signal<Out, Bit>,
-    /// Clear a lock.
+    /// A lock to clear at this edge.
     pub clear_enable: Signal<Out, Bit>,
-    /// The lock.
     pub clear_id: Signal<Out, Bits<15>>,
-    /// The last lock of a context.
+    /// It is the last one of this context.
     pub released: Signal<Out, Bit>,
-    /// The context.
     pub released_owner: Signal<Out, Bits<5>>,
     commits: JobQueue<RELEASE_JOB_BITS>,
     failures: JobQueue<RELEASE_JOB_BITS>,

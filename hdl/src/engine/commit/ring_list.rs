@@ -1,14 +1,5 @@
 //! The boundary lists of all contexts: entries as they become final, and a ring's entries in their order.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `enable`, `owner`, `place`, `entry` | in | 1, 5, 6, Entry | an entry of a context becomes final |
-//! | `reader`, `reader_bit`, `read_place` | in | 5, 24, 6 | the entry to read; its context as a bit, too |
-//! | `moves` | in | 1 | it is read at this edge, and the one before it comes on the output |
-//! | `after`, `is_last` | out | 6, 1 | the entry after it, at once; there is none |
-//! | `read` | out | Entry | the entry that was read two moves ago; its `after` is 0 |
-//!
 //! 1. An entry is read two clocks after the one in which it becomes final or later, and not written again before it has left the
 //!    output.
 //! 2. `read` comes from afar: it goes into a register before anything is made of it.
@@ -31,29 +22,23 @@ const FOLLOWER_BITS: usize = ENTRY_BITS + 1;
 /// The boundary lists; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RingList {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// An entry becomes final.
+    /// An entry of a context becomes final.
     pub enable: Signal<In, Bit>,
-    /// Its context.
     pub owner: Signal<In, Bits<5>>,
-    /// Its place.
     pub place: Signal<In, Bits<6>>,
-    /// It.
     pub entry: Signal<In, Entry>,
-    /// Context of the entry to read.
+    /// The entry to read; its context as a bit, too.
     pub reader: Signal<In, Bits<5>>,
-    /// The same, a bit each.
     pub reader_bit: Signal<In, Bits<24>>,
-    /// Its place.
     pub read_place: Signal<In, Bits<6>>,
-    /// It is read at this edge.
+    /// It is read at this edge, and the one before it comes on the output.
     pub moves: Signal<In, Bit>,
-    /// The entry after it.
+    /// The entry after it, at once; there is none.
     pub after: Signal<Out, Bits<6>>,
-    /// There is none.
     pub is_last: Signal<Out, Bit>,
-    /// The entry two moves before it.
+    /// The entry that was read two moves ago; its `after` is 0.
     pub read: Signal<Out, Entry>,
     written: DFF<Bit>,
     written_owner: DFF<Bits<5>>,

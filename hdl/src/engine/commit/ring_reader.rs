@@ -1,16 +1,5 @@
 //! Reads finished boundary rings in their order, an entry a clock, one ring after the other.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets all rings |
-//! | `entry_enable`, `entry_owner`, `entry_place`, `entry` | in | 1, 5, 6, Entry | an entry of a context becomes final |
-//! | `job_enable`, `job` | in | 1, CommitJob | a ring is finished |
-//! | `head_valid`, `head` | out | 1, Entry | the next entry; its `after` is 0 |
-//! | `head_is_last` | out | 1 | it ends its ring |
-//! | `head_shares` | out | 1 | the same cavity triangle lies behind the entry before it, or behind the first of its ring |
-//! | `head_job` | out | CommitJob | its ring; with the first entry |
-//! | `takes` | in | 1 | the head is taken at this edge, if there is one |
-//!
 //! 1. A ring starts at entry 0 and follows `after` until that is 0. It has three entries or more.
 //! 2. All its entries are final when `job_enable` comes, or become so at the same edge; none is written again until the last one
 //!    has been taken.
@@ -49,34 +38,28 @@ use rust_hdl_widgets::prelude::*;
 /// The reader of rings; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RingReader {
-    /// Clock.
+    /// Reset forgets all rings.
     pub clock: Signal<In, Clock>,
-    /// Forgets all rings.
     pub reset: Signal<In, Bit>,
-    /// An entry becomes final.
+    /// An entry of a context becomes final.
     pub entry_enable: Signal<In, Bit>,
-    /// Its context.
     pub entry_owner: Signal<In, Bits<5>>,
-    /// Its place.
     pub entry_place: Signal<In, Bits<6>>,
-    /// It.
     pub entry: Signal<In, Entry>,
     /// A ring is finished.
     pub job_enable: Signal<In, Bit>,
-    /// The ring.
     pub job: Signal<In, CommitJob>,
-    /// The head is taken.
-    pub takes: Signal<In, Bit>,
-    /// There is an entry.
+    /// The next entry; its `after` is 0.
     pub head_valid: Signal<Out, Bit>,
-    /// The entry.
     pub head: Signal<Out, Entry>,
     /// It ends its ring.
     pub head_is_last: Signal<Out, Bit>,
-    /// The triangle behind it lies behind the entry before it too, or behind the first one.
+    /// The same cavity triangle lies behind the entry before it, or behind the first of its ring.
     pub head_shares: Signal<Out, Bit>,
-    /// Its ring.
+    /// Its ring; with the first entry.
     pub head_job: Signal<Out, CommitJob>,
+    /// The head is taken at this edge, if there is one.
+    pub takes: Signal<In, Bit>,
     rings: JobQueue<COMMIT_JOB_BITS>,
     oldest: Unpack<CommitJob, COMMIT_JOB_BITS>,
     job_bits: Signal<Local, Bits<COMMIT_JOB_BITS>>,

@@ -1,27 +1,5 @@
 //! The event counters, and the clock that latencies are taken from.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset and clear set all counters to zero |
-//! | `inserting`, `waiting`, `reading` | in | 1 | a job is under way; it has no point to work on; a read-out is under way |
-//! | `is_issuing`, `is_writing` | in | 1 | a visit is issued; a record or a link is written |
-//! | `is_committing`, `is_releasing` | in | 1 | a commit is at work; a lock is cleared |
-//! | `walk_visit`, `root_visit`, `test`, `solo_test` | in | 1 | a visit of that kind completes |
-//! | `revisit` | in | 1 | it is made once more |
-//! | `gives_up`, `retries` | in | 1 | an attempt ends at a foreign lock; a located triangle no longer holds the point |
-//! | `takes_token` | in | 1 | the waiting token is taken |
-//! | `overflows`, `flip` | in | 1 | a boundary list has overflowed; a flip of an insertion alone is finished |
-//! | `cavity_ends`, `cavity_triangles` | in | 1, 7 | a cavity is complete, and consists of so many triangles |
-//! | `seeds`, `commit_ends`, `solo_inserts` | in | 1 | 3, 1 or 1 points are inserted |
-//! | `since` | in | 22 | when the point whose commit ends was taken: `now` at that edge |
-//! | `duplicate`, `solo_duplicate` | in | 1 | a point is found to be a duplicate |
-//! | `refused` | in | 32 | points refused, counted where they are refused |
-//! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
-//! | `value` | out | 32 | that word, 2 clocks later |
-//! | `insertions`, `duplicates` | out | 32 | two of them |
-//! | `now` | out | 22 | clocks since reset, modulo 2^22; clear does not stop it |
-//! | `latency_comes`, `latency` | out | 1, 22 | the latency of the commit that ended with the last edge |
-//!
 //! 1. Cycle counts are two words of 32 bits; the high one follows a clock after the low one has wrapped.
 //!
 //! 2. Every event, and `clears`, goes into a register first. A count that is read while events come is that of the clock before.
@@ -39,77 +17,60 @@ use rust_hdl_widgets::prelude::*;
 /// The event counters; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Counters {
-    /// Clock.
+    /// Reset and clear set all counters to zero.
     pub clock: Signal<In, Clock>,
-    /// Zero.
     pub reset: Signal<In, Bit>,
-    /// Zero.
     pub clears: Signal<In, Bit>,
-    /// A job is under way.
+    /// A job is under way; it has no point to work on; a read-out is under way.
     pub inserting: Signal<In, Bit>,
-    /// It has no point to work on.
     pub waiting: Signal<In, Bit>,
-    /// A read-out is under way.
     pub reading: Signal<In, Bit>,
-    /// A visit is issued.
+    /// A visit is issued; a record or a link is written.
     pub is_issuing: Signal<In, Bit>,
-    /// A record or a link is written.
     pub is_writing: Signal<In, Bit>,
-    /// A commit is at work.
+    /// A commit is at work; a lock is cleared.
     pub is_committing: Signal<In, Bit>,
-    /// A lock is cleared.
     pub is_releasing: Signal<In, Bit>,
-    /// A walk visits a triangle.
+    /// A visit of that kind completes.
     pub walk_visit: Signal<In, Bit>,
-    /// A cavity test is finished.
-    pub test: Signal<In, Bit>,
-    /// A test of an insertion alone is finished.
-    pub solo_test: Signal<In, Bit>,
-    /// A list has overflowed.
-    pub overflows: Signal<In, Bit>,
-    /// A flip is finished.
-    pub flip: Signal<In, Bit>,
-    /// A located triangle is visited for its lock.
     pub root_visit: Signal<In, Bit>,
-    /// A visit is made once more.
+    pub test: Signal<In, Bit>,
+    pub solo_test: Signal<In, Bit>,
+    /// It is made once more.
     pub revisit: Signal<In, Bit>,
-    /// An attempt is given up at a foreign lock.
+    /// An attempt ends at a foreign lock; a located triangle no longer holds the point.
     pub gives_up: Signal<In, Bit>,
-    /// A triangle no longer holds the point when it is locked.
     pub retries: Signal<In, Bit>,
-    /// A context takes the waiting token.
+    /// The waiting token is taken.
     pub takes_token: Signal<In, Bit>,
-    /// A cavity is complete.
+    /// A boundary list has overflowed; a flip of an insertion alone is finished.
+    pub overflows: Signal<In, Bit>,
+    pub flip: Signal<In, Bit>,
+    /// A cavity is complete, and consists of so many triangles.
     pub cavity_ends: Signal<In, Bit>,
-    /// Its triangles.
     pub cavity_triangles: Signal<In, Bits<7>>,
-    /// The first triangle is finished.
+    /// 3, 1 or 1 points are inserted.
     pub seeds: Signal<In, Bit>,
-    /// A commit is finished.
     pub commit_ends: Signal<In, Bit>,
-    /// When its point was taken.
-    pub since: Signal<In, Bits<22>>,
-    /// An insertion alone has inserted its point.
     pub solo_inserts: Signal<In, Bit>,
-    /// A walk or the visit of a root finds a duplicate.
+    /// When the point whose commit ends was taken: `now` at that edge.
+    pub since: Signal<In, Bits<22>>,
+    /// A point is found to be a duplicate.
     pub duplicate: Signal<In, Bit>,
-    /// An insertion alone finds one.
     pub solo_duplicate: Signal<In, Bit>,
-    /// Points refused.
+    /// Points refused, counted where they are refused.
     pub refused: Signal<In, Bits<32>>,
-    /// Word to read.
+    /// Word to read: its place in the answer to `Counters`.
     pub select: Signal<In, Bits<5>>,
-    /// It.
+    /// That word, 2 clocks later.
     pub value: Signal<Out, Bits<32>>,
-    /// Points inserted.
+    /// Two of them.
     pub insertions: Signal<Out, Bits<32>>,
-    /// Points that fell onto another.
     pub duplicates: Signal<Out, Bits<32>>,
-    /// Clocks since reset.
+    /// Clocks since reset, modulo 2^22; clear does not stop it.
     pub now: Signal<Out, Bits<22>>,
-    /// A commit has ended.
+    /// The latency of the commit that ended with the last edge.
     pub latency_comes: Signal<Out, Bit>,
-    /// Its latency.
     pub latency: Signal<Out, Bits<22>>,
     ticks: DFF<Bits<22>>,
     zeroes: DFF<Bit>,

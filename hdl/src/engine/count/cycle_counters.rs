@@ -1,14 +1,5 @@
 //! Counts of clocks, by what the core does in them.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `zero` | in | 1 | `zero` forgets the clocks before |
-//! | `inserting`, `waiting`, `reading` | in | 1 | a job is under way; it has no point to work on; a read-out is under way |
-//! | `is_issuing`, `is_writing` | in | 1 | a visit is issued; a record or a link is written |
-//! | `is_committing`, `is_releasing` | in | 1 | a commit is at work; a lock is cleared |
-//! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
-//! | `value` | out | 32 | that word, if it is one of these, a clock later |
-//!
 //! 1. The first three are two words each; the high one follows a clock after the low one has wrapped.
 //! 2. A lock that is cleared counts while a job is under way, not in the sweep after reset.
 //!
@@ -22,27 +13,22 @@ use rust_hdl_widgets::prelude::*;
 /// Counts of clocks; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CycleCounters {
-    /// Clock.
+    /// `zero` forgets the clocks before.
     pub clock: Signal<In, Clock>,
-    /// Clears all.
     pub zero: Signal<In, Bit>,
-    /// A job is under way.
+    /// A job is under way; it has no point to work on; a read-out is under way.
     pub inserting: Signal<In, Bit>,
-    /// It has no point to work on.
     pub waiting: Signal<In, Bit>,
-    /// A read-out is under way.
     pub reading: Signal<In, Bit>,
-    /// A visit is issued.
+    /// A visit is issued; a record or a link is written.
     pub is_issuing: Signal<In, Bit>,
-    /// A record or a link is written.
     pub is_writing: Signal<In, Bit>,
-    /// A commit is at work.
+    /// A commit is at work; a lock is cleared.
     pub is_committing: Signal<In, Bit>,
-    /// A lock is cleared.
     pub is_releasing: Signal<In, Bit>,
-    /// Word to read.
+    /// Word to read: its place in the answer to `Counters`.
     pub select: Signal<In, Bits<5>>,
-    /// It.
+    /// That word, if it is one of these, a clock later.
     pub value: Signal<Out, Bits<32>>,
     chosen: DFF<Bits<32>>,
     insert_cycles: WideCounter<32>,

@@ -2,12 +2,6 @@
 //!
 //! `EventCounter`
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `zero` | in | 1 | `zero` forgets the clocks before |
-//! | `count` | in | 1 | this clock counts |
-//! | `value` | out | 32 | clocks that counted, modulo 2^32 |
-//!
 //! `WideCounter`
 //!
 //! | port | direction | bits | meaning |
@@ -26,13 +20,12 @@ use rust_hdl_widgets::prelude::*;
 /// A counter of a word; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct EventCounter {
-    /// Clock.
+    /// `zero` forgets the clocks before.
     pub clock: Signal<In, Clock>,
-    /// Forgets the clocks before.
     pub zero: Signal<In, Bit>,
     /// This clock counts.
     pub count: Signal<In, Bit>,
-    /// Clocks that counted.
+    /// Clocks that counted, modulo 2^32.
     pub value: Signal<Out, Bits<32>>,
     counts: DFF<Bit>,
     word: DFF<Bits<32>>,

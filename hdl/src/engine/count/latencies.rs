@@ -1,13 +1,5 @@
 //! The histogram of latencies: how many insertions took how long.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset and clear start a sweep |
-//! | `comes`, `latency` | in | 1, 22 | an insertion took that long; not while it sweeps |
-//! | `sweeps` | out | 1 | the buckets are being cleared, one a clock |
-//! | `select` | in | 7 | bucket to read; see `latency_bucket` of the protocol |
-//! | `value` | out | 32 | insertions in it, a clock later, while none comes |
-//!
 //! 1. The memory has one read port: it serves what comes first, then `select`. Nobody reads while points are inserted.
 //! 2. Latencies come at least three clocks apart.
 //!
@@ -35,21 +27,18 @@ const _: () = assert!(LATENCY_BUCKETS == 128, "the address of this block's memor
 /// The histogram; see the top of this file.
 #[derive(LogicBlock)]
 pub struct Latencies {
-    /// Clock.
+    /// Reset and clear start a sweep.
     pub clock: Signal<In, Clock>,
-    /// Starts a sweep.
     pub reset: Signal<In, Bit>,
-    /// Starts a sweep.
     pub clears: Signal<In, Bit>,
-    /// An insertion is finished.
+    /// An insertion took that long; not while it sweeps.
     pub comes: Signal<In, Bit>,
-    /// How long it took.
     pub latency: Signal<In, Bits<22>>,
-    /// The buckets are being cleared.
+    /// The buckets are being cleared, one a clock.
     pub sweeps: Signal<Out, Bit>,
-    /// Bucket to read.
+    /// Bucket to read; see `latency_bucket` of the protocol.
     pub select: Signal<In, Bits<7>>,
-    /// Insertions in it.
+    /// Insertions in it, a clock later, while none comes.
     pub value: Signal<Out, Bits<32>>,
     is_sweeping: DFF<Bit>,
     sweep_bucket: DFF<Bits<7>>,

@@ -1,11 +1,5 @@
 //! The bucket of a latency: eight to an octave from 16 clocks on; the first takes all below 18, the last all from 2^20 - 2^16 on.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `latency` | in | 22 | clocks |
-//! | `bucket` | out | 7 | four bits of the octave, then three of the place in it |
-//!
 //! 1. The highest bit that is set says the octave, the three below it the place.
 //!
 //! Latency: 2 clocks: there are registers behind the step of eight octaves and behind that of four.
@@ -16,11 +10,10 @@ use rust_hdl_widgets::prelude::*;
 /// The bucket of a latency; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LatencyBucket {
-    /// Clock.
     pub clock: Signal<In, Clock>,
     /// Clocks.
     pub latency: Signal<In, Bits<22>>,
-    /// Their bucket.
+    /// Four bits of the octave, then three of the place in it.
     pub bucket: Signal<Out, Bits<7>>,
     /// The latency from bit 1 up, shifted until its highest bit that is set stands at the top.
     from8: Signal<Local, Bits<19>>,

@@ -1,13 +1,5 @@
 //! The latency of insertions, and the least and the most of all.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `zero` | in | 1 | `zero` forgets all |
-//! | `commit_ends` | in | 1 | an insertion is finished at this edge |
-//! | `now`, `since` | in | 22 | the clock count, and what it was when the point was taken; both modulo 2^22 |
-//! | `latency_comes`, `latency` | out | 1, 22 | the latency of the insertion that was finished at the last edge |
-//! | `least`, `most` | out | 22 | of all; 0 if there was none |
-//!
 //! 1. The first one counts as the least; as the first counts whatever comes while the most is 0.
 //! 2. Insertions are finished at least three clocks apart, as each commit writes three records and more: a latency is compared
 //!    while it stands, and stored after that.
@@ -20,23 +12,19 @@ use rust_hdl_widgets::prelude::*;
 /// Latencies of insertions; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LatencyRange {
-    /// Clock.
+    /// `zero` forgets all.
     pub clock: Signal<In, Clock>,
-    /// Forgets all.
     pub zero: Signal<In, Bit>,
-    /// An insertion is finished.
+    /// An insertion is finished at this edge.
     pub commit_ends: Signal<In, Bit>,
-    /// The clock count.
+    /// The clock count, and what it was when the point was taken; both modulo 2^22.
     pub now: Signal<In, Bits<22>>,
-    /// What it was when the point was taken.
     pub since: Signal<In, Bits<22>>,
-    /// A latency comes.
+    /// The latency of the insertion that was finished at the last edge.
     pub latency_comes: Signal<Out, Bit>,
-    /// It.
     pub latency: Signal<Out, Bits<22>>,
-    /// The least.
+    /// Of all; 0 if there was none.
     pub least: Signal<Out, Bits<22>>,
-    /// The most.
     pub most: Signal<Out, Bits<22>>,
     comes: DFF<Bit>,
     /// It is the least, and the most.

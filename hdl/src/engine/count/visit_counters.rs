@@ -1,17 +1,5 @@
 //! Counts of what visits have come to.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `zero` | in | 1 | `zero` forgets the clocks before |
-//! | `walk_visit`, `root_visit`, `test` | in | 1 | a visit of that kind completes |
-//! | `revisit` | in | 1 | it is made once more |
-//! | `gives_up`, `retries` | in | 1 | an attempt ends at a foreign lock; a located triangle no longer holds the point |
-//! | `takes_token` | in | 1 | the waiting token is taken |
-//! | `overflows`, `flip` | in | 1 | a boundary list has overflowed; a flip of an insertion alone is finished |
-//! | `cavity_ends`, `cavity_triangles` | in | 1, 7 | a cavity is complete, and consists of so many triangles |
-//! | `select` | in | 5 | word to read: its place in the answer to `Counters` |
-//! | `value` | out | 32 | that word, if it is one of these, a clock later |
-//!
 //! Latency: 2 clocks; `value` follows `select` by 1.
 
 use super::event_counter::EventCounter;
@@ -22,35 +10,29 @@ use rust_hdl_widgets::prelude::*;
 /// Counts of visits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitCounters {
-    /// Clock.
+    /// `zero` forgets the clocks before.
     pub clock: Signal<In, Clock>,
-    /// Clears all.
     pub zero: Signal<In, Bit>,
-    /// A walk visits a triangle.
+    /// A visit of that kind completes.
     pub walk_visit: Signal<In, Bit>,
-    /// A cavity test is finished, or a test of an insertion alone.
-    pub test: Signal<In, Bit>,
-    /// A list has overflowed.
-    pub overflows: Signal<In, Bit>,
-    /// A flip is finished.
-    pub flip: Signal<In, Bit>,
-    /// A located triangle is visited for its lock.
     pub root_visit: Signal<In, Bit>,
-    /// A visit is made once more.
+    pub test: Signal<In, Bit>,
+    /// It is made once more.
     pub revisit: Signal<In, Bit>,
-    /// An attempt is given up at a foreign lock.
+    /// An attempt ends at a foreign lock; a located triangle no longer holds the point.
     pub gives_up: Signal<In, Bit>,
-    /// A triangle no longer holds the point when it is locked.
     pub retries: Signal<In, Bit>,
-    /// A context takes the waiting token.
+    /// The waiting token is taken.
     pub takes_token: Signal<In, Bit>,
-    /// A cavity is complete.
+    /// A boundary list has overflowed; a flip of an insertion alone is finished.
+    pub overflows: Signal<In, Bit>,
+    pub flip: Signal<In, Bit>,
+    /// A cavity is complete, and consists of so many triangles.
     pub cavity_ends: Signal<In, Bit>,
-    /// Its triangles.
     pub cavity_triangles: Signal<In, Bits<7>>,
-    /// Word to read.
+    /// Word to read: its place in the answer to `Counters`.
     pub select: Signal<In, Bits<5>>,
-    /// It.
+    /// That word, if it is one of these, a clock later.
     pub value: Signal<Out, Bits<32>>,
     chosen: DFF<Bits<32>>,
     last_triangles: DFF<Bits<7>>,

@@ -1,25 +1,5 @@
 //! What each context is at, a bit each; who holds the waiting token, and who wants to be alone.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset and clear put all contexts to sleep, without a point |
-//! | `all` | in | 24 | the contexts that are built, a constant |
-//! | `owner` | in | 5 | the context that the next eight are about |
-//! | `sleeps`, `keeps` | in | 1 | no visit of it is out any more; it will try its point again |
-//! | `hands_over` | in | 1 | a commit or a release of it is due |
-//! | `asks_to_wait`, `waits`, `stops_waiting` | in | 1 | it wants the waiting token; meets a foreign lock with it; needs it no more |
-//! | `overflows` | in | 1 | its list has overflowed |
-//! | `starts`, `starter` | in | 1, 5 | a context starts to walk at this edge |
-//! | `released`, `released_owner` | in | 1, 5 | the last lock of a context is released |
-//! | `commit_ends`, `commit_owner` | in | 1, 5 | a commit is finished |
-//! | `solo_ends` | in | 1 | the insertion alone is over |
-//! | `asleep`, `keeping`, `busy`, `began`, `hinted` | out | 24 | no visit out; trying again; commit or release due; has had a point; has had a commit |
-//! | `waiter_valid`, `waiter` | out | 1, 5 | who waits at foreign locks instead of giving up |
-//! | `is_urgent` | out | 1 | it has waited for long: nobody else may try again |
-//! | `solo_valid`, `solo_owner` | out | 1, 5 | who wants to be alone: nobody starts |
-//! | `all_rest` | out | 1 | no visit is out and no lock held; said a clock after it has come true |
-//! | `takes_token` | out | 1 | event: the waiting token is taken |
-//!
 //! 1. One waiting token: whoever gives up while it is free takes it, and keeps it until its point is in (L2). Nobody else ever waits
 //!    while it holds locks. But others that fail again and again could keep it from its locks for ever, in step with it: when it has met
 //!    8 foreign locks, nobody else tries again until its point is in (L3). New points may start: they finish, or fail and then rest, so
@@ -55,65 +35,51 @@ use rust_hdl_widgets::prelude::*;
 /// What each context is at; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ContextFlags {
-    /// Clock.
+    /// Reset and clear put all contexts to sleep, without a point.
     pub clock: Signal<In, Clock>,
-    /// All sleep.
     pub reset: Signal<In, Bit>,
-    /// All sleep.
     pub clears: Signal<In, Bit>,
-    /// Contexts that are built.
+    /// The contexts that are built, a constant.
     pub all: Signal<In, Bits<24>>,
-    /// The context whose visit completes.
+    /// The context that the next eight are about.
     pub owner: Signal<In, Bits<5>>,
-    /// No visit of it is out.
+    /// No visit of it is out any more; it will try its point again.
     pub sleeps: Signal<In, Bit>,
-    /// It tries again.
     pub keeps: Signal<In, Bit>,
-    /// A commit or a release is due.
+    /// A commit or a release of it is due.
     pub hands_over: Signal<In, Bit>,
-    /// It wants the waiting token.
+    /// It wants the waiting token; meets a foreign lock with it; needs it no more.
     pub asks_to_wait: Signal<In, Bit>,
-    /// It meets a foreign lock with it.
     pub waits: Signal<In, Bit>,
-    /// It needs it no more.
     pub stops_waiting: Signal<In, Bit>,
     /// Its list has overflowed.
     pub overflows: Signal<In, Bit>,
-    /// A context starts.
+    /// A context starts to walk at this edge.
     pub starts: Signal<In, Bit>,
-    /// Which.
     pub starter: Signal<In, Bits<5>>,
-    /// A context has no lock left.
+    /// The last lock of a context is released.
     pub released: Signal<In, Bit>,
-    /// Which.
     pub released_owner: Signal<In, Bits<5>>,
     /// A commit is finished.
     pub commit_ends: Signal<In, Bit>,
-    /// Whose.
     pub commit_owner: Signal<In, Bits<5>>,
     /// The insertion alone is over.
     pub solo_ends: Signal<In, Bit>,
-    /// No visit is out.
+    /// No visit out; trying again; commit or release due; has had a point; has had a commit.
     pub asleep: Signal<Out, Bits<24>>,
-    /// The point is tried again.
     pub keeping: Signal<Out, Bits<24>>,
-    /// A commit or a release is due.
     pub busy: Signal<Out, Bits<24>>,
-    /// It has had a point.
     pub began: Signal<Out, Bits<24>>,
-    /// It has had a commit.
     pub hinted: Signal<Out, Bits<24>>,
-    /// Somebody waits.
+    /// Who waits at foreign locks instead of giving up.
     pub waiter_valid: Signal<Out, Bit>,
-    /// Who.
     pub waiter: Signal<Out, Bits<5>>,
-    /// Nobody else may try again.
+    /// It has waited for long: nobody else may try again.
     pub is_urgent: Signal<Out, Bit>,
-    /// Somebody wants to be alone.
+    /// Who wants to be alone: nobody starts.
     pub solo_valid: Signal<Out, Bit>,
-    /// Who.
     pub solo_owner: Signal<Out, Bits<5>>,
-    /// No visit is out, no lock held.
+    /// No visit is out and no lock held; said a clock after it has come true.
     pub all_rest: Signal<Out, Bit>,
     /// Event: the waiting token is taken.
     pub takes_token: Signal<Out, Bit>,

@@ -1,24 +1,5 @@
 //! Hands points to contexts, and knows when all are finished or nothing is any more.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset and clear put all contexts to sleep |
-//! | `all`, `patience` | in | 24, 22 | contexts that are built, clocks without a finished point: constants |
-//! | `deal`, `arrived`, `came` | in | Deal, 15, 1 | contexts that work, and which points are theirs; points that have come; one is being stored |
-//! | `seeded`, `has_no_start`, `seeds` | in | 1 | the first triangle, see `Seeder` |
-//! | `owner`, `sleeps` ... `overflows`, `root_enable`, `root` | in | | what became of the context whose visit completes |
-//! | `is_done`, `may_ask` | in | 1 | a visit completes; it may ask for others: the queue is not free for a start |
-//! | `commit_ends`, `commit_owner`, `hint` | in | 1, 5, 15 | a commit is finished |
-//! | `released`, `released_owner` | in | 1, 5 | the last lock of a context is released |
-//! | `solo_is_at_work`, `solo_ends` | in | 1 | the insertion alone |
-//! | `starts`, `starter`, `u` | out | 1, 5, 15 | a context starts to walk at a record |
-//! | `takes`, `taken_id` | out | 1, 15 | with this new point |
-//! | `position_enable`, `position_owner` | out | 1, 5 | the point's coordinates stand on the vertex memory's port, 2 clocks later |
-//! | `busy`, `waiter_valid`, `waiter` | out | 24, 1, 5 | see `ContextFlags` |
-//! | `solo_starts`, `solo_owner`, `solo_p` | out | 1, 5, 15 | a context inserts its point alone, from `u` on |
-//! | `takes_token` | out | 1 | event: the waiting token is taken |
-//! | `is_quiet`, `stuck` | out | 1 | every point is finished; nothing is finished any more |
-//!
 //! 1. What becomes of a context is noted a clock after its visit completes: from then on it may start, and is asked whether it waits.
 //!
 //! Latency: see the blocks.
@@ -35,31 +16,22 @@ use rust_hdl_widgets::prelude::*;
 /// Contexts at work; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Dispatcher {
-    /// Clock.
+    /// Reset and clear put all contexts to sleep.
     pub clock: Signal<In, Clock>,
-    /// All sleep.
     pub reset: Signal<In, Bit>,
-    /// All sleep.
     pub clears: Signal<In, Bit>,
-    /// Contexts that are built.
+    /// Contexts that are built, clocks without a finished point: constants.
     pub all: Signal<In, Bits<24>>,
-    /// Clocks without a finished point.
     pub patience: Signal<In, Bits<22>>,
-    /// Contexts that work, and which points are theirs.
+    /// Contexts that work, and which points are theirs; points that have come; one is being stored.
     pub deal: Signal<In, Deal>,
-    /// Points that have come.
     pub arrived: Signal<In, Bits<15>>,
-    /// One is being stored.
     pub came: Signal<In, Bit>,
-    /// The first triangle stands.
+    /// The first triangle, see `Seeder`.
     pub seeded: Signal<In, Bit>,
-    /// There is none and none is due.
     pub has_no_start: Signal<In, Bit>,
-    /// The last record of one is written.
     pub seeds: Signal<In, Bit>,
-    /// The context whose visit completes.
     pub owner: Signal<In, Bits<5>>,
-    /// No visit of it is out.
     pub sleeps: Signal<In, Bit>,
     /// It tries again.
     pub keeps: Signal<In, Bit>,
@@ -71,63 +43,46 @@ pub struct Dispatcher {
     pub waits: Signal<In, Bit>,
     /// It needs it no more.
     pub stops_waiting: Signal<In, Bit>,
-    /// Its list overflows.
     pub overflows: Signal<In, Bit>,
     /// Its point is a duplicate.
     pub duplicate: Signal<In, Bit>,
-    /// Its goal is known.
     pub root_enable: Signal<In, Bit>,
-    /// The goal.
     pub root: Signal<In, Bits<15>>,
-    /// A visit completes.
+    /// A visit completes; it may ask for others: the queue is not free for a start.
     pub is_done: Signal<In, Bit>,
-    /// It may ask for others.
     pub may_ask: Signal<In, Bit>,
     /// A commit is finished.
     pub commit_ends: Signal<In, Bit>,
-    /// Whose.
     pub commit_owner: Signal<In, Bits<5>>,
-    /// A record of its star.
     pub hint: Signal<In, Bits<15>>,
-    /// A context has no lock left.
+    /// The last lock of a context is released.
     pub released: Signal<In, Bit>,
-    /// Which.
     pub released_owner: Signal<In, Bits<5>>,
-    /// An insertion alone is under way.
+    /// The insertion alone.
     pub solo_is_at_work: Signal<In, Bit>,
-    /// It is over.
     pub solo_ends: Signal<In, Bit>,
-    /// A context starts to walk.
+    /// A context starts to walk at a record.
     pub starts: Signal<Out, Bit>,
-    /// Which.
     pub starter: Signal<Out, Bits<5>>,
-    /// Where.
     pub u: Signal<Out, Bits<15>>,
-    /// It takes a new point.
+    /// With this new point.
     pub takes: Signal<Out, Bit>,
-    /// Which.
     pub taken_id: Signal<Out, Bits<15>>,
-    /// The point's coordinates have come.
+    /// The point's coordinates stand on the vertex memory's port, 2 clocks later.
     pub position_enable: Signal<Out, Bit>,
-    /// Whose.
     pub position_owner: Signal<Out, Bits<5>>,
-    /// Contexts with a commit or release due.
+    /// See `ContextFlags`.
     pub busy: Signal<Out, Bits<24>>,
-    /// Somebody waits at foreign locks.
     pub waiter_valid: Signal<Out, Bit>,
-    /// Who.
     pub waiter: Signal<Out, Bits<5>>,
-    /// A context inserts its point alone.
+    /// A context inserts its point alone, from `u` on.
     pub solo_starts: Signal<Out, Bit>,
-    /// Which.
     pub solo_owner: Signal<Out, Bits<5>>,
-    /// Its point.
     pub solo_p: Signal<Out, Bits<15>>,
     /// Event: the waiting token is taken.
     pub takes_token: Signal<Out, Bit>,
-    /// Every point is finished.
+    /// Every point is finished; nothing is finished any more.
     pub is_quiet: Signal<Out, Bit>,
-    /// Nothing is finished any more.
     pub stuck: Signal<Out, Bit>,
     found_owner: DFF<Bits<5>>,
     found_sleeps: DFF<Bit>,

@@ -1,17 +1,5 @@
 //! The vertex that a context takes next, and the one after a vertex that is taken.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `deal` | in | Deal | contexts that work, and whether each has a mesh of its own |
-//! | `turn`, `third` | in | 5, 7 | the context, and `3 turn + 2` |
-//! | `first` | out | Plan | the vertex it takes first |
-//! | `first_dealt` | out | 7 | the one that it takes after that, in a batch |
-//! | `taker`, `taken` | in | 5, 15 | another context, and a vertex that it takes |
-//! | `took_seed`, `taken_dealt` | in | 1, 7 | that is the third of its first triangle, in a batch; what then stood on `first_dealt` |
-//! | `taken_is_dealt` | out | 1 | that vertex is behind the first round |
-//! | `after_taken` | out | 15 | the vertex that it takes after that |
-//! | `first_record` | out | 15 | the first record of that context's mesh |
-//!
 //! 1. Context 0 takes vertex 2, whose arrival completes the first triangle, and then those below 16 one by one (L8).
 //! 2. From there on points are dealt: vertex `j` belongs to context `(j - 16) mod contexts`.
 //! 3. In a batch context `c` takes vertex `3c + 2`, the third of its own first triangle, whose first record is `4c`. From
@@ -27,29 +15,26 @@ use rust_hdl_core::prelude::*;
 /// The next vertex of a context; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct NextPoint {
-    /// How points are dealt.
+    /// Contexts that work, and whether each has a mesh of its own.
     pub deal: Signal<In, Deal>,
-    /// The context.
+    /// The context, and `3 turn + 2`.
     pub turn: Signal<In, Bits<5>>,
-    /// The third vertex of its own first triangle, in a batch.
     pub third: Signal<In, Bits<7>>,
     /// The vertex it takes first.
     pub first: Signal<Out, Plan>,
-    /// The one after such a third.
+    /// The one that it takes after that, in a batch.
     pub first_dealt: Signal<Out, Bits<7>>,
-    /// Another context.
+    /// Another context, and a vertex that it takes.
     pub taker: Signal<In, Bits<5>>,
-    /// A vertex that it takes.
     pub taken: Signal<In, Bits<15>>,
-    /// That is the third of its first triangle.
+    /// That is the third of its first triangle, in a batch; what then stood on `first_dealt`.
     pub took_seed: Signal<In, Bit>,
-    /// The one after such a third.
     pub taken_dealt: Signal<In, Bits<7>>,
     /// That vertex is behind the first round.
     pub taken_is_dealt: Signal<Out, Bit>,
-    /// The one after it.
+    /// The vertex that it takes after that.
     pub after_taken: Signal<Out, Bits<15>>,
-    /// The first record of its mesh.
+    /// The first record of that context's mesh.
     pub first_record: Signal<Out, Bits<15>>,
     is_batch: Signal<Local, Bit>,
     is_early: Signal<Local, Bit>,

@@ -1,16 +1,5 @@
 //! What each context takes next: written down in the pointer's first round, and whenever a context takes a vertex.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `deal` | in | Deal | contexts that work, and which points are theirs |
-//! | `turn`, `third` | in | 5, 7 | the context that the pointer stands at, and `3 turn + 2` |
-//! | `is_planned` | in | 1 | the pointer has stood at every context since the last clear |
-//! | `due`, `first_dealt` | out | Plan, 7 | what that context takes next; the vertex after its first, in a batch |
-//! | `taker`, `taken`, `took_seed`, `taken_dealt` | in | 5, 15, 1, 7 | another context, and what stood on `due` and `first_dealt` for it |
-//! | `taken_is_dealt`, `after_taken`, `first_record` | out | 1, 15, 15 | that is behind the first round; the vertex it takes after that; the first record of its mesh |
-//! | `takes`, `owner`, `planned` | in | 1, 5, 15 | a context takes a vertex at this edge, and this one after it; only while `is_planned` |
-//!
 //! 1. Nothing is cleared: until the pointer has gone round, each context's first vertex comes from its number, and is written down.
 //! 2. What a context takes next is read without asking whether it has had a point: to choose one flag of 24 takes long.
 //!
@@ -27,39 +16,30 @@ use rust_hdl_core::prelude::*;
 /// What each context takes next; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PlanTable {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Contexts that work, and which points are theirs.
     pub deal: Signal<In, Deal>,
-    /// The context that the pointer stands at.
+    /// The context that the pointer stands at, and `3 turn + 2`.
     pub turn: Signal<In, Bits<5>>,
-    /// The third vertex of that one's own first triangle, in a batch.
     pub third: Signal<In, Bits<7>>,
-    /// It has stood at all of them.
+    /// The pointer has stood at every context since the last clear.
     pub is_planned: Signal<In, Bit>,
-    /// What that context takes next.
+    /// What that context takes next; the vertex after its first, in a batch.
     pub due: Signal<Out, Plan>,
-    /// The vertex after its first, in a batch.
     pub first_dealt: Signal<Out, Bits<7>>,
-    /// Another context.
+    /// Another context, and what stood on `due` and `first_dealt` for it.
     pub taker: Signal<In, Bits<5>>,
-    /// The vertex that it takes.
     pub taken: Signal<In, Bits<15>>,
-    /// That is the third of its first triangle.
     pub took_seed: Signal<In, Bit>,
-    /// The one after such a third.
     pub taken_dealt: Signal<In, Bits<7>>,
-    /// That vertex is behind the first round.
+    /// That is behind the first round; the vertex it takes after that; the first record of its mesh.
     pub taken_is_dealt: Signal<Out, Bit>,
-    /// The one after it.
     pub after_taken: Signal<Out, Bits<15>>,
-    /// The first record of its mesh.
     pub first_record: Signal<Out, Bits<15>>,
-    /// A context takes a vertex.
+    /// A context takes a vertex at this edge, and this one after it; only while `is_planned`.
     pub takes: Signal<In, Bit>,
-    /// Which.
     pub owner: Signal<In, Bits<5>>,
-    /// What it takes after that.
     pub planned: Signal<In, Bits<15>>,
     following: NextPoint,
     plans: LutMemory<5, PLAN_BITS>,

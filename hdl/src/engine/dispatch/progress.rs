@@ -1,16 +1,5 @@
 //! Counts the points that are finished, and says when there is nothing left to do.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset and clear set the count to zero |
-//! | `arrived` | in | 15 | points that have come |
-//! | `seeds` | in | 1 | a first triangle stands: three points are finished |
-//! | `commit_ends`, `solo_ends`, `duplicate` | in | 1 | a point is finished each |
-//! | `has_no_start` | in | 1 | no first triangle is being made, and none can be from the points that have come |
-//! | `all_rest` | in | 1 | no visit is out and no lock held |
-//! | `is_quiet` | out | 1 | every point is finished or will never be, and nothing is at work |
-//! | `finishes` | out | 1 | a point is finished at this edge |
-//!
 //! 1. Two points may be finished in one clock: one by a commit or alone, and a duplicate.
 //! 2. Fewer than three points, or three collinear ones, are never finished: then there is nothing left to do as soon as no visit is
 //!    out.
@@ -38,29 +27,25 @@ use rust_hdl_widgets::prelude::*;
 /// Finished points; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Progress {
-    /// Clock.
+    /// Reset and clear set the count to zero.
     pub clock: Signal<In, Clock>,
-    /// Zero.
     pub reset: Signal<In, Bit>,
-    /// Zero.
     pub clears: Signal<In, Bit>,
     /// Points that have come.
     pub arrived: Signal<In, Bits<15>>,
-    /// Three points are finished.
+    /// A first triangle stands: three points are finished.
     pub seeds: Signal<In, Bit>,
-    /// A point is finished.
+    /// A point is finished each.
     pub commit_ends: Signal<In, Bit>,
-    /// A point is finished.
     pub solo_ends: Signal<In, Bit>,
-    /// A point is finished.
     pub duplicate: Signal<In, Bit>,
-    /// There is no triangle and none is due.
+    /// No first triangle is being made, and none can be from the points that have come.
     pub has_no_start: Signal<In, Bit>,
-    /// No visit is out, no lock held.
+    /// No visit is out and no lock held.
     pub all_rest: Signal<In, Bit>,
-    /// Nothing is left to do.
+    /// Every point is finished or will never be, and nothing is at work.
     pub is_quiet: Signal<Out, Bit>,
-    /// A point is finished.
+    /// A point is finished at this edge.
     pub finishes: Signal<Out, Bit>,
     finished: DFF<Bits<15>>,
     /// Points that were finished at the last edge.

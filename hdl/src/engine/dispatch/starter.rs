@@ -1,23 +1,5 @@
 //! Wakes sleeping contexts: a pointer goes round them, one a clock, and starts a walk where one is due.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset and clear start at context 0 |
-//! | `deal` | in | Deal | contexts that work, and which points are theirs |
-//! | `arrived` | in | 15 | points that have come |
-//! | `came` | in | 1 | one is being stored: the vertex memory's port is taken |
-//! | `seeded` | in | 1 | the first triangle stands |
-//! | `asleep`, `keeping`, `busy`, `began`, `hinted` | in | 24 | see `ContextFlags` |
-//! | `solo_valid` | in | 1 | somebody wants to be alone: nobody starts |
-//! | `is_urgent`, `waiter` | in | 1, 5 | nobody but this context may try again |
-//! | `is_done`, `is_blocked` | in | 1 | a visit completes; the queue may take the visits that follow it at this edge |
-//! | `root_enable`, `root_owner`, `root` | in | 1, 5, 15 | where a context goes on when it tries again |
-//! | `hint_enable`, `hint_owner`, `hint` | in | 1, 5, 15 | where its next walk starts |
-//! | `starts`, `owner`, `u` | out | 1, 5, 15 | this context starts to walk at this record |
-//! | `takes`, `taken_id` | out | 1, 15 | with this new point |
-//! | `all_rest`, `solo_owner`, `solo_is_at_work` | in | 1, 5, 1 | no visit is out and no lock held; who wants to be alone, and is |
-//! | `solo_starts`, `solo_p` | out | 1, 15 | it inserts its point alone, from `u` on |
-//!
 //! 1. A context starts if it sleeps and has a point to try again, no commit or release is due, and it has rested: contexts that try again
 //!    start in every fourth round of the pointer only, which spreads them (L1), and not beside one that has waited for long (L3).
 //! 2. Or if it sleeps and its next point has come. Until context 0 has taken vertex 16, no other context works, but in a batch (L8).
@@ -59,71 +41,53 @@ use rust_hdl_widgets::prelude::*;
 /// Starts walks; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Starter {
-    /// Clock.
+    /// Reset and clear start at context 0.
     pub clock: Signal<In, Clock>,
-    /// Starts at context 0.
     pub reset: Signal<In, Bit>,
-    /// Starts at context 0.
     pub clears: Signal<In, Bit>,
     /// Contexts that work, and which points are theirs.
     pub deal: Signal<In, Deal>,
     /// Points that have come.
     pub arrived: Signal<In, Bits<15>>,
-    /// A point is being stored.
+    /// One is being stored: the vertex memory's port is taken.
     pub came: Signal<In, Bit>,
     /// The first triangle stands.
     pub seeded: Signal<In, Bit>,
-    /// Contexts without a visit.
+    /// See `ContextFlags`.
     pub asleep: Signal<In, Bits<24>>,
-    /// Contexts that try again.
     pub keeping: Signal<In, Bits<24>>,
-    /// Contexts with a commit or release due.
     pub busy: Signal<In, Bits<24>>,
-    /// Contexts that have had a point.
     pub began: Signal<In, Bits<24>>,
-    /// Contexts that have had a commit.
     pub hinted: Signal<In, Bits<24>>,
-    /// Nobody starts.
+    /// Somebody wants to be alone: nobody starts.
     pub solo_valid: Signal<In, Bit>,
-    /// Only the one that waits may try again.
+    /// Nobody but this context may try again.
     pub is_urgent: Signal<In, Bit>,
-    /// It.
     pub waiter: Signal<In, Bits<5>>,
-    /// Who wants to be alone.
-    pub solo_owner: Signal<In, Bits<5>>,
-    /// It is.
-    pub solo_is_at_work: Signal<In, Bit>,
-    /// No visit is out, no lock held.
-    pub all_rest: Signal<In, Bit>,
-    /// A visit completes.
+    /// A visit completes; the queue may take the visits that follow it at this edge.
     pub is_done: Signal<In, Bit>,
-    /// The queue may take the visits that follow it.
     pub is_blocked: Signal<In, Bit>,
-    /// A root to go on from.
+    /// Where a context goes on when it tries again.
     pub root_enable: Signal<In, Bit>,
-    /// Whose.
     pub root_owner: Signal<In, Bits<5>>,
-    /// The root.
     pub root: Signal<In, Bits<15>>,
-    /// A hint.
+    /// Where its next walk starts.
     pub hint_enable: Signal<In, Bit>,
-    /// Whose.
     pub hint_owner: Signal<In, Bits<5>>,
-    /// The hint.
     pub hint: Signal<In, Bits<15>>,
-    /// A context starts.
+    /// This context starts to walk at this record.
     pub starts: Signal<Out, Bit>,
-    /// Which.
     pub owner: Signal<Out, Bits<5>>,
-    /// Where.
     pub u: Signal<Out, Bits<15>>,
-    /// It takes a new point.
+    /// With this new point.
     pub takes: Signal<Out, Bit>,
-    /// Which.
     pub taken_id: Signal<Out, Bits<15>>,
-    /// A context inserts its point alone.
+    /// No visit is out and no lock held; who wants to be alone, and is.
+    pub all_rest: Signal<In, Bit>,
+    pub solo_owner: Signal<In, Bits<5>>,
+    pub solo_is_at_work: Signal<In, Bit>,
+    /// It inserts its point alone, from `u` on.
     pub solo_starts: Signal<Out, Bit>,
-    /// The point.
     pub solo_p: Signal<Out, Bits<15>>,
     turn: DFF<Bits<5>>,
     /// `3 turn + 2`; two sums in a row would set the clock of the core.

@@ -1,13 +1,5 @@
 //! Notices that nothing is finished any more.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets the fault |
-//! | `finishes` | in | 1 | a point is in the mesh, or known to be a duplicate, at this edge |
-//! | `is_quiet` | in | 1 | there is nothing to do |
-//! | `patience` | in | 22 | clocks to wait, a constant; see `patience` of the protocol |
-//! | `stuck` | out | 1 | a fault: that many clocks have passed without either |
-//!
 //! 1. `stuck` stays until reset.
 //!
 //! 2. Its inputs and the comparison go into registers first.
@@ -27,17 +19,16 @@ use rust_hdl_widgets::prelude::*;
 /// The watchdog; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Watchdog {
-    /// Clock.
+    /// Reset forgets the fault.
     pub clock: Signal<In, Clock>,
-    /// Forgets the fault.
     pub reset: Signal<In, Bit>,
-    /// A point is finished.
+    /// A point is in the mesh, or known to be a duplicate, at this edge.
     pub finishes: Signal<In, Bit>,
     /// There is nothing to do.
     pub is_quiet: Signal<In, Bit>,
-    /// Clocks to wait.
+    /// Clocks to wait, a constant; see `patience` of the protocol.
     pub patience: Signal<In, Bits<22>>,
-    /// A fault.
+    /// A fault: that many clocks have passed without either.
     pub stuck: Signal<Out, Bit>,
     rests: DFF<Bit>,
     clocks: DFF<Bits<22>>,

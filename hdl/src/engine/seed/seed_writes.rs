@@ -1,13 +1,5 @@
 //! The records of a first triangle and its ghosts.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `step` | in | 3 | 0: its vertices as they came, for the look which way they turn; 1: the triangle; 2 to 4: the ghosts |
-//! | `first_vertex`, `first_record` | in | 15 | the first of its three vertices and of the four records, a multiple of 4 |
-//! | `turns_left` | in | 1 | they turn left |
-//! | `infinite` | in | 15 | the infinite vertex |
-//! | `write` | out | Write | the record |
-//!
 //! With `a` the first vertex, `b = a + 1`, `c = a + 2` if they turn left and the other way round if not, and ids that count from the
 //! first record:
 //! ```text
@@ -26,13 +18,12 @@ use rust_hdl_core::prelude::*;
 /// The first records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SeedWrites {
-    /// Which record.
+    /// 0: its vertices as they came, for the look which way they turn; 1: the triangle; 2 to 4: the ghosts.
     pub step: Signal<In, Bits<3>>,
-    /// The first vertex.
+    /// The first of its three vertices and of the four records, a multiple of 4.
     pub first_vertex: Signal<In, Bits<15>>,
-    /// The first record.
     pub first_record: Signal<In, Bits<15>>,
-    /// The three vertices turn left.
+    /// They turn left.
     pub turns_left: Signal<In, Bit>,
     /// The infinite vertex.
     pub infinite: Signal<In, Bits<15>>,

@@ -1,19 +1,5 @@
 //! Makes the first triangle and its ghosts out of the first three points, in a batch one after the other for each job.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset and clear forget the first triangles |
-//! | `infinite` | in | 15 | the infinite vertex, a constant |
-//! | `deal` | in | Deal | whether there is a batch, and of how many jobs |
-//! | `came`, `came_id`, `arrived` | in | 1, 15, 15 | a point is stored at this edge; points that have come |
-//! | `looks`, `verdict` | in | 1, Verdict | the visit that completes is the look at three points, for the third of them |
-//! | `seeded` | out | 1 | every first triangle stands |
-//! | `start_is_open` | out | 1 | three points for the first triangle that is due have come, and it does not stand yet |
-//! | `collinear` | out | 1 | such three are collinear, and no more triangles will be made |
-//! | `has_no_start` | out | 1 | no first triangle is being made, and none can be from the points that have come |
-//! | `seeds` | out | 1 | the last record of one is written at this edge |
-//! | `write` | out | Write | a record, registered |
-//!
 //! 1. When the first of three points comes, a record with their vertices is written for the look, which says on which side of the first
 //!    two the third lies; collinear points write nothing more.
 //! 2. Job `c` of a batch has the vertices `3c` to `3c + 2` and the records `4c` to `4c + 3`. No point of the next job comes before its
@@ -41,37 +27,32 @@ use rust_hdl_widgets::prelude::*;
 /// The first triangles; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Seeder {
-    /// Clock.
+    /// Reset and clear forget the first triangles.
     pub clock: Signal<In, Clock>,
-    /// Forgets the first triangles.
     pub reset: Signal<In, Bit>,
-    /// Forgets the first triangles.
     pub clears: Signal<In, Bit>,
-    /// The infinite vertex.
+    /// The infinite vertex, a constant.
     pub infinite: Signal<In, Bits<15>>,
-    /// Whether there is a batch.
+    /// Whether there is a batch, and of how many jobs.
     pub deal: Signal<In, Deal>,
-    /// A point is stored.
+    /// A point is stored at this edge; points that have come.
     pub came: Signal<In, Bit>,
-    /// Its vertex id.
     pub came_id: Signal<In, Bits<15>>,
-    /// Points that have come.
     pub arrived: Signal<In, Bits<15>>,
-    /// The look completes.
+    /// The visit that completes is the look at three points, for the third of them.
     pub looks: Signal<In, Bit>,
-    /// What it found out.
     pub verdict: Signal<In, Verdict>,
     /// Every first triangle stands.
     pub seeded: Signal<Out, Bit>,
-    /// Three points are being looked at.
+    /// Three points for the first triangle that is due have come, and it does not stand yet.
     pub start_is_open: Signal<Out, Bit>,
-    /// Three points are collinear.
+    /// Such three are collinear, and no more triangles will be made.
     pub collinear: Signal<Out, Bit>,
-    /// There is no triangle and none is due.
+    /// No first triangle is being made, and none can be from the points that have come.
     pub has_no_start: Signal<Out, Bit>,
-    /// The last record is written.
+    /// The last record of one is written at this edge.
     pub seeds: Signal<Out, Bit>,
-    /// A record.
+    /// A record, registered.
     pub write: Signal<Out, Write>,
     step: DFF<Bits<3>>,
     is_seeded: DFF<Bit>,

@@ -1,18 +1,5 @@
 //! Insertion alone, in constant state: locates the point, splits the triangle into three, then flips once round the star.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset ends the insertion |
-//! | `starts` | in | 1 | begin at this edge: no visit is out and no lock held; only while idle |
-//! | `owner`, `p`, `start` | in | 5, 15, 15 | taken at `starts`: the context, the new vertex, where the walk begins |
-//! | `records` | in | 15 | the next new id |
-//! | `done`, `token`, `turned`, `verdict` | in | | the visit that completes |
-//! | `push`, `bundle` | out | 1, Bundle | a visit to make; it bears the owner |
-//! | `write` | out | Write | a record or a link, registered |
-//! | `tests`, `flips` | out | 1 | a test or a flip was finished at the last edge |
-//! | `ends`, `inserts` | out | 1 | the insertion was over at the last edge; it has inserted its point, which is no duplicate |
-//! | `is_at_work` | out | 1 | every visit that completes is its own, from the clock after `starts` has been taken to `ends` |
-//!
 //! 1. The mesh has changed since the attempt that overflowed, so the point is located again, from the triangle that held it then.
 //! 2. Its visits set no locks, and at most one is out.
 //! 3. While the triangle outside the star triangle at work is in conflict, the edge is flipped and the same position is tested again;
@@ -71,43 +58,33 @@ pub enum SoloState {
 /// Insertion alone; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Solo {
-    /// Clock.
+    /// Reset ends the insertion.
     pub clock: Signal<In, Clock>,
-    /// Ends the insertion.
     pub reset: Signal<In, Bit>,
-    /// Begin.
+    /// Begin at this edge: no visit is out and no lock held; only while idle.
     pub starts: Signal<In, Bit>,
-    /// The context.
+    /// Taken at `starts`: the context, the new vertex, where the walk begins.
     pub owner: Signal<In, Bits<5>>,
-    /// The new vertex.
     pub p: Signal<In, Bits<15>>,
-    /// Where the walk begins.
     pub start: Signal<In, Bits<15>>,
     /// The next new id.
     pub records: Signal<In, Bits<15>>,
-    /// A visit completes.
     pub done: Signal<In, Bit>,
-    /// The visit.
     pub token: Signal<In, Token>,
-    /// Its record.
     pub turned: Signal<In, Turned>,
-    /// What it found out.
     pub verdict: Signal<In, Verdict>,
-    /// A visit to make.
+    /// A visit to make; it bears the owner.
     pub push: Signal<Out, Bit>,
-    /// The visit.
     pub bundle: Signal<Out, Bundle>,
-    /// A record or a link.
+    /// A record or a link, registered.
     pub write: Signal<Out, Write>,
-    /// A test is finished.
+    /// A test or a flip was finished at the last edge.
     pub tests: Signal<Out, Bit>,
-    /// A flip is finished.
     pub flips: Signal<Out, Bit>,
-    /// The insertion is over.
+    /// The insertion was over at the last edge; it has inserted its point, which is no duplicate.
     pub ends: Signal<Out, Bit>,
-    /// The point is in the mesh.
     pub inserts: Signal<Out, Bit>,
-    /// The visits that complete are its own.
+    /// Every visit that completes is its own, from the clock after `starts` has been taken to `ends`.
     pub is_at_work: Signal<Out, Bit>,
     state: DFF<SoloState>,
     step: DFF<Bits<2>>,

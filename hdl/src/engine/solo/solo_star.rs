@@ -1,18 +1,6 @@
 //! The star of a point that is inserted alone: the triangle at work, the one outer it, the visits that read both and the writes that
 //! change them.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset drops the write |
-//! | `is_locate`, `is_split`, `is_mend`, `is_fetch`, `is_test`, `is_flip` | in | 1 | what is done; at most one |
-//! | `step` | in | 2 | which record of the split, link of the mend, write of the flip |
-//! | `owner`, `p`, `records`, `root_id`, `root` | in | | the context, the new vertex, the next new id, the located triangle |
-//! | `done`, `token`, `turned`, `conflict` | in | | the visit that completes |
-//! | `bundle` | out | Bundle | the visit that is due, if one is |
-//! | `tests`, `flips` | out | 1 | a test or a flip is finished |
-//! | `is_round` | out | 1 | the star triangle at work is the last one of the round; looked at when its test completes |
-//! | `write` | out | Write | a record or a link, registered |
-//!
 //! 1. The star triangle at work has `p` in slot 0: `v = (p, a, b)`, `n = (outer, after, preceding)`.
 //! 2. The second mend makes the split root the star triangle at work; a test without conflict, the one after it.
 //! 3. A flip puts the second of its two triangles outer, and leaves the first at work, towards the apex.
@@ -31,51 +19,35 @@ use rust_hdl_widgets::prelude::*;
 /// The star; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloStar {
-    /// Clock.
+    /// Reset drops the write.
     pub clock: Signal<In, Clock>,
-    /// Drops the write.
     pub reset: Signal<In, Bit>,
-    /// The context.
-    pub owner: Signal<In, Bits<5>>,
-    /// The point is located.
+    /// What is done; at most one.
     pub is_locate: Signal<In, Bit>,
-    /// The root is split.
     pub is_split: Signal<In, Bit>,
-    /// The outer neighbours learn of the split.
     pub is_mend: Signal<In, Bit>,
-    /// The star triangle at work is read.
     pub is_fetch: Signal<In, Bit>,
-    /// The triangle outer is tested.
     pub is_test: Signal<In, Bit>,
-    /// The edge between the two is flipped.
     pub is_flip: Signal<In, Bit>,
-    /// Which of the writes.
+    /// Which record of the split, link of the mend, write of the flip.
     pub step: Signal<In, Bits<2>>,
-    /// The new vertex.
+    pub owner: Signal<In, Bits<5>>,
     pub p: Signal<In, Bits<15>>,
-    /// The next new id.
     pub records: Signal<In, Bits<15>>,
-    /// The located triangle.
     pub root_id: Signal<In, Bits<15>>,
-    /// Its record.
     pub root: Signal<In, Turned>,
-    /// A visit completes.
     pub done: Signal<In, Bit>,
-    /// The visit.
     pub token: Signal<In, Token>,
-    /// Its record.
     pub turned: Signal<In, Turned>,
-    /// The triangle outer is in conflict.
     pub conflict: Signal<In, Bit>,
-    /// The visit that is due.
+    /// The visit that is due, if one is.
     pub bundle: Signal<Out, Bundle>,
-    /// A test is finished.
+    /// A test or a flip is finished.
     pub tests: Signal<Out, Bit>,
-    /// A flip is finished.
     pub flips: Signal<Out, Bit>,
-    /// The round ends here.
+    /// The star triangle at work is the last one of the round; looked at when its test completes.
     pub is_round: Signal<Out, Bit>,
-    /// A record or a link.
+    /// A record or a link, registered.
     pub write: Signal<Out, Write>,
     locates: DFF<Bit>,
     splits: DFF<Bit>,

@@ -1,14 +1,5 @@
 //! The visit that an insertion alone makes, by what it does.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `owner` | in | 5 | the context |
-//! | `is_locate`, `is_fetch` | in | 1 | the triangle that a walk has come to; the star triangle at work |
-//! | `is_mend`, `is_second` | in | 1 | an outer neighbour of the split, the second one; a test if nothing else |
-//! | `root_id`, `root` | in | 15, Turned | the located triangle, or the one that the walk has come to |
-//! | `id`, `outer`, `back` | in | 15 | the star triangle at work, the one outside, and the link by which that leads back |
-//! | `bundle` | out | Bundle | the visit; it sets no lock |
-//!
 //! Latency: none (combinational).
 
 use crate::engine::types::{Bundle, Turned};
@@ -19,25 +10,20 @@ use rust_hdl_core::prelude::*;
 pub struct SoloVisit {
     /// The context.
     pub owner: Signal<In, Bits<5>>,
-    /// The walk is under way.
+    /// The triangle that a walk has come to; the star triangle at work.
     pub is_locate: Signal<In, Bit>,
-    /// An outer neighbour is visited.
-    pub is_mend: Signal<In, Bit>,
-    /// The second one.
-    pub is_second: Signal<In, Bit>,
-    /// The star triangle is read.
     pub is_fetch: Signal<In, Bit>,
-    /// The located triangle.
+    /// An outer neighbour of the split, the second one; a test if nothing else.
+    pub is_mend: Signal<In, Bit>,
+    pub is_second: Signal<In, Bit>,
+    /// The located triangle, or the one that the walk has come to.
     pub root_id: Signal<In, Bits<15>>,
-    /// Its record.
     pub root: Signal<In, Turned>,
-    /// The star triangle at work.
+    /// The star triangle at work, the one outside, and the link by which that leads back.
     pub id: Signal<In, Bits<15>>,
-    /// The triangle outside.
     pub outer: Signal<In, Bits<15>>,
-    /// Its link that leads back.
     pub back: Signal<In, Bits<15>>,
-    /// The visit.
+    /// The visit; it sets no lock.
     pub bundle: Signal<Out, Bundle>,
 }
 

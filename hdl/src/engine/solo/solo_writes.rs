@@ -1,16 +1,5 @@
 //! The writes of an insertion alone, by what it does.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `split1`, `split2`, `split3` | in | 1 | the split writes its first, second, third record |
-//! | `flip1`, `flip2` | in | 1 | the flip writes its first, second record |
-//! | `mend1`, `mend2`, `is_test` | in | 1 | a link is mended: the first or second after the split, or one after a test |
-//! | `p`, `second`, `third`, `root_id`, `root` | in | | the new vertex, the next two new ids, the located triangle |
-//! | `id`, `a`, `b`, `outer`, `after`, `preceding` | in | 15 | the star triangle at work |
-//! | `apex`, `apex_after_a`, `apex_before_b` | in | 15 | the triangle outside it, and its links beyond `a` and `b` |
-//! | `visited`, `slot` | in | 15, 2 | the record visited and its slot that leads back |
-//! | `write` | out | Write | the write |
-//!
 //! Latency: none (combinational).
 
 use crate::engine::types::{Turned, Write};
@@ -20,53 +9,35 @@ use rust_hdl_core::prelude::*;
 /// Writes of an insertion alone; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloWrites {
-    /// The first record of the split.
+    /// The split writes its first, second, third record.
     pub split1: Signal<In, Bit>,
-    /// The second record of the split.
     pub split2: Signal<In, Bit>,
-    /// The third record of the split.
     pub split3: Signal<In, Bit>,
-    /// The first record of the flip.
+    /// The flip writes its first, second record.
     pub flip1: Signal<In, Bit>,
-    /// The second record of the flip.
     pub flip2: Signal<In, Bit>,
-    /// The first link after the split.
+    /// A link is mended: the first or second after the split, or one after a test.
     pub mend1: Signal<In, Bit>,
-    /// The second link after the split.
     pub mend2: Signal<In, Bit>,
-    /// A link after a test.
     pub is_test: Signal<In, Bit>,
-    /// The new vertex.
     pub p: Signal<In, Bits<15>>,
-    /// The next new id: the second record of the split.
     pub second: Signal<In, Bits<15>>,
-    /// The one after it: the third.
     pub third: Signal<In, Bits<15>>,
-    /// The located triangle.
     pub root_id: Signal<In, Bits<15>>,
-    /// Its record.
     pub root: Signal<In, Turned>,
     /// The star triangle at work.
     pub id: Signal<In, Bits<15>>,
-    /// Its second vertex.
     pub a: Signal<In, Bits<15>>,
-    /// Its third vertex.
     pub b: Signal<In, Bits<15>>,
-    /// The triangle outside it.
     pub outer: Signal<In, Bits<15>>,
-    /// The next star triangle.
     pub after: Signal<In, Bits<15>>,
-    /// The star triangle before it.
     pub preceding: Signal<In, Bits<15>>,
-    /// The apex of `outer`.
+    /// The triangle outside it, and its links beyond `a` and `b`.
     pub apex: Signal<In, Bits<15>>,
-    /// The triangle across the edge from `a` to the apex.
     pub apex_after_a: Signal<In, Bits<15>>,
-    /// The triangle across the edge from the apex to `b`.
     pub apex_before_b: Signal<In, Bits<15>>,
-    /// The record visited.
+    /// The record visited and its slot that leads back.
     pub visited: Signal<In, Bits<15>>,
-    /// Its slot that leads back.
     pub slot: Signal<In, Bits<2>>,
     /// The write.
     pub write: Signal<Out, Write>,

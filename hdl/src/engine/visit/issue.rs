@@ -1,14 +1,5 @@
 //! Queues bundles and issues their visits, one a clock, first in first out.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset empties the queue |
-//! | `push`, `bundle` | in | 1, Bundle | a bundle enters the queue |
-//! | `read`, `read_id` | in | 1, 15 | a read-out wants this record; only while the queue is empty |
-//! | `token_valid`, `token` | out | 1, Token | the visit issued; in a read-out `token.u` alone counts |
-//! | `vertices_id`, `links_id` | out | 15 | `token.u` from two more registers; arbitrary after a reset until the next visit or read-out |
-//! | `read_valid` | out | 1 | the issue register holds a read-out |
-//!
 //! 1. A bundle takes a clock for each of its one to three visits, the first visit first; see `Bundle` for what tells them apart.
 //! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring has entries,
 //!    so it never overflows.
@@ -36,27 +27,22 @@ use rust_hdl_widgets::prelude::*;
 /// The queue and the issue register; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Issue {
-    /// Clock.
+    /// Reset empties the queue.
     pub clock: Signal<In, Clock>,
-    /// Empties the queue.
     pub reset: Signal<In, Bit>,
-    /// A bundle enters.
+    /// A bundle enters the queue.
     pub push: Signal<In, Bit>,
-    /// The bundle.
     pub bundle: Signal<In, Bundle>,
-    /// A read-out wants a record.
+    /// A read-out wants this record; only while the queue is empty.
     pub read: Signal<In, Bit>,
-    /// The record.
     pub read_id: Signal<In, Bits<15>>,
-    /// A visit is issued.
+    /// The visit issued; in a read-out `token.u` alone counts.
     pub token_valid: Signal<Out, Bit>,
-    /// The visit.
     pub token: Signal<Out, Token>,
-    /// Its record again, for the vertex columns.
+    /// `token.u` from two more registers; arbitrary after a reset until the next visit or read-out.
     pub vertices_id: Signal<Out, Bits<15>>,
-    /// Its record again, for the link columns.
     pub links_id: Signal<Out, Bits<15>>,
-    /// A read-out is issued.
+    /// The issue register holds a read-out.
     pub read_valid: Signal<Out, Bit>,
     queue: DeepFifo<RING_ADDRESS_BITS, BUNDLE_BITS>,
     head: Unpack<Bundle, BUNDLE_BITS>,

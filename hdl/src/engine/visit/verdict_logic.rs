@@ -1,11 +1,5 @@
 //! Turns the signs of a visit into its verdict.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `turned` | in | Turned | the record turned |
-//! | `e0_negative` ... `r1_before_r2` | in | 1 | the flags of `VisitPredicates` for its corners as stored |
-//! | `verdict` | out | Verdict | what the visit found out |
-//!
 //! 1. A finite record is in conflict iff the point lies inside its circle, or on it and the tie rule says so: the
 //!    diagonal takes the lexicographically smallest of the four points.
 //! 2. A ghost is in conflict iff the point lies strictly beyond its hull edge, or on the line strictly between the edge's ends. (Of
@@ -26,7 +20,7 @@ use rust_hdl_core::prelude::*;
 pub struct VerdictLogic {
     /// The record turned.
     pub turned: Signal<In, Turned>,
-    /// The point lies right of side 0.
+    /// The flags of `VisitPredicates` for its corners as stored.
     pub e0_negative: Signal<In, Bit>,
     /// Right of side 1.
     pub e1_negative: Signal<In, Bit>,
@@ -64,7 +58,7 @@ pub struct VerdictLogic {
     pub r0_before_r1: Signal<In, Bit>,
     /// Before corner 2.
     pub r0_before_r2: Signal<In, Bit>,
-    /// Corner 1 comes before corner 2.
+    /// The flags of `VisitPredicates` for its corners as stored.
     pub r1_before_r2: Signal<In, Bit>,
     /// What the visit found out.
     pub verdict: Signal<Out, Verdict>,

@@ -1,12 +1,5 @@
 //! The predicates of a visit and the verdict that follows from them.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `r0`, `r1`, `r2`, `p` | in | 32 | corners of the record as stored, and the point, in clock 0 |
-//! | `turned` | in | Turned | the record turned, when its signs are there, straight from registers, in clock 10 |
-//! | `verdict` | out | Verdict | what the visit found out, in clock 10 |
-//!
 //! 1. Corners and point come straight from registers. New ones are taken at every edge; there is no reset.
 //!
 //! Latency: `LATENCY` = 10 clocks from the corners to the verdict, which has no register of its own.
@@ -30,19 +23,16 @@ use rust_hdl_core::prelude::*;
 /// Signs and verdict; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitJudge {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// First corner.
+    /// Corners of the record as stored, and the point, in clock 0.
     pub r0: Signal<In, Bits<32>>,
-    /// Second corner.
     pub r1: Signal<In, Bits<32>>,
-    /// Third corner.
     pub r2: Signal<In, Bits<32>>,
-    /// The point.
     pub p: Signal<In, Bits<32>>,
-    /// The record turned.
+    /// The record turned, when its signs are there, straight from registers, in clock 10.
     pub turned: Signal<In, Turned>,
-    /// What the visit found out.
+    /// What the visit found out, in clock 10.
     pub verdict: Signal<Out, Verdict>,
     predicates: VisitPredicates,
     verdict_logic: VerdictLogic,

@@ -1,23 +1,5 @@
 //! Everything a visit passes: queue, triangle memory and locks, slot and rotation, vertex memory, predicates, verdict.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets all visits; memories keep their contents |
-//! | `infinite` | in | 15 | the id of the infinite vertex, a constant |
-//! | `records` | in | 15 | records from this id on are not written yet |
-//! | `push`, `bundle` | in | 1, Bundle | visits to make |
-//! | `position_owner`, `position`, `position_enable` | in | 5, 32, 1 | the point that a context inserts from now on |
-//! | `is_issuing` | out | 1 | a visit reads its record in this clock |
-//! | `done` | out | 1 | a visit completes in this clock |
-//! | `token`, `turned`, `verdict` | out | | the visit, its record and what it found out |
-//! | `early_done`, `early_token`, `early_turned` | out | | a visit completes in the next clock; the visit and its record |
-//! | `read`, `read_id` | in | 1, 15 | a read-out wants a record; only while no visit is out |
-//! | `read_done` | out | 1 | the record stands on `v0..n2` and `was_set` |
-//! | `write`, `enables` | in | Write, WriteEnables | a write into the triangle memory, and the columns that it writes |
-//! | `vertex_id`, `vertex_position`, `vertex_enable` | in | 15, 32, 1 | a write into the vertex memory |
-//! | `fetch_id`, `fetched` | in, out | 15, 32 | a vertex read, 2 clocks later; only at an edge without such a write |
-//! | `clear_id`, `clear_enable` | in | 15, 1 | a lock to clear |
-//!
 //! 1. Every visit takes the same time, so visits complete in the order of their issue, at most one a clock.
 //! 2. A visit whose record is written in the clock in which it is issued, or is not written yet, completes with `turned.again` (L7). Then
 //!    vertices, links and slot of `turned` and the whole `verdict` are arbitrary; `took` and `foreign` hold all the same.
@@ -57,45 +39,34 @@ use rust_hdl_widgets::prelude::*;
 /// The visit pipeline; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitPipeline {
-    /// Clock.
+    /// Reset forgets all visits; memories keep their contents.
     pub clock: Signal<In, Clock>,
-    /// Forgets all visits.
     pub reset: Signal<In, Bit>,
     /// The id of the infinite vertex, a constant.
     pub infinite: Signal<In, Bits<15>>,
-    /// A bundle enters the queue.
-    pub push: Signal<In, Bit>,
-    /// The bundle.
-    pub bundle: Signal<In, Bundle>,
     /// Records from this id on are not written yet.
     pub records: Signal<In, Bits<15>>,
-    /// The context that takes a point.
+    /// Visits to make.
+    pub push: Signal<In, Bit>,
+    pub bundle: Signal<In, Bundle>,
+    /// The point that a context inserts from now on.
     pub position_owner: Signal<In, Bits<5>>,
-    /// The point.
     pub position: Signal<In, Bits<32>>,
-    /// It takes it at this edge.
     pub position_enable: Signal<In, Bit>,
-    /// A visit reads its record.
+    /// A visit reads its record in this clock.
     pub is_issuing: Signal<Out, Bit>,
-    /// A visit completes.
+    /// A visit completes in this clock.
     pub done: Signal<Out, Bit>,
-    /// The visit.
     pub token: Signal<Out, Token>,
-    /// Its record.
     pub turned: Signal<Out, Turned>,
-    /// What it found out.
     pub verdict: Signal<Out, Verdict>,
-    /// A visit completes in the next clock, unless reset.
     pub early_done: Signal<Out, Bit>,
-    /// The visit that completes in the next clock.
     pub early_token: Signal<Out, Token>,
-    /// Its record.
     pub early_turned: Signal<Out, Turned>,
-    /// A read-out wants a record.
+    /// A read-out wants a record; only while no visit is out.
     pub read: Signal<In, Bit>,
-    /// The record.
     pub read_id: Signal<In, Bits<15>>,
-    /// It stands on the columns.
+    /// The record stands on `v0..n2` and `was_set`.
     pub read_done: Signal<Out, Bit>,
     /// Column read.
     pub v0: Signal<Out, Bits<15>>,
@@ -111,23 +82,18 @@ pub struct VisitPipeline {
     pub n2: Signal<Out, Bits<15>>,
     /// Lock bit read.
     pub was_set: Signal<Out, Bit>,
-    /// A write into the triangle memory.
+    /// A write into the triangle memory, and the columns that it writes.
     pub write: Signal<In, Write>,
-    /// The columns that it writes.
     pub enables: Signal<In, WriteEnables>,
-    /// Vertex to write.
+    /// A write into the vertex memory.
     pub vertex_id: Signal<In, Bits<15>>,
-    /// Its coordinates.
     pub vertex_position: Signal<In, Bits<32>>,
-    /// Write it.
     pub vertex_enable: Signal<In, Bit>,
-    /// Vertex to read.
+    /// A vertex read, 2 clocks later; only at an edge without such a write.
     pub fetch_id: Signal<In, Bits<15>>,
-    /// Its coordinates.
     pub fetched: Signal<Out, Bits<32>>,
-    /// Lock to clear.
+    /// A lock to clear.
     pub clear_id: Signal<In, Bits<15>>,
-    /// Clear it.
     pub clear_enable: Signal<In, Bit>,
     issue: Issue,
     triangles: TriangleStore,

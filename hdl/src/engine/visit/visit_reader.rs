@@ -1,17 +1,5 @@
 //! Reads the record of a visit, turns it, and takes in the coordinates of its corners.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | everything happens at its rising edge |
-//! | `infinite` | in | 15 | the id of the infinite vertex, a constant |
-//! | `token` | in | Token | the visit, in clock 0 |
-//! | `v0..n2` | in | 15 | its record from the triangle memory, in clock 2 |
-//! | `again` | in | 1 | whether the record counts, in clock 2 |
-//! | `took`, `foreign` | in | 1 | what became of its lock, in clock 3 |
-//! | `position0..2` | in | 32 | coordinates of `v0..v2`, in clock 4 |
-//! | `turned` | out | Turned | the record turned, in clock 5 |
-//! | `r0..r2` | out | 32 | coordinates of its vertices, not turned, in clock 5 |
-//!
 //! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does. The links of a record differ.
 //! 2. `took`, `foreign` and `again` pass unchanged into `turned`.
 //! 3. Nothing is computed between a memory's output and the first register: block RAM lies far from everything. That is why the corners
@@ -43,17 +31,15 @@ use rust_hdl_widgets::prelude::*;
 /// Slot search, rotation and corners; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitReader {
-    /// Clock.
+    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// The id of the infinite vertex, a constant.
     pub infinite: Signal<In, Bits<15>>,
-    /// The visit issued.
+    /// The visit, in clock 0.
     pub token: Signal<In, Token>,
-    /// Column of the record.
+    /// Its record from the triangle memory, in clock 2.
     pub v0: Signal<In, Bits<15>>,
-    /// Column of the record.
     pub v1: Signal<In, Bits<15>>,
-    /// Column of the record.
     pub v2: Signal<In, Bits<15>>,
     /// Column of the record.
     pub n0: Signal<In, Bits<15>>,
@@ -61,27 +47,22 @@ pub struct VisitReader {
     pub n1: Signal<In, Bits<15>>,
     /// Column of the record.
     pub n2: Signal<In, Bits<15>>,
-    /// The visit took the lock.
-    pub took: Signal<In, Bit>,
-    /// It would have, but another context has it, or it was being cleared.
-    pub foreign: Signal<In, Bit>,
-    /// The record was not written yet, or being written.
+    /// Whether the record counts, in clock 2.
     pub again: Signal<In, Bit>,
-    /// Coordinates of `v0`.
+    /// What became of its lock, in clock 3.
+    pub took: Signal<In, Bit>,
+    pub foreign: Signal<In, Bit>,
+    /// Coordinates of `v0..v2`, in clock 4.
     pub position0: Signal<In, Bits<32>>,
-    /// Coordinates of `v1`.
     pub position1: Signal<In, Bits<32>>,
-    /// Coordinates of `v2`.
     pub position2: Signal<In, Bits<32>>,
-    /// The record turned.
+    /// The record turned, in clock 5.
     pub turned: Signal<Out, Turned>,
     /// The token of the record on the columns, for the delay to the verdict.
     pub token_at_record: Signal<Out, Token>,
-    /// Corner of the record as stored.
+    /// Coordinates of its vertices, not turned, in clock 5.
     pub r0: Signal<Out, Bits<32>>,
-    /// Corner of the record as stored.
     pub r1: Signal<Out, Bits<32>>,
-    /// Corner of the record as stored.
     pub r2: Signal<Out, Bits<32>>,
     token1: DFF<Token>,
     token2: DFF<Token>,

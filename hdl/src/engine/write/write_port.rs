@@ -1,12 +1,5 @@
 //! The registered write port of the triangle memory: takes the request of whichever block makes one.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset drops a write |
-//! | `commit`, `solo`, `seed` | in | Write | requests; at most one is valid: the last two come only while nothing else is at work |
-//! | `write` | out | Write | the write made at the next edge |
-//! | `enables` | out | WriteEnables | the columns that it writes, none without a write; its record twice more |
-//!
 //! 1. Without a request the data are held, and `write.valid` and all `enables` are low.
 //! 2. The enables are registers of their own, so that no logic stands between this port and the many block RAMs that it drives, and so are
 //!    two copies of the record's id, so that each may stand near the RAMs that it drives. Reset gives each another value, or synthesis
@@ -30,19 +23,16 @@ use rust_hdl_widgets::prelude::*;
 /// The write port; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct WritePort {
-    /// Clock.
+    /// Reset drops a write.
     pub clock: Signal<In, Clock>,
-    /// Drops a write.
     pub reset: Signal<In, Bit>,
-    /// Request of the commit.
+    /// Requests; at most one is valid: the last two come only while nothing else is at work.
     pub commit: Signal<In, Write>,
-    /// Request of an insertion alone.
     pub solo: Signal<In, Write>,
-    /// Request of the first triangle.
     pub seed: Signal<In, Write>,
-    /// The write.
+    /// The write made at the next edge.
     pub write: Signal<Out, Write>,
-    /// The columns that it writes.
+    /// The columns that it writes, none without a write; its record twice more.
     pub enables: Signal<Out, WriteEnables>,
     port: DFF<Write>,
     enabled: DFF<WriteEnables>,

@@ -2,12 +2,6 @@
 //!
 //! `RecordWrite`
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `id` | in | 15 | the record |
-//! | `v0..v2`, `n0..n2` | in | 15 | its columns |
-//! | `write` | out | Write | writes all of them |
-//!
 //! `LinkWrite`
 //!
 //! | port | direction | bits | meaning |
@@ -24,21 +18,16 @@ use rust_hdl_core::prelude::*;
 /// A whole record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordWrite {
-    /// The record.
+    /// The record and the column of the link.
     pub id: Signal<In, Bits<15>>,
-    /// First vertex.
+    /// Its columns.
     pub v0: Signal<In, Bits<15>>,
-    /// Second vertex.
     pub v1: Signal<In, Bits<15>>,
-    /// Third vertex.
     pub v2: Signal<In, Bits<15>>,
-    /// Link opposite the first vertex.
     pub n0: Signal<In, Bits<15>>,
-    /// Link opposite the second vertex.
     pub n1: Signal<In, Bits<15>>,
-    /// Link opposite the third vertex.
     pub n2: Signal<In, Bits<15>>,
-    /// The write.
+    /// Writes this column alone; `value` stands on all three.
     pub write: Signal<Out, Write>,
 }
 

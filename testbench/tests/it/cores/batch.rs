@@ -1,6 +1,6 @@
 //! Batches in lock-step: the core beside its model at every root port and every clock, with 2, 4 and 16 jobs side by side, crossed with
 //! idle and back-pressure, jobs of several lengths, lists that overflow, three points on a line, and resets. That every job gets the mesh
-//! it gets alone is shown of the model (`sim/model/tests/batch.rs`); here the reports are compared with the model by commands as well.
+//! it gets alone is shown of the model (`sim/model/tests/it/clock/batch.rs`); here the reports are compared with the model by commands as well.
 
 use crate::rig::common::batches::Batch;
 use crate::rig::common::Random;

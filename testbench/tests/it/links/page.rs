@@ -1,6 +1,6 @@
 //! The exchange in `protocol/SERIAL.md` is what the Verilated device says at its pins.
 
-#[path = "../../../../sim/model/tests/serial_exchange/mod.rs"]
+#[path = "../../../../sim/model/tests/it/serial/exchange.rs"]
 mod serial_exchange;
 
 use incircle_model::serial::FromDevice;

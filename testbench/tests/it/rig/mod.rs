@@ -16,5 +16,6 @@ pub mod stream_rig;
 pub mod structures;
 pub mod visit_model;
 
-#[path = "../../../../sim/model/tests/common/mod.rs"]
+#[path = "../../../../sim/model/tests/it/common/mod.rs"]
+#[allow(dead_code, reason = "the model's own tests use the rest")]
 pub mod common;
