@@ -76,7 +76,7 @@ impl<const A: usize, const D: usize> DualClockMemory<A, D> {
 
 impl<const A: usize, const D: usize> Default for DualClockMemory<A, D> {
     fn default() -> Self {
-        Self::new(A.min(super::MAX_ADDRESS_BITS), D)
+        Self::new(A.min(super::memory_shape::MAX_ADDRESS_BITS), D)
     }
 }
 

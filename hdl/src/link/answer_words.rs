@@ -6,6 +6,7 @@
 //!
 //! Latency: 2 clocks from `index`, and 1 from `counter` and `latency`, at an edge with `chooses`.
 
+use super::types::Tally;
 use incircle_protocol::{Opcode, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -20,8 +21,7 @@ pub struct AnswerWords {
     pub capacity: Signal<In, Bits<15>>,
     pub contexts: Signal<In, Bits<5>>,
     pub ring: Signal<In, Bits<7>>,
-    pub arrived: Signal<In, Bits<15>>,
-    pub refused: Signal<In, Bits<32>>,
+    pub tally: Signal<In, Tally>,
     pub insertions: Signal<In, Bits<32>>,
     pub duplicates: Signal<In, Bits<32>>,
     pub records: Signal<In, Bits<15>>,
@@ -62,7 +62,7 @@ impl Logic for AnswerWords {
         match self.place.val().index() {
             0 => {
                 self.identity.d.next = 0x696e_4369.into();
-                self.report.d.next = bit_cast::<32, 15>(self.arrived.val());
+                self.report.d.next = bit_cast::<32, 15>(self.tally.val().arrived);
             }
             1 => {
                 self.identity.d.next = 0x0001_0002.into();
@@ -74,7 +74,7 @@ impl Logic for AnswerWords {
             }
             3 => {
                 self.identity.d.next = 16.into();
-                self.report.d.next = self.refused.val();
+                self.report.d.next = self.tally.val().refused;
             }
             4 => {
                 self.identity.d.next = bit_cast::<32, 15>(self.capacity.val());

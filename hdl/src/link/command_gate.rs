@@ -4,6 +4,7 @@
 //!
 //! Latency: none (combinational).
 
+use super::types::EngineState;
 use rust_hdl_core::prelude::*;
 
 /// When a command word is taken; see the top of this file.
@@ -19,10 +20,7 @@ pub struct CommandGate {
     pub none_is_left: Signal<In, Bit>,
     /// The point before is being stored.
     pub came: Signal<In, Bit>,
-    /// Three points have come for a first triangle, and it is not known yet whether they span one.
-    pub start_is_open: Signal<In, Bit>,
-    /// The core is stuck: nothing is waited for.
-    pub stuck: Signal<In, Bit>,
+    pub engine: Signal<In, EngineState>,
     /// A word is taken.
     pub ready: Signal<Out, Bit>,
     /// It is a command; it is a point.
@@ -36,7 +34,7 @@ pub struct CommandGate {
 impl Logic for CommandGate {
     #[hdl_gen]
     fn update(&mut self) {
-        self.is_held.next = self.start_is_open.val() & (!self.stuck.val());
+        self.is_held.next = self.engine.val().start_is_open & (!self.engine.val().stuck);
         self.awaits_point.next = self.is_points.val() & (!self.none_is_left.val());
         self.takes_command.next = self.is_command.val() & (!self.sweeps.val());
         self.takes_point.next = self.awaits_point.val() & (!self.came.val()) & (!self.is_held.val());

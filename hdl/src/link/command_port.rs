@@ -20,7 +20,8 @@
 //! answers         _______________________________________/^^^^^^^^
 //! ```
 
-use super::{ClearCommand, CommandGate, PointSlot};
+use super::types::{Activity, AnswerProgress, Arrival, EngineState, Request, Tally};
+use super::{ClearCommand, CommandGate, CommandSink, PointSlot};
 use crate::engine::Deal;
 use incircle_protocol::{Opcode, PADDING};
 use rust_hdl_core::prelude::*;
@@ -55,45 +56,22 @@ pub struct CommandPort {
     pub command: CommandSink,
     /// Memories are being cleared: the core is not ready for commands.
     pub sweeps: Signal<In, Bit>,
-    /// Three points are being looked at for a first triangle; such three are collinear.
-    pub start_is_open: Signal<In, Bit>,
-    pub collinear: Signal<In, Bit>,
-    /// Nothing is finished any more: points are refused, and nothing is waited for.
-    pub stuck: Signal<In, Bit>,
-    /// Every point that has come is finished, and no lock is held.
-    pub is_quiet: Signal<In, Bit>,
-    /// A point has come, and is written into the vertex memory at this edge.
-    pub came: Signal<Out, Bit>,
-    pub came_id: Signal<Out, Bits<15>>,
-    /// That point: x in the low half, y in the high.
-    pub point: Signal<Out, Bits<32>>,
+    pub engine: Signal<In, EngineState>,
+    pub arrival: Signal<Out, Arrival>,
     /// Forget the mesh at this edge.
     pub clears: Signal<Out, Bit>,
     /// Contexts that work, and which points are theirs.
     pub deal: Signal<Out, Deal>,
     /// The last command is a `Clear` that asks for more contexts than there are.
     pub is_refused: Signal<Out, Bit>,
-    /// An answer is due, until `answer_ends`.
+    /// An answer is due, until `answer.ends`.
     pub answers: Signal<Out, Bit>,
-    /// The command and its arguments.
-    pub opcode: Signal<Out, Bits<8>>,
-    pub first: Signal<Out, Bits<32>>,
-    pub count: Signal<Out, Bits<32>>,
-    /// Points that were given an id, and points that were not.
-    pub arrived: Signal<Out, Bits<15>>,
-    pub refused: Signal<Out, Bits<32>>,
-    /// There are some of these.
-    pub some_refused: Signal<Out, Bit>,
-    /// The responder.
-    pub responder_is_idle: Signal<In, Bit>,
-    pub answer_ends: Signal<In, Bit>,
-    pub answer_is_taken: Signal<In, Bit>,
-    /// What the cycle counters count.
-    pub inserting: Signal<Out, Bit>,
-    pub reading: Signal<Out, Bit>,
-    pub awaits_point: Signal<Out, Bit>,
+    pub request: Signal<Out, Request>,
+    pub tally: Signal<Out, Tally>,
+    pub answer: Signal<In, AnswerProgress>,
+    pub activity: Signal<Out, Activity>,
     state: DFF<CommandState>,
-    code: DFF<Bits<8>>,
+    opcode: DFF<Bits<8>>,
     first_word: DFF<Bits<32>>,
     left: DFF<Bits<32>>,
     /// No point is left; good while points come.
@@ -123,7 +101,7 @@ const _: () = assert!(
 impl Logic for CommandPort {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, command, first_word, left, none_is_left, is_inserting, is_reading);
+        dff_setup!(self, clock, state, opcode, first_word, left, none_is_left, is_inserting, is_reading);
         clock!(self, clock, slot, clear);
         self.insert_code.next = 3.into();
         self.read_code.next = 4.into();
@@ -131,21 +109,17 @@ impl Logic for CommandPort {
         self.none.next = 0.into();
         self.one.next = 1.into();
 
-        self.came.next = self.slot.came.val();
-        self.came_id.next = self.slot.came_id.val();
-        self.point.next = self.slot.point.val();
+        self.arrival.next = self.slot.arrival.val();
         self.clears.next = self.clear.clears.val();
         self.deal.next = self.clear.deal.val();
         self.is_refused.next = self.clear.is_refused.val();
         self.answers.next = (self.state.q.val() == CommandState::Answer) & (!self.clear.clears.val());
-        self.opcode.next = self.command.q.val();
-        self.first.next = self.first_word.q.val();
-        self.count.next = self.left.q.val();
-        self.arrived.next = self.slot.arrived.val();
-        self.refused.next = self.slot.refused.val();
-        self.some_refused.next = self.slot.some_refused.val();
-        self.inserting.next = self.is_inserting.q.val();
-        self.reading.next = self.is_reading.q.val();
+        self.request.next.opcode = self.opcode.q.val();
+        self.request.next.first = self.first_word.q.val();
+        self.request.next.count = self.left.q.val();
+        self.tally.next = self.slot.tally.val();
+        self.activity.next.inserting = self.is_inserting.q.val();
+        self.activity.next.reading = self.is_reading.q.val();
 
         // Is a word taken?
         self.gate.is_command.next = self.state.q.val() == CommandState::Command;
@@ -154,10 +128,9 @@ impl Logic for CommandPort {
         self.gate.is_points.next = self.state.q.val() == CommandState::Points;
         self.gate.sweeps.next = self.sweeps.val();
         self.gate.none_is_left.next = self.none_is_left.q.val();
-        self.gate.came.next = self.slot.came.val();
-        self.gate.start_is_open.next = self.start_is_open.val();
-        self.gate.stuck.next = self.stuck.val();
-        self.awaits_point.next = self.gate.awaits_point.val();
+        self.gate.came.next = self.slot.arrival.val().came;
+        self.gate.engine.next = self.engine.val();
+        self.activity.next.awaits_point = self.gate.awaits_point.val();
         self.command.ready.next = self.gate.ready.val();
         self.is_padding.next = self.command.data.val() == self.none.val();
         self.accepts_command.next = self.command.valid.val() & self.gate.takes_command.val() & (!self.is_padding.val());
@@ -169,19 +142,18 @@ impl Logic for CommandPort {
         self.slot.reset.next = self.reset.val();
         self.slot.clears.next = self.clear.clears.val();
         self.slot.capacity.next = self.capacity.val();
-        self.slot.collinear.next = self.collinear.val();
-        self.slot.stuck.next = self.stuck.val();
+        self.slot.engine.next = self.engine.val();
         self.slot.accepts.next = self.accepts_point.val();
         self.slot.word.next = self.command.data.val();
         self.code.next = self.command.data.val().get_bits::<8>(24);
 
-        if (self.state.q.val() != CommandState::Answer) & self.responder_is_idle.val() & self.answer_is_taken.val() {
+        if (self.state.q.val() != CommandState::Answer) & self.answer.val().is_idle & self.answer.val().is_taken {
             self.is_reading.d.next = false;
         }
         match self.state.q.val() {
             CommandState::Command => {
                 if self.accepts_command.val() {
-                    self.command.d.next = self.code.val();
+                    self.opcode.d.next = self.code.val();
                     self.state.d.next = CommandState::Answer;
                     if self.code.val() == self.insert_code.val() {
                         self.state.d.next = CommandState::Count;
@@ -201,7 +173,7 @@ impl Logic for CommandPort {
                 if self.command.valid.val() {
                     self.left.d.next = self.command.data.val();
                     self.none_is_left.d.next = self.command.data.val() == self.none.val();
-                    if self.command.q.val() == self.insert_code.val() {
+                    if self.opcode.q.val() == self.insert_code.val() {
                         self.state.d.next = CommandState::Points;
                     } else {
                         self.is_reading.d.next = true;
@@ -220,13 +192,13 @@ impl Logic for CommandPort {
                 }
             }
             CommandState::Settle => {
-                if self.is_quiet.val() | self.stuck.val() {
+                if self.engine.val().is_quiet | self.engine.val().stuck {
                     self.is_inserting.d.next = false;
                     self.state.d.next = CommandState::Answer;
                 }
             }
             CommandState::Answer => {
-                if self.answer_ends.val() {
+                if self.answer.val().ends {
                     self.state.d.next = CommandState::Command;
                 }
             }

@@ -1,10 +1,11 @@
 //! The point that has just come, and the count of points.
 //!
-//! 1. `came_id` and `point` are good only with `came`: their registers take in whatever comes, so that nothing has to reach all of them.
+//! 1. Registers of `arrival.id` and `arrival.point` take in whatever comes, so that nothing has to reach all of them.
 //! 2. No point comes in the clock of `came`: the counts are compared in it.
 //!
 //! Latency: 1 clock; 2 to `refused` and `some_refused`.
 
+use super::types::{Arrival, EngineState, Tally};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -17,21 +18,14 @@ pub struct PointSlot {
     pub clears: Signal<In, Bit>,
     /// Points the core holds, a constant.
     pub capacity: Signal<In, Bits<15>>,
-    /// The first three points are collinear, or the core is stuck: points are refused.
-    pub collinear: Signal<In, Bit>,
-    pub stuck: Signal<In, Bit>,
+    /// Points are refused where it is `collinear` or `stuck`.
+    pub engine: Signal<In, EngineState>,
     /// A point comes.
     pub accepts: Signal<In, Bit>,
     pub word: Signal<In, Bits<32>>,
-    /// It came with the last edge and is not refused: it is to be stored at this edge.
-    pub came: Signal<Out, Bit>,
-    pub came_id: Signal<Out, Bits<15>>,
-    pub point: Signal<Out, Bits<32>>,
-    /// Points that were given an id, and points that were not.
-    pub arrived: Signal<Out, Bits<15>>,
-    pub refused: Signal<Out, Bits<32>>,
-    /// There is one of these.
-    pub some_refused: Signal<Out, Bit>,
+    /// It came with the last edge and is not refused.
+    pub arrival: Signal<Out, Arrival>,
+    pub tally: Signal<Out, Tally>,
     is_new: DFF<Bit>,
     last_id: DFF<Bits<15>>,
     last_point: DFF<Bits<32>>,
@@ -55,15 +49,15 @@ impl Logic for PointSlot {
         dff_setup!(self, clock, is_full, is_surplus, has_refused);
         self.one_arrival.next = 1.into();
         self.one.next = 1.into();
-        self.came.next = self.is_new.q.val();
-        self.came_id.next = self.last_id.q.val();
-        self.point.next = self.last_point.q.val();
-        self.arrived.next = self.arrivals.q.val();
-        self.refused.next = self.refusals.q.val();
-        self.some_refused.next = self.has_refused.q.val();
+        self.arrival.next.came = self.is_new.q.val();
+        self.arrival.next.id = self.last_id.q.val();
+        self.arrival.next.point = self.last_point.q.val();
+        self.tally.next.arrived = self.arrivals.q.val();
+        self.tally.next.refused = self.refusals.q.val();
+        self.tally.next.some_refused = self.has_refused.q.val();
 
         self.is_full.d.next = self.arrivals.q.val() == self.capacity.val();
-        self.has_room.next = (!self.collinear.val()) & (!self.stuck.val()) & (!self.is_full.q.val());
+        self.has_room.next = (!self.engine.val().collinear) & (!self.engine.val().stuck) & (!self.is_full.q.val());
         self.stores.next = self.accepts.val() & self.has_room.val();
         self.is_surplus.d.next = self.accepts.val() & (!self.has_room.val());
         self.is_new.d.next = self.stores.val();

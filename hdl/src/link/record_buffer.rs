@@ -5,6 +5,7 @@
 //! Latency: 1 clock.
 
 use super::RecordWords;
+use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -16,14 +17,7 @@ pub struct RecordBuffer {
     pub reset: Signal<In, Bit>,
     /// A record comes; only when none is held, or when it is taken whole.
     pub read_done: Signal<In, Bit>,
-    pub v0: Signal<In, Bits<15>>,
-    pub v1: Signal<In, Bits<15>>,
-    pub v2: Signal<In, Bits<15>>,
-    pub n0: Signal<In, Bits<15>>,
-    pub n1: Signal<In, Bits<15>>,
-    pub n2: Signal<In, Bits<15>>,
-    pub was_set: Signal<In, Bit>,
-    /// A word is left.
+    pub record: Signal<In, Record>,
     pub holds: Signal<Out, Bit>,
     /// The first that is left; there is no other.
     pub word: Signal<Out, Bits<32>>,
@@ -50,13 +44,7 @@ impl Logic for RecordBuffer {
     fn update(&mut self) {
         dff_setup!(self, clock, is_held, buffer0, buffer1, buffer2, is_second, is_third);
         self.holds.next = self.is_held.q.val();
-        self.words.v0.next = self.v0.val();
-        self.words.v1.next = self.v1.val();
-        self.words.v2.next = self.v2.val();
-        self.words.n0.next = self.n0.val();
-        self.words.n1.next = self.n1.val();
-        self.words.n2.next = self.n2.val();
-        self.words.was_set.next = self.was_set.val();
+        self.words.record.next = self.record.val();
         self.vertex0.next = self.buffer0.q.val().get_bits::<15>(0);
         self.vertex1.next = self.buffer1.q.val().get_bits::<15>(0);
         self.vertex2.next = self.buffer2.q.val().get_bits::<15>(0);

@@ -2,19 +2,13 @@
 //!
 //! Latency: none (combinational).
 
+use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 
 /// Words of a record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordWords {
-    /// Columns and lock bit of a record.
-    pub v0: Signal<In, Bits<15>>,
-    pub v1: Signal<In, Bits<15>>,
-    pub v2: Signal<In, Bits<15>>,
-    pub n0: Signal<In, Bits<15>>,
-    pub n1: Signal<In, Bits<15>>,
-    pub n2: Signal<In, Bits<15>>,
-    pub was_set: Signal<In, Bit>,
+    pub record: Signal<In, Record>,
     /// `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
     pub word0: Signal<Out, Bits<32>>,
     pub word1: Signal<Out, Bits<32>>,
@@ -37,15 +31,15 @@ impl Logic for RecordWords {
     fn update(&mut self) {
         self.link_shift.next = 15.into();
         self.lock.next = 0.into();
-        if self.was_set.val() {
+        if self.record.val().was_set {
             self.lock.next = 0x8000_0000u64.into();
         }
-        self.vertex0.next = bit_cast::<32, 15>(self.v0.val());
-        self.vertex1.next = bit_cast::<32, 15>(self.v1.val());
-        self.vertex2.next = bit_cast::<32, 15>(self.v2.val());
-        self.link0.next = bit_cast::<32, 15>(self.n0.val());
-        self.link1.next = bit_cast::<32, 15>(self.n1.val());
-        self.link2.next = bit_cast::<32, 15>(self.n2.val());
+        self.vertex0.next = bit_cast::<32, 15>(self.record.val().v0);
+        self.vertex1.next = bit_cast::<32, 15>(self.record.val().v1);
+        self.vertex2.next = bit_cast::<32, 15>(self.record.val().v2);
+        self.link0.next = bit_cast::<32, 15>(self.record.val().n0);
+        self.link1.next = bit_cast::<32, 15>(self.record.val().n1);
+        self.link2.next = bit_cast::<32, 15>(self.record.val().n2);
         self.high0.next = self.link0.val() << self.link_shift.val();
         self.high1.next = self.link1.val() << self.link_shift.val();
         self.high2.next = self.link2.val() << self.link_shift.val();

@@ -10,6 +10,7 @@
 //! Latency: see the blocks.
 
 use super::{Asked, CobsDecoder, CommandWords, FrameJudge, FrameReader, PayloadDigest, ReceiveFifo, UartReceiver};
+use crate::link::CommandSource;
 use incircle_protocol::LinkConfig;
 use rust_hdl_core::prelude::*;
 
@@ -37,10 +38,7 @@ pub struct LinkReceiver {
     pub digest: Signal<Out, Bits<32>>,
     /// The line is low.
     pub is_low: Signal<Out, Bit>,
-    /// The command stream.
-    pub command_valid: Signal<Out, Bit>,
-    pub command_ready: Signal<In, Bit>,
-    pub command_data: Signal<Out, Bits<32>>,
+    pub command: CommandSource,
     uart: UartReceiver,
     decoder: CobsDecoder,
     reader: FrameReader,
@@ -114,8 +112,8 @@ impl Logic for LinkReceiver {
         self.words.byte_valid.next = self.fifo.byte_valid.val();
         self.words.byte_data.next = self.fifo.byte_data.val();
         self.fifo.takes.next = self.words.takes.val();
-        self.command_valid.next = self.words.word_valid.val();
-        self.command_data.next = self.words.word.val();
-        self.words.word_ready.next = self.command_ready.val();
+        self.command.valid.next = self.words.word_valid.val();
+        self.command.data.next = self.words.word.val();
+        self.words.word_ready.next = self.command.ready.val();
     }
 }

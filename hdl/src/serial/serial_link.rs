@@ -14,6 +14,7 @@
 //! Latency: see the blocks.
 
 use super::{CommandProgress, LineTimers, LinkReceiver, LinkTransmitter, RateControl, SessionState};
+use crate::link::{AnswerSink, CommandSource};
 use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -33,17 +34,8 @@ pub struct SerialLink {
     pub error: Signal<Out, Bit>,
     /// Reset of the core.
     pub core_reset: Signal<Out, Bit>,
-    /// The command stream.
-    pub command_valid: Signal<Out, Bit>,
-    pub command_ready: Signal<In, Bit>,
-    pub command_data: Signal<Out, Bits<32>>,
-    /// The answer stream.
-    pub response_valid: Signal<In, Bit>,
-    pub response_ready: Signal<Out, Bit>,
-    pub response_data: Signal<In, Bits<64>>,
-    /// Bits 63 to 32 are a second word, which follows the first; the last word of the answer is here.
-    pub response_both: Signal<In, Bit>,
-    pub response_last: Signal<In, Bit>,
+    pub command: CommandSource,
+    pub response: AnswerSink,
     receiver: LinkReceiver,
     transmitter: LinkTransmitter,
     session: SessionState,
@@ -119,10 +111,10 @@ impl Logic for SerialLink {
         self.receiver.expected.next = self.session.expected.val();
         self.receiver.forgets.next = self.session.forgets.val();
         self.takes_command.next =
-            self.receiver.command_valid.val() & self.command_ready.val() & (!self.resets_core.q.val());
-        self.command_valid.next = self.receiver.command_valid.val();
-        self.command_data.next = self.receiver.command_data.val();
-        self.receiver.command_ready.next = self.takes_command.val();
+            self.receiver.command.valid.val() & self.command.ready.val() & (!self.resets_core.q.val());
+        self.command.valid.next = self.receiver.command.valid.val();
+        self.command.data.next = self.receiver.command.data.val();
+        self.receiver.command.ready.next = self.takes_command.val();
 
         // The session.
         self.timers.is_low.next = self.receiver.is_low.val();
@@ -138,10 +130,10 @@ impl Logic for SerialLink {
         self.rate.acknowledges.next = self.transmitter.acknowledges.val();
         self.rate.closes.next = self.transmitter.closes.val();
         self.rate.is_quiet.next = self.transmitter.is_quiet.val();
-        self.is_offered.next = self.response_valid.val() & (!self.resets_core.q.val());
+        self.is_offered.next = self.response.valid.val() & (!self.resets_core.q.val());
         self.progress.takes.next = self.takes_command.val();
-        self.progress.word.next = self.receiver.command_data.val();
-        self.progress.offers_last.next = self.is_offered.val() & self.response_last.val();
+        self.progress.word.next = self.receiver.command.data.val();
+        self.progress.offers_last.next = self.is_offered.val() & self.response.last.val();
         self.progress.takes_answer.next = self.transmitter.response_ready.val();
         self.progress.answer_ended.next = self.transmitter.answer_ended.val();
 
@@ -160,9 +152,9 @@ impl Logic for SerialLink {
         self.transmitter.forgets.next = self.session.forgets.val();
         self.transmitter.holds.next = self.rate.holds.val() | self.session.settles.val();
         self.transmitter.response_valid.next = self.is_offered.val();
-        self.transmitter.response_data.next = self.response_data.val();
-        self.transmitter.response_both.next = self.response_both.val();
-        self.response_ready.next = self.transmitter.response_ready.val();
+        self.transmitter.response_data.next = self.response.data.val();
+        self.transmitter.response_both.next = self.response.both.val();
+        self.response.ready.next = self.transmitter.response_ready.val();
         self.tx.next = self.transmitter.tx.val();
 
         // Lamps.

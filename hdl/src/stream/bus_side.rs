@@ -127,6 +127,5 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
         self.busy_before.d.next = self.is_busy.val();
         self.busy_earlier.d.next = self.busy_before.q.val();
         self.registers.is_busy.next = self.is_busy.val() | self.busy_before.q.val() | self.busy_earlier.q.val();
-
     }
 }

@@ -110,6 +110,5 @@ impl<const W: usize, const K: usize, const E: usize> Logic for StreamLink<W, K, 
         self.bus.entry.next = self.answers.data.val();
         self.bus.is_empty.next = self.answers.is_empty.val();
         self.answers.pop.next = self.bus.pop.val();
-
     }
 }
