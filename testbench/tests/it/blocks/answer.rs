@@ -11,17 +11,12 @@ use incircle_protocol::{
 
 named_ports!(
     AnswerHead,
-    [opcode, first, count, is_refused, records, collinear, stuck, some_refused],
-    [header, length, is_empty, is_read, is_packed],
+    [request, is_refused, records, collinear, stuck, some_refused], [head],
     clock
 );
 named_ports!(
     AnswerWords,
-    [
-        opcode, capacity, contexts, ring, arrived, refused, insertions, duplicates, records, index, counter, latency,
-        chooses
-    ],
-    [word],
+    [opcode, capacity, contexts, ring, tally, insertions, duplicates, records, index, counter, latency, chooses], [word],
     clock
 );
 

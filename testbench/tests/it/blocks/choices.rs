@@ -10,10 +10,9 @@ use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
 named_ports!(SoloVisit, [owner, is_locate, is_mend, is_second, is_fetch, root_id, root, id, outer, back], [bundle]);
 named_ports!(
     CommandGate,
-    [is_command, is_argument, is_points, sweeps, none_is_left, came, start_is_open, stuck],
-    [ready, takes_command, takes_point, awaits_point]
+    [is_command, is_argument, is_points, sweeps, none_is_left, came, engine], [ready, takes_command, takes_point, awaits_point]
 );
-named_ports!(RecordWords, [v0, v1, v2, n0, n1, n2, was_set], [word0, word1, word2]);
+named_ports!(RecordWords, [record], [word0, word1, word2]);
 
 const ROUNDS: usize = 4000;
 

@@ -21,15 +21,13 @@ named_ports!(
 );
 named_ports!(
     PointSlot,
-    [reset, clears, capacity, collinear, stuck, accepts, word],
-    [came, came_id, point, arrived, refused, some_refused],
+    [reset, clears, capacity, engine, accepts, word], [arrival, tally],
     clock
 );
 named_ports!(ClearCommand, [reset, built, accepts, word], [clears, deal, is_refused], clock);
 named_ports!(
     RecordBuffer,
-    [reset, read_done, v0, v1, v2, n0, n1, n2, was_set, takes, takes_whole],
-    [holds, word, is_at_last, vertex0, vertex1, vertex2],
+    [reset, read_done, record, takes, takes_whole], [holds, word, is_at_last, vertex0, vertex1, vertex2],
     clock
 );
 named_ports!(Watchdog, [reset, finishes, is_quiet, patience], [stuck], clock);
@@ -240,7 +238,7 @@ impl SlotReference {
         block.expect("refused", self.refused);
         block.expect("some_refused", self.refused > 0);
         if let (true, Some(point)) = (self.came, self.stored.last()) {
-            block.expect("came_id", self.stored.len() as u64 - 1);
+            block.expect("arrival_id", self.stored.len() as u64 - 1);
             block.expect("point", *point);
         }
     }

@@ -12,8 +12,7 @@ named_ports!(VertexPacker, [reset, starts, count, comes, v0, v1, v2], [valid, be
 named_ports!(VertexStream, [reset, starts, count, comes, v0, v1, v2, takes], [has_room, valid, beat], clock);
 named_ports!(
     RecordReads,
-    [reset, starts, first, count, is_packed, runs, read_done, v0, v1, v2, n0, n1, n2, was_set, takes],
-    [read, read_id, valid, beat],
+    [reset, starts, first, count, is_packed, runs, read_done, record, takes], [read, read_id, valid, beat],
     clock
 );
 

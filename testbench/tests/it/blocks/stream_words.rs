@@ -7,17 +7,15 @@ use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::{AnswerBeats, AnswerPairs, AnswerWatch, BeatGate, BeatWords, Progress};
 use incircle_protocol::{answer_header, Opcode, Status};
 
-named_ports!([const K: usize] BeatGate<K>, [reset, s_axis_tvalid, s_axis_tkeep, is_full], [push, took, waited, dropped], clock);
+named_ports!([const K: usize] BeatGate<K>, [reset, s_axis_tvalid, s_axis_tkeep, is_full], [push, events], clock);
 named_ports!([const W: usize] BeatWords<W>,
-    [reset, beat_valid, beat_data, command_ready], [takes, command_valid, command_data, is_held], clock);
+    [reset, beat_valid, beat_data, command.ready], [takes, command.valid, command.data, is_held], clock);
 named_ports!([] AnswerPairs,
-    [reset, response_valid, response_data, response_both, response_last, is_stalled],
-    [response_ready, pair_valid, pair_data, pair_last, is_held], clock);
+    [reset, response.valid, response.data, response.both, response.last, is_stalled], [response.ready, pair_valid, pair_data, pair_last, is_held], clock);
 named_ports!([const W: usize] AnswerBeats<W>,
     [reset, pair_valid, pair_data, pair_last, is_full], [is_stalled, beat_valid, beat_data, beat_last, is_held], clock);
 named_ports!([const W: usize] AnswerWatch<W>,
-    [reset, resets, m_axis_tvalid, m_axis_tready, m_axis_tdata, m_axis_tlast],
-    [took, waited, ended, failed, header], clock);
+    [reset, resets, m_axis_tvalid, m_axis_tready, m_axis_tdata, m_axis_tlast], [events], clock);
 named_ports!([] Progress, [reset, takes, word, offers_last, ends], [is_busy], clock);
 
 fn set_bits<U: NamedPorts>(block: &mut Stepper<U>, bits: &[(&'static str, bool)]) {

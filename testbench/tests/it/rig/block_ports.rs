@@ -9,8 +9,11 @@ use incircle_hdl::engine::{
     Attempt, Bundle, CommitJob, Deal, Entry, Plan, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
+use incircle_hdl::link::types::{Activity, AnswerProgress, Arrival, EngineState, Head, Request, Tally};
 use incircle_hdl::link::AnswerBeat;
+use incircle_hdl::mesh::Record;
 use incircle_hdl::serial::Asked;
+use incircle_hdl::stream::{AnswerEvents, CommandEvents};
 use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
 
@@ -84,7 +87,17 @@ packed_values!(
     Asked,
     AnswerBeat,
     Deal,
-    Plan
+    Plan,
+    Activity,
+    AnswerProgress,
+    Arrival,
+    EngineState,
+    Head,
+    Request,
+    Tally,
+    Record,
+    AnswerEvents,
+    CommandEvents
 );
 
 /// A block whose ports are reached by name: `reset`, and `command_valid` for the signal `valid` of the interface `command`.
