@@ -34,6 +34,8 @@ pub struct Mischief {
     pub babble: Option<(u32, [u8; 16])>,
     /// Nothing comes from the read of this number on, not even an error.
     pub silent: Option<u32>,
+    /// The card gives up on a transfer after this time instead of its own.
+    pub patience: Option<Duration>,
 }
 
 struct Inside {
@@ -96,7 +98,7 @@ impl MemoryCard {
     fn until<T>(&self, mut step: impl FnMut(&mut Inside) -> Option<io::Result<T>>) -> io::Result<T> {
         let (mutex, changed) = &*self.inside;
         let mut inside = mutex.lock().unwrap();
-        let deadline = Instant::now() + ENGINE;
+        let deadline = Instant::now() + inside.mischief.patience.unwrap_or(ENGINE);
         loop {
             if inside.gone {
                 return Err(io::Error::from_raw_os_error(19));

@@ -5,3 +5,4 @@ mod cycles;
 mod in_rust;
 mod lockstep;
 mod netlist;
+mod stuck;
