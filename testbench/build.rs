@@ -1,5 +1,6 @@
-//! Verilates every block that incircle-hdl exports, and whole cores for lock-step: sound ones, broken ones, and one as the
-//! netlist that synthesis makes of it. So tests can run any of them by name.
+//! Verilates every block that incircle-hdl exports, and whole cores for lock-step: sound ones, ones with faults, and one as the
+//! netlist that synthesis makes of it. So tests can run any of them by name. All but netlists and boards start without the initial
+//! values of their flip-flops, so at random.
 
 #[path = "build/boards.rs"]
 mod boards;
@@ -7,11 +8,16 @@ mod boards;
 mod cells;
 #[path = "build/cores.rs"]
 mod cores;
+#[path = "src/lockstep/faults.rs"]
+mod faults;
+#[path = "build/initial.rs"]
+mod initial;
 #[path = "build/netlists.rs"]
 mod netlists;
 #[path = "build/streams.rs"]
 mod streams;
 
+use initial::without_initial_values;
 use verilated::build::{Builder, ModelSource, Optimisation};
 
 fn main() {
@@ -19,8 +25,10 @@ fn main() {
     println!("cargo:rerun-if-changed=build/boards.rs");
     println!("cargo:rerun-if-changed=build/cells.rs");
     println!("cargo:rerun-if-changed=build/cores.rs");
+    println!("cargo:rerun-if-changed=build/initial.rs");
     println!("cargo:rerun-if-changed=build/netlists.rs");
     println!("cargo:rerun-if-changed=build/streams.rs");
+    println!("cargo:rerun-if-changed=src/lockstep/faults.rs");
     println!("cargo:rerun-if-changed=cells");
     println!("cargo:rerun-if-changed=../constraints");
     println!("cargo:rerun-if-env-changed=INCIRCLE_ONLY");
@@ -29,6 +37,7 @@ fn main() {
     let is_wanted = |name: &str| only.is_empty() || only.split(',').any(|prefix| name.starts_with(prefix));
     let mut builder = Builder::new();
     for (name, verilog) in incircle_hdl::export::blocks().into_iter().filter(|(name, _)| is_wanted(name)) {
+        let verilog = without_initial_values(&verilog);
         let block = |model: &str, text| ModelSource::new(model, &name, text).trace(true).random_initial_state(true);
         if let Some(with_primitives) = cells::with_primitives(&name, &verilog) {
             builder = builder.model(block(&format!("{name}_ecp5"), with_primitives));
@@ -38,7 +47,7 @@ fn main() {
     let cores = if only.is_empty() || only.contains("core") { cores::all() } else { Vec::new() };
     for (name, verilog) in cores.into_iter().filter(|(name, _)| is_wanted(name)) {
         builder = builder.model(
-            ModelSource::new(name, incircle_hdl::top::CORE_NAME, verilog)
+            ModelSource::new(name, incircle_hdl::top::CORE_NAME, without_initial_values(&verilog))
                 .trace(true)
                 .random_initial_state(true)
                 .optimisation(Optimisation::Fast),
@@ -53,7 +62,7 @@ fn main() {
     let streams = if only.is_empty() || only.contains("stream") { streams::all() } else { Vec::new() };
     for (name, verilog) in streams.into_iter().filter(|(name, _)| is_wanted(name)) {
         builder = builder.model(
-            ModelSource::new(name, incircle_hdl::top::STREAM_TOP_NAME, verilog)
+            ModelSource::new(name, incircle_hdl::top::STREAM_TOP_NAME, without_initial_values(&verilog))
                 .random_initial_state(true)
                 .optimisation(Optimisation::Fast),
         );

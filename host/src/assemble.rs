@@ -264,6 +264,25 @@ mod tests {
         assert_eq!(outside, Err(DeviceFault::VertexOutOfRange { record: 1, vertex: 7, points: 3 }));
     }
 
+    /// Half of a square twice: as large as the square, inside its hull, and no mesh.
+    #[test]
+    fn a_triangle_that_comes_twice_is_refused() {
+        let points = [(0, 0), (4, 0), (4, 4), (0, 4)].map(Point::from);
+        let layout = Layout::of(16, 8);
+        let mesh = |triangles: [[u32; 3]; 2]| {
+            let mut assembly = Assembly::new(&[0, 1, 2, 3], &points, layout, 8);
+            let infinite = infinite_vertex(8);
+            let ghosts = [[1, 0, infinite], [2, 1, infinite], [3, 2, infinite], [0, 3, infinite]];
+            for (record, [a, b, c]) in triangles.into_iter().chain(ghosts).enumerate() {
+                assembly.take_vertices(record, a, b, c)?;
+            }
+            assembly.finish()
+        };
+        assert_eq!(mesh([[0, 1, 2], [2, 3, 0]]), Ok((vec![[0, 1, 2], [0, 2, 3]], vec![0, 1, 2, 3])));
+        let twice = mesh([[0, 1, 2], [1, 2, 0]]);
+        assert_eq!(twice, Err(DeviceFault::TriangleTwice { triangle: [0, 1, 2] }));
+    }
+
     #[test]
     fn hull_edges_close_one_cycle_or_none() {
         assert_eq!(close_hull(vec![[7, 2], [4, 7], [2, 4]]), Ok(vec![2, 4, 7]));

@@ -1,9 +1,8 @@
 //! Peak memory of a large job, model included. Alone in its file, so that it has a process of its own.
 #![cfg(target_os = "linux")]
 
-mod common;
-
-use common::Random;
+use incircle::Point;
+use incircle_testkit::SplitMix64;
 
 /// The highest resident memory of this process so far, in bytes.
 fn peak_memory() -> u64 {
@@ -16,7 +15,7 @@ fn peak_memory() -> u64 {
 #[test]
 fn a_million_points_take_at_most_200_bytes_each() {
     const POINTS: usize = 1_000_000;
-    let points = Random(13).points(POINTS, 1 << 16);
+    let points: Vec<Point> = SplitMix64::new(13).points(POINTS, 1 << 16);
     let before = peak_memory();
     let mesh = incircle::triangulate(&points).expect("a mesh");
     let per_point = (peak_memory() - before) as f64 / POINTS as f64;

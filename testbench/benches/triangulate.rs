@@ -9,19 +9,17 @@
 //! ```
 
 use criterion::{criterion_group, criterion_main, BatchSize, Criterion, Throughput};
+use incircle_testkit::SplitMix64;
 use spade::Triangulation;
 
 const POINTS: [usize; 5] = [477, 953, 1_906, 3_811, 16_384];
 
-/// Uniform 16-bit points that never come twice in a run: a counter through the SplitMix64 output function.
-struct Uniform(u64);
+/// Uniform 16-bit points from one generator, so no two sets of a run are equal.
+struct Uniform(SplitMix64);
 
 impl Uniform {
     fn point(&mut self) -> [u16; 2] {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let bits = z ^ z >> 31;
+        let bits = self.0.next_u64();
         [bits as u16, (bits >> 16) as u16]
     }
 
@@ -40,7 +38,7 @@ fn beside_the_others(criterion: &mut Criterion, count: usize) {
     let mut group = criterion.benchmark_group(format!("uniform-{count}"));
     group.throughput(Throughput::Elements(count as u64));
     group.bench_function("incircle/cpu", |bencher| {
-        let mut source = Uniform(1);
+        let mut source = Uniform(SplitMix64::new(1));
         bencher.iter_batched(
             || source.points(count, |[x, y]| incircle::Point::new(x.into(), y.into())),
             |points| incircle::triangulate(&points).expect("a mesh"),
@@ -48,7 +46,7 @@ fn beside_the_others(criterion: &mut Criterion, count: usize) {
         );
     });
     group.bench_function("spade/bulk", |bencher| {
-        let mut source = Uniform(1);
+        let mut source = Uniform(SplitMix64::new(1));
         bencher.iter_batched(
             || source.points(count, |[x, y]| spade::Point2::new(f64::from(x), f64::from(y))),
             |points| spade::DelaunayTriangulation::<spade::Point2<f64>>::bulk_load(points).expect("a mesh"),
@@ -56,7 +54,7 @@ fn beside_the_others(criterion: &mut Criterion, count: usize) {
         );
     });
     group.bench_function("delaunator", |bencher| {
-        let mut source = Uniform(1);
+        let mut source = Uniform(SplitMix64::new(1));
         bencher.iter_batched(
             || source.points(count, |[x, y]| delaunator::Point { x: x.into(), y: y.into() }),
             |points| delaunator::triangulate(&points),

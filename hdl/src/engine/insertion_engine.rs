@@ -106,7 +106,7 @@ impl Logic for InsertionEngine {
         self.insertions.limits.next = self.limits.val();
         self.insertions.deal.next = self.deal.val();
         self.insertions.arrived.next = self.arrived.val();
-        self.insertions.came.next = self.arrival.val().valid;
+        self.insertions.came.next = self.arrival.val().came;
         self.insertions.now.next = self.now.val();
         self.insertions.early.next = self.pipeline.early.val();
         self.insertions.early.next.done =

@@ -489,7 +489,8 @@ crate::packed! {
 
     /// A point that is stored at this edge.
     pub struct Arrival {
-        pub valid: bool,
+        /// There is one; the others mean nothing without it.
+        pub came: bool,
         pub id: VertexId,
         pub point: Point,
     }

@@ -1,7 +1,7 @@
 //! Leaves: the blocks whose Verilog is written by hand, and the small blocks on top of them.
 //!
 //! A leaf states its behaviour twice: `update()` for simulation in Rust, `hdl()` for synthesis and Verilator.
-//! `testbench/tests/blocks_leaf.rs` runs both against a third statement of the same.
+//! `testbench/tests/it/blocks/leaf.rs` runs both against a third statement of the same.
 
 mod banked_memory;
 mod block_memory;
@@ -16,6 +16,7 @@ mod lut_memory;
 mod memory_shape;
 mod multiplier;
 mod paced_memory;
+mod parameter;
 mod shared_memory;
 mod synchroniser;
 mod unpack;
@@ -31,6 +32,7 @@ pub use lock_memory::LockMemory;
 pub use lut_memory::LutMemory;
 pub use multiplier::Multiplier;
 pub use paced_memory::PacedMemory;
+pub use parameter::Parameter;
 pub use shared_memory::SharedMemory;
 pub use synchroniser::Synchroniser;
 pub use unpack::{Field, Unpack, Unpacked};

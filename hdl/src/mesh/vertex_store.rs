@@ -61,16 +61,16 @@ impl Logic for VertexStore {
         clock!(self, clock, first_copy);
         self.first_copy.read_address.next = self.id0.val();
         self.first_copy.write_data.next = self.write.val().point;
-        self.first_copy.write_enable.next = self.write.val().valid;
+        self.first_copy.write_enable.next = self.write.val().came;
         self.first_copy.shared_address.next = self.fetch_id.val();
-        if self.write.val().valid {
+        if self.write.val().came {
             self.first_copy.shared_address.next = self.write.val().id;
         }
         for i in 0..2 {
             self.copies[i].clock.next = self.clock.val();
             self.copies[i].write_address.next = self.write.val().id;
             self.copies[i].write_data.next = self.write.val().point;
-            self.copies[i].write_enable.next = self.write.val().valid;
+            self.copies[i].write_enable.next = self.write.val().came;
         }
         self.copies[0].read_address.next = self.id1.val();
         self.copies[1].read_address.next = self.id2.val();

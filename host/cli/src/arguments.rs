@@ -8,12 +8,13 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use incircle::pcie::CardAddress;
 use incircle::serial::Address;
 use incircle::{Order, Quantize};
+use incircle_testkit::Distribution;
 
 use crate::commands::bench_orders::Way;
 use crate::formats::{MeshFormat, PointFormat};
-use crate::generate::Distribution;
 use crate::values::{
-    backend_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser, seconds_from, way_parser,
+    backend_parser, distribution_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser,
+    seconds_from, way_parser,
 };
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
@@ -185,7 +186,7 @@ pub struct VerifyArguments {
 #[derive(Debug, Args)]
 pub struct GenerateArguments {
     /// The set
-    #[arg(value_enum)]
+    #[arg(value_parser = distribution_parser())]
     pub distribution: Distribution,
     /// Number of points, up to 536870911
     #[arg(short, value_name = "N")]
@@ -215,7 +216,7 @@ pub enum BenchCommand {
 #[derive(Debug, Args)]
 pub struct OrdersArguments {
     /// The sets (default: the five distributions of the literature, and two sets on which plain curves fail)
-    #[arg(value_enum, value_name = "SET")]
+    #[arg(value_name = "SET", value_parser = distribution_parser())]
     pub sets: Vec<Distribution>,
     /// Points of a set, several numbers with commas; cycles are counted up to 16384
     #[arg(short, value_name = "N", value_delimiter = ',', default_values_t = [4096])]
@@ -245,7 +246,7 @@ pub struct BenchArguments {
     #[command(subcommand)]
     pub command: Option<BenchCommand>,
     /// The sets (default: the five distributions of the literature, and the lattice)
-    #[arg(value_enum, value_name = "SET")]
+    #[arg(value_name = "SET", value_parser = distribution_parser())]
     pub sets: Vec<Distribution>,
     /// Points of a set; duplicates are removed before the device sees them
     #[arg(short, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]

@@ -1,12 +1,12 @@
 //! What a bench prints: a table for people, an object for scripts.
 
 use incircle::{Counters, Report, Stage};
+use incircle_testkit::Distribution;
 use serde_json::{json, Value};
 
 use crate::arguments::BenchArguments;
 use crate::failure::counted;
 use crate::fit::Fit;
-use crate::generate::Distribution;
 use crate::report::{add_cycles, counters_json, latencies_json};
 
 /// A set and what became of it.

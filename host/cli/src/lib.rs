@@ -1,6 +1,6 @@
 //! The command line of incircle as a library, so that tests and benches can use its formats and generators.
 //!
-//! [`generate`] makes point sets by name, [`formats`] reads points and writes meshes, [`run`] is the whole command. The
+//! [`formats`] reads points and writes meshes, [`run`] is the whole command. The
 //! exit codes are those of [`Exit`].
 #![warn(missing_docs)]
 
@@ -11,7 +11,6 @@ mod commands;
 mod failure;
 mod fit;
 pub mod formats;
-pub mod generate;
 mod grid;
 mod interrupt;
 mod output;
@@ -30,6 +29,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 pub use failure::{Exit, Failure};
+pub use incircle_testkit as generate;
 pub use points::{Place, PointTable};
 
 use arguments::{Cli, Command};

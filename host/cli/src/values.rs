@@ -6,6 +6,7 @@ use clap::ValueEnum;
 use incircle::pcie::CardAddress;
 use incircle::serial::Address;
 use incircle::{Order, Quantize};
+use incircle_testkit::Distribution;
 
 use crate::arguments::BackendChoice;
 use crate::commands::bench_orders::Way;
@@ -17,6 +18,13 @@ pub fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
     let names = PossibleValuesParser::new(Order::ALL.map(Order::name));
     // Only names of orders come through, so the default is never taken.
     names.map(|name| Order::named(&name).unwrap_or_default())
+}
+
+/// A point set by its name. Help shows the names and what the sets are.
+pub fn distribution_parser() -> impl clap::builder::TypedValueParser<Value = Distribution> {
+    use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+    let named = |set: Distribution| PossibleValue::new(set.name()).help(set.description());
+    PossibleValuesParser::new(Distribution::ALL.map(named)).try_map(|name| name.parse::<Distribution>())
 }
 
 /// A way to insert points, for `bench orders`.

@@ -1,4 +1,4 @@
-//! The parts of the engine against plain definitions. The whole is held by `host/tests/cpu.rs`.
+//! The parts of the engine against plain definitions. The whole is held by `host/tests/it/cpu.rs`.
 
 use std::cmp::Ordering;
 

@@ -11,9 +11,9 @@ pub use table::{block, document, earlier, row, BLOCKS, COLUMNS, ROWS};
 
 use incircle::order::brio_hilbert_dealt;
 use incircle::Point;
-use incircle_cli::generate::{generate, Distribution, GenerateError};
 use incircle_model::{ClockModel, Inputs};
 use incircle_protocol::{clear_word, command_word, Config, ConfigError, Counter, Opcode, COUNTER_WORDS, MIN_POINTS};
+use incircle_testkit::{generate, Distribution, GenerateError};
 
 /// Bits of a coordinate.
 const BITS: u32 = 16;

@@ -1,14 +1,19 @@
 //! Lock-step: the Verilated core and the model clock by clock, driven alike, compared at every root port at every clock.
 
+mod faults;
+mod recording;
 mod report;
 mod stream;
 
+pub use faults::{Fault, Piece, FAULTS};
+pub use recording::KEPT;
 pub use report::Mismatch;
 pub use stream::{Job, Stalls};
 
 use crate::blocks;
-use incircle_model::{ClockModel, Inputs, Outputs, Write};
+use incircle_model::{ClockModel, Defect, Inputs, Outputs, Write};
 use incircle_protocol::Config;
+use recording::Recording;
 use report::History;
 use std::path::Path;
 use verilated::{Model, PortId, TraceError};
@@ -38,15 +43,31 @@ const OUTPUTS: [&str; 15] = [
 /// Clocks before a mismatch that its waveform shows.
 const TRACED: usize = 2000;
 
+/// Input port of cores with faults behind switches.
+const SWITCHES: &str = "faults";
+
+/// A run that leaves no waveform.
+#[derive(Debug, thiserror::Error)]
+pub enum WaveformError {
+    /// Inputs from the start of the run are no longer in memory.
+    #[error("the run is longer than the {KEPT} clocks that are kept: start anew more often")]
+    TooLong,
+    /// The file cannot be made, or the core was built without waveforms.
+    #[error("{0}")]
+    Trace(#[from] TraceError),
+}
+
 /// A core and its model, always at the same clock.
 pub struct Lockstep {
     name: String,
     seed: Option<u32>,
+    /// The port [`SWITCHES`] for the whole run.
+    faults: u64,
     core: Model,
     model: ClockModel,
     inputs: [PortId; INPUTS.len()],
     outputs: [PortId; OUTPUTS.len()],
-    recording: Vec<Inputs>,
+    recording: Recording,
     history: History,
     clocks: u64,
 }
@@ -58,7 +79,7 @@ impl Lockstep {
     /// # Panics
     /// If there is no such core, or one of its ports is missing.
     pub fn new(name: &str, config: Config, seed: u32) -> Self {
-        Self::from_state(name, config, Some(seed))
+        Self::from_state(name, config, Some(seed), 0)
     }
 
     /// As [`Lockstep::new`], out of registers and memories that are all zero: the state that an ECP5 has after configuration.
@@ -66,27 +87,44 @@ impl Lockstep {
     /// # Panics
     /// As [`Lockstep::new`].
     pub fn configured(name: &str, config: Config) -> Self {
-        Self::from_state(name, config, None)
+        Self::from_state(name, config, None, 0)
     }
 
-    fn from_state(name: &str, config: Config, seed: Option<u32>) -> Self {
-        let core = started(name, seed);
+    /// As [`Lockstep::new`], for a core with switches, these [`FAULTS`] of which are raised.
+    ///
+    /// # Panics
+    /// As [`Lockstep::new`], and if there is no fault of such a name.
+    pub fn faulty(name: &str, config: Config, seed: u32, faults: &[&str]) -> Self {
+        let place = |name: &&str| FAULTS.iter().position(|fault| fault.name == *name);
+        let switch = |name| 1 << place(name).unwrap_or_else(|| panic!("no fault {name:?}"));
+        Self::from_state(name, config, Some(seed), faults.iter().map(switch).sum())
+    }
+
+    /// The model leaves out a rule, as the core does that is beside it.
+    pub fn with_defect(mut self, defect: Defect) -> Self {
+        self.model = self.model.with_defect(defect);
+        self
+    }
+
+    fn from_state(name: &str, config: Config, seed: Option<u32>, faults: u64) -> Self {
+        let core = started(name, seed, faults);
         let port = |name: &str| core.port(name).unwrap_or_else(|error| panic!("{error}"));
         let outputs = OUTPUTS.map(port);
         let inputs = INPUTS.map(port);
         let model = ClockModel::new(config).unwrap_or_else(|error| panic!("{error}"));
-        let (name, recording) = (name.to_string(), Vec::new());
-        Self { name, seed, core, model, inputs, outputs, recording, history: History::default(), clocks: 1 }
+        let (name, recording) = (name.to_string(), Recording::keeping(KEPT));
+        Self { name, seed, faults, core, model, inputs, outputs, recording, history: History::default(), clocks: 1 }
     }
 
     /// Replays everything since the start on a fresh core, and leaves the last clocks of it as a waveform.
     ///
     /// # Errors
-    /// The file cannot be made, or the core was built without waveforms.
-    pub fn leave_waveform(&self, path: &Path) -> Result<(), TraceError> {
-        let mut core = started(&self.name, self.seed);
-        let shown = self.recording.len().saturating_sub(TRACED);
-        for (clock, inputs) in self.recording.iter().enumerate() {
+    /// The run is longer than [`KEPT`], the file cannot be made, or the core was built without waveforms.
+    pub fn leave_waveform(&self, path: &Path) -> Result<(), WaveformError> {
+        let recording = self.recording.whole().ok_or(WaveformError::TooLong)?;
+        let mut core = started(&self.name, self.seed, self.faults);
+        let shown = recording.len().saturating_sub(TRACED);
+        for (clock, inputs) in recording.iter().enumerate() {
             if clock == shown {
                 core.trace_to(path)?;
             }
@@ -113,7 +151,7 @@ impl Lockstep {
     /// The first port that differs.
     pub fn clock(&mut self, inputs: Inputs) -> Result<(), Mismatch> {
         drive(&mut self.core, &self.inputs, &inputs);
-        self.recording.push(inputs);
+        self.recording.note(inputs);
         let expected = self.model.outputs();
         self.history.note(self.clocks, inputs, expected);
         for (port, expected) in self.outputs.into_iter().zip(words_of(&expected)) {
@@ -130,10 +168,13 @@ impl Lockstep {
     }
 }
 
-/// A core after one clock with reset, out of random registers and memories, or zero ones.
-fn started(name: &str, seed: Option<u32>) -> Model {
+/// A core with these faults after one clock with reset, out of random registers and memories, or zero ones.
+fn started(name: &str, seed: Option<u32>, faults: u64) -> Model {
     let mut core = seed.map_or_else(|| blocks::model(name), |seed| blocks::randomized(name, seed));
     let reset = core.port(INPUTS[0]).unwrap_or_else(|error| panic!("{error}"));
+    if let Ok(switches) = core.port(SWITCHES) {
+        core.set(switches, faults);
+    }
     core.set(reset, 1);
     core.clock();
     core.set(reset, 0);

@@ -14,7 +14,7 @@ mod table;
 use std::io::Write;
 
 use clap::Parser;
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 
 use contestant::{Contestant, Run};
 pub use points::Set;
@@ -59,7 +59,7 @@ pub struct Arguments {
 pub enum PeerError {
     /// The set cannot be made.
     #[error("{0}")]
-    Generate(#[from] incircle_cli::generate::GenerateError),
+    Generate(#[from] incircle_testkit::GenerateError),
     /// Our own work failed.
     #[error("{0}")]
     Ours(#[from] incircle::Error),

@@ -3,10 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use clap::ValueEnum;
 use incircle::quantize::{quantize, Quantize};
 use incircle::Point;
-use incircle_cli::generate::{generate, Distribution, SplitMix64};
+use incircle_testkit::{generate, Distribution, SplitMix64};
 
 use super::PeerError;
 
@@ -65,8 +64,8 @@ impl FromStr for Set {
         if name == AIRPORTS_NAME {
             return Ok(Self::Airports);
         }
-        Distribution::from_str(name, false).map(Self::Distribution).map_err(|_| {
-            let names = Distribution::all().iter().map(Distribution::to_string).collect::<Vec<_>>().join(", ");
+        name.parse().map(Self::Distribution).map_err(|_| {
+            let names = Distribution::ALL.map(Distribution::name).join(", ");
             format!("there is no set \"{name}\"; there are {names}, {AIRPORTS_NAME}")
         })
     }

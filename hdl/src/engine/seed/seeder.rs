@@ -93,7 +93,7 @@ impl Logic for Seeder {
         self.progress.next.has_no_start =
             ((!self.has_triple.q.val()) | self.is_collinear.q.val()) & (!self.is_writing.val());
 
-        self.prepares.next = self.arrival.val().valid & (self.arrival.val().id == self.vertex.q.val());
+        self.prepares.next = self.arrival.val().came & (self.arrival.val().id == self.vertex.q.val());
         self.writes.step.next = self.step.q.val();
         self.writes.first_vertex.next = self.vertex.q.val();
         self.writes.first_record.next = self.record.q.val();

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use incircle::{Options, Point, Session};
+use incircle_testkit::Distribution;
 
 use crate::arguments::{BackendChoice, BenchArguments, BenchCommand};
 use crate::backend::{self, Backend};
@@ -11,7 +12,6 @@ use crate::commands::generate::{check_count, make};
 use crate::commands::{bench_batch, bench_orders};
 use crate::failure::Failure;
 use crate::fit::Fit;
-use crate::generate::Distribution;
 use crate::grid::failure_of;
 use crate::progress::Meter;
 use crate::{interrupt, output};

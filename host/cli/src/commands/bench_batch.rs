@@ -2,13 +2,13 @@
 
 use incircle::{Options, Point, Session};
 use incircle_protocol::FULL;
+use incircle_testkit::Distribution;
 use serde_json::{json, Value};
 
 use crate::arguments::{BackendChoice, BenchArguments};
 use crate::backend;
 use crate::commands::bench::{is_software, points_of, sets_of, timed, DEFAULT_MHZ, SOFTWARE_RUNS};
 use crate::failure::{counted, Failure};
-use crate::generate::Distribution;
 use crate::grid::failure_of;
 use crate::output;
 use crate::progress::Meter;

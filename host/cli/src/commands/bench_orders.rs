@@ -11,11 +11,11 @@ use std::time::Instant;
 
 use incircle::{Device, Hierarchy, Options, Order, Point, Report};
 use incircle_protocol::{CORE_COORD_BITS, LARGE};
+use incircle_testkit::Distribution;
 
 use crate::arguments::OrdersArguments;
 use crate::commands::generate::{check_count, make};
 use crate::failure::Failure;
-use crate::generate::Distribution;
 use crate::grid::failure_of;
 use crate::output::{self, Output};
 

@@ -1,11 +1,11 @@
 //! `incircle generate`: point sets by name.
 
 use incircle::{Order, Point, MAX_POINTS};
+use incircle_testkit::{generate, Distribution, GenerateError};
 
 use crate::arguments::GenerateArguments;
 use crate::failure::{Exit, Failure};
 use crate::formats::{csv, curve, extension, node, xyz, PointFormat};
-use crate::generate::{generate, Distribution, GenerateError};
 use crate::output::{self, Output};
 use crate::source;
 

@@ -5,9 +5,10 @@
 
 use std::fmt::Write as _;
 
+use incircle_testkit::Distribution;
+
 use super::Row;
 use crate::failure::counted;
-use crate::generate::Distribution;
 
 /// Orders and their published microseconds per point, fastest first. Those of BrioDC are the means of the table's five.
 const PUBLISHED: [(&str, f64); 13] = [

@@ -1,0 +1,158 @@
+//! The back end `clock` gives the meshes of the back end `model`, whatever the set, the order and the number of contexts.
+
+use crate::common::Scratch;
+use incircle::{Device, Mesh, Options, Order, Point, Session};
+use incircle_cli::generate::{generate, Distribution};
+use incircle_protocol::{Config, LARGE};
+use serde_json::Value;
+
+/// Contexts that are tried.
+const CONTEXTS: [u32; 6] = [1, 2, 4, 8, 16, 24];
+
+fn triangulate(session: &mut Session<'_>, points: &[Point], order: Order, contexts: Option<u32>) -> Mesh {
+    let options = Options { order, contexts, ..Options::default() };
+    session.triangulate_with(points, &options).expect("a mesh")
+}
+
+/// Every set in every order with every number of contexts on this core. The order of the records depends on them, the mesh does not.
+fn compare(config: Config, count: usize) {
+    let mut clock = Device::clock_model(config).expect("the clock model");
+    let mut clock = clock.session().expect("a session");
+    let mut model = Device::open("model").expect("the model");
+    let mut model = model.session().expect("a session");
+    for &set in Distribution::all() {
+        let points = generate(set, count, 16, 2).expect("the bits are possible");
+        let points: Vec<Point> = points.into_iter().map(Point::from).collect();
+        let expected = triangulate(&mut model, &points, Order::default(), None);
+        expected.verify().unwrap_or_else(|error| panic!("{set}: {error}"));
+        for order in Order::BASIC {
+            for contexts in CONTEXTS {
+                let mesh = triangulate(&mut clock, &points, order, Some(contexts));
+                let what = format!("{set}, {order:?}, {contexts} contexts");
+                assert!(mesh.triangles == expected.triangles, "{what}");
+                assert_eq!(mesh.hull, expected.hull, "{what}");
+                assert_eq!(mesh.duplicates, expected.duplicates, "{what}");
+                let counters = mesh.report.counters.expect("the device was asked");
+                assert_eq!(counters.insertions as usize, mesh.report.distinct, "{what}");
+                assert!(counters.insert_cycles > 0, "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn all_sets_in_all_orders_with_all_contexts() {
+    // Thirty points for every context of the largest core.
+    compare(LARGE, 800);
+}
+
+#[test]
+fn short_boundary_lists_change_nothing() {
+    compare(Config { ring: 7, ..LARGE }, 400);
+}
+
+/// Triangulates `p.csv` with both back ends and gives the report of the clock's.
+#[track_caller]
+fn files(scratch: &Scratch, options: &str) -> Value {
+    scratch.run("triangulate p.csv -o model.ele").ok();
+    let run = scratch.run(&format!("triangulate p.csv -o clock.ele --backend clock --json {options}")).ok();
+    assert_eq!(scratch.read("model.ele"), scratch.read("clock.ele"));
+    serde_json::from_str(&run.stdout).expect("the report is JSON")
+}
+
+#[test]
+fn files_are_equal_and_the_report_says_cycles() {
+    let scratch = Scratch::new();
+    for set in ["kuzmin", "lattice", "box"] {
+        scratch.run(&format!("generate {set} -n 1000 -o p.csv")).ok();
+        for (options, config, contexts) in
+            [("", "small", 4), ("--contexts 3", "small", 3), ("--config large --contexts 17", "large", 17)]
+        {
+            let report = files(&scratch, options);
+            assert_eq!((&report["backend"], &report["config"]), (&"clock".into(), &config.into()));
+            assert_eq!(report["contexts"], contexts);
+            let cycles = report["cycles"].as_f64().expect("cycles are counted");
+            let distinct = report["distinct"].as_f64().expect("a count");
+            assert_eq!(report["cycles_per_insertion"], cycles / distinct);
+            let counters = report["counters"].as_object().expect("an object");
+            assert_eq!(counters.len(), 22);
+            assert_eq!(report["latency"]["max"], counters["latency_max"]);
+            let histogram = report["latency"]["histogram"].as_array().expect("a list");
+            let timed: u64 = histogram.iter().filter_map(|bucket| bucket[1].as_u64()).sum();
+            assert_eq!(report["latency"]["insertions"], timed);
+        }
+    }
+}
+
+#[test]
+fn sets_without_triangles_take_no_cycles() {
+    let scratch = Scratch::new();
+    for points in ["", "3,4\n", "3,4\n5,6\n", "0,0\n2,2\n1,1\n7,7\n"] {
+        scratch.write("p.csv", points);
+        let report = files(&scratch, "");
+        assert_eq!((&report["cycles"], &report["cycles_per_insertion"]), (&0.into(), &Value::Null));
+        assert_eq!(report["latency"], Value::Null);
+    }
+}
+
+#[test]
+fn the_smallest_core_that_holds_the_points_is_taken() {
+    let scratch = Scratch::new();
+    for (n, config) in [(3, "tiny"), (8, "tiny"), (9, "small"), (1024, "small"), (1025, "full")] {
+        // All different: evenly spaced on a parabola.
+        scratch.run(&format!("generate parabola -n {n} -o p.csv")).ok();
+        assert_eq!(files(&scratch, "")["config"], config, "{n}");
+    }
+    // Duplicates do not count.
+    scratch.write("p.csv", "0,0\n9,0\n0,9\n".repeat(100));
+    assert_eq!(files(&scratch, "")["config"], "tiny");
+}
+
+#[test]
+fn what_no_core_holds_ends_with_seven_and_contexts_it_lacks_with_two() {
+    let scratch = Scratch::new();
+    scratch.run("generate parabola -n 16385 -o p.csv").ok();
+    let all = "tiny 8, small 1024, full 8192, large 16384";
+    scratch.run("triangulate p.csv -o m.ele --backend clock").fails(7, &["16385", all, "use --backend model"]);
+    scratch.run("generate parabola -n 9 -o p.csv").ok();
+    let run = scratch.run("triangulate p.csv -o m.ele --backend clock --config tiny");
+    run.fails(7, &["9 distinct points", "tiny", all, "use --config small or --backend model"]);
+    scratch.run("triangulate p.csv -o m.ele --backend clock --coord-bits 17").fails(7, &["16 bits", "17"]);
+    let all = "tiny 2, small 4, full 16, large 24";
+    let run = scratch.run("triangulate p.csv -o m.ele --backend clock --contexts 5");
+    run.fails(2, &["5 contexts", "the 4 of the core small", all, "choose fewer or --config full"]);
+    let run = scratch.run("triangulate p.csv -o m.ele --backend clock --contexts 25");
+    run.fails(2, &["25 contexts", all, "choose fewer\n"]);
+    assert_eq!(scratch.files(), ["p.csv"]);
+}
+
+#[test]
+fn a_job_out_of_time_ends_with_six() {
+    let scratch = Scratch::new();
+    scratch.run("generate uniform -n 8000 -o p.csv").ok();
+    let run = scratch.run("triangulate p.csv -o m.ele --backend clock --contexts 1 --timeout 0.01");
+    run.fails(6, &["clock:full", "0.01 s"]);
+    scratch.run("bench uniform -n 8000 --backend clock --timeout 0.01").fails(6, &["clock:full", "0.01 s"]);
+    assert_eq!(scratch.files(), ["p.csv"]);
+}
+
+#[test]
+fn it_says_what_it_is() {
+    let scratch = Scratch::new();
+    let run = scratch.run("info --backend clock --config full").ok();
+    assert!(run.stdout.contains("back end clock\n"), "{run:?}");
+    assert!(run.stdout.contains("coordinates of 16 bits\n8192 points\n16 insertions at once\n"), "{run:?}");
+}
+
+#[test]
+fn verbose_is_a_table_with_latencies() {
+    let scratch = Scratch::new();
+    scratch.run("generate uniform -n 500 -o p.csv").ok();
+    let run = scratch.run("triangulate p.csv -o m.ele --backend clock -v").ok();
+    for part in
+        ["  insert cycles  ", "  aborts  ", "  release cycles  ", " per insertion\n", "cycles of an insertion: least "]
+    {
+        assert!(run.stderr.contains(part), "{part}: {run:?}");
+    }
+    assert!(!run.stderr.contains("latency"), "{run:?}");
+}

@@ -1,0 +1,315 @@
+//! `incircle bench`: a table for people, an object for scripts.
+
+use std::path::Path;
+
+use crate::common::{Run, Scratch};
+use serde_json::Value;
+
+/// The words of every row, the lines above the rows left out.
+fn rows(run: &Run, above: usize) -> Vec<Vec<String>> {
+    let lines = run.stdout.lines().skip(above);
+    lines.map(|line| line.split_whitespace().map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn a_core_has_a_row_per_set_with_every_column() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench --backend clock -n 600 --seed 3").ok();
+    assert_eq!(run.stderr, "");
+    let about = "clock small, 4 contexts; sets of 600 points, 16 bits, seed 3, order brio-hilbert\n";
+    assert!(run.stdout.starts_with(about), "{run:?}");
+    assert!(run.stdout.lines().nth(1).is_some_and(|line| line.contains("at 125 MHz")), "{run:?}");
+    // All lines of the table end together.
+    let widths: Vec<usize> = run.stdout.lines().skip(1).map(str::len).collect();
+    assert!(widths.iter().all(|&width| width == widths[0] && width < 140), "{widths:?}");
+    let rows = rows(&run, 3);
+    let sets: Vec<&str> = rows.iter().map(|row| row[0].as_str()).collect();
+    assert_eq!(sets, ["uniform", "normal", "kuzmin", "line", "checkers", "lattice"]);
+    for row in &rows {
+        assert_eq!(row.len(), 17, "{row:?}");
+        let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
+        let (distinct, cycles, ms) = (value(1), value(2), value(3));
+        assert!((cycles * distinct / 125e3 - ms).abs() < 0.01, "{row:?}");
+        assert!((9..=12).all(|column| value(column) > 1.0 && value(column) < 100.0), "{row:?}");
+        assert!((13..16).all(|column| value(column) <= value(column + 1)), "{row:?}");
+    }
+    assert_eq!(scratch.run("bench --backend clock -n 600 --seed 3").ok().stdout, run.stdout);
+}
+
+#[test]
+fn json_has_everything() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench box spiral --backend clock -n 900 --contexts 2 --order hilbert --mhz 50 --json").ok();
+    assert_eq!((run.stderr.as_str(), run.stdout.lines().count()), ("", 1));
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    for (key, value) in [("backend", "clock"), ("config", "small"), ("order", "hilbert")] {
+        assert_eq!(bench[key], value);
+    }
+    for (key, value) in [("contexts", 2), ("capacity", 1024), ("n", 900), ("coord_bits", 16), ("seed", 1)] {
+        assert_eq!(bench[key], value);
+    }
+    let sets = bench["sets"].as_array().expect("a list");
+    assert_eq!(sets.len(), 2);
+    for (set, name) in sets.iter().zip(["box", "spiral"]) {
+        assert_eq!(set["set"], name);
+        let cycles = set["cycles"].as_f64().expect("cycles are counted");
+        assert_eq!(set["seconds_at_mhz"], cycles / 50e6);
+        assert_eq!(set["counters"]["insert_cycles"], set["cycles"]);
+        assert_eq!(set["counters"]["insertions"], set["distinct"]);
+        for port in ["issue", "write", "commit", "release"] {
+            let share = set["busy"][port].as_f64().expect("a share");
+            assert_eq!(share, set["counters"][format!("{port}_cycles")].as_f64().expect("a count") / cycles);
+        }
+        assert!(set["latency"]["p99"].as_u64() >= set["latency"]["median"].as_u64());
+        assert!(set["seconds"]["total"].as_f64() > set["seconds"]["insert"].as_f64());
+    }
+}
+
+#[test]
+fn more_contexts_take_fewer_cycles() {
+    let scratch = Scratch::new();
+    let cycles = [1, 4, 16].map(|contexts| {
+        let run = scratch.run(&format!("bench uniform --backend clock -n 2000 --contexts {contexts} --json")).ok();
+        let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+        bench["sets"][0]["cycles_per_insertion"].as_f64().expect("a number")
+    });
+    assert!(cycles[0] > 2.5 * cycles[1] && cycles[1] > 1.5 * cycles[2], "{cycles:?}");
+}
+
+#[test]
+fn the_software_model_has_host_times() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench -n 3000 --coord-bits 20").ok();
+    assert!(run.stdout.starts_with("model, 1 context; sets of 3000 points, 20 bits, seed 1,"), "{run:?}");
+    let rows = rows(&run, 2);
+    assert_eq!(rows.len(), 6);
+    assert!(rows.iter().all(|row| row.len() == 7 && row[2].parse::<f64>().is_ok_and(|time| time > 1.0)), "{rows:?}");
+    let run = scratch.run("bench lattice -n 100 --json").ok();
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    assert_eq!((&bench["config"], bench.get("mhz")), (&Value::Null, None));
+    assert_eq!(bench["sets"][0]["latency"], Value::Null);
+    assert_eq!(bench["sets"][0].get("cycles"), None);
+}
+
+#[test]
+fn the_engine_on_the_processor_has_host_times_and_no_counters() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench uniform -n 3000 --backend cpu --threads 1").ok();
+    assert!(run.stdout.starts_with("cpu, 1 thread; sets of 3000 points, 16 bits, seed 1\n"), "{run:?}");
+    let row = &rows(&run, 2)[0];
+    assert!(row[2..4].iter().all(|time| time.parse::<f64>().is_ok_and(|time| time > 1.0)), "{row:?}");
+    assert_eq!(row[4..], ["-", "-", "-"]);
+    let run = scratch.run("bench lattice -n 100 --backend cpu --json").ok();
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    assert_eq!((&bench["backend"], &bench["order"]), (&Value::from("cpu"), &Value::Null));
+    assert_eq!(bench["sets"][0]["counters"], Value::Null);
+}
+
+#[test]
+fn sets_that_the_host_answers_alone_have_dashes() {
+    let scratch = Scratch::new();
+    for backend in ["cpu", "model", "clock"] {
+        let run = scratch.run(&format!("bench uniform -n 2 --backend {backend}")).ok();
+        let row = run.stdout.lines().last().expect("a row");
+        assert!(row.ends_with(" -") && !row.contains("NaN") && !row.contains("inf"), "{row}");
+        scratch.run(&format!("bench uniform -n 1 --json --backend {backend}")).ok();
+    }
+}
+
+#[test]
+fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench --batch 40 -n 200 --backend clock --seed 5").ok();
+    let about = "clock full, 16 contexts; 40 jobs of 200 points each, 16 bits, seeds from 5, order brio-hilbert, ms at 125 MHz\n";
+    assert!(run.stdout.starts_with(about), "{run:?}");
+    let widths: Vec<usize> = run.stdout.lines().skip(1).map(str::len).collect();
+    assert!(widths.iter().all(|&width| width == widths[0]), "{widths:?}");
+    let rows = rows(&run, 2);
+    assert_eq!(rows.len(), 6);
+    for row in &rows {
+        let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
+        let (points, cycles, ms) = (value(1), value(3), value(7));
+        // Groups of 14, 13 and 13 jobs.
+        assert!(points > 7900.0 && cycles > 10.0 && cycles < 25.0, "{row:?}");
+        assert!((cycles * points / 125e3 - ms).abs() < 0.01, "{row:?}");
+        assert!((value(8) - 25.0 * ms).abs() < 0.1 && (value(9) - 8.0 * cycles).abs() < 0.1, "{row:?}");
+        assert!((40.0 * value(5) - cycles * points).abs() < 0.01 * points, "{row:?}");
+        // They share the memory, so none is timed by itself.
+        assert_eq!((row[4].as_str(), row[6].as_str()), ("-", "-"));
+    }
+    let run = scratch.run("bench uniform --batch 20 -n 60 --backend clock --config small --contexts 3 --json").ok();
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    let numbers = ["jobs", "n", "contexts", "capacity"].map(|key| bench[key].as_u64());
+    assert_eq!((&bench["config"], numbers), (&Value::from("small"), [Some(20), Some(60), Some(3), Some(1024)]));
+    let set = &bench["sets"][0];
+    let cycles = set["cycles"].as_f64().expect("cycles are counted");
+    assert_eq!(set["cycles_per_point"], cycles / set["distinct"].as_f64().expect("a count"));
+    assert_eq!((&set["longest_job_cycles"], &set["engine_cycles_per_point"]), (&Value::Null, &Value::Null));
+    assert_eq!(set["seconds_at_mhz"], cycles / 125e6);
+    // Side by side they take a fraction of the time of one after the other.
+    let alone = scratch.run("bench uniform --batch 20 -n 60 --backend clock --config small --contexts 1 --json").ok();
+    let alone: Value = serde_json::from_str(&alone.stdout).expect("an object");
+    assert!(alone["sets"][0]["cycles"].as_f64().expect("cycles") > 2.0 * cycles);
+    for backend in ["cpu", "model"] {
+        let run = scratch.run(&format!("bench uniform --batch 20 -n 100 --backend {backend}")).ok();
+        let row = run.stdout.lines().last().expect("a row").split_whitespace().nth(3).map(str::to_owned);
+        assert_eq!(row.as_deref(), Some("-"), "{run:?}");
+        let run = scratch.run(&format!("bench uniform --batch 20 -n 100 --backend {backend} --json")).ok();
+        let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+        assert_eq!((bench.get("mhz"), bench["sets"][0].get("cycles")), (None, None));
+    }
+    scratch.run("bench --batch 2 -n 2000 --backend clock --config small").fails(7, &["2000", "--config full"]);
+}
+
+#[test]
+fn a_batch_of_which_no_job_reaches_the_core_has_no_cycles() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench uniform --batch 2 -n 1 --backend clock").ok();
+    let row: Vec<&str> = run.stdout.lines().last().expect("a row").split_whitespace().collect();
+    assert_eq!(row[3..], ["-"; 7], "{}", run.stdout);
+    let run = scratch.run("bench uniform --batch 2 -n 1 --backend clock --json").ok();
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    assert_eq!((&bench["sets"][0]["distinct"], bench["sets"][0].get("cycles")), (&Value::from(2), None));
+}
+
+/// All points are in memory at once.
+#[test]
+fn a_batch_of_too_many_points_is_refused() {
+    let scratch = Scratch::new();
+    scratch.run("bench --batch 1000000 -n 2000").fails(2, &["2000000000 points", "at most 67108864"]);
+    scratch.run("bench --batch 4096 -n 16385").fails(2, &["67112960 points"]);
+    // As many as may be: the next thing that is wrong is said.
+    scratch.run("bench --batch 4096 -n 16384 --backend clock --config small").fails(7, &["16384"]);
+}
+
+/// As many as fit, but for jobs of 1,200 points, of which 6 would: those are frames.
+#[test]
+fn jobs_of_middle_size_go_side_by_side() {
+    let scratch = Scratch::new();
+    let measured = |jobs: u32, n: u32| {
+        let run = scratch.run(&format!("bench uniform --batch {jobs} -n {n} --backend clock --json")).ok();
+        serde_json::from_str::<Value>(&run.stdout).expect("an object")["sets"][0].clone()
+    };
+    let cycles = |set: &Value| set["cycles_per_point"].as_f64().expect("cycles are counted");
+    let [small, middle, large] = [(39, 520), (40, 1000), (10, 1200)].map(|(jobs, n)| measured(jobs, n));
+    assert!(cycles(&small) < 18.0 && cycles(&middle) < 24.0 && cycles(&large) < 28.0, "{small} {middle} {large}");
+    let is_frame = [&small, &middle, &large].map(|set| !set["longest_job_cycles"].is_null());
+    assert_eq!(is_frame, [false, false, true]);
+    let readme =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).expect("it is there");
+    let figure = format!("{:.1} cycles a point", cycles(&middle));
+    assert!(readme.contains(&figure), "README.md has no {figure}");
+}
+
+/// The figures of the README. Cycles are the same on every machine, so this is no test of time.
+#[test]
+fn a_sequence_of_frames_costs_little_more_than_the_engine() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench uniform --batch 20 -n 4000 --backend clock --json").ok();
+    let bench: Value = serde_json::from_str(&run.stdout).expect("an object");
+    assert_eq!((&bench["config"], bench["contexts"].as_u64()), (&Value::from("full"), Some(16)));
+    let set = &bench["sets"][0];
+    let number = |key: &str| set[key].as_f64().unwrap_or_else(|| panic!("{key}: {set}"));
+    assert_eq!(number("cycles_per_job"), number("cycles") / 20.0);
+    assert!(number("cycles_per_job") <= number("longest_job_cycles"), "{set}");
+    assert!(number("longest_job_cycles") <= 90_000.0, "{set}");
+    // As the documents have them: a comma after the thousands.
+    let shown = |key: &str| {
+        let cycles = number(key).round() as u64;
+        format!("{},{:03}", cycles / 1000, cycles % 1000)
+    };
+    for document in ["README.md", "docs/engine.md"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(document);
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        for figure in [shown("cycles_per_job"), shown("longest_job_cycles")] {
+            assert!(text.contains(&figure), "{document} has no {figure}");
+        }
+    }
+    let (whole, engine) = (number("cycles_per_point"), number("engine_cycles_per_point"));
+    // The read-out alone takes two clocks a point.
+    assert!(whole - engine > 2.0 && whole - engine <= 2.5, "{set}");
+    let table = scratch.run("bench uniform --batch 2 -n 4000 --backend clock").ok();
+    let row = &rows(&table, 2)[0];
+    let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
+    assert!(value(3) > value(4) + 2.0 && value(5) <= value(6) && value(6) <= 90_000.0, "{row:?}");
+}
+
+#[test]
+fn what_does_not_fit_is_told_before_any_row() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench --backend clock --config small");
+    run.fails(7, &["4096 distinct points", "--config full or --backend model"]);
+    scratch.run("bench --backend clock --coord-bits 17").fails(7, &["16 bits", "17"]);
+    scratch.run("bench --backend clock --contexts 17").fails(2, &["17 contexts", "the 16 of the core full"]);
+    // Duplicates are no matter: 20000 points fall onto 5000 places.
+    let run = scratch.run("bench box -n 20000 --backend clock").ok();
+    assert!(run.stdout.starts_with("clock full,"), "{run:?}");
+}
+
+#[test]
+fn orders_are_compared_as_table_csv_and_drawing() {
+    let scratch = Scratch::new();
+    let run = scratch
+        .run("bench orders uniform parabola -n 300,600 --order hilbert,brio-hilbert,random --csv o.csv --plot o.svg")
+        .ok();
+    let rows = rows(&run, 2);
+    assert_eq!(rows.len(), 2 * 2 * 3);
+    let csv = scratch.read("o.csv");
+    assert_eq!(csv.lines().next(), Some("set,points,order,order_ns,total_ns,walk,tests,cavity,cycles"));
+    assert_eq!(csv.lines().count(), 1 + rows.len());
+    for row in &rows {
+        assert_eq!(row.len(), 9, "{row:?}");
+        let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
+        assert!((3..9).all(|column| value(column) > 0.0), "{row:?}");
+        // What is removed was tested, or is where the walk ended.
+        assert!(value(7) <= value(6) + 1.0, "{row:?}");
+    }
+    // A walk from anywhere is longer than one along a curve.
+    let walk = |order: usize| rows[3 + order][5].parse::<f64>().expect("a number");
+    assert!(walk(2) > 2.0 * walk(0), "{rows:?}");
+    let drawing = scratch.read("o.svg");
+    assert!(drawing.starts_with("<svg ") && drawing.matches("<rect").count() == 1 + 2 * rows.len(), "{drawing}");
+    // Told before any row.
+    let one = scratch.run("bench orders uniform -n 100 --order hilbert --csv o.csv --plot ./o.csv");
+    one.fails(2, &["--csv and --plot", "the same file"]);
+    assert_eq!(scratch.read("o.csv"), csv);
+    assert!(!run.stdout.contains("published"), "{run:?}");
+    let wide = scratch.run("bench orders uniform -n 100 --coord-bits 20 --order hilbert").ok();
+    assert!(wide.stdout.lines().last().is_some_and(|line| line.ends_with(" -")), "{wide:?}");
+}
+
+/// Where each point of a curve sees all triangles before it, rounds of random samples keep tests few. Tests are counted, so the same everywhere.
+#[test]
+fn plain_hilbert_collapses_on_hard_sets_and_rounds_do_not() {
+    let scratch = Scratch::new();
+    let run = scratch.run("bench orders two-chains parabola-inward -n 1024,4096 --order hilbert,brio-hilbert").ok();
+    let rows = rows(&run, 2);
+    assert_eq!(rows.len(), 2 * 2 * 2, "{run:?}");
+    for pair in rows.chunks(2) {
+        let tests = [&pair[0][6], &pair[1][6]].map(|text| text.parse::<f64>().expect("a number"));
+        assert!(tests[0] > 5.0 * tests[1] && tests[1] < 15.0, "{pair:?}");
+    }
+}
+
+#[test]
+fn guides_and_the_hierarchy_shorten_walks_and_the_published_ranking_is_told() {
+    let scratch = Scratch::new();
+    let orders = "brio-hilbert,briodc-linear,briodc-log-u,input,arrival-hierarchy";
+    let run = scratch.run(&format!("bench orders uniform line -n 3000 --order {orders} --csv o.csv")).ok();
+    let rows: Vec<Vec<String>> = rows(&run, 2).into_iter().filter(|row| row.len() == 9).collect();
+    assert_eq!(rows.len(), 2 * 5, "{run:?}");
+    for of_set in rows.chunks(5) {
+        let column = |way: usize, column: usize| of_set[way][column].parse::<f64>().expect("a number");
+        let walk = |way: usize| column(way, 5);
+        // On a line some vertices have many triangles, and few points are enough for that to show.
+        assert!(walk(1) < 3.3 && walk(1) < walk(0), "{of_set:?}");
+        // Both variants give one order.
+        assert_eq!(of_set[1][5..], of_set[2][5..], "{of_set:?}");
+        assert!(walk(4) < 0.5 * walk(3), "{of_set:?}");
+        assert!(column(1, 8) > 0.0 && of_set[4][8] == "-", "{of_set:?}");
+    }
+    assert_eq!(scratch.read("o.csv").lines().count(), 1 + rows.len());
+    let told = "3000 points, the literature's distributions among the rows: of 3 pairs more than 5 % apart there, ";
+    assert!(run.stdout.contains(told), "{run:?}");
+    assert!(run.stdout.contains("  briodc-linear"), "{run:?}");
+}

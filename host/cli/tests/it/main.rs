@@ -1,0 +1,26 @@
+//! The tests of the command, in one program. Modules mirror the sources; `contract` is what scripts rely on.
+
+mod common;
+
+mod contract;
+mod output;
+
+mod backend {
+    mod clock;
+    mod pcie;
+    mod serial;
+    #[cfg(feature = "sim")]
+    mod sim;
+}
+
+mod commands {
+    mod bench;
+    mod generate;
+}
+
+mod formats {
+    mod bad_input;
+    mod bad_structure;
+    mod files;
+    mod hostile;
+}

@@ -1,0 +1,207 @@
+//! Outputs are whole or not there.
+
+use crate::common::Scratch;
+#[cfg(unix)]
+use std::process::Stdio;
+
+const POINTS: &str = "0,0\n10,0\n0,10\n";
+
+#[test]
+fn the_input_is_never_overwritten() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", POINTS);
+    scratch.run("triangulate p.csv -o p.csv").fails(2, &["p.csv", "both the input and the output"]);
+    scratch.run("triangulate p.csv -o ./p.csv").fails(2, &["both"]);
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(scratch.path("p.csv"), scratch.path("link.csv")).expect("a link can be made");
+        std::fs::hard_link(scratch.path("p.csv"), scratch.path("hard.csv")).expect("a link can be made");
+        scratch.run("triangulate p.csv -o link.csv").fails(2, &["both"]);
+        scratch.run("triangulate link.csv -o hard.csv").fails(2, &["both"]);
+    }
+    assert_eq!(scratch.read("p.csv"), POINTS);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_input_that_is_redirected_is_never_overwritten() {
+    let scratch = Scratch::new();
+    let path = scratch.write("p.csv", POINTS);
+    let from_file = |output: &str| {
+        let mut command = scratch.command(["triangulate", "-", "-q", "-o", output]);
+        let input = std::fs::File::open(&path).expect("it is there");
+        crate::common::Run::of(command.stdin(input).output().expect("it runs"))
+    };
+    from_file("p.csv").fails(2, &["p.csv", "both the input and the output"]);
+    std::fs::hard_link(&path, scratch.path("hard.csv")).expect("a link can be made");
+    from_file("hard.csv").fails(2, &["hard.csv", "both"]);
+    assert_eq!(scratch.read("p.csv"), POINTS);
+    from_file("other.csv").ok();
+    assert_eq!(scratch.read("other.csv"), "0,1,2\n");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_that_leads_nowhere_is_no_output() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", POINTS);
+    std::os::unix::fs::symlink("gone.ele", scratch.path("link.ele")).expect("a link can be made");
+    scratch.run("triangulate p.csv -o link.ele").fails(3, &["link.ele", "link to a file that does not exist"]);
+    assert_eq!(scratch.files(), ["link.ele", "p.csv"]);
+    let link = std::fs::symlink_metadata(scratch.path("link.ele")).expect("it is there");
+    assert!(link.file_type().is_symlink());
+}
+
+/// The report says that the mesh is there, so it must come after it.
+#[cfg(unix)]
+#[test]
+fn the_report_comes_when_the_file_is_in_place() {
+    use std::io::Read;
+    let scratch = Scratch::new();
+    scratch.write("p.csv", POINTS);
+    let run = scratch.command(["triangulate", "p.csv", "-o", "m.ele", "--json"]);
+    let start = |mut run: std::process::Command| {
+        let child = run.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+        child.expect("it starts")
+    };
+    let mut child = start(run);
+    let mut stdout = child.stdout.take().expect("the output is a pipe");
+    stdout.read_exact(&mut [0; 1]).expect("the report begins");
+    assert_eq!(scratch.read("m.ele"), "1 3 0\n0 0 1 2\n");
+    drop(stdout);
+    assert_eq!(child.wait().expect("it ends").code(), Some(0));
+    // A reader that has left already: quiet, and the mesh stays.
+    std::fs::remove_file(scratch.path("m.ele")).expect("it is there");
+    let mut run = scratch.command(["triangulate", "-", "-o", "m.ele", "--json"]);
+    let mut child = start({
+        run.stdin(Stdio::piped());
+        run
+    });
+    drop(child.stdout.take());
+    let mut stdin = child.stdin.take().expect("the input is a pipe");
+    std::io::Write::write_all(&mut stdin, POINTS.as_bytes()).expect("it reads");
+    drop(stdin);
+    let run = crate::common::Run::of(child.wait_with_output().expect("it ends"));
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    assert_eq!(scratch.read("m.ele"), "1 3 0\n0 0 1 2\n");
+    assert_eq!(scratch.files(), ["m.ele", "p.csv"]);
+}
+
+#[test]
+fn a_failed_run_leaves_an_older_output_alone() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\nx,1\n");
+    scratch.write("m.ele", "older");
+    scratch.run("triangulate p.csv -o m.ele").fails(3, &["row 2"]);
+    assert_eq!(scratch.read("m.ele"), "older");
+    scratch.write("p.csv", POINTS);
+    scratch.run("triangulate p.csv -o m.ele").ok();
+    assert_eq!(scratch.read("m.ele"), "1 3 0\n0 0 1 2\n");
+    assert_eq!(scratch.files(), ["m.ele", "p.csv"]);
+}
+
+#[test]
+fn folders_are_no_outputs() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", POINTS);
+    std::fs::create_dir(scratch.path("folder.ele")).expect("a folder can be made");
+    scratch.run("triangulate p.csv -o folder.ele").fails(3, &["folder.ele", "folder"]);
+    scratch.run("triangulate p.csv -o none/m.ele").fails(3, &["none/m.ele", "No such file"]);
+    scratch.run("generate uniform -n 5 -o none/p.csv").fails(3, &["none/p.csv"]);
+    assert_eq!(scratch.files(), ["folder.ele", "p.csv"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error_and_stays_a_device() {
+    use std::os::unix::fs::FileTypeExt;
+    let scratch = Scratch::new();
+    scratch.write("p.csv", POINTS);
+    scratch.run("triangulate p.csv -o /dev/full --format svg").fails(3, &["/dev/full", "No space left"]);
+    scratch.run("generate uniform -n 5 -o /dev/full").fails(3, &["/dev/full", "No space left"]);
+    let run = scratch.command(["triangulate", "p.csv", "-o", "-", "--format", "ele"]);
+    let device = || Stdio::from(std::fs::File::options().write(true).open("/dev/full").expect("it can be opened"));
+    let fails =
+        |mut run: std::process::Command| crate::common::Run::of(run.stdout(device()).output().expect("it runs"));
+    fails(run).fails(3, &["standard output", "No space left"]);
+    // The report cannot be printed: the mesh is not left behind either.
+    let run = scratch.command(["triangulate", "p.csv", "-o", "m.ele", "--json"]);
+    fails(run).fails(3, &["standard output"]);
+    assert_eq!(scratch.files(), ["p.csv"]);
+    let kind = std::fs::metadata("/dev/full").expect("it is there").file_type();
+    assert!(kind.is_char_device());
+    scratch.run("triangulate p.csv -o /dev/null --format ele").ok();
+    let kind = std::fs::metadata("/dev/null").expect("it is there").file_type();
+    assert!(kind.is_char_device());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_is_replaced_keeps_its_permissions_and_links_are_followed() {
+    use std::os::unix::fs::PermissionsExt;
+    let scratch = Scratch::new();
+    scratch.write("p.csv", POINTS);
+    let real = scratch.write("real.ele", "");
+    std::fs::set_permissions(&real, std::fs::Permissions::from_mode(0o640)).expect("permissions can be set");
+    std::os::unix::fs::symlink("real.ele", scratch.path("link.ele")).expect("a link can be made");
+    scratch.run("triangulate p.csv -o link.ele").ok();
+    assert_eq!(scratch.read("real.ele"), "1 3 0\n0 0 1 2\n");
+    let mode = std::fs::metadata(&real).expect("it is there").permissions().mode();
+    assert_eq!(mode & 0o777, 0o640);
+    let link = std::fs::symlink_metadata(scratch.path("link.ele")).expect("it is there");
+    assert!(link.file_type().is_symlink());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_leaves_is_no_error() {
+    use std::io::Read;
+    let scratch = Scratch::new();
+    scratch.run("generate uniform -n 50000 -o p.csv").ok();
+    let mut command = scratch.command(["triangulate", "p.csv", "-o", "-", "--format", "ele", "-q"]);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts");
+    let mut stdout = child.stdout.take().expect("the output is a pipe");
+    stdout.read_exact(&mut [0; 4]).expect("the mesh begins");
+    drop(stdout);
+    let run = crate::common::Run::of(child.wait_with_output().expect("it ends"));
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+}
+
+/// Interrupts runs that wait for their input, and runs that work: all end soon, with a sentence and without a file.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_a_sentence_and_no_file() {
+    let scratch = Scratch::new();
+    scratch.run("generate uniform -n 2000000 --bits 31 -o big.csv").ok();
+    scratch.write("none.ele", "0 3 0\n");
+    let runs = [
+        (vec!["-INT"], "triangulate - -o m.ele"),
+        (vec!["-TERM"], "triangulate - -o m.ele"),
+        (vec!["-TERM"], "verify - none.ele"),
+        (vec!["-INT"], "verify big.csv none.ele --coord-bits 31"),
+        (vec!["-INT"], "generate uniform -n 50000000 --bits 31 -o g.csv"),
+        (vec!["-INT"], "triangulate big.csv -o m.ele --coord-bits 31"),
+        (vec!["-INT", "-TERM"], "triangulate big.csv -o m.ele --coord-bits 31"),
+        (vec!["-INT"], "bench uniform -n 16000 --backend clock --contexts 1 --order input"),
+    ];
+    for (signals, arguments) in runs {
+        let mut command = scratch.command(arguments.split_whitespace());
+        let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+        let mut child = child.expect("it starts");
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        let since = std::time::Instant::now();
+        for signal in &signals {
+            let status = std::process::Command::new("kill").args([signal, child.id().to_string().as_str()]).status();
+            assert!(status.expect("kill runs").success());
+        }
+        // Closed only now, so that the run could not end before.
+        let stdin = child.stdin.take();
+        let run = crate::common::Run::of(child.wait_with_output().expect("it ends"));
+        drop(stdin);
+        run.fails(130, &["interrupted"]);
+        // The moment that a job gets, and some for a slow machine; who waits for input has nothing to end.
+        let most = if arguments.contains(" - ") { 1.0 } else { 4.0 };
+        assert!(since.elapsed().as_secs_f64() < most, "{arguments}: {:?}", since.elapsed());
+        assert_eq!(scratch.files(), ["big.csv", "none.ele"], "{arguments}");
+    }
+}

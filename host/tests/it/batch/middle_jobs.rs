@@ -1,0 +1,166 @@
+//! Jobs of a batch that fit into a device more than once and less often than it has contexts: side by side, alone, or as it comes, each
+//! has the mesh that it has alone.
+
+use crate::common::batches::{alone, bare, batch};
+use crate::common::mock::Mock;
+use crate::common::Random;
+use incircle::{Device, Error, Mesh, Options, Point};
+use incircle_protocol::{Config, FULL, SMALL};
+use proptest::prelude::*;
+
+/// Points of the mock, and its contexts.
+const CAPACITY: usize = 512;
+const CONTEXTS: usize = 5;
+
+/// Jobs with so many points, all different.
+fn jobs_of(random: &mut Random, lengths: &[usize]) -> Vec<Vec<Point>> {
+    lengths.iter().map(|&count| distinct(random, count)).collect()
+}
+
+fn distinct(random: &mut Random, count: usize) -> Vec<Point> {
+    let mut points = Vec::new();
+    while points.len() < count {
+        let point = Point::new(random.below(1 << 16), random.below(1 << 16));
+        if !points.contains(&point) {
+            points.push(point);
+        }
+    }
+    points
+}
+
+/// A job that had the whole memory has its counters.
+fn is_frame(mesh: &Mesh) -> bool {
+    mesh.report.counters.is_some()
+}
+
+#[test]
+fn the_capacity_may_be_reached_exactly() {
+    let mut random = Random(81);
+    let fifth = CAPACITY / CONTEXTS;
+    for lengths in [
+        vec![fifth; 5],
+        vec![fifth + 1, fifth + 1, fifth, fifth, fifth],
+        vec![128; 4],
+        // Beyond it by one, and all alone.
+        vec![fifth + 1, fifth + 1, fifth + 1, fifth, fifth],
+        vec![129, 128, 128, 128],
+        vec![171; 3],
+        vec![CAPACITY, 60, 60],
+        vec![CAPACITY; 2],
+    ] {
+        let sum: usize = lengths.iter().sum();
+        let jobs = jobs_of(&mut random, &lengths);
+        for (takes_ahead, packs_records) in [(true, true), (true, false), (false, true), (false, false)] {
+            let mut device = Mock::device(takes_ahead, packs_records, (0, 0));
+            let mut session = device.session().expect("a session");
+            let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
+            // The sums are those of the points sent, as no job is more than a point shorter.
+            let is_divided = sum > CAPACITY;
+            assert_eq!(meshes.iter().any(is_frame), is_divided, "{lengths:?}");
+            assert!(meshes.into_iter().map(bare).eq(alone(&jobs)), "{lengths:?}");
+        }
+    }
+}
+
+#[test]
+fn one_job_too_large_ends_the_batch_in_step() {
+    let mut random = Random(82);
+    let jobs = jobs_of(&mut random, &[170, 90, 171, 130, 260, 100, 170]);
+    let right = alone(&jobs);
+    for takes_ahead in [true, false] {
+        let mut device = Mock::device(takes_ahead, true, (0, 0));
+        let mut session = device.session().expect("a session");
+        for place in 0..=jobs.len() {
+            let mut jobs = jobs.clone();
+            jobs.insert(place, distinct(&mut random, CAPACITY + 1));
+            let error = session.triangulate_batch(&jobs, &Options::default()).expect_err("too large");
+            assert!(
+                matches!(&error, Error::InJob { job, source } if *job == place
+                && matches!(**source, Error::Capacity { distinct: 513, capacity: 512, .. })),
+                "{error}"
+            );
+            jobs.remove(place);
+            let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("in step");
+            assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()));
+        }
+    }
+}
+
+#[test]
+fn every_core_gives_every_length_its_mesh() {
+    let mut random = Random(83);
+    let lengths = |parts: &[usize], points: u32| -> Vec<usize> {
+        let near = |&part: &usize| [points as usize / part - 1, points as usize / part, points as usize / part + 1];
+        parts.iter().flat_map(near).filter(|&length| length <= points as usize).collect()
+    };
+    for (config, parts) in [
+        (SMALL, vec![4, 4, 4, 3, 3, 2, 5, 6, 1]),
+        (Config { ring: 6, contexts: 3, ..SMALL }, vec![3, 3, 2, 4, 4]),
+        (FULL, vec![7, 7, 7, 8, 8, 15, 16, 17, 6]),
+    ] {
+        let mut jobs = jobs_of(&mut random, &lengths(&parts, config.points));
+        // And some that a host thinks larger than they are.
+        jobs[1].extend_from_within(..40);
+        jobs[2] = (0..300).map(|k| Point::new(2 * k, 3 * k)).collect();
+        let mut device = Device::clock_model(config).expect("possible");
+        assert!(batch(&mut device, &jobs, &Options::default()).expect("meshes") == alone(&jobs), "{}", config.name);
+    }
+}
+
+/// Cycles are the same on every machine, so this is no test of time.
+#[test]
+fn side_by_side_they_take_fewer_clocks_than_one_after_the_other() {
+    let mut random = Random(84);
+    let mut device = Device::clock_model(FULL).expect("possible");
+    let mut session = device.session().expect("a session");
+    for (count, length, most) in [(15, 520, 19), (10, 800, 21), (8, 1000, 24), (7, 1170, 27)] {
+        let jobs = jobs_of(&mut random, &vec![length; count]);
+        let before = session.clocks().expect("it is counted");
+        let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
+        let together = session.clocks().expect("it is counted") - before;
+        assert!(meshes.iter().all(|mesh| !is_frame(mesh) && mesh.report.contexts == 1));
+        assert!(together < most * (count * length) as u64, "{together} clocks for {count} jobs of {length}");
+        // A batch of one is a frame, with as many contexts as pay.
+        let before = session.clocks().expect("it is counted");
+        for job in &jobs {
+            let alone = session.triangulate_batch(std::slice::from_ref(job), &Options::default()).expect("a mesh");
+            assert!(is_frame(&alone[0]) && (8..=16).contains(&alone[0].report.contexts), "{:?}", alone[0].report);
+        }
+        let one_by_one = session.clocks().expect("it is counted") - before;
+        assert!(together < one_by_one, "{together} and {one_by_one} clocks for {count} jobs of {length}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_lengths_around_the_thresholds(
+        raw in prop::collection::vec((1usize..7, 0usize..5, any::<bool>()), 0..14),
+        contexts in 1u32..6,
+        takes_ahead in any::<bool>(),
+        seed in any::<u64>(),
+    ) {
+        let mut random = Random(seed);
+        let job = |(parts, more, is_crowded): (usize, usize, bool)| {
+            let count = (CAPACITY / parts + more - 2).min(CAPACITY);
+            random.points(count, if is_crowded { 20 } else { 1 << 16 })
+        };
+        let jobs: Vec<Vec<Point>> = raw.into_iter().map(job).collect();
+        let options = Options { contexts: Some(contexts), ..Options::default() };
+        let mut device = Mock::device(takes_ahead, true, (0, 0));
+        prop_assert!(batch(&mut device, &jobs, &options).expect("meshes") == alone(&jobs));
+    }
+}
+
+#[test]
+fn a_job_left_over_has_as_many_contexts_as_pay_whether_it_is_sent_ahead_or_not() {
+    let jobs = jobs_of(&mut Random(84), &[20]);
+    let contexts = [true, false].map(|takes_ahead| {
+        let mut device = Mock::device(takes_ahead, true, (0, 0));
+        let mut session = device.session().expect("a session");
+        let meshes = session.triangulate_batch(&jobs, &Options::default()).expect("meshes");
+        meshes[0].report.contexts as usize
+    });
+    assert!(contexts[0] == contexts[1] && (1..CONTEXTS).contains(&contexts[0]), "{contexts:?}");
+}

@@ -1,0 +1,194 @@
+//! A card in memory: the software model of the stream device behind what looks like the three files of its driver.
+
+use std::io::{self, Read, Write};
+use std::sync::{Arc, Condvar, Mutex};
+use std::time::{Duration, Instant};
+
+use incircle::pcie::{CardFiles, RegisterFile};
+use incircle_model::stream::{ModelCore, StreamModel};
+use incircle_protocol::{Config, StreamRegister};
+
+/// Time after which the driver gives up on a transfer: XDMA has 10 seconds.
+const ENGINE: Duration = Duration::from_millis(400);
+/// What it returns then.
+const ERESTARTSYS: i32 = 512;
+
+/// What a test does to the card.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Mischief {
+    /// The read of this number, from 0, fails with this errno.
+    pub bad_read: Option<(u32, i32)>,
+    /// The write of this number does.
+    pub bad_write: Option<(u32, i32)>,
+    /// Before the read of this number the card is reset.
+    pub reset: Option<u32>,
+    /// It is reset when so many bytes of commands have come.
+    pub reset_after: Option<usize>,
+    /// From the read of this number on it is gone.
+    pub gone: Option<u32>,
+    /// No read brings more bytes than this.
+    pub short: Option<usize>,
+    /// This register reads as this.
+    pub register: Option<(StreamRegister, u32)>,
+    /// Reads of this number and more bring these bytes, again and again, instead of what the card says.
+    pub babble: Option<(u32, [u8; 16])>,
+    /// Nothing comes from the read of this number on, not even an error.
+    pub silent: Option<u32>,
+    /// The card gives up on a transfer after this time instead of its own.
+    pub patience: Option<Duration>,
+}
+
+struct Inside {
+    device: StreamModel<ModelCore>,
+    mischief: Mischief,
+    reads: u32,
+    writes: u32,
+    /// Bytes of commands that have come.
+    taken: usize,
+    gone: bool,
+}
+
+impl Inside {
+    /// Bytes of commands that the device takes now.
+    fn take(&mut self, bytes: &[u8]) -> usize {
+        let until = self.mischief.reset_after.and_then(|after| after.checked_sub(self.taken)).unwrap_or(usize::MAX);
+        let taken = self.device.take(&bytes[..bytes.len().min(until)]);
+        self.taken += taken;
+        if self.mischief.reset_after == Some(self.taken) {
+            self.mischief.reset_after = None;
+            self.device.reset();
+        }
+        taken
+    }
+}
+
+/// The card.
+#[derive(Clone)]
+pub struct MemoryCard {
+    inside: Arc<(Mutex<Inside>, Condvar)>,
+}
+
+impl MemoryCard {
+    pub fn new(config: Config, beat_bits: u32, mischief: Mischief) -> Self {
+        Self::of(ModelCore::of(config).unwrap(), beat_bits, mischief)
+    }
+
+    /// A card with this device behind its beats.
+    pub fn of(core: ModelCore, beat_bits: u32, mischief: Mischief) -> Self {
+        let device = StreamModel::new(core, beat_bits);
+        let inside = Inside { device, mischief, reads: 0, writes: 0, taken: 0, gone: false };
+        Self { inside: Arc::new((Mutex::new(inside), Condvar::new())) }
+    }
+
+    /// Reads and writes that were begun.
+    pub fn transfers(&self) -> (u32, u32) {
+        let inside = self.inside.0.lock().unwrap();
+        (inside.reads, inside.writes)
+    }
+
+    pub fn files(&self) -> CardFiles {
+        CardFiles {
+            commands: Box::new(self.clone()),
+            answers: Box::new(self.clone()),
+            registers: Box::new(self.clone()),
+        }
+    }
+
+    /// Repeats until there is a result, or the time is over.
+    fn until<T>(&self, mut step: impl FnMut(&mut Inside) -> Option<io::Result<T>>) -> io::Result<T> {
+        let (mutex, changed) = &*self.inside;
+        let mut inside = mutex.lock().unwrap();
+        let deadline = Instant::now() + inside.mischief.patience.unwrap_or(ENGINE);
+        loop {
+            if inside.gone {
+                return Err(io::Error::from_raw_os_error(19));
+            }
+            if let Some(result) = step(&mut inside) {
+                changed.notify_all();
+                return result;
+            }
+            changed.notify_all();
+            let left = deadline.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return Err(io::Error::from_raw_os_error(ERESTARTSYS));
+            }
+            inside = changed.wait_timeout(inside, left).unwrap().0;
+        }
+    }
+}
+
+impl Write for MemoryCard {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let mut done = 0;
+        let mut is_new = true;
+        self.until(|inside| {
+            if std::mem::take(&mut is_new) {
+                inside.writes += 1;
+                if let Some((_, errno)) = inside.mischief.bad_write.filter(|bad| bad.0 + 1 == inside.writes) {
+                    return Some(Err(io::Error::from_raw_os_error(errno)));
+                }
+            }
+            done += inside.take(&bytes[done..]);
+            (done == bytes.len()).then_some(Ok(done))
+        })
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Read for MemoryCard {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let most = self.inside.0.lock().unwrap().mischief.short.unwrap_or(usize::MAX);
+        let length = bytes.len().min(most);
+        let bytes = &mut bytes[..length];
+        let mut done = 0;
+        let mut is_new = true;
+        let mut number = 0;
+        let result = self.until(|inside| {
+            if std::mem::take(&mut is_new) {
+                number = inside.reads;
+                inside.reads += 1;
+                if let Some((_, errno)) = inside.mischief.bad_read.filter(|bad| bad.0 == number) {
+                    return Some(Err(io::Error::from_raw_os_error(errno)));
+                }
+                if inside.mischief.reset == Some(number) {
+                    inside.device.reset();
+                }
+                inside.gone = inside.mischief.gone == Some(number);
+            }
+            if let Some((_, noise)) = inside.mischief.babble.filter(|babble| number >= babble.0) {
+                bytes.iter_mut().zip(noise.into_iter().cycle()).for_each(|(place, byte)| *place = byte);
+                return Some(Ok(bytes.len()));
+            }
+            if inside.mischief.silent.is_some_and(|silent| number >= silent) {
+                return None;
+            }
+            let given = inside.device.give(&mut bytes[done..]);
+            done += given.bytes;
+            (done == bytes.len() || given.is_end).then_some(Ok(done))
+        });
+        result
+    }
+}
+
+impl RegisterFile for MemoryCard {
+    fn read(&mut self, offset: u32) -> io::Result<u32> {
+        let mut inside = self.inside.0.lock().unwrap();
+        if inside.gone {
+            return Ok(u32::MAX);
+        }
+        if let Some((_, value)) = inside.mischief.register.filter(|register| register.0.offset() == offset) {
+            return Ok(value);
+        }
+        inside.device.read(offset).map_err(|_| io::Error::from_raw_os_error(5))
+    }
+
+    fn write(&mut self, offset: u32, value: u32) -> io::Result<()> {
+        let (mutex, changed) = &*self.inside;
+        let mut inside = mutex.lock().unwrap();
+        changed.notify_all();
+        inside.device.write(offset, value).map_err(|_| io::Error::from_raw_os_error(5))
+    }
+}

@@ -1,0 +1,257 @@
+//! The engine and a board on a line with a delay and faults, in virtual time; a transport of the two for whole jobs.
+
+use std::cell::Cell;
+use std::collections::VecDeque;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+use incircle::serial::{Engine, Params, SerialFault};
+use incircle::{Transport, TransportError};
+
+use super::board::Board;
+use super::Random;
+
+/// One direction of the line.
+#[derive(Default)]
+struct Wire {
+    free_at: Duration,
+    /// Arrival, rate, bytes.
+    under_way: VecDeque<(Duration, u32, Vec<u8>)>,
+}
+
+/// What happens to a frame on the line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    Passes,
+    Lost,
+    Twice,
+    /// The next one overtakes it.
+    Overtaken,
+    Changed,
+}
+
+/// Which frame it is: towards the host or not, and how many went that way before.
+pub type Faults = Box<dyn FnMut(bool, usize) -> Fate>;
+
+pub struct Rig {
+    pub engine: Engine,
+    pub board: Board,
+    pub now: Duration,
+    pub delay: Duration,
+    /// The line carries bytes at once, as the pseudo-terminal of a simulated board does; the engine reckons by the rate all the same.
+    pub is_instant: bool,
+    /// Errors per bit.
+    pub noise: f64,
+    pub faults: Faults,
+    /// Nothing passes any more from then on.
+    pub cut_at: Duration,
+    /// The board is reset then.
+    pub reset_at: Option<Duration>,
+    pub random: Random,
+    /// Bits that noise has changed.
+    pub flipped: Rc<Cell<usize>>,
+    pub frames: [usize; 2],
+    wires: [Wire; 2],
+    held: [Option<Vec<u8>>; 2],
+    speaks_until: Duration,
+    speaks: bool,
+    answer: VecDeque<u32>,
+    /// Virtual time for a command.
+    pub patience: Duration,
+    pub last_fault: Option<SerialFault>,
+}
+
+impl Rig {
+    pub fn new(params: Params, fifo: u32) -> Self {
+        Self {
+            engine: Engine::new(params),
+            board: Board::new(fifo),
+            now: Duration::from_secs(5),
+            delay: Duration::from_micros(500),
+            is_instant: false,
+            noise: 0.0,
+            faults: Box::new(|_, _| Fate::Passes),
+            cut_at: Duration::MAX,
+            reset_at: None,
+            random: Random(1),
+            flipped: Rc::default(),
+            frames: [0; 2],
+            wires: [Wire::default(), Wire::default()],
+            held: [None, None],
+            speaks_until: Duration::ZERO,
+            speaks: false,
+            answer: VecDeque::new(),
+            patience: Duration::from_secs(60),
+            last_fault: None,
+        }
+    }
+
+    /// Puts bytes on the line.
+    fn carry(&mut self, to_host: bool, bytes: &[u8], rate: u32) -> Duration {
+        let way = usize::from(to_host);
+        for piece in bytes.split_inclusive(|&byte| byte == 0) {
+            let bits = if self.is_instant { 0 } else { 10 * piece.len() as u64 };
+            let time = Duration::from_nanos(bits * 1_000_000_000 / u64::from(rate));
+            self.wires[way].free_at = self.wires[way].free_at.max(self.now) + time;
+            let fate = if piece.len() > 1 {
+                self.frames[way] += 1;
+                (self.faults)(to_host, self.frames[way] - 1)
+            } else {
+                Fate::Passes
+            };
+            let mut bytes = piece.to_vec();
+            self.disturb(&mut bytes, fate == Fate::Changed);
+            let mut pieces = match fate {
+                Fate::Lost => vec![],
+                Fate::Twice => vec![bytes.clone(), bytes],
+                Fate::Overtaken => {
+                    self.held[way] = Some(bytes);
+                    vec![]
+                }
+                Fate::Passes | Fate::Changed => vec![bytes],
+            };
+            if fate != Fate::Overtaken && piece.len() > 1 {
+                pieces.extend(self.held[way].take());
+            }
+            let arrival = self.wires[way].free_at + self.delay;
+            if self.now < self.cut_at {
+                self.wires[way].under_way.extend(pieces.into_iter().map(|bytes| (arrival, rate, bytes)));
+            }
+        }
+        self.wires[way].free_at
+    }
+
+    fn disturb(&mut self, bytes: &mut [u8], must: bool) {
+        if must {
+            let place = self.random.below(bytes.len() as u32) as usize;
+            bytes[place] ^= 1 << self.random.below(8);
+        }
+        if self.noise > 0.0 {
+            for byte in bytes {
+                for bit in 0..8 {
+                    if (self.random.next() >> 11) as f64 / (1u64 << 53) as f64 <= self.noise {
+                        *byte ^= 1 << bit;
+                        self.flipped.set(self.flipped.get() + 1);
+                    }
+                }
+            }
+        }
+    }
+
+    fn arrive(&mut self, to_host: bool) {
+        let rate = if to_host { self.engine.rate() } else { self.board.rate };
+        while let Some((arrival, _, _)) = self.wires[usize::from(to_host)].under_way.front() {
+            if *arrival > self.now {
+                return;
+            }
+            let Some((_, sent, mut bytes)) = self.wires[usize::from(to_host)].under_way.pop_front() else { return };
+            // Rates that differ by less than a fiftieth are equal for a UART.
+            if sent.abs_diff(rate) > rate / 50 || sent > self.board.usable {
+                for byte in &mut bytes {
+                    *byte = self.random.next() as u8;
+                }
+            }
+            if to_host {
+                self.engine.receive(&bytes, self.now);
+            } else {
+                self.board.take(&bytes, self.now);
+            }
+        }
+    }
+
+    /// Runs until the engine is through; false if the time is over before.
+    pub fn run(&mut self, until: Duration, mut done: impl FnMut(&mut Engine) -> bool) -> bool {
+        loop {
+            if self.reset_at.is_some_and(|at| at <= self.now) {
+                self.reset_at = None;
+                self.board.reset();
+            }
+            self.arrive(false);
+            self.board.tick(self.now);
+            if self.now >= self.speaks_until {
+                if std::mem::take(&mut self.speaks) {
+                    self.board.said();
+                }
+                if let Some(frame) = self.board.say() {
+                    let rate = self.board.rate;
+                    self.speaks_until = self.carry(true, &frame, rate);
+                    self.speaks = true;
+                }
+            }
+            self.arrive(true);
+            if done(&mut self.engine) {
+                return true;
+            }
+            let mut out = Vec::new();
+            let before = self.engine.rate();
+            self.engine.transmit(self.now, &mut out);
+            assert!(out.is_empty() || before == self.engine.rate(), "bytes with a change of rate");
+            self.carry(false, &out, before);
+            if done(&mut self.engine) {
+                return true;
+            }
+            let next = [
+                self.engine.next_wake(),
+                self.wires[0].under_way.front().map(|(arrival, _, _)| *arrival),
+                self.wires[1].under_way.front().map(|(arrival, _, _)| *arrival),
+                self.speaks.then_some(self.speaks_until),
+                self.board.is_eating().then(|| self.now + Duration::from_micros(100)),
+                self.reset_at,
+            ];
+            let next = next.into_iter().flatten().min().unwrap_or(until);
+            self.now = next.max(self.now + Duration::from_nanos(100));
+            if self.now >= until {
+                self.now = until;
+                return false;
+            }
+        }
+    }
+
+    /// Frames and zeros on the line.
+    pub fn under_way(&self, to_host: bool) -> usize {
+        self.wires[usize::from(to_host)].under_way.len()
+    }
+
+    /// A command and its answer.
+    pub fn ask(&mut self, command: &[u32]) -> Result<Vec<u32>, TransportError> {
+        self.engine.ask(command, self.now)?;
+        self.finish()
+    }
+
+    /// The answer to the command that was asked.
+    pub fn finish(&mut self) -> Result<Vec<u32>, TransportError> {
+        let mut answer = None;
+        let until = self.now + self.patience;
+        let is_done = self.run(until, |engine| {
+            answer = engine.take_answer();
+            answer.is_some() || engine.check().is_err()
+        });
+        self.engine.check()?;
+        answer.filter(|_| is_done).ok_or(TransportError::Timeout { done: 0, wanted: 0 })
+    }
+}
+
+impl Transport for Rig {
+    fn send(&mut self, words: &[u32], _: Instant) -> Result<(), TransportError> {
+        let result = self.ask(words);
+        if let Err(TransportError::Serial(fault)) = &result {
+            self.last_fault = Some(fault.clone());
+        }
+        self.answer = result?.into();
+        Ok(())
+    }
+
+    fn receive(&mut self, words: &mut [u32], _: Instant) -> Result<(), TransportError> {
+        assert!(self.answer.len() >= words.len());
+        words.fill_with(|| self.answer.pop_front().expect("enough"));
+        Ok(())
+    }
+
+    fn name(&self) -> String {
+        "rig".to_owned()
+    }
+
+    fn packs_records(&self) -> bool {
+        false
+    }
+}

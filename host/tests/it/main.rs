@@ -1,0 +1,28 @@
+//! The tests of the library, in one program. Modules mirror the sources; `common` has the devices that tests make up.
+
+mod common;
+
+mod cpu;
+mod hierarchy;
+mod hostile;
+mod oracle;
+mod quantize;
+
+mod batch {
+    mod frames;
+    mod jobs;
+    mod middle_jobs;
+}
+
+mod transports {
+    mod clock;
+    mod model;
+    mod pcie;
+    mod serial {
+        mod hostile;
+        mod jobs;
+        #[cfg(unix)]
+        mod port;
+        mod sessions;
+    }
+}

@@ -1,0 +1,223 @@
+//! The driver of PCIe cards before a card in memory: jobs, each class of faults, cards that lie.
+
+use std::time::{Duration, Instant};
+
+use crate::common::card::{MemoryCard, Mischief};
+use incircle::pcie::{PcieFault, PcieTransport};
+use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Transport, TransportError};
+use incircle_protocol::{command_word, Opcode, StreamRegister, SMALL};
+use proptest::prelude::*;
+
+/// Deadline of a job.
+const LIMIT: Duration = Duration::from_secs(20);
+
+fn points(count: u32, seed: u32) -> Vec<Point> {
+    let at = |k: u32| Point::new(k.wrapping_mul(seed | 1).wrapping_mul(2_654_435_761) >> 16, k * 40_503 % 65_521);
+    (0..count).map(at).collect()
+}
+
+fn transport(beat_bits: u32, mischief: Mischief) -> Result<PcieTransport, Error> {
+    PcieTransport::new("pcie:memory".to_owned(), MemoryCard::new(SMALL, beat_bits, mischief).files())
+}
+
+fn triangulate(transport: PcieTransport, points: &[Point]) -> Result<Mesh, Error> {
+    let options = Options { timeout: Some(LIMIT), ..Options::default() };
+    Device::from_transport(Box::new(transport)).session_within(LIMIT)?.triangulate_with(points, &options)
+}
+
+/// The mesh is that of the library without a device.
+fn assert_is_right(mesh: &Mesh, points: &[Point]) {
+    let right = incircle::triangulate(points).unwrap();
+    assert_eq!((&mesh.triangles, &mesh.hull), (&right.triangles, &right.hull));
+}
+
+#[test]
+#[should_panic(expected = "assertion `left == right` failed")]
+fn another_mesh_is_not_taken_for_the_right_one() {
+    let points = points(300, 3);
+    let mesh = triangulate(transport(64, Mischief::default()).unwrap(), &points).unwrap();
+    assert_is_right(&mesh, &[&points[..299], &[Point::new(9, 9)]].concat());
+}
+
+/// The job must end with the right mesh.
+fn must_be_right(beat_bits: u32, mischief: Mischief, what: &str) {
+    let points = points(300, 3);
+    let transport = transport(beat_bits, mischief).unwrap();
+    let mesh = triangulate(transport, &points).unwrap_or_else(|error| panic!("{what}: {error}"));
+    assert_eq!(mesh.triangles, incircle::triangulate(&points).unwrap().triangles, "{what}");
+}
+
+/// The job must end with this kind of error, in time.
+fn must_fail(mischief: Mischief, kind: ErrorKind, sentence: &str) {
+    let begun = Instant::now();
+    let error = transport(64, mischief).and_then(|card| triangulate(card, &points(300, 3))).expect_err(sentence);
+    assert_eq!(error.kind(), kind, "{error}");
+    assert!(error.to_string().contains(sentence), "{error}");
+    assert!(begun.elapsed() < LIMIT, "{error}");
+}
+
+#[test]
+fn jobs_through_beats_of_both_widths() {
+    for bits in [64, 128] {
+        must_be_right(bits, Mischief::default(), "a sound card");
+        for short in [16, 48, 1008] {
+            must_be_right(bits, Mischief { short: Some(short), ..Mischief::default() }, "short reads");
+        }
+    }
+}
+
+#[test]
+fn a_session_does_job_after_job() {
+    let mut device = Device::from_transport(Box::new(transport(128, Mischief::default()).unwrap()));
+    let mut session = device.session().unwrap();
+    for count in [0, 2, 3, 5, 1024, 100] {
+        let points = points(count, 7);
+        let mesh = session.triangulate(&points).unwrap();
+        assert_eq!(mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
+    }
+    let error = session.triangulate(&points(1025, 7)).expect_err("too many");
+    assert_eq!(error.kind(), ErrorKind::Capacity);
+}
+
+#[test]
+fn an_engine_that_times_out_once_costs_no_job() {
+    for errno in [5, 512] {
+        for number in 0..5 {
+            let bad = Some((number, errno));
+            must_be_right(64, Mischief { bad_read: bad, ..Mischief::default() }, "a failed read");
+            must_be_right(64, Mischief { bad_write: bad, ..Mischief::default() }, "a failed write");
+        }
+    }
+}
+
+#[test]
+fn a_reset_between_reads_costs_no_job() {
+    for number in 0..5 {
+        let card = transport(64, Mischief { reset: Some(number), ..Mischief::default() }).unwrap();
+        let points = points(300, 3);
+        // The command under way was forgotten, or the records before it, and the job was done once more.
+        let mesh = triangulate(card, &points).unwrap_or_else(|error| panic!("read {number}: {error}"));
+        assert_eq!(mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
+    }
+}
+
+#[test]
+fn a_reset_in_the_middle_of_the_points_costs_no_job() {
+    // A beat at a time, through the commands before the points and the first of them, which are then taken for commands.
+    for beat in 5..120 {
+        must_be_right(64, Mischief { reset_after: Some(8 * beat), ..Mischief::default() }, "a reset");
+    }
+}
+
+#[test]
+fn cards_that_are_gone_or_silent_are_typed_errors() {
+    for number in 0..5 {
+        must_fail(Mischief { gone: Some(number), ..Mischief::default() }, ErrorKind::Link, "the card is gone");
+    }
+    must_fail(Mischief { silent: Some(2), ..Mischief::default() }, ErrorKind::Link, "errno 512");
+    let other = Mischief { bad_read: Some((1, 1)), ..Mischief::default() };
+    must_fail(other, ErrorKind::Link, "the reading of answers failed with");
+}
+
+#[test]
+fn registers_that_no_sound_card_has_are_refused() {
+    use StreamRegister as Of;
+    for (register, value, kind, sentence) in [
+        (Of::Magic, u32::MAX, ErrorKind::Link, "the card is gone"),
+        (Of::Magic, 0x1234, ErrorKind::DeviceNotFound, "begin with 0x00001234"),
+        (
+            Of::StreamVersion,
+            2 << 16,
+            ErrorKind::Device,
+            "2.0 of the stream device, this library 1.0: update this program",
+        ),
+        (Of::StreamVersion, 9, ErrorKind::Device, "update the card"),
+        (Of::ProtocolVersion, 9 << 16, ErrorKind::Device, "protocol 9.0"),
+        (Of::ProtocolVersion, 1 << 16, ErrorKind::Device, "protocol 1.0"),
+        (Of::CoordBits, 32, ErrorKind::Device, "32 coordinate bits"),
+        (Of::Capacity, u32::MAX, ErrorKind::Device, "4294967295 points"),
+        (Of::Contexts, 0, ErrorKind::Device, "0 contexts"),
+        (Of::BeatBits, 96, ErrorKind::Device, "bits of a beat reads 96"),
+        (Of::FifoBeats, 0, ErrorKind::Device, "beats of a FIFO reads 0"),
+    ] {
+        must_fail(Mischief { register: Some((register, value)), ..Mischief::default() }, kind, sentence);
+    }
+    // Another capacity than the core's own: answers have other lengths than the driver awaits.
+    let lie = Mischief { register: Some((Of::Capacity, 100_000)), ..Mischief::default() };
+    let points = points(300, 3);
+    match triangulate(transport(64, lie).unwrap(), &points) {
+        Ok(mesh) => assert_is_right(&mesh, &points),
+        Err(error) => assert!(matches!(error.kind(), ErrorKind::Device | ErrorKind::Link), "{error}"),
+    }
+}
+
+#[test]
+fn an_answer_without_an_end_is_refused() {
+    // A header of `Clear`, no payload, and then more.
+    let mut transport = transport(
+        64,
+        Mischief { babble: Some((0, [0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0])), ..Mischief::default() },
+    )
+    .unwrap();
+    let deadline = Instant::now() + LIMIT;
+    transport.send(&[command_word(Opcode::Hello)], deadline).unwrap();
+    let error = transport.receive(&mut [0; 9], deadline).expect_err("too long");
+    assert!(matches!(error, TransportError::Pcie(PcieFault::Endless { announced: 2, .. })), "{error}");
+    let error = transport.send(&[command_word(Opcode::Hello)], deadline).expect_err("the fault stays");
+    assert!(error.to_string().contains("an answer of 2 words"), "{error}");
+    assert!(matches!(transport.recover(deadline), Ok(false)));
+}
+
+#[test]
+fn commands_may_be_sent_ahead_and_in_pieces() {
+    let mut transport = transport(128, Mischief::default()).unwrap();
+    let deadline = Instant::now() + LIMIT;
+    // Whole commands, then one that is cut within a beat.
+    let words: Vec<u32> =
+        [vec![command_word(Opcode::Latencies); 300], vec![command_word(Opcode::Insert), 3, 0, 4]].concat();
+    transport.send(&words, deadline).unwrap();
+    transport.send(&[4 << 16, command_word(Opcode::Hello)], deadline).unwrap();
+    let mut answer = [0; 130];
+    for _ in 0..300 {
+        transport.receive(&mut answer, deadline).unwrap();
+        assert_eq!(answer[..2], [0x0600_0000, 128]);
+    }
+    let mut rest = [0; 7 + 9];
+    transport.receive(&mut rest, deadline).unwrap();
+    assert_eq!(rest[..8], [0x0300_0000, 5, 3, 3, 0, 0, 4, 0x0100_0000]);
+    let error = transport.receive(&mut [0], deadline).expect_err("nothing is due");
+    assert!(matches!(error, TransportError::Closed { done: 0, wanted: 1 }), "{error}");
+}
+
+#[test]
+fn deadlines_are_kept() {
+    // The card itself would be silent for ten minutes.
+    let patience = Some(Duration::from_secs(600));
+    let mut transport = transport(64, Mischief { silent: Some(0), patience, ..Mischief::default() }).unwrap();
+    transport.send(&[command_word(Opcode::Hello)], Instant::now() + LIMIT).unwrap();
+    let begun = Instant::now();
+    let error = transport.receive(&mut [0], begun + Duration::from_millis(60)).expect_err("silence");
+    assert!(matches!(error, TransportError::Timeout { done: 0, wanted: 1 }), "{error}");
+    assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    /// Whatever a card says, there is an end: a typed error, in time, without a panic.
+    #[test]
+    fn noise_ends_in_a_typed_error(from in 0_u32..6, noise in any::<[u8; 16]>(), header in any::<bool>(), opcode in 1_u8..8, length in 0_u8..40) {
+        let mut noise = noise;
+        if header {
+            noise[..8].copy_from_slice(&[0, 0, 0, opcode, length, 0, 0, 0]);
+        }
+        let mischief = Mischief { babble: Some((from, noise)), ..Mischief::default() };
+        let card = transport(64, mischief).unwrap();
+        let points = points(50, 5);
+        let result = triangulate(card, &points);
+        prop_assert!(result.is_err() || from == 5, "{result:?}");
+        if let Ok(mesh) = result {
+            assert_is_right(&mesh, &points);
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Sessions of the serial link's engine, one after the other, in virtual time: what is late of one, what is left of one, and rates that do not work.
+
+use std::time::Duration;
+
+use crate::common::board;
+use crate::common::rig::{Fate, Rig};
+use incircle::serial::{Engine, Params, SerialFault};
+use incircle::TransportError;
+use incircle_protocol::{command_word, Opcode, FIRST_RATE, MAX_SILENCE_MS};
+
+const HELLO: [u32; 1] = [command_word(Opcode::Hello)];
+/// Header of a device's frame without a session: `NoSession`, 4,096 bytes free.
+const NO_SESSION: [u8; 7] = [0, 0x87, 0, 0, 0, 16, 0];
+
+fn rig() -> Rig {
+    Rig::new(Params::with_rate(12_000_000), 4096)
+}
+
+/// At the first rate.
+fn slow_rig(session: u8) -> Rig {
+    Rig::new(Params { rates: vec![], session }, 4096)
+}
+
+#[test]
+fn a_late_frame_of_a_session_is_nothing_to_the_next() {
+    let mut rig = slow_rig(7);
+    rig.ask(&HELLO).expect("a sound line");
+    // The host says `Poll`, and sleeps while the `Ack` is on its way.
+    let polls = rig.engine.statistics().polls;
+    assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.statistics().polls > polls));
+    rig.run(rig.now + Duration::from_micros(2500), |_| false);
+    assert_eq!(rig.under_way(true), 1);
+    // So long that the session is opened anew for a command that needs nothing of it.
+    rig.now += Duration::from_millis(1700);
+    rig.ask(&HELLO).expect("a sound line");
+    assert_eq!(rig.board.session, 9);
+}
+
+#[test]
+fn a_frame_without_a_session_is_nothing_to_a_greeting() {
+    let mut rig = slow_rig(0);
+    rig.engine.ask(&HELLO, rig.now).expect("a command");
+    rig.engine.receive(&board::frame(&NO_SESSION), rig.now);
+    rig.finish().expect("a sound line");
+}
+
+#[test]
+fn every_session_has_another_number() {
+    for before in [0, 1, 41, 254, 255] {
+        let mut rig = slow_rig(before);
+        let mut last = before;
+        for _ in 0..300 {
+            rig.ask(&HELLO).expect("a sound line");
+            assert_eq!(rig.board.session, last.checked_add(1).unwrap_or(1), "after {before}");
+            last = rig.board.session;
+            rig.engine.close(rig.now);
+            assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.is_closed()));
+        }
+    }
+}
+
+/// The device forgets the session before the host has seen that the rate does not work, and the first acknowledgement is lost.
+#[test]
+fn a_rate_that_does_not_work_is_left_also_where_silence_is_short() {
+    let mut rig = rig();
+    rig.board.greeting[5] = 400;
+    rig.board.usable = 200_000;
+    rig.faults = Box::new(|to_host, frame| if to_host && frame == 2 { Fate::Lost } else { Fate::Passes });
+    let since = rig.now;
+    rig.ask(&HELLO).expect("the first rate works");
+    assert_eq!(rig.engine.rate(), FIRST_RATE);
+    assert!(rig.now - since < Duration::from_secs(5), "{:?}", rig.now - since);
+}
+
+#[test]
+fn a_device_without_a_session_is_greeted_at_the_first_rate() {
+    let mut rig = rig();
+    rig.engine.ask(&HELLO, rig.now).expect("a command");
+    assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.rate() != FIRST_RATE));
+    rig.engine.receive(&board::frame(&NO_SESSION), rig.now);
+    assert_eq!(rig.engine.rate(), FIRST_RATE);
+    rig.finish().expect("after the silence");
+    assert_eq!(rig.engine.rate(), 3_000_000);
+}
+
+#[test]
+fn a_device_with_the_longest_silence_is_found_at_any_rate() {
+    let mut rig = rig();
+    rig.board.greeting[5] = MAX_SILENCE_MS;
+    rig.ask(&HELLO).expect("a sound line");
+    rig.engine = Engine::new(Params { session: 77, ..Params::with_rate(3_000_000) });
+    rig.ask(&HELLO).expect("after the silence");
+    assert_eq!(rig.engine.rate(), 3_000_000);
+}
+
+/// The longest way to a session: a device at a high rate, then no rate that works and no acknowledgement that comes.
+#[test]
+fn the_ladder_of_rates_is_done_in_the_time_for_a_greeting() {
+    let mut rig = rig();
+    rig.ask(&HELLO).expect("a sound line");
+    rig.engine = Engine::new(Params { session: 77, ..Params::with_rate(12_000_000) });
+    rig.board.usable = 200_000;
+    // `Hello`, `Opened`, `Ack`, three times.
+    let first = rig.frames[1];
+    rig.faults = Box::new(move |to_host, frame| {
+        let is_lost = to_host && frame < first + 9 && (frame - first) % 3 == 2;
+        if is_lost {
+            Fate::Lost
+        } else {
+            Fate::Passes
+        }
+    });
+    let since = rig.now;
+    rig.ask(&HELLO).expect("the first rate works");
+    let took = rig.now - since;
+    assert!(took > Duration::from_secs(10) && took < Duration::from_secs(15), "{took:?}");
+}
+
+#[test]
+fn a_command_may_follow_a_greeting_at_once() {
+    let mut rig = rig();
+    rig.engine.greet(rig.now);
+    rig.ask(&HELLO).expect("a sound line");
+    rig.ask(&HELLO).expect("a sound line");
+    let mut rig = self::rig();
+    rig.engine.greet(rig.now);
+    rig.engine.open(rig.now);
+    assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.is_open()));
+}
+
+#[test]
+fn closing_gives_up_the_command_under_way() {
+    for microseconds in [0, 300, 3_000, 20_000, 100_000] {
+        let mut rig = rig();
+        rig.engine.ask(&HELLO, rig.now).expect("a command");
+        rig.run(rig.now + Duration::from_micros(microseconds), |_| false);
+        rig.engine.close(rig.now);
+        assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.is_closed()));
+        assert_eq!(rig.engine.take_answer(), None, "{microseconds}");
+        rig.ask(&HELLO).unwrap_or_else(|error| panic!("{microseconds}: {error}"));
+    }
+}
+
+#[test]
+fn the_core_must_say_what_the_greeting_said() {
+    for (word, value) in [(2, 9), (3, 20), (4, 1000), (5, 3), (6, 64)] {
+        let mut rig = rig();
+        let found = std::mem::replace(&mut rig.board.greeting[6 + word], value);
+        let error = rig.ask(&HELLO).expect_err("they differ");
+        let fault = SerialFault::Contradiction { word, found, expected: value };
+        assert!(matches!(&error, TransportError::Serial(said) if *said == fault), "{error}");
+    }
+}

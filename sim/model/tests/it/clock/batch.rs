@@ -1,0 +1,218 @@
+//! Jobs side by side in one memory: every one of them gets the mesh that it gets alone, from the model by commands and clock by clock.
+
+use crate::common::batches::{taken_apart, Batch};
+use crate::common::bench::{limit, Answer, Answers, Bench, Stalls};
+use crate::common::mesh_check::{canonical, records_of};
+use crate::common::{sets, Random};
+use incircle_model::CommandModel;
+use incircle_protocol::{
+    batch_word, clear_word, command_word, Config, Counter, Opcode, Status, COUNTER_WORDS, FULL, SMALL,
+};
+
+/// `Clear` for a batch, and an `Insert` for each piece of so many points.
+fn words_of(clear: u32, points: &[u32], piece: usize) -> Vec<u32> {
+    let mut words = vec![clear];
+    for piece in points.chunks(piece.max(1)) {
+        words.extend([command_word(Opcode::Insert), piece.len() as u32]);
+        words.extend(piece);
+    }
+    words
+}
+
+/// What the model by commands answers.
+fn expected(model: &mut CommandModel, words: &[u32]) -> Vec<Answer> {
+    model.send(words);
+    let mut answers = Answers::default();
+    let mut word = [0];
+    while model.receive(&mut word) == 1 {
+        answers.take(word[0]);
+    }
+    answers.whole
+}
+
+fn model(config: Config) -> CommandModel {
+    CommandModel::new(16, config.points, config.ring).expect("possible").with_contexts(config.contexts)
+}
+
+/// Every job of a batch has the mesh that it has alone.
+fn expect_single_meshes(records: &[[u32; 3]], points: &[u32], jobs: u32, config: Config) {
+    let apart = taken_apart(records, jobs, config).unwrap_or_else(|fault| panic!("{fault}, {points:x?}"));
+    for (job, records) in (0..jobs).zip(apart) {
+        let own: Vec<u32> = (0..)
+            .zip(points)
+            .filter(|&(id, _)| if id < 3 * jobs { id / 3 == job } else { (id - 3 * jobs) % jobs == job })
+            .map(|(_, point)| *point)
+            .collect();
+        let mut alone = model(config);
+        alone.send(&words_of(clear_word(1), &own, own.len()));
+        let right = canonical(&records_of(alone.mesh(), config.points), &own, config.points);
+        assert!(right.is_ok(), "{right:?}");
+        assert_eq!(canonical(&records, &own, config.points), right, "job {job} of {jobs}, {own:x?}");
+    }
+}
+
+/// Runs a batch on both models and compares; returns the counters.
+fn compare(bench: &mut Bench, jobs: u32, points: &[u32], piece: usize, stalls: Stalls, random: &mut Random) -> Answer {
+    let config = bench.config;
+    let words = words_of(batch_word(jobs), points, piece);
+    let mut by_commands = model(config);
+    let wanted = expected(&mut by_commands, &words);
+    let what = || format!("{config:?}, {jobs} jobs, pieces of {piece}, {points:x?}");
+    let most = 4 * limit(points.len());
+    let mut run = |words: &[u32], count| match bench.run(words, count, stalls, most, random) {
+        Ok(answers) => answers,
+        Err(hang) => panic!("stuck: {}, {}", hang.0, what()),
+    };
+    assert_eq!(run(&words, wanted.len()), wanted, "{}", what());
+    let count = by_commands.mesh().records().len() as u32;
+    let read = run(&[command_word(Opcode::Read), 0, count], 1).swap_remove(0);
+    let records: Vec<[u32; 3]> = read.payload.chunks_exact(3).map(|words| [words[0], words[1], words[2]]).collect();
+    assert!(read.is(Status::Ok));
+    let arrived = &points[..points.len().min(config.points as usize)];
+    let is_whole = arrived.len() as u32 >= 3 * jobs && !by_commands.mesh().is_collinear();
+    if is_whole {
+        expect_single_meshes(&records, arrived, jobs, config);
+        expect_single_meshes(&records_of(by_commands.mesh(), config.points), arrived, jobs, config);
+    }
+    let free = (0..2 * config.points).all(|id| bench.core.record_words(id)[0] >> 31 == 0);
+    assert!(free, "a lock is left, {}", what());
+    let counters = bench.counters().expect("in time");
+    assert_eq!(counters.counter(Counter::Aborts), 0, "jobs meet no locks of each other, {}", what());
+    counters
+}
+
+#[test]
+fn every_job_gets_the_mesh_it_gets_alone() {
+    let mut random = Random(31);
+    let mut seen = [0u64; COUNTER_WORDS];
+    for ring in [3, 6, 9, 32, 64] {
+        for contexts in [1, 2, 3, 4, 7, 16, 24] {
+            let config = Config { name: "test", points: 512, ring, contexts };
+            let mut bench = Bench::new(config);
+            for turn in 0..12 {
+                let asked = random.below(contexts + 1);
+                let jobs = if asked == 0 { contexts } else { asked };
+                let most = [4, 20, 400 / jobs, 600 / jobs][turn % 4];
+                let batch = Batch::random(&mut random, jobs, most, true);
+                let mut points = batch.points();
+                // The last round may be cut short: later jobs are then a point shorter.
+                points.truncate(points.len() - random.below(jobs) as usize);
+                let points = &points[..points.len().max(3 * jobs as usize)];
+                let stalls = [(0, 0), (2, 3), (5, 2), (40, 40)][turn % 4];
+                let stalls = Stalls { idle: stalls.0, full: stalls.1, beat: 0 };
+                let piece = [points.len(), 1 + random.below(40) as usize][turn % 2];
+                let counters = compare(&mut bench, jobs, points, piece, stalls, &mut random);
+                for (sum, value) in seen.iter_mut().zip(&counters.payload) {
+                    *sum += u64::from(*value);
+                }
+                if turn % 3 == 0 {
+                    // What is no batch works as ever in between.
+                    let points = sets::started(sets::boxed(&mut random, 60, 100));
+                    let answer = bench.insert(0, &points).expect("in time");
+                    assert!(answer.is(Status::Ok));
+                }
+            }
+        }
+    }
+    let least = |counter: Counter, count: u64| {
+        let found = seen[counter as usize];
+        assert!(found >= count, "{counter:?} only {found} times");
+    };
+    least(Counter::Insertions, 40_000);
+    least(Counter::Duplicates, 20_000);
+    least(Counter::Refused, 1000);
+    least(Counter::Overflows, 5000);
+}
+
+#[test]
+fn a_triple_on_a_line_ends_the_batch() {
+    let mut random = Random(32);
+    for contexts in [1, 2, 5, 16] {
+        let config = Config { name: "test", points: 256, ring: 9, contexts };
+        let mut bench = Bench::new(config);
+        for _ in 0..20 {
+            let mut batch = Batch::random(&mut random, contexts, 10, true);
+            let flat = random.below(contexts) as usize;
+            batch.jobs[flat][..3].copy_from_slice(&[0, 0x1_0001, 0x5_0005]);
+            let points = batch.points();
+            let piece = 1 + random.below(points.len() as u32) as usize;
+            compare(&mut bench, contexts, &points, piece, Stalls { idle: 3, full: 3, beat: 0 }, &mut random);
+            let nothing = bench.run(&[command_word(Opcode::Insert), 0], 1, Stalls::default(), 500, &mut random);
+            let nothing = nothing.expect("in time").swap_remove(0);
+            let report = nothing.report();
+            assert!(nothing.is(Status::Collinear));
+            assert_eq!((report.inserted, report.records), (3 * flat as u32, 4 * flat as u32));
+        }
+    }
+}
+
+#[test]
+fn fewer_points_than_three_a_job_are_waited_for() {
+    let mut random = Random(33);
+    for contexts in [2, 4, 16] {
+        let config = Config { name: "test", points: 64, ring: 9, contexts };
+        let mut bench = Bench::new(config);
+        let batch = Batch::random(&mut random, contexts, 5, true);
+        let points = batch.points();
+        for count in 0..=3 * contexts as usize {
+            compare(&mut bench, contexts, &points[..count], 1 + count / 3, Stalls::default(), &mut random);
+        }
+        // More jobs than the memory has room for.
+        let tight = Config { points: 4, ..config };
+        let mut bench = Bench::new(tight);
+        compare(&mut bench, contexts, &points, points.len(), Stalls::default(), &mut random);
+    }
+}
+
+#[test]
+fn too_many_jobs_are_refused() {
+    let mut bench = Bench::new(SMALL);
+    let mut by_commands = model(SMALL);
+    let mut random = Random(34);
+    let points = sets::started(sets::boxed(&mut random, 40, 100));
+    bench.insert(0, &points).expect("in time");
+    for jobs in [5, 24, 255] {
+        let refused = bench.run(&[batch_word(jobs)], 1, Stalls::default(), 500, &mut random).expect("in time");
+        assert!(refused[0].is(Status::BadContexts));
+        assert_eq!(expected(&mut by_commands, &[batch_word(jobs)]), refused);
+    }
+    let more = bench.run(&[command_word(Opcode::Insert), 1, 0x7_0009], 1, Stalls::default(), 5000, &mut random);
+    assert_eq!(more.expect("in time")[0].report().arrived, 44, "nothing was cleared");
+}
+
+#[test]
+fn reset_in_mid_batch_leaves_nothing_behind() {
+    let mut random = Random(35);
+    for contexts in [2, 16] {
+        let config = Config { name: "test", points: 256, ring: 9, contexts };
+        let mut bench = Bench::new(config);
+        for _ in 0..20 {
+            let points = Batch::random(&mut random, contexts, 12, true).points();
+            let clocks = u64::from(random.below(6000));
+            let words = words_of(batch_word(0), &points, points.len());
+            // It may end before that or not.
+            let _ = bench.run(&words, 2, Stalls::default(), clocks, &mut random);
+            bench.reset();
+            // A reset ends the batch, too.
+            let points = sets::started(sets::boxed(&mut random, 60, 50));
+            let words = words_of(clear_word(0), &points, points.len());
+            let answers = bench.run(&words[1..], 1, Stalls::default(), limit(60), &mut random).expect("in time");
+            let mut alone = model(config);
+            assert_eq!(expected(&mut alone, &words)[1], answers[0]);
+        }
+    }
+}
+
+/// Sixteen jobs of 200 points each, with nothing that holds them up.
+#[test]
+fn sixteen_small_jobs_side_by_side_keep_the_core_busy() {
+    let mut random = Random(36);
+    let jobs = (0..16).map(|_| sets::started(sets::boxed(&mut random, 197, 1 << 16))).collect();
+    let points = Batch { jobs }.points();
+    assert_eq!(points.len(), 3200);
+    let mut bench = Bench::new(FULL);
+    let counters = compare(&mut bench, 16, &points, points.len(), Stalls::default(), &mut random);
+    let cycles = counters.counter(Counter::InsertCycles) as f64 / counters.counter(Counter::Insertions) as f64;
+    println!("{cycles:.2} cycles an insertion");
+    assert!(cycles < 30.0, "{cycles}");
+}

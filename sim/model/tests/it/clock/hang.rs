@@ -1,0 +1,83 @@
+//! No job hangs: thousands of small jobs in tiny boxes, where everything is in the way of everything, for each number of contexts.
+//!
+//! A job of `n` points may take 100 times 2,000 + 40 n clocks, and its mesh must be that of the model by commands. The jobs of a
+//! number of contexts are the same in every run.
+
+use crate::common::bench::Bench;
+use crate::common::mesh_check::{canonical, records_of};
+use crate::common::{sets, Random};
+use incircle_model::CommandModel;
+use incircle_protocol::{command_word, Config, Opcode, Status, MAX_CONTEXTS};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Jobs for each of these numbers of contexts.
+const JOBS: u32 = 2000;
+const CONTEXTS: [u32; 6] = [1, 2, 4, 8, 16, 24];
+/// Jobs for each of the others: who goes round in step with whom depends on their number.
+const OTHER_JOBS: u32 = 200;
+/// Jobs that one thread does in a row.
+const PORTION: u32 = 100;
+
+fn points(random: &mut Random) -> Vec<u32> {
+    let count = 3 + random.below(298);
+    let side = 3 + random.below(38);
+    match random.below(4) {
+        0 => sets::stuttering(random, count, side),
+        _ => sets::boxed(random, count, side),
+    }
+}
+
+/// One job; the fault, if there is one.
+fn job(bench: &mut Bench, points: &[u32]) -> Result<(), String> {
+    let Config { points: capacity, ring, .. } = bench.config;
+    let mut model = CommandModel::new(16, capacity, ring).expect("a model that can be built");
+    model.send(&[command_word(Opcode::Insert), points.len() as u32]);
+    model.send(points);
+    let answer = bench.insert(0, points).map_err(|hang| hang.0)?;
+    let wanted = if model.mesh().is_collinear() { Status::Collinear } else { Status::Ok };
+    let inserted = model.mesh().counts().insertions;
+    if !answer.is(wanted) || answer.report().inserted != inserted {
+        return Err(format!("{answer:?} in place of {wanted:?} and {inserted}: {}", bench.core.describe()));
+    }
+    let records = model.mesh().records().len() as u32;
+    if records == 0 {
+        return Ok(());
+    }
+    let found = canonical(&bench.records(records), points, capacity)?;
+    if canonical(&records_of(model.mesh(), capacity), points, capacity)? != found {
+        return Err("another mesh".to_string());
+    }
+    Ok(())
+}
+
+/// Some jobs for one number of contexts.
+fn portion(contexts: u32, which: u32) {
+    let mut random = Random(u64::from(contexts << 16 | which));
+    let ring = random.pick(&[6, 9, 12, 32, 32, 64]);
+    let mut bench = Bench::new(Config { name: "test", points: 512, ring, contexts });
+    for turn in 0..PORTION {
+        let points = points(&mut random);
+        if let Err(fault) = job(&mut bench, &points) {
+            panic!("{fault}: {contexts} contexts, ring {ring}, job {turn} of portion {which}, points {points:x?}");
+        }
+    }
+}
+
+#[test]
+fn no_job_hangs() {
+    let jobs = |contexts| if CONTEXTS.contains(&contexts) { JOBS } else { OTHER_JOBS };
+    let portions: Vec<(u32, u32)> = (1..=MAX_CONTEXTS)
+        .flat_map(|contexts| (0..jobs(contexts) / PORTION).map(move |which| (contexts, which)))
+        .collect();
+    let at = AtomicUsize::new(0);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some(&(contexts, which)) = portions.get(at.fetch_add(1, Ordering::Relaxed)) {
+                    portion(contexts, which);
+                }
+            });
+        }
+    });
+}

@@ -1,0 +1,78 @@
+//! Reading a mesh from the core: how long it takes, and that every range is what it should be under any back-pressure.
+
+use crate::common::bench::{Bench, Stalls};
+use crate::common::{sets, Random};
+use incircle_protocol::{command_word, Counter, Layout, Opcode, Status, CORE_COORD_BITS, FULL, TINY};
+
+/// A core with the mesh of so many points, most of them different, and its records.
+fn filled(points: u32) -> (Bench, u32) {
+    let mut bench = Bench::new(FULL);
+    let points = sets::started(sets::boxed(&mut Random(9), points - 3, 1 << 16));
+    let answer = bench.insert(0, &points).expect("an end");
+    assert!(answer.is(Status::Ok));
+    (bench, answer.report().records)
+}
+
+/// Clocks from a read-out accepted to its last word taken, by a host that takes whatever it is offered.
+fn clocks_of(bench: &mut Bench, opcode: Opcode, count: u32) -> u64 {
+    let read_cycles = |bench: &mut Bench| bench.counters().expect("counters").counter(Counter::ReadCycles);
+    let before = read_cycles(bench);
+    let words = [command_word(opcode), 0, count];
+    let answers = bench.run(&words, 1, Stalls::default(), 100_000, &mut Random(0)).expect("an end");
+    assert!(answers[0].is(Status::Ok));
+    read_cycles(bench) - before
+}
+
+#[test]
+fn triangles_take_two_clocks_a_point() {
+    let points = 4096;
+    let (mut bench, records) = filled(points);
+    let triangles = clocks_of(&mut bench, Opcode::Triangles, records);
+    // A record a clock; the rest is the way there and back.
+    assert!(triangles <= u64::from(records) + 16, "{triangles} clocks for {records} records");
+    let per_point = triangles as f64 / f64::from(points);
+    println!("{per_point:.3} clocks a point");
+    assert!(per_point <= 2.2, "{per_point} clocks a point");
+    assert!(clocks_of(&mut bench, Opcode::Read, records) > 6 * u64::from(records), "whole records take longer");
+}
+
+#[test]
+fn every_range_of_triangles_is_that_of_the_records() {
+    let (mut bench, records) = filled(300);
+    let layout = Layout::of(CORE_COORD_BITS, FULL.points);
+    let whole = bench.records(records);
+    let mut random = Random(4);
+    for k in 0..300 {
+        let first = random.below(records + 1);
+        let count = match k % 3 {
+            0 => random.below(9).min(records - first),
+            1 => random.below(records - first + 1),
+            _ => records - first,
+        };
+        let stalls = Stalls { full: random.pick(&[0, 0, 2, 3]), ..Stalls::default() };
+        let words = [command_word(Opcode::Triangles), first, count];
+        let answer = bench.run(&words, 1, stalls, 100_000, &mut random).expect("an end").swap_remove(0);
+        assert_eq!(Some(answer.payload.len() as u32), layout.triangles_words(count));
+        for place in 0..count as usize {
+            let (v, _) = layout.record_from_words(&whole[first as usize + place]);
+            assert_eq!(layout.vertices_from_words(&answer.payload, place), v, "record {place} of {count} from {first}");
+        }
+        if count % 2 == 1 {
+            assert_eq!(answer.payload.last().map(|word| word >> 16), Some(0), "the last half");
+        }
+    }
+}
+
+#[test]
+fn padding_has_no_answer_and_leaves_all_as_it_was() {
+    let mut bench = Bench::new(TINY);
+    let hello = command_word(Opcode::Hello);
+    let words = [0, 0, hello, 0, hello, 0, 0, 0, command_word(Opcode::Insert), 3, 0, 5, 5 << 16, 0, 1];
+    let answers =
+        bench.run(&words, 4, Stalls { idle: 3, ..Stalls::default() }, 10_000, &mut Random(1)).expect("an end");
+    let opcodes: Vec<u8> = answers.iter().map(|answer| answer.opcode).collect();
+    assert_eq!(opcodes, [Opcode::Hello as u8, Opcode::Hello as u8, Opcode::Insert as u8, 0]);
+    // A point of zeros is a point, and a word with opcode 0 that is not all zero is a command that is not known.
+    assert_eq!(answers[2].report().inserted, 3);
+    assert!(answers[3].is(Status::UnknownOpcode));
+}

@@ -1,0 +1,25 @@
+//! The tests of the model, in one program. Modules mirror the sources; `common` drives a core by command words.
+
+mod common;
+
+mod protocol_readme;
+
+mod clock {
+    mod batch;
+    mod by_command;
+    mod defects;
+    mod hang;
+    mod orders;
+    mod read_out;
+    mod watchdog;
+}
+
+mod mesh {
+    mod guides;
+    mod insertion;
+}
+
+mod serial {
+    mod exchange;
+    mod page;
+}

@@ -1,0 +1,121 @@
+//! The model against a brute-force oracle of its own: same answer in every order and with every list size.
+
+use crate::common::Random;
+use incircle_model::predicate::Point;
+use incircle_model::{Insertion, Mesh};
+use incircle_protocol::infinite_vertex;
+use std::collections::{BTreeSet, HashMap};
+
+/// The sign of the lifted determinant of four points, as rows of the 3x3 minor.
+fn lifted(a: Point, b: Point, c: Point, d: Point) -> i128 {
+    let row = |q: Point| {
+        let (x, y) = (i128::from(q.x) - i128::from(d.x), i128::from(q.y) - i128::from(d.y));
+        [x, y, x * x + y * y]
+    };
+    let (a, b, c) = (row(a), row(b), row(c));
+    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+}
+
+/// Finite triangles as point triples; panics if the records are no valid canonical mesh.
+fn triangles(mesh: &Mesh, points: &[Point], capacity: u32) -> BTreeSet<[Point; 3]> {
+    let inf = infinite_vertex(capacity);
+    let mut finite = BTreeSet::new();
+    let mut across: HashMap<(u32, u32), (u32, usize)> = HashMap::new();
+    for (id, record) in mesh.records().iter().enumerate() {
+        for k in 0..3 {
+            let edge = (record.v[(k + 1) % 3], record.v[(k + 2) % 3]);
+            assert!(across.insert(edge, (id as u32, k)).is_none(), "edge {edge:?} twice");
+        }
+    }
+    for (id, record) in mesh.records().iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (record.v[(k + 1) % 3], record.v[(k + 2) % 3]);
+            let (other, slot) = across[&(b, a)];
+            assert_eq!(record.n[k], other, "link {k} of record {id}");
+            let apex = mesh.records()[other as usize].v[slot];
+            if record.v.contains(&inf) || apex == inf {
+                continue;
+            }
+            let at = |v: u32| points[v as usize];
+            let (p, q, r, s) = (at(record.v[k]), at(a), at(b), at(apex));
+            let side = lifted(p, q, r, s);
+            assert!(side <= 0, "edge {q:?} {r:?} is not Delaunay");
+            assert!(side < 0 || p.min(s) > q.min(r), "edge {q:?} {r:?} breaks the tie rule");
+        }
+        if !record.v.contains(&inf) {
+            let mut corners = record.v.map(|v| points[v as usize]);
+            let lowest = (0..3).min_by_key(|&k| corners[k]).unwrap();
+            corners.rotate_left(lowest);
+            assert!(finite.insert(corners));
+        }
+    }
+    finite
+}
+
+fn build(points: &[Point], ring: u32) -> Option<(Mesh, BTreeSet<[Point; 3]>)> {
+    let capacity = points.len().max(4) as u32;
+    let mut mesh = Mesh::new(capacity, ring);
+    for &p in points {
+        if mesh.insert(p) == Insertion::Collinear {
+            return None;
+        }
+    }
+    let counts = *mesh.counts();
+    assert_eq!(counts.insertions + counts.duplicates, points.len() as u32);
+    assert_eq!(mesh.records().len() as u32, 2 * counts.insertions - 2);
+    let set = triangles(&mesh, points, capacity);
+    Some((mesh, set))
+}
+
+#[test]
+fn every_order_and_list_size_gives_the_same_mesh() {
+    let mut random = Random(1);
+    let (mut runs, mut alone) = (0, 0);
+    for trial in 0..3000 {
+        let side = [2, 3, 4, 6, 9, 100, 1 << 16, 1 << 31][trial % 8];
+        let count = 3 + random.below(30);
+        let mut points: Vec<Point> =
+            (0..count).map(|_| Point { x: random.below(side), y: random.below(side) }).collect();
+        let mut first = None;
+        for ring in [64, 3, 4, 5, 8] {
+            random.shuffle(&mut points);
+            let Some((mesh, set)) = build(&points, ring) else {
+                continue;
+            };
+            runs += 1;
+            alone += mesh.counts().overflows;
+            assert_eq!(first.get_or_insert_with(|| set.clone()), &set, "ring {ring}, points {points:?}");
+        }
+    }
+    assert!(runs > 8000 && alone > 40_000, "{runs} runs, {alone} insertions alone");
+}
+
+#[test]
+fn insertion_alone_makes_two_tests_a_flip_and_three() {
+    let mut random = Random(2);
+    let points: Vec<Point> = (0..500).map(|_| Point { x: random.below(300), y: random.below(300) }).collect();
+    let (mesh, _) = build(&points, 3).unwrap();
+    let counts = mesh.counts();
+    // A ring of three entries holds no conflict, and every insertion has at least the three tests of its first attempt.
+    let tests_alone = 2 * counts.flips + 3 * counts.overflows;
+    let kept = counts.insertions - 3 - counts.overflows;
+    assert_eq!(counts.tests, tests_alone + 3 * counts.overflows + 3 * kept);
+    assert!(counts.overflows > 400);
+}
+
+#[test]
+fn refuses_what_does_not_fit_and_what_follows_a_collinear_start() {
+    let mut mesh = Mesh::new(4, 8);
+    for (x, y) in [(0, 0), (9, 0), (0, 9), (3, 3)] {
+        assert_eq!(mesh.insert(Point { x, y }), Insertion::Inserted);
+    }
+    assert_eq!(mesh.insert(Point { x: 5, y: 1 }), Insertion::Refused);
+    assert_eq!(mesh.records().len(), 6);
+    mesh.clear();
+    for (x, expected) in
+        [(0, Insertion::Inserted), (1, Insertion::Inserted), (2, Insertion::Collinear), (3, Insertion::Refused)]
+    {
+        assert_eq!(mesh.insert(Point { x, y: 5 }), expected);
+    }
+    assert!(mesh.records().is_empty());
+}

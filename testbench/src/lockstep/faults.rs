@@ -1,0 +1,135 @@
+//! Faults that are put into the Verilog of a core, each behind a switch, so that one translated core has all of them.
+//!
+//! The build script replaces `sound` by `faults[place] ? broken : sound` and gives the root module the port `faults`. Without a
+//! switch raised the core is sound. `Lockstep::faulty` raises switches by name.
+
+/// One fault: its name, and the expressions that it replaces.
+pub struct Fault {
+    /// Its name, for `Lockstep::faulty`.
+    pub name: &'static str,
+    /// Where it is put in.
+    pub pieces: &'static [Piece],
+}
+
+/// One expression of the Verilog.
+pub struct Piece {
+    /// The text around it, with `@` in its place; it stands in the Verilog once.
+    pub around: &'static str,
+    /// The expression as it is exported.
+    pub sound: &'static str,
+    /// The expression of the broken core.
+    pub broken: &'static str,
+}
+
+const fn piece(around: &'static str, sound: &'static str, broken: &'static str) -> Piece {
+    Piece { around, sound, broken }
+}
+
+/// All faults; the place of each is its bit of the port `faults`.
+pub const FAULTS: &[Fault] = &[
+    // One comparison reversed: which of two sides is lower, in the walk.
+    Fault {
+        name: "comparison",
+        pieces: &[piece("leaves_by_side1 = @;", "e1_below_e0 & (~e2_below_e1)", "(~e1_below_e0) & (~e2_below_e1)")],
+    },
+    // One link column never written.
+    Fault { name: "link", pieces: &[piece("links$2$write_enable = @;", "enables[(64'h3)+:(1)]", "1'b0")] },
+    // One tie wrong: the apex is not asked.
+    Fault {
+        name: "tie",
+        pieces: &[piece(
+            "takes_tie = @;",
+            "(p_before_r1 & p_before_r2) | (r0_before_r1 & r0_before_r2)",
+            "p_before_r1 & p_before_r2",
+        )],
+    },
+    // Rule 1: a test does not mind that another context holds the lock.
+    Fault {
+        name: "foreign_lock",
+        pieces: &[
+            piece("test_counts$d = @;", "tests & (~foreign)", "tests"),
+            piece("test_is_refused$d = @;", "tests & foreign & (~is_waiter)", "1'b0"),
+        ],
+    },
+    // Rule 1: an attempt that fails releases its locks while visits of it are still out.
+    Fault { name: "drain", pieces: &[piece("is_over = @;", "ends_here", "ends_here | gives_up")] },
+    // Rule 1: an attempt that has failed does not rest.
+    Fault {
+        name: "rest",
+        pieces: &[piece("is_rested = @;", "(~busy[index]) & (round$q == resting_round)", "~busy[index]")],
+    },
+    // Rule 2: nobody takes the waiting token.
+    Fault { name: "token", pieces: &[piece("takes = @;", "asks_to_wait & (~token_is_held$q)", "1'b0")] },
+    // Rule 2a: the others do not yield to the context that waits.
+    Fault { name: "yield", pieces: &[piece("may_try = @;", "(~is_urgent) | (passed$q == waiter)", "1'b1")] },
+    // Rule 3: locks are released when the ring is finished, before the star is written.
+    Fault {
+        name: "release",
+        pieces: &[
+            piece("lock_release$commit_enable = @;", "commit$ends", "commit_enable"),
+            piece("lock_release$commit_job[(64'h0)+:(5)] = @;", "commit$job[(64'h0)+:(5)]", "commit_job[(64'h0)+:(5)]"),
+            piece(
+                "lock_release$commit_job[(64'h5)+:(7)] = @;",
+                "commit$job[(64'h1b)+:(7)]",
+                "commit_job[(64'h1b)+:(7)]",
+            ),
+        ],
+    },
+    // Rule 4: a locked root is believed to hold the point still.
+    Fault {
+        name: "root",
+        pieces: &[
+            piece("opens = @;", "root_is_held$q & is_located", "root_is_held$q"),
+            piece(
+                "asks = @;",
+                "walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_located) | passes | asks_again",
+                "walk_is_torn$q | (walk_counts$q & (~is_corner)) | root_is_held$q | passes | asks_again",
+            ),
+            piece("retries = @;", "root_is_held$q & (~verdict[(64'h1)+:(1)])", "1'b0"),
+            piece("root_duplicate = @;", "root_is_held$q & is_corner", "1'b0"),
+        ],
+    },
+    // Rule 5: a context opens a cavity while its own commit or release is due.
+    Fault { name: "busy", pieces: &[piece("context_is_busy$d = @;", "is_busy", "1'b0")] },
+    // Rule 6: a walk does not mind that a record is not written yet, or is being written.
+    Fault { name: "watermark", pieces: &[piece("again1$d = @;", "is_torn | (~is_written)", "is_torn")] },
+    Fault {
+        name: "torn",
+        pieces: &[piece(
+            "is_torn = @;",
+            "write[(64'h0)+:(1)] & (write[(64'h1)+:(15)] == issue$token[(64'h28)+:(15)])",
+            "1'b0",
+        )],
+    },
+    // Rule 7: all contexts work from the first triangle on.
+    Fault { name: "first_round", pieces: &[piece("may_work = @;", "all_work$q", "seeded")] },
+    // Rule 8: a context takes its own locks for those of another one.
+    Fault {
+        name: "own_lock",
+        pieces: &[piece(
+            "foreign = @;",
+            "met_clear3$q | (takes3$q & found_set$q & (~holder_is_owner))",
+            "met_clear3$q | (takes3$q & found_set$q)",
+        )],
+    },
+    // The watchdog, and each place that hears of it, but for `CommandGate`: a core that gets stuck over a lock has its first triangle, and the
+    // gate has nothing to hold then. `tests/it/blocks/choices.rs` holds the gate.
+    Fault { name: "watchdog_is_silent", pieces: &[piece("is_stuck$d = @;", "1'b1", "1'b0")] },
+    Fault { name: "command_port_ignores_stuck", pieces: &[piece("command_port$stuck = @;", "engine$stuck", "1'b0")] },
+    Fault { name: "settle_ignores_stuck", pieces: &[piece("if (@) begin", "is_quiet | stuck", "is_quiet")] },
+    Fault {
+        name: "slot_ignores_stuck",
+        pieces: &[piece("has_room = @;", "(~collinear) & (~stuck) & (~is_full$q)", "(~collinear) & (~is_full$q)")],
+    },
+    Fault { name: "answer_ignores_stuck", pieces: &[piece("answer_head$stuck = @;", "engine$stuck", "1'b0")] },
+    // Blocks without their reset.
+    Fault { name: "command_port_without_reset", pieces: &[piece("command_port$reset = @;", "reset", "1'b0")] },
+    Fault { name: "responder_without_reset", pieces: &[piece("responder$reset = @;", "reset", "1'b0")] },
+    Fault { name: "engine_without_reset", pieces: &[piece("engine$reset = @;", "reset", "1'b0")] },
+    Fault { name: "counters_without_reset", pieces: &[piece("counters$reset = @;", "reset", "1'b0")] },
+    Fault { name: "latencies_without_reset", pieces: &[piece("latencies$reset = @;", "reset", "1'b0")] },
+    Fault { name: "dispatcher_without_reset", pieces: &[piece("dispatcher$reset = @;", "reset", "1'b0")] },
+    Fault { name: "watchdog_without_reset", pieces: &[piece("watchdog$reset = @;", "reset", "1'b0")] },
+    Fault { name: "release_without_reset", pieces: &[piece("lock_release$reset = @;", "reset", "1'b0")] },
+    Fault { name: "issue_without_reset", pieces: &[piece("issue$reset = @;", "reset", "1'b0")] },
+];

@@ -1,0 +1,257 @@
+//! The release of locks: Rust, Verilog and a list of what is still to be cleared agree clock by clock.
+
+use std::collections::VecDeque;
+
+use crate::rig::stepper::bundles::release_job;
+use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::engine::Release;
+use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
+
+named_ports!(
+    Release,
+    [
+        reset,
+        last_id,
+        lock_enable,
+        lock_owner,
+        lock_place,
+        lock_id,
+        commit_enable,
+        commit_job,
+        failure_enable,
+        failure_job
+    ],
+    [sweeps, clear_enable, clear_id, released, released_owner],
+    clock
+);
+
+const LONGEST: Config = Config { ring: MAX_RING, contexts: MAX_CONTEXTS, ..TINY };
+
+/// A lock to clear; the last one of a context names it.
+#[derive(Clone, Copy, Debug)]
+struct Lock {
+    id: u64,
+    last_of: Option<u64>,
+}
+
+/// The locks of a context, all in the log.
+type Job = (u64, Vec<u64>);
+
+/// The release as lists of what it has to do.
+#[derive(Default)]
+struct ReleaseReference {
+    to_sweep: VecDeque<u64>,
+    /// Jobs of rings, and of failures.
+    due: [VecDeque<Job>; 2],
+    /// Locks of the job at work that have not been fetched.
+    at_work: VecDeque<Lock>,
+    /// Locks on their way, and the one that is cleared in this clock.
+    ways: [Option<Lock>; 3],
+}
+
+impl ReleaseReference {
+    fn shown(&self) -> Option<Lock> {
+        self.ways[2]
+    }
+
+    fn edge(&mut self, drive: &Drive, last_id: u64) {
+        let swept = self.to_sweep.pop_front().map(|id| Lock { id, last_of: None });
+        self.ways = [self.at_work.pop_front(), self.ways[0], self.ways[1].or(swept)];
+        if self.at_work.is_empty() {
+            let [rings, failures] = &mut self.due;
+            if let Some((owner, ids)) = rings.pop_front().or_else(|| failures.pop_front()) {
+                self.at_work = ids.into_iter().map(|id| Lock { id, last_of: None }).collect();
+                self.at_work.back_mut().expect("a lock").last_of = Some(owner);
+            }
+        }
+        for (due, job) in self.due.iter_mut().zip([&drive.ring, &drive.failure]) {
+            due.extend(job.clone());
+        }
+        if drive.reset {
+            *self = Self { to_sweep: (0..=last_id).collect(), ..Self::default() };
+        }
+    }
+
+    fn is_idle(&self) -> bool {
+        self.at_work.is_empty() && self.due.iter().all(VecDeque::is_empty)
+    }
+}
+
+/// Inputs of a clock.
+#[derive(Clone, Debug, Default)]
+struct Drive {
+    reset: bool,
+    /// A lock joins the log of this context at this place.
+    lock: Option<(u64, u64, u64)>,
+    ring: Option<Job>,
+    failure: Option<Job>,
+}
+
+/// One clock of both; nothing is compared in the first one.
+fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference, drive: &Drive, last_id: u64) {
+    let (owner, place, id) = drive.lock.unwrap_or((1, 2, 0x5a5a & last_id));
+    block.set("reset", drive.reset);
+    block.set("last_id", last_id);
+    block.set("lock_enable", drive.lock.is_some());
+    block.set("lock_owner", owner);
+    block.set("lock_place", place);
+    block.set("lock_id", id);
+    for (enable, port, job) in
+        [("commit_enable", "commit_job", &drive.ring), ("failure_enable", "failure_job", &drive.failure)]
+    {
+        block.set(enable, job.is_some());
+        block.set(port, job.as_ref().map_or(0xfff, |(owner, ids)| release_job(*owner, ids.len() as u64)));
+    }
+    block.settle();
+    let shown = reference.shown();
+    if block.clocks() > 0 {
+        block.expect("sweeps", !reference.to_sweep.is_empty());
+        block.expect("clear_enable", shown.is_some());
+        block.expect("released", shown.is_some_and(|lock| lock.last_of.is_some()));
+    }
+    if let Some(lock) = shown {
+        block.expect("clear_id", lock.id);
+        if let Some(owner) = lock.last_of {
+            block.expect("released_owner", owner);
+        }
+    }
+    block.edge();
+    reference.edge(drive, last_id);
+}
+
+/// What a context is at.
+#[derive(Clone, Debug)]
+enum Attempt {
+    /// It logs so many locks more.
+    Logs(u64, Vec<u64>),
+    /// Its ring is being written.
+    Commits(Vec<u64>),
+    /// Its locks are due.
+    IsDue,
+}
+
+/// Contexts that take locks side by side.
+struct Attempts {
+    contexts: Vec<Attempt>,
+    most: u64,
+    last_id: u64,
+    jobs: [usize; 2],
+}
+
+impl Attempts {
+    fn new(config: Config, last_id: u64) -> Self {
+        let contexts = vec![Attempt::IsDue; config.contexts as usize];
+        Self { contexts, most: 2 * u64::from(config.ring) - 2, last_id, jobs: [0; 2] }
+    }
+
+    fn begin(&mut self, context: usize, random: &mut SplitMix64) {
+        let locks = match random.below(6) {
+            0 => 1,
+            1 => self.most,
+            _ => 1 + random.below(self.most.min(12)),
+        };
+        self.contexts[context] = Attempt::Logs(locks, Vec::new());
+    }
+
+    /// Some context takes a lock, at which its attempt may fail; and the ring of some context may be finished.
+    fn drive(&mut self, random: &mut SplitMix64) -> Drive {
+        let mut drive = Drive::default();
+        let context = random.below(self.contexts.len() as u64) as usize;
+        let owner = context as u64;
+        if let Attempt::Logs(left, ids) = &mut self.contexts[context] {
+            let id = random.below(self.last_id + 1);
+            drive.lock = Some((owner, ids.len() as u64, id));
+            ids.push(id);
+            *left -= 1;
+            if *left == 0 {
+                let ids = ids.clone();
+                let fails = random.below(2) == 0;
+                self.contexts[context] = if fails { Attempt::IsDue } else { Attempt::Commits(ids.clone()) };
+                drive.failure = fails.then_some((owner, ids));
+            }
+        }
+        let context = random.below(self.contexts.len() as u64) as usize;
+        if let (true, Attempt::Commits(ids)) = (random.below(3) == 0, &self.contexts[context]) {
+            drive.ring = Some((context as u64, ids.clone()));
+            self.contexts[context] = Attempt::IsDue;
+        }
+        self.jobs[0] += usize::from(drive.ring.is_some());
+        self.jobs[1] += usize::from(drive.failure.is_some());
+        drive
+    }
+}
+
+fn releases_locks(name: &'static str, config: Config, last_id: u64) {
+    let mut random = SplitMix64::new(2);
+    let mut block = Stepper::new(name, Release::new(config), 1);
+    let mut reference = ReleaseReference::default();
+    let mut attempts = Attempts::new(config, last_id);
+    let (mut resets, mut both_due, mut idle) = (0, 0, 0);
+    for clock in 0..12_000 {
+        let rests = !reference.to_sweep.is_empty() || clock / 500 % 3 == 1 && random.below(8) != 0;
+        let mut drive = if rests { Drive::default() } else { attempts.drive(&mut random) };
+        drive.reset = clock == 0 || random.below(1500) == 0;
+        let released = reference.shown().and_then(|lock| lock.last_of);
+        release_clock(&mut block, &mut reference, &drive, last_id);
+        if let Some(owner) = released {
+            attempts.begin(owner as usize, &mut random);
+        }
+        if drive.reset {
+            (0..config.contexts as usize).for_each(|context| attempts.begin(context, &mut random));
+        }
+        resets += usize::from(drive.reset);
+        both_due += usize::from(reference.due.iter().all(|due| !due.is_empty()));
+        idle += usize::from(reference.is_idle());
+    }
+    let [rings, failures] = attempts.jobs;
+    assert!(
+        resets > 3 && both_due > 4 * config.contexts as usize && idle > 300 && rings > 100 && failures > 100,
+        "{resets} resets, {both_due} clocks with rings and failures due, {idle} idle; {rings} rings, {failures} failures"
+    );
+}
+
+#[test]
+fn release_frees_what_was_locked() {
+    releases_locks("release_6", TINY, 15);
+}
+
+#[test]
+fn release_holds_the_locks_of_the_longest_list() {
+    releases_locks("release_64", LONGEST, 300);
+}
+
+#[test]
+fn release_shows_the_wave_of_its_header() {
+    let mut block = Stepper::new("release_64", Release::new(LONGEST), 1);
+    let mut reference = ReleaseReference::default();
+    let mut wave = Wave::default();
+    for clock in 0..17 {
+        let failures: [(usize, Job); 2] = [(6, (1, vec![27, 28])), (7, (0, vec![25]))];
+        let rings: [(usize, Job); 1] = [(8, (3, vec![26]))];
+        let job = |jobs: &[(usize, Job)]| jobs.iter().find(|(at, _)| *at == clock).map(|(_, job)| job.clone());
+        let locks = [(3, (1, 0, 27)), (4, (1, 1, 28)), (5, (3, 0, 26)), (7, (0, 0, 25))];
+        let drive = Drive {
+            reset: clock == 0,
+            lock: locks.into_iter().find(|(at, _)| *at == clock).map(|(_, lock)| lock),
+            ring: job(&rings),
+            failure: job(&failures),
+        };
+        let (shown, sweeps) = (reference.shown(), !reference.to_sweep.is_empty());
+        release_clock(&mut block, &mut reference, &drive, 3);
+        let number = |number: Option<u64>| number.map_or(Cell::Open, |number| Cell::Number(number.into()));
+        wave.take(&[
+            ("reset", Cell::Bit(drive.reset)),
+            ("sweeps", Cell::Bit(sweeps)),
+            ("lock_enable", Cell::Bit(drive.lock.is_some())),
+            ("lock_id", number(drive.lock.map(|(.., id)| id))),
+            ("failure_enable", Cell::Bit(drive.failure.is_some())),
+            ("commit_enable", Cell::Bit(drive.ring.is_some())),
+            ("clear_enable", Cell::Bit(shown.is_some())),
+            ("clear_id", number(shown.map(|lock| lock.id))),
+            ("released", Cell::Bit(shown.is_some_and(|lock| lock.last_of.is_some()))),
+            ("released_owner", number(shown.and_then(|lock| lock.last_of))),
+        ]);
+    }
+    wave.assert_drawn_in("release");
+}

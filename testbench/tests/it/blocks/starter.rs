@@ -1,0 +1,485 @@
+//! The waking of contexts in a closed loop: Rust, Verilog and a list of what each context has taken agree clock by clock.
+
+use std::collections::VecDeque;
+
+use crate::rig::stepper::bundles::Deal;
+use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::engine::Starter;
+use incircle_protocol::{Config, FIRST_ROUND, LARGE, SMALL};
+
+named_ports!(
+    Starter,
+    [
+        reset,
+        clears,
+        deal,
+        arrived,
+        came,
+        seeded,
+        asleep,
+        keeping,
+        busy,
+        began,
+        hinted,
+        solo_valid,
+        solo_owner,
+        solo_is_at_work,
+        all_rest,
+        is_urgent,
+        waiter,
+        is_done,
+        is_blocked,
+        root_enable,
+        root_owner,
+        root,
+        hint_enable,
+        hint_owner,
+        hint
+    ],
+    [starts, owner, u, takes, taken_id, solo_starts, solo_p],
+    clock
+);
+
+/// A context as the blocks around see it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Life {
+    awake: bool,
+    keeps: bool,
+    busy: bool,
+    began: bool,
+    hint: Option<u64>,
+    root: u64,
+    /// The vertex that it has taken last.
+    last: Option<u64>,
+}
+
+/// What the pointer has seen of the context it stood at.
+#[derive(Clone, Copy, Debug)]
+struct Sight {
+    context: u64,
+    /// The vertex that it has taken last.
+    last: Option<u64>,
+    vertex: u64,
+}
+
+/// A context that the pointer stood at two steps ago, and what has been decided about it.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    sight: Sight,
+    is_due: bool,
+    /// It tries its point again.
+    keeps: bool,
+    /// Where it would start.
+    u: u64,
+    is_alone: bool,
+}
+
+/// What comes out in a clock.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seen {
+    starts: bool,
+    takes: Option<u64>,
+    owner: u64,
+    waits: bool,
+}
+
+/// Inputs of a clock that no context decides.
+#[derive(Clone, Copy, Debug, Default)]
+struct Inputs {
+    reset: bool,
+    clears: bool,
+    came: bool,
+    seeded: bool,
+    solo: bool,
+    /// Who wants to be alone, and who waits.
+    special: u64,
+    solo_is_at_work: bool,
+    all_rest: bool,
+    is_urgent: bool,
+    /// A visit completes, and it may ask for others.
+    is_done: bool,
+    is_blocked: bool,
+    deed: Option<(u64, Deed)>,
+}
+
+struct Rig {
+    block: Stepper<Starter>,
+    contexts: u64,
+    is_batch: bool,
+    arrived: u64,
+    lives: Vec<Life>,
+    /// Steps of the pointer since the last reset.
+    steps: u64,
+    passed: Option<Sight>,
+    candidate: Option<Candidate>,
+    all_work: bool,
+}
+
+impl Rig {
+    fn new(name: &'static str, config: Config) -> Self {
+        let contexts = config.contexts.into();
+        let block = Stepper::new(name, Starter::new(config), 1);
+        let mut rig = Self {
+            block,
+            contexts,
+            is_batch: false,
+            arrived: 0,
+            lives: Vec::new(),
+            steps: 0,
+            passed: None,
+            candidate: None,
+            all_work: false,
+        };
+        rig.forget();
+        rig.clock(&Inputs { reset: true, ..Inputs::default() });
+        rig
+    }
+
+    /// After a clock with reset or clear: nothing has come, everyone sleeps.
+    fn forget(&mut self) {
+        self.arrived = 0;
+        self.lives = vec![Life::default(); self.contexts as usize];
+        // In a batch there is no first round.
+        (self.steps, self.all_work) = (0, self.is_batch);
+        (self.passed, self.candidate) = (None, None);
+    }
+
+    fn deal(&self) -> Deal {
+        Deal::both(self.contexts)[usize::from(self.is_batch)]
+    }
+
+    fn set(&self, flag: impl Fn(&Life) -> bool) -> u64 {
+        (0..).zip(&self.lives).fold(0, |set, (place, life)| set | u64::from(flag(life)) << place)
+    }
+
+    /// Whether a context that the pointer has seen is due, and where it would start.
+    fn decide(&self, inputs: &Inputs, sight: Sight) -> Option<Candidate> {
+        let life = self.lives.get(sight.context as usize)?;
+        let works = if sight.context == 0 { inputs.seeded || !life.began } else { self.all_work };
+        let is_due = match life.keeps {
+            // Rounds of the pointer in which nobody tries again: three of four.
+            true => {
+                let has_rested = (self.steps / self.contexts).is_multiple_of(4);
+                let may_try = !inputs.is_urgent || inputs.special == sight.context;
+                has_rested && may_try && !life.busy
+            }
+            // In the first round of the pointer nobody starts.
+            false => self.steps >= self.contexts && sight.vertex < self.arrived && works,
+        };
+        // One that works alone may start just now.
+        let starts_now = self.contexts == 1 && self.candidate.is_some_and(|candidate| candidate.is_due);
+        Some(Candidate {
+            sight,
+            is_due: is_due && !life.awake && !starts_now && !inputs.solo,
+            keeps: life.keeps,
+            u: if life.keeps {
+                life.root
+            } else {
+                life.hint.unwrap_or(if self.is_batch { 4 * sight.context } else { 0 })
+            },
+            is_alone: inputs.special == sight.context,
+        })
+    }
+
+    /// What must come out: the vertex that the candidate takes, if it takes a new one, and where it starts.
+    fn wants(&self, inputs: &Inputs) -> Option<(Option<u64>, u64)> {
+        let candidate = self.candidate.filter(|candidate| candidate.is_due && !inputs.solo)?;
+        Some(((!candidate.keeps).then_some(candidate.sight.vertex), candidate.u))
+    }
+
+    fn drive(&mut self, inputs: &Inputs) {
+        let (root, hint) = match inputs.deed {
+            Some((owner, Deed::Sleeps { root, .. })) => (Some((owner, root)), None),
+            Some((owner, Deed::IsFreed { hint })) => (None, Some((owner, hint))),
+            None => (None, None),
+        };
+        for (port, value) in [
+            ("reset", inputs.reset),
+            ("clears", inputs.clears),
+            ("came", inputs.came),
+            ("seeded", inputs.seeded),
+            ("solo_valid", inputs.solo),
+            ("solo_is_at_work", inputs.solo_is_at_work),
+            ("all_rest", inputs.all_rest),
+            ("is_urgent", inputs.is_urgent),
+            ("is_done", inputs.is_done),
+            ("is_blocked", inputs.is_blocked),
+            ("root_enable", root.is_some()),
+            ("hint_enable", hint.is_some()),
+        ] {
+            self.block.set(port, value);
+        }
+        self.block.set("deal", self.deal().bits());
+        let (root, hint) = (root.unwrap_or((1, 0x7fff)), hint.unwrap_or((0, 0x7fff)));
+        for (port, value) in [
+            ("solo_owner", inputs.special),
+            ("waiter", inputs.special),
+            ("arrived", self.arrived),
+            ("asleep", self.set(|life| !life.awake)),
+            ("keeping", self.set(|life| life.keeps)),
+            ("busy", self.set(|life| life.busy)),
+            ("began", self.set(|life| life.began)),
+            ("hinted", self.set(|life| life.hint.is_some())),
+            ("root_owner", root.0),
+            ("root", root.1),
+            ("hint_owner", hint.0),
+            ("hint", hint.1),
+        ] {
+            self.block.set(port, value);
+        }
+    }
+
+    /// One clock.
+    fn clock(&mut self, inputs: &Inputs) -> Seen {
+        self.drive(inputs);
+        let wanted = self.wants(inputs);
+        // A point that is stored takes the port that a new point needs.
+        let lacks_port = wanted.is_some_and(|start| start.0.is_some() && inputs.came);
+        let start = wanted.filter(|_| !inputs.is_blocked && !lacks_port);
+        let mut seen = Seen { waits: wanted.is_some() && (inputs.is_done || lacks_port), ..Seen::default() };
+        self.block.settle();
+        if self.block.clocks() > 0 {
+            self.block.expect("starts", start.is_some());
+            self.block.expect("takes", start.is_some_and(|(vertex, _)| vertex.is_some()));
+            if let Some(candidate) = self.candidate {
+                self.block.expect("owner", candidate.sight.context);
+                self.expect_alone(inputs, candidate);
+            }
+            if let Some((vertex, u)) = start {
+                self.block.expect("u", u);
+                vertex.into_iter().for_each(|vertex| self.block.expect("taken_id", vertex));
+            }
+            seen.starts = start.is_some();
+            seen.takes = start.and_then(|(vertex, _)| vertex);
+            seen.owner = self.candidate.map_or(0, |candidate| candidate.sight.context);
+        }
+        self.block.edge();
+        self.advance(inputs, seen);
+        seen
+    }
+
+    /// Who wants to be alone starts when the pointer has seen it, with the point that it has, where its attempt was.
+    fn expect_alone(&self, inputs: &Inputs, candidate: Candidate) {
+        let may_start = inputs.solo && inputs.all_rest && !inputs.solo_is_at_work;
+        let starts = may_start && candidate.is_alone;
+        self.block.expect("solo_starts", starts);
+        if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.keeps) {
+            self.block.expect("solo_p", last);
+            self.block.expect("u", candidate.u);
+        }
+    }
+
+    fn advance(&mut self, inputs: &Inputs, seen: Seen) {
+        let decided = self.passed.and_then(|sight| self.decide(inputs, sight));
+        if let Some(candidate) = self.candidate.as_mut().filter(|_| seen.starts) {
+            candidate.is_due = false;
+        }
+        if !seen.waits {
+            let context = self.steps % self.contexts;
+            let last = self.lives[context as usize].last.filter(|_| self.lives[context as usize].began);
+            let mut vertices = self.deal().dealt(context);
+            let vertex = match last {
+                Some(last) => vertices.find(|vertex| *vertex > last),
+                None => vertices.next(),
+            };
+            self.candidate = decided;
+            self.passed = vertex.map(|vertex| Sight { context, last, vertex });
+            self.steps += 1;
+        }
+        if seen.starts {
+            let life = &mut self.lives[seen.owner as usize];
+            life.last = seen.takes.or(life.last);
+            (life.awake, life.keeps, life.began) = (true, false, true);
+            self.all_work |= seen.takes.is_some_and(|vertex| seen.owner == 0 && vertex >= u64::from(FIRST_ROUND));
+        }
+        if let Some((owner, deed)) = inputs.deed {
+            let life = &mut self.lives[owner as usize];
+            match deed {
+                Deed::Sleeps { root, keeps, busy } => {
+                    (life.awake, life.root, life.keeps) = (false, root, keeps);
+                    life.busy |= busy;
+                }
+                Deed::IsFreed { hint } => (life.hint, life.busy) = (Some(hint), false),
+            }
+        }
+        if inputs.reset || inputs.clears {
+            self.is_batch &= !inputs.reset;
+            self.forget();
+        }
+    }
+}
+
+/// What a job has seen.
+#[derive(Default)]
+struct Tally {
+    taken: Vec<(u64, u64)>,
+    again: usize,
+    waits: usize,
+    stops: VecDeque<u64>,
+}
+
+/// Lets points come and contexts live until all points are taken and everyone sleeps.
+fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
+    let (mut came, mut solo, mut is_urgent, mut special) = (false, false, false, 0);
+    for _ in 0..200_000 {
+        // Two points of each triple are taken with the third.
+        let triples = if rig.is_batch { rig.contexts } else { 1 };
+        let all_are_taken = tally.taken.len() as u64 + 2 * triples == points;
+        if all_are_taken && rig.lives.iter().all(|life| !life.awake && !life.keeps && !life.busy) {
+            return;
+        }
+        let mut one_in = |times: u64| random.below(times) == 0;
+        let comes = !came && rig.arrived < points && one_in(3);
+        solo = if solo { !one_in(20) } else { one_in(400) };
+        let seeded = rig.lives[0].began && !rig.lives[0].awake || rig.arrived > 3;
+        is_urgent = if is_urgent { !one_in(30) } else { one_in(100) };
+        let (is_done, may_ask, all_rest, solo_is_at_work) = (one_in(2), !one_in(3), one_in(2), one_in(2));
+        special = if solo || is_urgent { special } else { random.below(rig.contexts) };
+        let deed = deed(rig, random);
+        let seen = rig.clock(&Inputs {
+            came,
+            seeded,
+            solo,
+            special,
+            solo_is_at_work,
+            all_rest,
+            is_urgent,
+            is_done,
+            is_blocked: is_done && may_ask,
+            deed,
+            ..Inputs::default()
+        });
+        tally.taken.extend(seen.takes.map(|vertex| (seen.owner, vertex)));
+        tally.again += usize::from(seen.starts && seen.takes.is_none());
+        tally.waits += usize::from(seen.waits);
+        if !seen.waits {
+            tally.stops.push_back(seen.owner);
+        }
+        came = comes;
+        rig.arrived += u64::from(comes);
+    }
+    panic!("of {points} points {} are taken: {:?}", tally.taken.len(), rig.lives);
+}
+
+/// What becomes of a context at an edge.
+#[derive(Clone, Copy, Debug)]
+enum Deed {
+    /// It falls asleep: to try again from this root or not, with a commit or release due or not.
+    Sleeps { root: u64, keeps: bool, busy: bool },
+    /// Its commit ends and leaves this hint, and its locks are released.
+    IsFreed { hint: u64 },
+}
+
+/// Some context falls asleep, or is freed.
+fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
+    let owner = random.below(rig.contexts);
+    let [root, hint] = [(); 2].map(|()| random.below(1 << 15));
+    let [ends, keeps, busy, is_freed] = [4, 3, 3, 6].map(|times| random.below(times) == 0);
+    let life = &rig.lives[owner as usize];
+    let sleeps = (life.awake && ends).then_some(Deed::Sleeps { root, keeps, busy });
+    let frees = (!life.awake && life.busy && is_freed).then_some(Deed::IsFreed { hint });
+    sleeps.or(frees).map(|deed| (owner, deed))
+}
+
+/// Jobs of so many contexts and points each, one after the other; batches or not.
+fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool) {
+    let mut random = SplitMix64::new(80);
+    let (mut again, mut waits) = (0, 0);
+    let mut rig = Rig::new(name, config);
+    for (contexts, points) in jobs.iter().copied() {
+        // All contexts sleep when the mesh is forgotten.
+        (rig.contexts, rig.is_batch) = (contexts, is_batch);
+        rig.lives = vec![Life::default(); contexts as usize];
+        rig.clock(&Inputs { clears: true, came: true, ..Inputs::default() });
+        let mut tally = Tally::default();
+        job(&mut rig, &mut random, points, &mut tally);
+        let mut vertices: Vec<u64> = tally.taken.iter().map(|(_, vertex)| *vertex).collect();
+        for context in 0..contexts {
+            let own = tally.taken.iter().filter(|(owner, _)| *owner == context).map(|(_, vertex)| *vertex);
+            let expected = rig.deal().dealt(context).take_while(|vertex| *vertex < points);
+            assert!(own.eq(expected), "{contexts} contexts, context {context}");
+        }
+        // Until vertex 16 is taken, context 0 is the only one.
+        let first = tally.taken.len().min(FIRST_ROUND as usize - 1);
+        assert!(is_batch || tally.taken[..first].iter().all(|(owner, _)| *owner == 0));
+        vertices.sort_unstable();
+        let triples = if is_batch { contexts } else { 1 };
+        assert!(vertices.into_iter().eq((0..points).filter(|id| *id >= 3 * triples || id % 3 == 2)));
+        // The pointer leaves nobody out; it is two contexts ahead.
+        let stops: Vec<u64> = tally.stops.into_iter().skip(2).collect();
+        assert!(stops.windows(2).all(|two| two[1] == (two[0] + 1) % contexts));
+        (again, waits) = (again + tally.again, waits + tally.waits);
+    }
+    assert!(again > 100 && waits > 100, "{again} {waits}");
+}
+
+#[test]
+fn starter_gives_every_point_to_its_context_once() {
+    let jobs_of_small = [(4, 300), (1, 60), (3, 250), (2, 3), (2, 16), (4, 17), (2, 18), (4, 200)];
+    jobs("starter_small", SMALL, &jobs_of_small, false);
+    jobs("starter_large", LARGE, &[(24, 600), (23, 400), (1, 20), (16, 400), (9, 17)], false);
+}
+
+#[test]
+fn starter_gives_every_job_of_a_batch_its_points() {
+    let jobs_of_small = [(4, 300), (1, 60), (3, 250), (2, 6), (2, 16), (4, 17), (2, 18), (4, 200)];
+    jobs("starter_small", SMALL, &jobs_of_small, true);
+    jobs("starter_large", LARGE, &[(24, 600), (23, 400), (1, 20), (16, 400), (9, 27)], true);
+}
+
+#[test]
+fn starter_forgets_what_it_was_at_when_it_is_reset() {
+    let mut random = SplitMix64::new(81);
+    let mut rig = Rig::new("starter_small", SMALL);
+    for _ in 0..60 {
+        for _ in 0..random.below(200) {
+            let came = rig.arrived < 100 && random.below(2) == 0;
+            let is_blocked = random.below(4) == 0;
+            let (seeded, deed) = (rig.arrived > 3, deed(&rig, &mut random));
+            rig.clock(&Inputs { came, seeded, is_done: is_blocked, is_blocked, deed, ..Inputs::default() });
+            rig.arrived += u64::from(came);
+        }
+        rig.clock(&Inputs { reset: true, ..Inputs::default() });
+    }
+}
+
+#[test]
+fn starter_shows_the_wave_of_its_header() {
+    let mut rig = Rig::new("starter_small", Config { contexts: 2, ..SMALL });
+    rig.arrived = 2;
+    let mut wave = Wave::default();
+    for clock in 0..16 {
+        let inputs = Inputs {
+            came: clock == 1,
+            is_done: matches!(clock, 4 | 5),
+            is_blocked: clock == 4,
+            deed: (clock == 7).then_some((0, Deed::Sleeps { root: 9, keeps: true, busy: false })),
+            ..Inputs::default()
+        };
+        if clock == 1 {
+            rig.arrived = 3;
+        }
+        let asleep = rig.set(|life| !life.awake);
+        let keeping = rig.set(|life| life.keeps);
+        let arrived = rig.arrived;
+        let candidate = rig.candidate;
+        let wanted = rig.wants(&inputs);
+        let seen = rig.clock(&inputs);
+        let number = |number: Option<u64>| number.map_or(Cell::Open, |number| Cell::Number(number.into()));
+        wave.take(&[
+            ("arrived", number(Some(arrived))),
+            ("came", Cell::Bit(inputs.came)),
+            ("is_done", Cell::Bit(inputs.is_done)),
+            ("is_blocked", Cell::Bit(inputs.is_blocked)),
+            ("asleep", number(Some(asleep))),
+            ("keeping", number(Some(keeping))),
+            ("owner", number(candidate.map(|candidate| candidate.sight.context))),
+            ("starts", Cell::Bit(seen.starts)),
+            ("takes", Cell::Bit(seen.takes.is_some())),
+            ("taken_id", number(seen.takes)),
+            ("u", number(wanted.filter(|_| seen.starts).map(|(_, u)| u))),
+        ]);
+    }
+    wave.assert_drawn_in("starter");
+}

@@ -1,0 +1,116 @@
+//! Batches in lock-step: the core beside its model at every root port and every clock, with 2, 4 and 16 jobs side by side, crossed with
+//! idle and back-pressure, jobs of several lengths, lists that overflow, three points on a line, and resets. That every job gets the mesh
+//! it gets alone is shown of the model (`sim/model/tests/it/clock/batch.rs`); here the reports are compared with the model by commands as well.
+
+use crate::rig::common::batches::Batch;
+use crate::rig::common::Random;
+use incircle_cli::generate::SplitMix64;
+use incircle_model::{CommandModel, Inputs};
+use incircle_protocol::{
+    Config, Counter, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, SMALL, TINY,
+};
+use incircle_testbench::lockstep::{Job, Lockstep, Stalls};
+
+struct Rig {
+    pair: Lockstep,
+    config: Config,
+    chances: SplitMix64,
+    counters: [u64; COUNTER_WORDS],
+}
+
+impl Rig {
+    fn new(name: &str, config: Config, seed: u32) -> Self {
+        let pair = Lockstep::new(name, config, seed);
+        Self { pair, config, chances: SplitMix64::new(seed.into()), counters: [0; COUNTER_WORDS] }
+    }
+
+    /// A whole batch: clear, insert in pieces, read all, latencies, counters.
+    fn run(&mut self, points: &[u32], piece: usize, jobs: u32, stalls: Stalls) {
+        let job = Job::batch_of(points, piece, jobs, self.config);
+        let chances = &mut self.chances;
+        let answers = self.pair.run(&job, stalls, &mut || chances.next_u64());
+        let answers = answers.unwrap_or_else(|mismatch| panic!("{mismatch}\njob {:x?}", job.commands));
+        let mut model = CommandModel::new(CORE_COORD_BITS, self.config.points, self.config.ring)
+            .expect("possible")
+            .with_contexts(self.config.contexts);
+        model.send(&job.commands);
+        let mut expected = vec![0; job.answers];
+        assert_eq!((model.receive(&mut expected), answers.len()), (job.answers, job.answers));
+        let hello = 2 + IDENTITY_WORDS;
+        let reports = hello + 2 + points.chunks(piece).len() * (2 + INSERT_REPORT_WORDS);
+        assert_eq!(answers[..reports], expected[..reports], "reports of {jobs} jobs, {points:x?}");
+        for (sum, word) in self.counters.iter_mut().zip(&answers[answers.len() - COUNTER_WORDS..]) {
+            *sum += u64::from(*word);
+        }
+    }
+
+    fn counted(&self, counter: Counter) -> u64 {
+        self.counters[counter as usize]
+    }
+}
+
+/// So many batches of all kinds; about every fourth has three points on a line somewhere.
+fn run_all(rig: &mut Rig, batches: u32, most: u32, seed: u64) {
+    let mut random = Random(seed);
+    for turn in 0..batches as usize {
+        let asked = random.below(rig.config.contexts + 1);
+        let jobs = if asked == 0 { rig.config.contexts } else { asked };
+        let points = Batch::random(&mut random, jobs, most, turn % 4 != 0).points();
+        let piece = [points.len(), 1 + random.below(30) as usize][turn % 2];
+        rig.run(&points, piece, asked, Stalls::ALL[turn % 9]);
+        if turn % 5 == 0 {
+            // What is no batch works as ever in between.
+            let job = Job::of(&points[..points.len().min(60)], 60, asked, rig.config);
+            let chances = &mut rig.chances;
+            let done = rig.pair.run(&job, Stalls::NONE, &mut || chances.next_u64());
+            assert!(done.is_ok(), "{}", done.expect_err("a mismatch"));
+        }
+    }
+    assert_eq!(rig.counted(Counter::Aborts), 0, "jobs do not meet each other");
+}
+
+#[test]
+fn two_jobs() {
+    let mut rig = Rig::new("core_tiny", TINY, 51);
+    run_all(&mut rig, 400, 3, 51);
+    assert!(rig.counted(Counter::Refused) > 50 && rig.counted(Counter::Duplicates) > 50);
+}
+
+#[test]
+fn four_jobs_whose_lists_overflow() {
+    let config = Config { ring: 9, ..SMALL };
+    let mut rig = Rig::new("core_small_ring9", config, 52);
+    run_all(&mut rig, 60, 120, 52);
+    assert!(rig.counted(Counter::Overflows) > 50, "{}", rig.counted(Counter::Overflows));
+}
+
+#[test]
+fn sixteen_jobs() {
+    let config = Config { contexts: 16, ..SMALL };
+    let mut rig = Rig::new("core_small_sixteen", config, 53);
+    run_all(&mut rig, 60, 62, 53);
+    let insertions = rig.counted(Counter::Insertions);
+    assert!(insertions > 8000, "{insertions}");
+}
+
+#[test]
+fn resets_in_mid_batch() {
+    let config = Config { contexts: 16, ..SMALL };
+    let mut rig = Rig::new("core_small_sixteen", config, 54);
+    let mut random = Random(54);
+    for turn in 0..20 {
+        let points = Batch::random(&mut random, 16, 20, true).points();
+        let job = Job::batch_of(&points, points.len(), 16, config);
+        let mut rest = job.commands.as_slice();
+        for _ in 0..random.below(7000) {
+            let inputs = Stalls::ALL[turn % 9].inputs(rest, rig.chances.next_u64());
+            if inputs.command_valid && rig.pair.outputs().command_ready {
+                rest = &rest[1..];
+            }
+            rig.pair.clock(inputs).unwrap_or_else(|mismatch| panic!("{mismatch}"));
+        }
+        let reset = Inputs { reset: true, ..Inputs::default() };
+        rig.pair.clock(reset).unwrap_or_else(|mismatch| panic!("{mismatch}"));
+        rig.run(&points, points.len(), 0, Stalls::NONE);
+    }
+}

@@ -1,0 +1,133 @@
+//! The FIFO between two clocks, the AXI4-Lite port and the clocks of the counters are proven: for every sequence of inputs, and of edges of two clocks, of any length. So that this says
+//! something, faults are put in, and must be found.
+
+use incircle_hdl::export;
+use incircle_testbench::gate::{self, GateError};
+
+const FIFO: &str = "stream_fifo_4x2";
+const PORT: &str = "stream_register_port";
+
+/// Steps that an induction may take. One is enough for sound designs.
+const STEPS: u32 = 4;
+
+/// Replaces what stands in the text once.
+fn replace(text: &str, old: &str, new: &str) -> String {
+    assert_eq!(text.matches(old).count(), 1, "{old:?} stands in the Verilog once");
+    text.replace(old, new)
+}
+
+fn block(name: &str) -> String {
+    let blocks = export::blocks();
+    blocks.into_iter().find(|block| block.0 == name).expect("a block of this name").1
+}
+
+/// The block with its properties.
+fn with_properties(verilog: &str, name: &str, properties: &str) -> String {
+    let end = format!("endmodule // {name}\n");
+    replace(verilog, &end, &format!("{properties}{end}"))
+}
+
+/// The FIFO with its properties. They look into the memory and the synchronisers, so these show what they hold.
+fn fifo() -> String {
+    let mut text = block(FIFO);
+    for (child, ports, show) in [
+        (
+            "memory",
+            "chosen, chosen_word, array_word",
+            "input wire [2:0] chosen; output wire [1:0] chosen_word, array_word;
+             assign chosen_word = memory[chosen[1:0]]; assign array_word = word;",
+        ),
+        ("read_seen", "read_seen_first", "output wire [2:0] read_seen_first; assign read_seen_first = first;"),
+        ("write_seen", "write_seen_first", "output wire [2:0] write_seen_first; assign write_seen_first = first;"),
+    ] {
+        let module = format!("module {FIFO}${child}(");
+        text = replace(&text, &module, &format!("{module}{ports},"));
+        let start = text.find(&module).expect("it was just put there");
+        let code = "// Update code (custom)";
+        let place = start + text[start..].find(code).expect("code of a leaf") + code.len();
+        text.insert_str(place, &format!("\n{show}\n"));
+        let connections: String = ports.split(", ").map(|port| format!(".{port}({port}), ")).collect();
+        let instance = format!("    {FIFO}${child} {child}(");
+        text = replace(&text, &instance, &format!("{instance}{connections}"));
+    }
+    let module = format!("module {FIFO}(");
+    text = replace(&text, &module, &format!("{module}chosen,"));
+    let show = "input wire [2:0] chosen; wire [1:0] chosen_word, array_word;
+                wire [2:0] read_seen_first, write_seen_first;";
+    text = text.replacen("// Constant declarations", &format!("{show}\n// Constant declarations"), 1);
+    with_properties(&text, FIFO, include_str!("../../../formal/async_fifo.v"))
+}
+
+fn port() -> String {
+    with_properties(&block(PORT), PORT, include_str!("../../../formal/register_port.v"))
+}
+
+/// A design with this in place of that must not be proven.
+fn must_fail(text: &str, (name, has_several_clocks): (&str, bool), (old, new): (&str, &str)) {
+    let proven = gate::prove(&replace(text, old, new), name, has_several_clocks, STEPS);
+    match proven {
+        Err(GateError::Refused { output, .. }) => assert!(output.contains("proof did fail"), "{old:?}: {output}"),
+        Err(error) => panic!("{old:?}: {error}"),
+        Ok(()) => panic!("{new:?} in place of {old:?} is not found"),
+    }
+}
+
+#[test]
+fn the_fifo_is_proven() {
+    gate::prove(&fifo(), FIFO, true, STEPS).unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
+fn faults_of_the_fifo_are_found() {
+    let text = fifo();
+    for fault in [
+        ("full$d = write_code == full_code;", "full$d = 1'b0;"),
+        ("full$d = write_code == full_code;", "full$d = write_code == read_seen$received;"),
+        ("empty$d = read_code == write_seen$received;", "empty$d = read_gray$q == write_seen$received;"),
+        ("memory$read_address = read_count$q;", "memory$read_address = read_ahead;"),
+        ("memory$write_enable = takes;", "memory$write_enable = push;"),
+        ("moves = pop | (~shown$q);", "moves = 1'b1;"),
+        // An entry does come through, or nothing would be proven.
+        ("assert (w_r <= 4);", "assert (w_r <= 4 && !valid);"),
+    ] {
+        must_fail(&text, (FIFO, true), fault);
+    }
+}
+
+#[test]
+fn the_register_port_is_proven() {
+    gate::prove(&port(), PORT, false, STEPS).unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
+fn faults_of_the_register_port_are_found() {
+    let text = port();
+    for fault in [
+        ("writes = has_address$q & has_data$q & (~is_written$q);", "writes = has_address$q & has_data$q;"),
+        ("reads = has_read$q & (~is_read$q);", "reads = has_read$q;"),
+        ("if (write_is_known) begin", "if (read_is_known) begin"),
+        ("s_axi_wready = ~has_data$q;", "s_axi_wready = 1'b1;"),
+        // Answers are given, or nothing would be proven.
+        ("if (could_read) assert (s_axi_rvalid);", "if (could_read) assert (!s_axi_rvalid);"),
+    ] {
+        must_fail(&text, (PORT, false), fault);
+    }
+}
+
+const BLOCK: &str = "stream_register_block";
+
+fn traffic() -> String {
+    with_properties(&block(BLOCK), &format!("{BLOCK}$traffic"), include_str!("../../../formal/traffic.v"))
+}
+
+#[test]
+fn the_clocks_and_their_high_half_are_proven() {
+    let text = traffic();
+    gate::prove(&text, BLOCK, false, STEPS).unwrap_or_else(|error| panic!("{error}"));
+    for fault in [
+        ("kept$d = clocks$q[(32'h20)+:(32)];", "kept$d = clocks$q[(32'h1f)+:(32)];"),
+        ("clocks$d = clocks$q + one_clock;", "clocks$d[31:0] = clocks$q[31:0] + one;"),
+    ] {
+        must_fail(&text, (BLOCK, false), fault);
+    }
+}

@@ -1,0 +1,46 @@
+//! The exchange in `protocol/SERIAL.md` is what the Verilated device says at its pins.
+
+#[path = "../../../../sim/model/tests/it/serial/exchange.rs"]
+mod serial_exchange;
+
+use incircle_model::serial::FromDevice;
+use incircle_protocol::{rate_step, SMALL, STATUS_BUSY};
+use incircle_sim::serial::{Board, PinBoard, Symbol};
+use serial_exchange::steps;
+
+/// The rate that the page shows.
+const RATE: u32 = 3_000_000;
+
+/// The frames in these bytes, without what depends on how far the core has come when they begin: the room in the FIFO and whether a
+/// command is under way.
+fn frames(bytes: &[u8]) -> Vec<FromDevice> {
+    let lines = bytes.split(|&byte| byte == 0).filter(|line| !line.is_empty());
+    let frames = lines.map(|line| FromDevice::from_line(line).expect("a frame"));
+    frames.map(|frame| FromDevice { free: 0, status: frame.status & !STATUS_BUSY, ..frame }).collect()
+}
+
+#[test]
+fn the_device_says_what_the_page_shows() {
+    let mut board = PinBoard::new(SMALL).expect("it was translated");
+    let clock_hz = board.link().clock_hz;
+    let step = rate_step(RATE, clock_hz).expect("a rate").to_le_bytes();
+    for (number, (sent, expected)) in steps().into_iter().enumerate() {
+        sent.iter().for_each(|&byte| board.send(Symbol::of(byte)));
+        let (mut said, mut silent) = (Vec::new(), 0);
+        // Ten bytes at the first rate.
+        while silent < 100 {
+            board.run(1085);
+            silent = if board.waiting() == 0 { silent + 1 } else { 0 };
+            while let Some((_, symbol)) = board.receive() {
+                assert!(symbol.is_sound(), "step {number}");
+                said.push(symbol.data());
+                silent = 0;
+            }
+        }
+        assert_eq!(frames(&said), frames(&expected), "step {number}");
+        // The host follows the rate it has asked for.
+        if sent.windows(3).any(|bytes| *bytes == step[..3]) {
+            board.set_rate(RATE);
+        }
+    }
+}

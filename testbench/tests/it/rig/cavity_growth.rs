@@ -1,0 +1,316 @@
+//! Cavities that several contexts grow in one triangulation, as sets of triangles.
+//!
+//! It knows no entry counts and no bits of half-open triangles: a visit is an element of what is out, a triangle of the cavity
+//! has a number of edges that nobody has passed, and the list of locks is a list.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::rig::flip_mesh::{Mesh, Point, Record};
+use crate::rig::stepper::bundles::{commit_job, release_job, Edge, Finding, LockFinding, Visit};
+use incircle_cli::generate::SplitMix64;
+
+/// A point to insert: where it is, the triangles that hold it, and those that it removes.
+#[derive(Clone, Debug)]
+pub struct Target {
+    pub point: Point,
+    pub places: Vec<u64>,
+    pub cavity: BTreeSet<u64>,
+}
+
+/// A triangulation whose ids are spread over all their bits.
+pub struct Ground {
+    mesh: Mesh,
+    records: BTreeMap<u64, Record>,
+}
+
+/// Spreads numbers over 15 bits, no two to the same.
+pub fn spread(number: u64) -> u64 {
+    number * 0x5a6d % (1 << 15)
+}
+
+impl Ground {
+    /// Inserts these points, of which the first three turn left.
+    pub fn of(points: &[Point]) -> Self {
+        let mut mesh = Mesh::of([points[0], points[1], points[2]]);
+        for point in &points[3..] {
+            let root = mesh.places_of(*point)[0];
+            mesh.insert(*point, root);
+        }
+        mesh.assert_delaunay();
+        let records = mesh.records.iter().enumerate();
+        let records = records.map(|(id, record)| (spread(id as u64), Record { v: record.v, n: record.n.map(spread) }));
+        Self { records: records.collect(), mesh }
+    }
+
+    /// A point to insert, if it lies on no circle of the triangulation or on one of its points.
+    pub fn target(&self, point: Point) -> Option<Target> {
+        let conflicts = |record: &Record| [0, 1, 2].map(|slot| self.mesh.conflicts(record.turned(slot).v, point));
+        let is_decided = |record: &Record| conflicts(record).iter().all(|conflict| *conflict == conflicts(record)[0]);
+        let is_corner = self.mesh.points.contains(&point);
+        (is_corner || self.records.values().all(is_decided)).then(|| Target {
+            point,
+            places: self.mesh.places_of(point).into_iter().map(spread).collect(),
+            cavity: self.records.iter().filter(|(_, record)| conflicts(record)[0]).map(|(id, _)| *id).collect(),
+        })
+    }
+
+    /// The record of a visit, as it is turned, and by how much.
+    pub fn read(&self, visit: &Visit) -> (Record, u64) {
+        let record = self.records[&visit.u];
+        let slot = if visit.rotates { record.slot_to(visit.f) } else { 0 };
+        (record.turned(slot), slot as u64)
+    }
+
+    /// Any triangle.
+    pub fn somewhere(&self, random: &mut SplitMix64) -> u64 {
+        spread(random.below(self.records.len() as u64))
+    }
+
+    /// What a sound core finds out for this point, and a walk that wanders.
+    pub fn find(&self, visit: &Visit, target: &Target, random: &mut SplitMix64) -> Finding {
+        let (record, _) = self.read(visit);
+        let near = target.places[random.below(target.places.len() as u64) as usize];
+        let is_corner = |v: &u64| self.mesh.points.get(*v as usize) == Some(&target.point);
+        Finding {
+            conflict: self.mesh.conflicts(record.v, target.point),
+            located: target.places.contains(&visit.u),
+            falls_onto_corner: record.v.iter().any(is_corner),
+            walk_next: if random.below(2) == 0 { near } else { self.somewhere(random) },
+            is_left: random.below(2) == 0,
+            is_straight: random.below(2) == 0,
+        }
+    }
+}
+
+/// A visit that completes: what was read, and what was found out.
+pub struct Completion {
+    pub visit: Visit,
+    pub record: Record,
+    pub slot: u64,
+    pub lock: LockFinding,
+    pub finding: Finding,
+}
+
+/// What the machine around a context is at.
+pub struct Around {
+    pub seeded: bool,
+    pub ring: u64,
+    pub is_waiter: bool,
+    pub is_busy: bool,
+}
+
+/// What must come out.
+#[derive(Default)]
+pub struct Outcome {
+    /// Visits, and the bundle that asks for them.
+    pub push: Option<(usize, u128)>,
+    pub sleeps: bool,
+    pub keeps: bool,
+    pub root: Option<u64>,
+    pub entry: Option<(u64, Edge)>,
+    pub inner: Option<(u64, u64)>,
+    pub lock: Option<(u64, u64)>,
+    pub commit: Option<u128>,
+    pub triangles: u64,
+    pub release: Option<u128>,
+    pub asks_to_wait: bool,
+    pub stops_waiting: bool,
+    pub overflows: bool,
+    pub duplicate: bool,
+    pub looks: bool,
+    pub revisit: bool,
+    pub gives_up: bool,
+    pub retries: bool,
+}
+
+/// A cavity that grows.
+#[derive(Clone, Debug, Default)]
+pub struct Growth {
+    pub has_failed: bool,
+    /// Locks, in the order in which they were taken.
+    pub log: Vec<u64>,
+    pub entries: BTreeMap<u64, Edge>,
+    /// The triangles of the cavity, with the edges of each that nobody has passed; the edge by which it was entered does not
+    /// count.
+    pub closed_edges: BTreeMap<u64, u64>,
+    pub inner: Vec<u64>,
+}
+
+/// A context: the point it has, and the visits of it that are out.
+#[derive(Clone, Debug, Default)]
+pub struct Context {
+    pub owner: u64,
+    pub target: usize,
+    pub p: u64,
+    pub since: u64,
+    pub out: Vec<Visit>,
+    pub growth: Growth,
+}
+
+impl Context {
+    /// A visit of it completes, and is out no more.
+    pub fn complete(&mut self, done: &Completion, around: &Around) -> Outcome {
+        let mut outcome = match (done.visit.rotates, done.visit.locks) {
+            (false, false) => self.complete_walk(done, around),
+            (false, true) => self.complete_root(done, around),
+            _ => self.complete_test(done, around),
+        };
+        if outcome.revisit {
+            outcome.push = Some((1, done.visit.bundle(1, 0, 0, 0)));
+            self.out.push(done.visit);
+        }
+        outcome.sleeps = self.out.is_empty();
+        outcome
+    }
+
+    fn push(&mut self, visits: &[Visit]) -> Option<(usize, u128)> {
+        self.out.extend(visits);
+        let [second, third] = [1, 2].map(|place| visits.get(place).copied().unwrap_or_default());
+        Some((visits.len(), visits[0].bundle(visits.len() as u64, second.after, second.u, third.u)))
+    }
+
+    fn complete_walk(&mut self, done: &Completion, around: &Around) -> Outcome {
+        let look = Visit { owner: self.owner, ..Visit::look(done.finding.walk_next) };
+        if !around.seeded {
+            return Outcome { looks: true, ..Outcome::default() };
+        }
+        if done.lock.again {
+            return Outcome { revisit: true, ..Outcome::default() };
+        }
+        if !done.finding.located {
+            return Outcome { push: self.push(&[look]), ..Outcome::default() };
+        }
+        if done.finding.falls_onto_corner {
+            return Outcome { duplicate: true, stops_waiting: true, ..Outcome::default() };
+        }
+        if around.is_busy {
+            return Outcome { revisit: true, ..Outcome::default() };
+        }
+        Outcome { push: self.push(&[Visit { locks: true, ..done.visit }]), ..Outcome::default() }
+    }
+
+    fn complete_root(&mut self, done: &Completion, around: &Around) -> Outcome {
+        let u = done.visit.u;
+        let root = Some(u);
+        if done.lock.foreign {
+            let waits = around.is_waiter;
+            return Outcome {
+                root,
+                revisit: waits,
+                keeps: !waits,
+                gives_up: !waits,
+                asks_to_wait: !waits,
+                ..Outcome::default()
+            };
+        }
+        let (lock, release) = (Some((0, u)), Some(release_job(self.owner, 1)));
+        if !done.finding.located {
+            let root = Some(done.finding.walk_next);
+            return Outcome { root, lock, release, keeps: true, retries: true, ..Outcome::default() };
+        }
+        if done.finding.falls_onto_corner {
+            return Outcome { root, lock, release, duplicate: true, stops_waiting: true, ..Outcome::default() };
+        }
+        self.growth = Growth { log: vec![u], closed_edges: [(u, 3)].into(), ..Growth::default() };
+        let test = |x, after, neighbour| {
+            let f_entry = 0;
+            Visit { owner: self.owner, rotates: true, locks: true, x, after, f_entry, f: u, u: neighbour }
+        };
+        let [n0, n1, n2] = done.record.n;
+        Outcome { root, lock, push: self.push(&[test(0, 1, n0), test(1, 2, n1), test(2, 0, n2)]), ..Outcome::default() }
+    }
+
+    fn complete_test(&mut self, done: &Completion, around: &Around) -> Outcome {
+        let mut outcome = Outcome::default();
+        let visit = done.visit;
+        if done.lock.took {
+            outcome.lock = Some((self.growth.log.len() as u64, visit.u));
+            self.growth.log.push(visit.u);
+        }
+        let is_full = self.growth.closed_edges.len() as u64 + 2 == around.ring;
+        match (done.lock.foreign, done.finding.conflict) {
+            _ if self.growth.has_failed => {}
+            (true, _) if around.is_waiter => outcome.revisit = true,
+            (true, _) => {
+                self.growth.has_failed = true;
+                outcome.gives_up = true;
+                outcome.asks_to_wait = true;
+            }
+            (false, true) if is_full => {
+                self.growth.has_failed = true;
+                outcome.overflows = true;
+            }
+            (false, true) => self.pass(done, &mut outcome),
+            (false, false) => {
+                let edge =
+                    Edge { a: spread(done.record.v[2]), u: visit.u, slot: done.slot, f: visit.f, after: visit.after };
+                assert!(self.growth.entries.insert(visit.x, edge).is_none(), "entry {} is final twice", visit.x);
+                outcome.entry = Some((visit.x, edge));
+            }
+        }
+        if self.out.is_empty() && !outcome.revisit {
+            self.end(&mut outcome);
+        }
+        outcome
+    }
+
+    /// The cavity grows through the edge of a visit.
+    fn pass(&mut self, done: &Completion, outcome: &mut Outcome) {
+        let visit = done.visit;
+        let y = self.growth.closed_edges.len() as u64 + 2;
+        let behind = self.growth.closed_edges.get_mut(&visit.f).expect("a triangle of the cavity");
+        *behind -= 1;
+        if *behind == 0 {
+            outcome.inner = Some((self.growth.inner.len() as u64, visit.f));
+            self.growth.inner.push(visit.f);
+        }
+        assert!(self.growth.closed_edges.insert(visit.u, 2).is_none(), "the cavity meets itself");
+        let [_, n1, n2] = done.record.n;
+        let half = Visit { f: visit.u, f_entry: y, ..visit };
+        outcome.push = self.push(&[Visit { after: y, u: n1, ..half }, Visit { x: y, u: n2, ..half }]);
+    }
+
+    fn end(&mut self, outcome: &mut Outcome) {
+        let locks = self.growth.log.len() as u64;
+        if self.growth.has_failed {
+            outcome.keeps = true;
+            outcome.release = Some(release_job(self.owner, locks));
+        } else {
+            outcome.stops_waiting = true;
+            outcome.triangles = self.growth.closed_edges.len() as u64;
+            let inners = self.growth.inner.len() as u64;
+            outcome.commit = Some(commit_job(self.owner, self.p, inners, locks, self.since));
+        }
+    }
+}
+
+impl Growth {
+    /// The ring is that of the cavity, by what the triangulation says alone.
+    pub fn assert_ring(&self, ground: &Ground, target: &Target) {
+        let cavity: BTreeSet<u64> = self.closed_edges.keys().copied().collect();
+        assert_eq!(cavity, target.cavity);
+        assert_eq!(self.entries.len(), cavity.len() + 2);
+        let mut place = 0;
+        for _ in 0..self.entries.len() {
+            let edge = self.entries[&place];
+            let outside = ground.records[&edge.u].turned(edge.slot as usize);
+            assert!(!cavity.contains(&edge.u) && cavity.contains(&edge.f));
+            assert_eq!((outside.n[0], spread(outside.v[2])), (edge.f, edge.a));
+            // The next edge begins where this one ends.
+            assert_eq!(self.entries[&edge.after].a, spread(outside.v[1]));
+            place = edge.after;
+        }
+        assert_eq!(place, 0, "the ring closes after its last edge and not before");
+        let starts: BTreeSet<u64> = self.entries.values().map(|edge| edge.a).collect();
+        assert_eq!(starts.len(), self.entries.len());
+
+        let has_boundary = |id: &u64| self.entries.values().any(|edge| edge.f == *id);
+        let inner: BTreeSet<u64> = cavity.iter().copied().filter(|id| !has_boundary(id)).collect();
+        assert_eq!(self.inner.iter().copied().collect::<BTreeSet<_>>(), inner);
+        assert_eq!(self.inner.len(), inner.len());
+        let around = self.entries.values().map(|edge| edge.u);
+        let touched: BTreeSet<u64> = cavity.iter().copied().chain(around).collect();
+        assert_eq!(self.log.iter().copied().collect::<BTreeSet<_>>(), touched);
+        assert_eq!(self.log.len(), touched.len(), "every lock is logged once");
+    }
+}

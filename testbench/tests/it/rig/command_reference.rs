@@ -1,0 +1,175 @@
+//! The command port as a list of words that are still wanted.
+
+use std::collections::VecDeque;
+
+use crate::rig::stepper::bundles::Deal;
+use incircle_protocol::{command_starts_batch, Opcode, FIRST_ROUND, PADDING};
+
+/// Points that the core holds, and contexts that it has.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    pub capacity: u32,
+    pub contexts: u32,
+}
+
+/// The engine and the responder as the port sees them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Surroundings {
+    pub sweeping: u64,
+    /// Clocks until all points are in.
+    pub busy: u64,
+    pub triple_is_in: bool,
+    pub seeded: bool,
+    pub collinear: bool,
+    /// Nothing is finished any more.
+    pub stuck: bool,
+    /// Clocks until the answer ends.
+    pub answering: u64,
+    pub answer_is_taken: bool,
+}
+
+/// What the next command word means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    Command,
+    First,
+    Count,
+    Point,
+}
+
+/// The port as a list of words that it still wants, and what has come of them.
+#[derive(Clone, Debug, Default)]
+pub struct Reference {
+    pub wants: VecDeque<Meaning>,
+    /// Of the command at work.
+    pub opcode: Option<u8>,
+    pub first: Option<u32>,
+    pub count: Option<u32>,
+    pub arrived: u32,
+    pub refused: u32,
+    /// The last point is refused, and counted at the next edge.
+    pub is_surplus: bool,
+    /// The point that came with the last edge: id and word.
+    pub came: Option<(u32, u32)>,
+    pub clears: bool,
+    /// Contexts that work.
+    pub contexts: u32,
+    pub is_batch: bool,
+    pub dealt_from: u64,
+    pub is_refused: Option<bool>,
+    /// All words of the command have come; an insert settles first.
+    pub is_complete: bool,
+    pub settles: bool,
+    pub answers: bool,
+    pub inserting: bool,
+    pub reading: bool,
+}
+
+impl Reference {
+    pub fn new(shape: Shape) -> Self {
+        let dealt_from = FIRST_ROUND.into();
+        Self { wants: [Meaning::Command].into(), contexts: shape.contexts, dealt_from, ..Self::default() }
+    }
+
+    pub fn is_ready(&self, around: &Surroundings) -> bool {
+        match self.wants.front() {
+            None => false,
+            Some(Meaning::Command) => around.sweeping == 0,
+            Some(Meaning::First | Meaning::Count) => true,
+            Some(Meaning::Point) => self.came.is_none() && (around.stuck || !self.start_is_open(around)),
+        }
+    }
+
+    /// The engine looks at the first three points.
+    pub fn start_is_open(&self, around: &Surroundings) -> bool {
+        self.arrived == 3 && !around.seeded && !around.collinear
+    }
+
+    /// The first vertex that is dealt follows a clock after the rest.
+    pub fn deal(&self) -> Deal {
+        Deal { contexts: self.contexts.into(), is_batch: self.is_batch, dealt_from: self.dealt_from }
+    }
+
+    /// An answer is due, and no memory is about to be cleared.
+    pub fn answers_now(&self) -> bool {
+        self.answers && !self.clears
+    }
+
+    fn take(&mut self, word: u32, around: &Surroundings, shape: Shape) {
+        match self.wants.pop_front().expect("a word that is wanted") {
+            Meaning::Command if word == PADDING => self.wants.push_back(Meaning::Command),
+            Meaning::Command => {
+                let opcode = (word >> 24) as u8;
+                self.opcode = Some(opcode);
+                let asked = word & 0xff;
+                let is_clear = opcode == Opcode::Clear as u8;
+                self.is_refused = Some(is_clear && asked > shape.contexts);
+                self.clears = is_clear && asked <= shape.contexts;
+                if self.clears {
+                    self.contexts = if asked == 0 { shape.contexts } else { asked };
+                    self.is_batch = command_starts_batch(word);
+                }
+                match Opcode::from_u8(opcode) {
+                    Some(Opcode::Insert) => self.wants.push_back(Meaning::Count),
+                    Some(Opcode::Read | Opcode::Triangles) => self.wants.extend([Meaning::First, Meaning::Count]),
+                    _ => self.answers = true,
+                }
+            }
+            Meaning::First => self.first = Some(word),
+            Meaning::Count => {
+                self.count = Some(word);
+                if self.opcode == Some(Opcode::Insert as u8) {
+                    self.wants = (0..word).map(|_| Meaning::Point).collect();
+                    self.is_complete = word == 0;
+                } else {
+                    self.reading = true;
+                    self.answers = true;
+                }
+            }
+            Meaning::Point => {
+                self.count = self.count.map(|count| count - 1);
+                self.is_complete = self.wants.is_empty();
+                self.inserting = true;
+                if around.collinear || around.stuck || self.arrived == shape.capacity {
+                    self.is_surplus = true;
+                } else {
+                    self.came = Some((self.arrived, word));
+                    self.arrived += 1;
+                }
+            }
+        }
+    }
+
+    /// A rising edge, at which `word` is taken if there is one.
+    pub fn edge(&mut self, word: Option<u32>, pins: Pins, around: &Surroundings, shape: Shape) {
+        let was = self.clone();
+        self.dealt_from = if was.is_batch { 3 * u64::from(was.contexts) } else { FIRST_ROUND.into() };
+        (self.came, self.clears, self.is_complete, self.is_surplus) = (None, false, false, false);
+        self.refused += u32::from(was.is_surplus);
+        if !was.answers && pins.responder_is_idle && around.answer_is_taken {
+            self.reading = false;
+        }
+        if let Some(word) = word {
+            self.take(word, around, shape);
+        }
+        self.settles |= was.is_complete;
+        if was.settles && (pins.is_quiet || around.stuck) {
+            (self.settles, self.inserting, self.answers) = (false, false, true);
+        }
+        if was.answers && pins.answer_ends {
+            self.answers = false;
+            self.wants.push_back(Meaning::Command);
+        }
+        if was.clears {
+            (self.arrived, self.refused) = (0, 0);
+        }
+    }
+}
+
+/// Inputs that follow from the surroundings.
+#[derive(Clone, Copy, Debug)]
+pub struct Pins {
+    pub is_quiet: bool,
+    pub responder_is_idle: bool,
+    pub answer_ends: bool,
+}

@@ -1,0 +1,207 @@
+//! Runs jobs on a pair of core and model, compares the answers with the model by commands, and on a mismatch leaves a waveform.
+
+use incircle::Point;
+use incircle_cli::generate::{generate, Distribution, SplitMix64};
+use incircle_model::{CommandModel, Inputs};
+use incircle_protocol::{
+    command_word, Config, Counter, Layout, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS,
+    LATENCY_BUCKETS,
+};
+use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
+use std::path::PathBuf;
+
+use super::common::mesh_check;
+
+/// A point as its word.
+pub fn word(x: u64, y: u64) -> u32 {
+    x as u32 | (y as u32) << 16
+}
+
+/// Points of a distribution in the order in which the host sends them, duplicates included.
+pub fn ordered(distribution: Distribution, count: usize, bits: u32, seed: u64, contexts: u32) -> Vec<u32> {
+    let points = generate(distribution, count, bits, seed).unwrap_or_else(|error| panic!("{error}"));
+    let points: Vec<Point> = points.into_iter().map(Point::from).collect();
+    let order = incircle::order::brio_hilbert_dealt(&points, contexts);
+    let mut ordered: Vec<Point> = order.into_iter().map(|index| points[index as usize]).collect();
+    make_first_three_span(&mut ordered);
+    ordered.into_iter().map(|p| word(u64::from(p.x), u64::from(p.y))).collect()
+}
+
+/// Moves the first point that is not collinear with the first two distinct ones to place 3.
+fn make_first_three_span(points: &mut [Point]) {
+    let Some(second) = points.iter().position(|&p| p != points[0]) else {
+        return;
+    };
+    points.swap(1, second);
+    let turns = |&p: &Point| {
+        let [a, b] = [points[0], points[1]].map(|q| (i64::from(q.x), i64::from(q.y)));
+        let c = (i64::from(p.x), i64::from(p.y));
+        (b.0 - a.0) * (c.1 - a.1) != (b.1 - a.1) * (c.0 - a.0)
+    };
+    if let Some(third) = points.iter().position(turns) {
+        points.swap(2, third);
+    }
+}
+
+/// A pair that runs one job after the other.
+pub struct Rig {
+    name: &'static str,
+    config: Config,
+    seed: u32,
+    pair: Lockstep,
+    random: SplitMix64,
+    clocks: u64,
+    counters: [u64; COUNTER_WORDS],
+}
+
+impl Rig {
+    pub fn new(name: &'static str, config: Config, seed: u32) -> Self {
+        let pair = Lockstep::new(name, config, seed);
+        Self {
+            name,
+            config,
+            seed,
+            pair,
+            random: SplitMix64::new(u64::from(seed)),
+            clocks: 0,
+            counters: [0; COUNTER_WORDS],
+        }
+    }
+
+    /// Out of the state that an ECP5 has after configuration.
+    #[allow(dead_code, reason = "only netlists have that state")]
+    pub fn configured(name: &'static str, config: Config) -> Self {
+        Self { pair: Lockstep::configured(name, config), ..Self::new(name, config, 1) }
+    }
+
+    /// Another random initial state.
+    pub fn start_anew(&mut self, salt: u32) {
+        self.clocks += self.pair.clocks();
+        self.seed = self.seed.wrapping_mul(31).wrapping_add(salt);
+        self.pair = Lockstep::new(self.name, self.config, self.seed);
+    }
+
+    /// Holds that the test ran as long as it is meant to.
+    pub fn expect_clocks(&mut self, least: u64) {
+        self.clocks += self.pair.clocks();
+        println!("{}: {} clocks", self.name, self.clocks);
+        assert!(self.clocks >= least, "{} clocks, {least} are meant", self.clocks);
+    }
+
+    /// A counter summed over all jobs.
+    pub fn counted(&self, counter: Counter) -> u64 {
+        self.counters[counter as usize]
+    }
+
+    /// A whole job with this many contexts (0: all): insert in pieces, read all, latencies, counters.
+    pub fn run(&mut self, points: &[u32], piece: usize, contexts: u32, stalls: Stalls) {
+        let job = Job::of(points, piece, contexts, self.config);
+        let answers = self.execute(&job, stalls);
+        let expected = self.by_commands(&job);
+        let counters = answers.len() - COUNTER_WORDS;
+        for (sum, &word) in self.counters.iter_mut().zip(&answers[counters..]) {
+            *sum += u64::from(word);
+        }
+        self.compare(points, piece, &answers, &expected);
+    }
+
+    /// What the core answers, against the model by commands, which knows no clock and no contexts: all reports are the same and all
+    /// meshes, under whatever ids.
+    fn compare(&self, points: &[u32], piece: usize, answers: &[u32], expected: &[u32]) {
+        let reports = points.chunks(piece.max(1)).len() * (2 + INSERT_REPORT_WORDS);
+        let triangles = 2 + IDENTITY_WORDS + 2 + reports;
+        let records = triangles + 2 + answers[triangles + 1] as usize;
+        let latencies = answers.len() - (2 + COUNTER_WORDS) - (2 + LATENCY_BUCKETS);
+        assert_eq!(answers.len(), expected.len());
+        assert_eq!(answers[2 + IDENTITY_WORDS..triangles + 2], expected[2 + IDENTITY_WORDS..triangles + 2], "reports");
+        let layout = Layout::of(CORE_COORD_BITS, self.config.points);
+        for (place, record) in answers[records + 2..latencies].chunks(layout.record_words).enumerate() {
+            let vertices = layout.vertices_from_words(&answers[triangles + 2..records], place);
+            assert_eq!(vertices, layout.record_from_words(record).0, "vertices of record {place}");
+        }
+        let mesh = |words: &[u32]| {
+            let records: Vec<[u32; 3]> = words[records + 2..latencies].chunks(3).map(|r| [r[0], r[1], r[2]]).collect();
+            let arrived = &points[..points.len().min(self.config.points as usize)];
+            let canonical = || mesh_check::canonical(&records, arrived, self.config.points);
+            (!records.is_empty()).then(|| canonical().unwrap_or_else(|fault| panic!("{}: {fault}", self.name)))
+        };
+        assert_eq!(mesh(answers), mesh(expected), "the core and the model clock by clock agree, the mesh is wrong");
+        let counters = answers.len() - COUNTER_WORDS;
+        for counter in [Counter::Insertions, Counter::Duplicates, Counter::Refused] {
+            let place = counters + counter as usize;
+            assert_eq!(answers[place], expected[place], "{counter:?}");
+        }
+        let timed: u32 = answers[latencies + 2..latencies + 2 + LATENCY_BUCKETS].iter().sum();
+        assert!(timed <= answers[counters + Counter::Insertions as usize], "{timed} latencies");
+    }
+
+    /// Any commands; `Counters` answers may hold cycles, so answers are compared clock by clock only.
+    pub fn run_commands(&mut self, commands: &[u32], stalls: Stalls) {
+        let mut job = Job { commands: commands.to_vec(), answers: 0 };
+        // The pair keeps its mesh from run to run, so the number of answer words comes from running dry.
+        self.execute(&job, stalls);
+        job.commands.clear();
+        for _ in 0..400 {
+            self.step(Inputs { response_ready: true, ..Inputs::default() }, &job);
+        }
+    }
+
+    /// Part of a job, then a reset at some clock.
+    pub fn run_and_reset(&mut self, points: &[u32], clocks: u64, stalls: Stalls) {
+        let job = Job::of(points, 40, 0, self.config);
+        let mut rest = job.commands.as_slice();
+        for _ in 0..clocks {
+            let chance = self.random.next_u64();
+            let outputs = self.pair.outputs();
+            let inputs = stalls.inputs(rest, chance);
+            if inputs.command_valid && outputs.command_ready {
+                rest = &rest[1..];
+            }
+            self.step(inputs, &job);
+        }
+        let length = 1 + self.random.below(3);
+        for _ in 0..length {
+            let chance = self.random.next_u64();
+            let command_valid = chance & 1 == 0;
+            let inputs =
+                Inputs { reset: true, command_valid, command_data: chance as u32, response_ready: chance & 2 == 0 };
+            self.step(inputs, &job);
+        }
+    }
+
+    fn step(&mut self, inputs: Inputs, job: &Job) {
+        if let Err(mismatch) = self.pair.clock(inputs) {
+            self.fail(&mismatch, job);
+        }
+    }
+
+    fn execute(&mut self, job: &Job, stalls: Stalls) -> Vec<u32> {
+        let random = &mut self.random;
+        match self.pair.run(job, stalls, &mut || random.next_u64()) {
+            Ok(answers) => answers,
+            Err(mismatch) => self.fail(&mismatch, job),
+        }
+    }
+
+    fn fail(&self, mismatch: &Mismatch, job: &Job) -> ! {
+        let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{}.vcd", self.name));
+        let waveform = match self.pair.leave_waveform(&path) {
+            Ok(()) => format!("waveform: {}", path.display()),
+            Err(error) => format!("no waveform: {error}"),
+        };
+        panic!("{}: {mismatch}\n{waveform}\njob {:x?}", self.name, job.commands);
+    }
+
+    fn by_commands(&self, job: &Job) -> Vec<u32> {
+        let mut model = CommandModel::new(CORE_COORD_BITS, self.config.points, self.config.ring)
+            .unwrap_or_else(|error| panic!("{error}"));
+        // It has one context, whatever the core has.
+        let mut commands = job.commands.clone();
+        commands[1] = command_word(Opcode::Clear);
+        model.send(&commands);
+        let mut answers = vec![0; job.answers + 1];
+        let count = model.receive(&mut answers);
+        answers.truncate(count);
+        answers
+    }
+}

@@ -1,0 +1,21 @@
+//! What several tests share.
+
+pub mod attempt_state;
+pub mod block_ports;
+pub mod cavity_growth;
+pub mod command_reference;
+pub mod cosimulation;
+pub mod flip_mesh;
+pub mod lockstep;
+pub mod random_rings;
+pub mod record_count;
+pub mod serial_host;
+pub mod serial_rig;
+pub mod stepper;
+pub mod stream_rig;
+pub mod structures;
+pub mod visit_model;
+
+#[path = "../../../../sim/model/tests/it/common/mod.rs"]
+#[allow(dead_code, reason = "the model's own tests use the rest")]
+pub mod common;

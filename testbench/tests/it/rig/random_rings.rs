@@ -1,0 +1,93 @@
+//! Finished rings of random cavities, grown as a cavity grows: a triangle joins behind one edge of the boundary and brings two.
+
+#![allow(dead_code)] // Every test that includes this uses a part of it.
+
+use std::collections::{btree_map::Entry, BTreeMap};
+
+use incircle_cli::generate::SplitMix64;
+
+use crate::rig::stepper::bundles::{commit_job, Edge};
+
+/// Ids of cavity triangles start here; ids below are free for new records.
+pub const OLD_IDS: u64 = 1 << 14;
+
+/// A finished ring of a context.
+#[derive(Clone, Debug, Default)]
+pub struct Ring {
+    pub owner: u64,
+    pub p: u64,
+    pub locks: u64,
+    pub since: u64,
+    /// Entries by number; the ring starts at 0.
+    pub entries: Vec<Edge>,
+    /// Triangles of the cavity that have no edge on its boundary, in the order in which they lost the last one.
+    pub inner: Vec<u64>,
+}
+
+impl Ring {
+    /// A ring of this many edges.
+    pub fn random(edges: usize, owner: u64, random: &mut SplitMix64) -> Self {
+        let mut edges_of = BTreeMap::new();
+        let root = new_triangle(3, &mut edges_of, random);
+        let mut entries: Vec<Edge> = [1, 2, 0].map(|after| Edge { f: root, after, ..Edge::default() }).to_vec();
+        let mut inner = Vec::new();
+        while entries.len() < edges {
+            let x = random.below(entries.len() as u64) as usize;
+            let passed = entries[x];
+            let open = edges_of.get_mut(&passed.f).expect("a triangle of the cavity");
+            *open -= 1;
+            if *open == 0 {
+                inner.push(passed.f);
+            }
+            let f = new_triangle(2, &mut edges_of, random);
+            entries.push(Edge { f, ..passed });
+            entries[x] = Edge { f, after: entries.len() as u64 - 1, ..passed };
+        }
+        for entry in &mut entries {
+            (entry.a, entry.u, entry.slot) = (random.below(1 << 15), random.below(1 << 15), random.below(3));
+        }
+        let (p, locks, since) = (random.below(1 << 15), 1 + random.below(126), random.below(1 << 22));
+        Self { owner, p, locks, since, entries, inner }
+    }
+
+    /// As a `CommitJob`.
+    pub fn job(&self) -> u128 {
+        commit_job(self.owner, self.p, self.inner.len() as u64, self.locks, self.since)
+    }
+
+    /// The triangle behind the entry with this place in the order lies behind the one before it or the first one too.
+    pub fn shares(&self, place: usize) -> bool {
+        let order = self.in_order();
+        place > 0 && [order[place - 1].f, order[0].f].contains(&order[place].f)
+    }
+
+    /// The entries from entry 0 on.
+    pub fn in_order(&self) -> Vec<Edge> {
+        let mut ring = vec![self.entries[0]];
+        while ring[ring.len() - 1].after != 0 {
+            ring.push(self.entries[ring[ring.len() - 1].after as usize]);
+        }
+        ring
+    }
+}
+
+/// Lengths of rings, the shortest and the longest among them.
+pub fn random_length(longest: u64, random: &mut SplitMix64) -> usize {
+    let length = match random.below(8) {
+        0 => 3,
+        1 => longest,
+        _ => 3 + random.below((longest - 2).min(14)),
+    };
+    length as usize
+}
+
+/// An id that no triangle of the cavity has yet, with so many edges on the boundary.
+fn new_triangle(edges: u32, edges_of: &mut BTreeMap<u64, u32>, random: &mut SplitMix64) -> u64 {
+    loop {
+        let id = OLD_IDS + random.below(OLD_IDS);
+        if let Entry::Vacant(place) = edges_of.entry(id) {
+            place.insert(edges);
+            return id;
+        }
+    }
+}

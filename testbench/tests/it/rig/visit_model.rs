@@ -1,0 +1,135 @@
+//! What a visit finds out, from the geometry alone. Shares no formula with the hardware: orientation is a sum over the corners,
+//! incircle the 3 x 3 determinant of the lifted points, the walk a minimum, the tie a minimum of four points.
+#![allow(dead_code, reason = "each test uses a part of it")]
+
+use crate::rig::structures::{pack, TURNED, VERDICT};
+
+/// A verdict as outputs: conflict, what holds however the record is turned, what holds only where it is not.
+pub const VERDICT_PARTS: [&str; 3] = ["verdict[0+:1]", "verdict[1+:2]", "verdict[3+:17]"];
+
+/// Those parts, nothing where they are arbitrary: ties of corners that fall together, and what no turned record is visited for.
+pub fn verdict_parts(verdict: u128, slot: usize, r: [Point; 3]) -> [Option<u128>; 3] {
+    let differ = r[0] != r[1] && r[1] != r[2] && r[2] != r[0];
+    [differ.then_some(verdict & 1), Some(verdict >> 1 & 3), (slot == 0).then_some(verdict >> 3)]
+}
+
+/// A point; compared by `x`, then by `y`.
+pub type Point = (i64, i64);
+
+/// A point as the ports take it.
+pub fn word(point: Point) -> u64 {
+    (point.0 | point.1 << 16) as u64
+}
+
+pub fn point(word: u64) -> Point {
+    ((word & 0xffff) as i64, (word >> 16) as i64)
+}
+
+/// Twice the signed area of a triangle, by the shoelace formula.
+pub fn orientation(a: Point, b: Point, c: Point) -> i64 {
+    let corner = |u: Point, v: Point| u.0 * v.1 - v.0 * u.1;
+    corner(a, b) + corner(b, c) + corner(c, a)
+}
+
+/// The determinant of the points lifted to a paraboloid, relative to `p`: positive inside the circle of a counter-clockwise triangle.
+pub fn incircle(triangle: [Point; 3], p: Point) -> i128 {
+    let [a, b, c] = triangle.map(|vertex| {
+        let (x, y) = (i128::from(vertex.0 - p.0), i128::from(vertex.1 - p.1));
+        [x, y, x * x + y * y]
+    });
+    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+}
+
+/// Locks and who holds them: the plain statement of what a visit does to one.
+#[derive(Clone, Debug)]
+pub struct Locks(Vec<Option<u64>>);
+
+impl Locks {
+    pub fn new(locks: usize) -> Self {
+        Self(vec![None; locks])
+    }
+
+    /// Who holds a lock.
+    pub fn holder(&self, id: usize) -> Option<u64> {
+        self.0[id]
+    }
+
+    /// A visit of this context wants the lock; `is_cleared` at the same edge. Tells whether it took it, and whether it is foreign.
+    pub fn take(&mut self, id: usize, owner: u64, is_cleared: bool) -> (bool, bool) {
+        match self.0[id] {
+            _ if is_cleared => (false, true),
+            Some(holder) => (false, holder != owner),
+            None => {
+                self.0[id] = Some(owner);
+                (true, false)
+            }
+        }
+    }
+
+    pub fn clear(&mut self, id: usize) {
+        self.0[id] = None;
+    }
+}
+
+/// A record, stored or turned.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Record {
+    pub v: [u64; 3],
+    pub n: [u64; 3],
+}
+
+impl Record {
+    /// The slot that comes first when a visit from `f` turns the record.
+    pub fn slot(&self, rotates: bool, f: u64) -> usize {
+        self.n.iter().position(|link| rotates && *link == f).unwrap_or(0)
+    }
+
+    pub fn turned(&self, slot: usize) -> Self {
+        let mut turned = *self;
+        turned.v.rotate_left(slot);
+        turned.n.rotate_left(slot);
+        turned
+    }
+
+    /// This record, turned already, as the structure `Turned`; `lock` is took, foreign and again.
+    pub fn pack_turned(&self, slot: usize, lock: [bool; 3], infinite: u64) -> u128 {
+        let [took, foreign, again] = lock.map(u64::from);
+        let [v0, v1, v2] = self.v;
+        let [n0, n1, n2] = self.n;
+        let [i0, i1, i2] = self.v.map(|vertex| u64::from(vertex == infinite));
+        let fields = [v0, v1, v2, n0, n1, n2, slot as u64, took, foreign, again, i0, i1, i2];
+        pack(TURNED, fields)
+    }
+
+    /// What a visit of this record, as stored, finds out about `p` if it turns it by `slot`; `r` are its corners, any word for the infinite
+    /// one.
+    pub fn verdict(&self, slot: usize, mut r: [Point; 3], p: Point, infinite: u64) -> u128 {
+        r.rotate_left(slot);
+        self.turned(slot).verdict_turned(r, p, infinite)
+    }
+
+    fn verdict_turned(&self, r: [Point; 3], p: Point, infinite: u64) -> u128 {
+        let side = [0, 1, 2].map(|k| orientation(r[(k + 1) % 3], r[(k + 2) % 3], p));
+        let (conflict, located, falls_onto_corner, next);
+        if let Some(k) = self.v.iter().position(|vertex| *vertex == infinite) {
+            let (a, b) = (r[(k + 1) % 3], r[(k + 2) % 3]);
+            // The lower end counts as between. It is a vertex, and a point on a vertex is a duplicate that no cavity is dug for.
+            let is_between = a.min(b) <= p && p < a.max(b);
+            conflict = side[k] > 0 || (side[k] == 0 && is_between);
+            located = side[k] > 0;
+            falls_onto_corner = false;
+            next = k;
+        } else {
+            let inside = incircle(r, p);
+            let takes_tie = p.min(r[0]) < r[1].min(r[2]);
+            conflict = inside > 0 || (inside == 0 && takes_tie);
+            located = side.iter().all(|side| *side >= 0);
+            falls_onto_corner = r.contains(&p);
+            let lowest = side.iter().min();
+            next = side.iter().position(|side| Some(side) == lowest).unwrap_or(0);
+        }
+        let flags = [conflict, located, falls_onto_corner, side[2] > 0, side[2] == 0];
+        let [conflict, located, corner, is_left, is_straight] = flags.map(u64::from);
+        pack(VERDICT, [conflict, located, corner, is_left, is_straight, self.n[next]])
+    }
+}
