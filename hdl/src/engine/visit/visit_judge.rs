@@ -32,7 +32,7 @@ pub struct VisitJudge {
     /// What the visit found out, in clock 10.
     pub verdict: Signal<Out, Verdict>,
     predicates: VisitPredicates,
-    logic: VerdictLogic,
+    verdict_logic: VerdictLogic,
 }
 
 impl VisitJudge {
@@ -46,8 +46,8 @@ impl Logic for VisitJudge {
         clock!(self, clock, predicates);
         self.predicates.corners.next = self.corners.val();
         self.predicates.p.next = self.p.val();
-        self.logic.turned.next = self.turned.val();
-        self.logic.signs.next = self.predicates.signs.val();
-        self.verdict.next = self.logic.verdict.val();
+        self.verdict_logic.turned.next = self.turned.val();
+        self.verdict_logic.signs.next = self.predicates.signs.val();
+        self.verdict.next = self.verdict_logic.verdict.val();
     }
 }
