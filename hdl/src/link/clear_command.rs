@@ -1,14 +1,5 @@
 //! What a `Clear` asks for: that the mesh is forgotten, how many contexts work from then on, and whether each has a mesh of its own.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | after reset all contexts work |
-//! | `built` | in | 5 | contexts that the core has, a constant |
-//! | `accepts`, `word` | in | 1, 32 | a command word is taken |
-//! | `clears` | out | 1 | forget the mesh at this edge |
-//! | `deal` | out | Deal | contexts that work, and which points are theirs |
-//! | `is_refused` | out | 1 | the last command is a `Clear` that asks for more contexts than there are |
-//!
 //! 1. The low byte of the word is the number of contexts; 0 is all.
 //! 2. Bit 8 begins a batch: each of the contexts has a mesh of its own, and the first points are three for each.
 //! 3. A `Clear` that is refused changes nothing. After reset there is no batch.
@@ -23,21 +14,19 @@ use rust_hdl_widgets::prelude::*;
 /// What a `Clear` asks for; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ClearCommand {
-    /// Clock.
+    /// After reset all contexts work.
     pub clock: Signal<In, Clock>,
-    /// All contexts work.
     pub reset: Signal<In, Bit>,
-    /// Contexts that the core has.
+    /// Contexts that the core has, a constant.
     pub built: Signal<In, Bits<5>>,
     /// A command word is taken.
     pub accepts: Signal<In, Bit>,
-    /// It.
     pub word: Signal<In, Bits<32>>,
-    /// Forget the mesh.
+    /// Forget the mesh at this edge.
     pub clears: Signal<Out, Bit>,
     /// Contexts that work, and which points are theirs.
     pub deal: Signal<Out, Deal>,
-    /// The last command is a `Clear` for too many.
+    /// The last command is a `Clear` that asks for more contexts than there are.
     pub is_refused: Signal<Out, Bit>,
     clearing: DFF<Bit>,
     working: DFF<Bits<5>>,

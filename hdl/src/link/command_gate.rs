@@ -1,47 +1,30 @@
 //! When a command word is taken.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `is_command`, `is_argument`, `is_points` | in | 1 | what the next word means |
-//! | `sweeps` | in | 1 | the core is not ready for commands yet |
-//! | `none_is_left` | in | 1 | all points of the command have come |
-//! | `came` | in | 1 | the point before is being stored |
-//! | `start_is_open` | in | 1 | three points have come for a first triangle, and it is not known yet whether they span one |
-//! | `stuck` | in | 1 | the core is stuck: nothing is waited for |
-//! | `ready` | out | 1 | a word is taken |
-//! | `takes_command`, `takes_point` | out | 1 | it is a command; it is a point |
-//! | `awaits_point` | out | 1 | a point may come |
-//!
 //! 1. The fourth point waits until the first three are known to span a triangle; in a batch so does the one behind the three of each job.
 //!
 //! Latency: none (combinational).
 
+use super::types::EngineState;
 use rust_hdl_core::prelude::*;
 
 /// When a command word is taken; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandGate {
-    /// The next word is a command.
+    /// What the next word means.
     pub is_command: Signal<In, Bit>,
-    /// It is an argument.
     pub is_argument: Signal<In, Bit>,
-    /// It is a point.
     pub is_points: Signal<In, Bit>,
-    /// The core is not ready yet.
+    /// The core is not ready for commands yet.
     pub sweeps: Signal<In, Bit>,
-    /// All points have come.
+    /// All points of the command have come.
     pub none_is_left: Signal<In, Bit>,
     /// The point before is being stored.
     pub came: Signal<In, Bit>,
-    /// Three points for a first triangle are being looked at.
-    pub start_is_open: Signal<In, Bit>,
-    /// The core is stuck.
-    pub stuck: Signal<In, Bit>,
+    pub engine: Signal<In, EngineState>,
     /// A word is taken.
     pub ready: Signal<Out, Bit>,
-    /// A command is taken.
+    /// It is a command; it is a point.
     pub takes_command: Signal<Out, Bit>,
-    /// A point is taken.
     pub takes_point: Signal<Out, Bit>,
     /// A point may come.
     pub awaits_point: Signal<Out, Bit>,
@@ -51,7 +34,7 @@ pub struct CommandGate {
 impl Logic for CommandGate {
     #[hdl_gen]
     fn update(&mut self) {
-        self.is_held.next = self.start_is_open.val() & (!self.stuck.val());
+        self.is_held.next = self.engine.val().start_is_open & (!self.engine.val().stuck);
         self.awaits_point.next = self.is_points.val() & (!self.none_is_left.val());
         self.takes_command.next = self.is_command.val() & (!self.sweeps.val());
         self.takes_point.next = self.awaits_point.val() & (!self.came.val()) & (!self.is_held.val());

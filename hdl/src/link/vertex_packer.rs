@@ -1,12 +1,5 @@
 //! Packs the vertices of records into beats of two words: ids of 16 bits without gaps.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset drops the beat |
-//! | `starts`, `count` | in | 1, 15 | so many records will come, one at least |
-//! | `comes`, `v0..v2` | in | 1, 15 | a record comes |
-//! | `valid`, `beat` | out | 1, AnswerBeat | a beat is full, or the last one; it stands for one clock |
-//!
 //! 1. Four records fill three beats: the first of four fills none, and each of the others fills one and leaves what is beyond it.
 //! 2. What the last record leaves follows a clock later as a beat of its own, with the words that it needs; an odd half is zero.
 //! 3. Nothing can be held up here: the user sees to it that there is room for every beat.
@@ -30,25 +23,19 @@ use rust_hdl_widgets::prelude::*;
 /// Vertices of records, packed; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexPacker {
-    /// Clock.
+    /// Reset drops the beat.
     pub clock: Signal<In, Clock>,
-    /// Drops the beat.
     pub reset: Signal<In, Bit>,
-    /// Records will come.
+    /// So many records will come, one at least.
     pub starts: Signal<In, Bit>,
-    /// So many.
     pub count: Signal<In, Bits<15>>,
     /// A record comes.
     pub comes: Signal<In, Bit>,
-    /// Its vertex.
     pub v0: Signal<In, Bits<15>>,
-    /// Its vertex.
     pub v1: Signal<In, Bits<15>>,
-    /// Its vertex.
     pub v2: Signal<In, Bits<15>>,
-    /// A beat is there.
+    /// A beat is full, or the last one; it stands for one clock.
     pub valid: Signal<Out, Bit>,
-    /// It.
     pub beat: Signal<Out, AnswerBeat>,
     is_there: DFF<Bit>,
     filled: DFF<AnswerBeat>,

@@ -1,17 +1,5 @@
 //! Cuts the answers of the core into parts that fit a frame, and gives their words byte by byte.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset awaits an answer, number 0 |
-//! | `word_valid`, `word_ready`, `word_data` | in, out, in | 1, 1, 32 | the answer stream of the core, word by word |
-//! | `is_due`, `is_last` | out | 1 | a part is ready to be sent; it is the last one of its answer |
-//! | `starts` | in | 1 | its frame begins |
-//! | `number`, `part` | out | 8, 8 | answers that have been sent to their end; the part's first word, divided by 256 |
-//! | `byte_valid`, `byte_data`, `takes` | out, out, in | 1, 8, 1 | a byte of the part; it is taken at this edge |
-//! | `byte_is_last` | out | 1 | it is the last one |
-//! | `ended` | in | 1 | the frame of the last part is over |
-//! | `awaits` | out | 1 | no word of an answer has come |
-//!
 //! 1. All parts but the last have 256 words. The length of an answer is its second word, below 2^17.
 //! 2. `word_ready`, `is_due` and `byte_valid` depend on registers only.
 //! 3. A part begins when its first word is there; of the first part the second, too, which is not taken then.
@@ -40,37 +28,30 @@ pub enum PackState {
 /// Parts of answers; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerPacker {
-    /// Clock.
+    /// Reset awaits an answer, number 0.
     pub clock: Signal<In, Clock>,
-    /// Awaits an answer, number 0.
     pub reset: Signal<In, Bit>,
-    /// A word is offered.
+    /// The answer stream of the core, word by word.
     pub word_valid: Signal<In, Bit>,
-    /// It is taken.
     pub word_ready: Signal<Out, Bit>,
-    /// The word.
     pub word_data: Signal<In, Bits<32>>,
-    /// A part is ready.
+    /// A part is ready to be sent; it is the last one of its answer.
     pub is_due: Signal<Out, Bit>,
-    /// It is the last one.
     pub is_last: Signal<Out, Bit>,
     /// Its frame begins.
     pub starts: Signal<In, Bit>,
-    /// Answers sent to their end.
+    /// Answers that have been sent to their end; the part's first word, divided by 256.
     pub number: Signal<Out, Bits<8>>,
-    /// Parts of the answer before this one.
     pub part: Signal<Out, Bits<8>>,
-    /// A byte is there.
+    /// A byte of the part; it is taken at this edge.
     pub byte_valid: Signal<Out, Bit>,
-    /// It.
     pub byte_data: Signal<Out, Bits<8>>,
-    /// It is taken.
     pub takes: Signal<In, Bit>,
-    /// It is the last one of the part.
+    /// It is the last one.
     pub byte_is_last: Signal<Out, Bit>,
     /// The frame of the last part is over.
     pub ended: Signal<In, Bit>,
-    /// No word has come.
+    /// No word of an answer has come.
     pub awaits: Signal<Out, Bit>,
     state: DFF<PackState>,
     word: DFF<Bits<32>>,

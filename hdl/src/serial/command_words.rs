@@ -1,11 +1,5 @@
 //! Bytes as the words of the core's command stream, the low byte first.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets the bytes of a word |
-//! | `byte_valid`, `byte_data`, `takes` | in, in, out | 1, 8, 1 | a byte; it is taken at this edge |
-//! | `word_valid`, `word_ready`, `word` | out, in, out | 1, 1, 32 | a word |
-//!
 //! 1. A word once offered stays until it is taken.
 //!
 //! Latency: 1 clock from the fourth byte.
@@ -26,21 +20,16 @@ use rust_hdl_widgets::prelude::*;
 /// Words of commands; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandWords {
-    /// Clock.
+    /// Reset forgets the bytes of a word.
     pub clock: Signal<In, Clock>,
-    /// Forgets the bytes of a word.
     pub reset: Signal<In, Bit>,
-    /// A byte is there.
+    /// A byte; it is taken at this edge.
     pub byte_valid: Signal<In, Bit>,
-    /// It.
     pub byte_data: Signal<In, Bits<8>>,
-    /// It is taken.
     pub takes: Signal<Out, Bit>,
-    /// A word is offered.
+    /// A word.
     pub word_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub word_ready: Signal<In, Bit>,
-    /// The word.
     pub word: Signal<Out, Bits<32>>,
     bytes: DFF<Bits<32>>,
     count: DFF<Bits<2>>,

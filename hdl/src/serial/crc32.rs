@@ -1,13 +1,5 @@
 //! A running CRC-32 over bytes, a bit at a time.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `sets`, `start` | in | 1, 32 | begin with this state at this edge |
-//! | `takes`, `byte_data` | in | 1, 8 | one more byte |
-//! | `is_busy` | out | 1 | the last byte is not in the state yet |
-//! | `state` | out | 32 | the state: all ones in the beginning, and the check sum is its complement |
-//!
 //! 1. A byte is taken only while `is_busy` is low, or the byte before is lost.
 //! 2. `sets` forgets a byte that is under way.
 //!
@@ -21,19 +13,16 @@ use rust_hdl_widgets::prelude::*;
 /// A running check sum; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Crc32 {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Begin with `start`.
+    /// Begin with this state at this edge.
     pub sets: Signal<In, Bit>,
-    /// A state.
     pub start: Signal<In, Bits<32>>,
     /// One more byte.
     pub takes: Signal<In, Bit>,
-    /// It.
     pub byte_data: Signal<In, Bits<8>>,
     /// The last byte is not in the state yet.
     pub is_busy: Signal<Out, Bit>,
-    /// The state.
+    /// The state: all ones in the beginning, and the check sum is its complement.
     pub state: Signal<Out, Bits<32>>,
     remainder: DFF<Bits<32>>,
     bits: DFF<Bits<8>>,

@@ -1,15 +1,5 @@
 //! The byte of a frame to the host, chosen among its parts.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `part`, `index` | in | 3, 2 | part of the frame, as `FrameSender` numbers them, and the low bits of the byte's index in it |
-//! | `ends_answer` | in | 1 | the digest is that of an answer |
-//! | `header`, `greeting`, `word` | in | 8 | the byte, if it is of the header, of the greeting, of the words |
-//! | `answers`, `answer_part` | in | 8 | number of the answer; index of the frame's first word, divided by 256 |
-//! | `payload_state`, `answer_state`, `sum_state` | in | 32 | states of the check sums: of the payload, of the answer, of the frame |
-//! | `byte_data` | out | 8 | the byte |
-//!
 //! 1. A check sum is the complement of its state.
 //!
 //! Latency: 1 clock.
@@ -20,29 +10,22 @@ use rust_hdl_widgets::prelude::*;
 /// The byte of a frame; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameBytes {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Part of the frame.
+    /// Part of the frame, as `FrameSender` numbers them, and the low bits of the byte's index in it.
     pub part: Signal<In, Bits<3>>,
-    /// Byte of it.
     pub index: Signal<In, Bits<2>>,
     /// The digest is that of an answer.
     pub ends_answer: Signal<In, Bit>,
-    /// A byte of the header.
+    /// The byte, if it is of the header, of the greeting, of the words.
     pub header: Signal<In, Bits<8>>,
-    /// A byte of the greeting.
     pub greeting: Signal<In, Bits<8>>,
-    /// A byte of the words.
     pub word: Signal<In, Bits<8>>,
-    /// Number of the answer.
+    /// Number of the answer; index of the frame's first word, divided by 256.
     pub answers: Signal<In, Bits<8>>,
-    /// Parts of it before this one.
     pub answer_part: Signal<In, Bits<8>>,
-    /// State of the payload's check sum.
+    /// States of the check sums: of the payload, of the answer, of the frame.
     pub payload_state: Signal<In, Bits<32>>,
-    /// State of the answer's.
     pub answer_state: Signal<In, Bits<32>>,
-    /// State of the frame's.
     pub sum_state: Signal<In, Bits<32>>,
     /// The byte.
     pub byte_data: Signal<Out, Bits<8>>,

@@ -1,17 +1,5 @@
 //! Decides which frame goes to the host next.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `is_idle` | in | 1 | no frame is under way |
-//! | `reply_is_due`, `reply_kind` | in | 1, 8 | a control frame is due; its type |
-//! | `answer_is_due`, `answer_is_last` | in | 1 | a part of an answer is; it is the last one |
-//! | `holds` | in | 1 | no frame may begin |
-//! | `cuts` | in | 1 | no answer may begin |
-//! | `starts`, `starts_reply`, `starts_answer` | out | 1 | a frame begins at this edge; which of the two |
-//! | `kind` | out | 8 | type of the frame under way |
-//! | `has_greeting`, `has_digest`, `has_answer`, `ends_answer` | out | 1 | what it has |
-//!
 //! 1. A control frame goes before an answer.
 //! 2. What is said of the frame under way stands from the clock after `starts` to the end of the frame.
 //!
@@ -24,37 +12,29 @@ use rust_hdl_widgets::prelude::*;
 /// The next frame; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameChoice {
-    /// Clock.
     pub clock: Signal<In, Clock>,
     /// No frame is under way.
     pub is_idle: Signal<In, Bit>,
-    /// A control frame is due.
+    /// A control frame is due; its type.
     pub reply_is_due: Signal<In, Bit>,
-    /// Its type.
     pub reply_kind: Signal<In, Bits<8>>,
-    /// A part of an answer is due.
+    /// A part of an answer is; it is the last one.
     pub answer_is_due: Signal<In, Bit>,
-    /// It is the last one.
     pub answer_is_last: Signal<In, Bit>,
     /// No frame may begin.
     pub holds: Signal<In, Bit>,
     /// No answer may begin.
     pub cuts: Signal<In, Bit>,
-    /// A frame begins.
+    /// A frame begins at this edge; which of the two.
     pub starts: Signal<Out, Bit>,
-    /// A control frame.
     pub starts_reply: Signal<Out, Bit>,
-    /// One of an answer.
     pub starts_answer: Signal<Out, Bit>,
     /// Type of the frame under way.
     pub kind: Signal<Out, Bits<8>>,
-    /// It has a greeting.
+    /// What it has.
     pub has_greeting: Signal<Out, Bit>,
-    /// It has a digest behind its header.
     pub has_digest: Signal<Out, Bit>,
-    /// It has words of an answer.
     pub has_answer: Signal<Out, Bit>,
-    /// It has the last ones, and a digest behind them.
     pub ends_answer: Signal<Out, Bit>,
     kind_byte: DFF<Bits<8>>,
     is_hello: DFF<Bit>,

@@ -1,17 +1,5 @@
 //! The header of a frame to the host, as it was when the frame began, and the digest that goes with it.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | after reset no frame has been dropped |
-//! | `starts` | in | 1 | a frame begins: all below is as it is now, until the next begins |
-//! | `session`, `expected`, `answers`, `free` | in | 8, 8, 8, 16 | fields of the header |
-//! | `is_open`, `is_refused`, `is_busy` | in | 1 | a session is open; the last `Rate` was refused; a command is under way |
-//! | `drops` | in | 1 | a frame of the host is dropped |
-//! | `digest` | in | 32 | state of the check sum of the session's payload |
-//! | `kind`, `index` | in | 8, 3 | type of the frame; byte of the header |
-//! | `byte_data` | out | 8 | it |
-//! | `digest_taken` | out | 32 | the state as it was |
-//!
 //! 1. A frame that is dropped at the very clock in which one begins shows in the next.
 //!
 //! Latency: none (combinational) from `kind` and `index`.
@@ -23,37 +11,30 @@ use rust_hdl_widgets::prelude::*;
 /// Headers of frames to the host; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameHeader {
-    /// Clock.
+    /// After reset no frame has been dropped.
     pub clock: Signal<In, Clock>,
-    /// No frame has been dropped.
     pub reset: Signal<In, Bit>,
-    /// A frame begins.
+    /// A frame begins: all below is as it is now, until the next begins.
     pub starts: Signal<In, Bit>,
-    /// The open session.
+    /// Fields of the header.
     pub session: Signal<In, Bits<8>>,
-    /// Number of the frame that is awaited.
     pub expected: Signal<In, Bits<8>>,
-    /// Answers sent to their end.
     pub answers: Signal<In, Bits<8>>,
-    /// Bytes of the FIFO that are free.
     pub free: Signal<In, Bits<16>>,
-    /// A session is open.
+    /// A session is open; the last `Rate` was refused; a command is under way.
     pub is_open: Signal<In, Bit>,
-    /// The last `Rate` was refused.
     pub is_refused: Signal<In, Bit>,
-    /// A command is under way.
     pub is_busy: Signal<In, Bit>,
-    /// A frame is dropped.
+    /// A frame of the host is dropped.
     pub drops: Signal<In, Bit>,
-    /// State of the payload's check sum.
+    /// State of the check sum of the session's payload.
     pub digest: Signal<In, Bits<32>>,
-    /// Type of the frame.
+    /// Type of the frame; byte of the header.
     pub kind: Signal<In, Bits<8>>,
-    /// Byte of the header.
     pub index: Signal<In, Bits<3>>,
     /// It.
     pub byte_data: Signal<Out, Bits<8>>,
-    /// State of the payload's check sum when the frame began.
+    /// The state as it was.
     pub digest_taken: Signal<Out, Bits<32>>,
     session_then: DFF<Bits<8>>,
     expected_then: DFF<Bits<8>>,

@@ -1,16 +1,5 @@
 //! What a frame of a host asks for.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets a frame that is under way |
-//! | `session`, `kind`, `number`, `length` | in | 8, 8, 8, 11 | its header, from `FrameReader` |
-//! | `header_comes` | in | 1 | it is complete |
-//! | `comes`, `is_sound` | in | 1 | the frame is over; its check sum and its length are right |
-//! | `is_open`, `open_session`, `expected` | in | 1, 8, 8 | the session, and the number of the `Data` frame that is awaited |
-//! | `free` | in | 16 | bytes of the receive FIFO that are free |
-//! | `takes_payload` | out | 1 | the payload belongs into the FIFO, if the frame turns out to be sound |
-//! | `asked` | out | Asked | what is asked for, at the end of the frame |
-//!
 //! 1. Exactly one of the fields of `asked` but `hears` is high at the end of a frame, or none: for frames of another session.
 //! 2. `takes_payload` is decided 3 clocks after the header and stays until the end; `length` bytes fit the FIFO then.
 //! 3. Bytes of a frame come at least 16 clocks apart, so what the header says is compared in ranks of registers.
@@ -54,35 +43,28 @@ packed! {
 /// What a frame asks for; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameJudge {
-    /// Clock.
+    /// Reset forgets a frame that is under way.
     pub clock: Signal<In, Clock>,
-    /// Forgets a frame that is under way.
     pub reset: Signal<In, Bit>,
-    /// Session of the frame.
+    /// Its header, from `FrameReader`.
     pub session: Signal<In, Bits<8>>,
-    /// Its type.
     pub kind: Signal<In, Bits<8>>,
-    /// Its number.
     pub number: Signal<In, Bits<8>>,
-    /// Bytes of its payload.
     pub length: Signal<In, Bits<11>>,
-    /// These are complete.
+    /// It is complete.
     pub header_comes: Signal<In, Bit>,
-    /// The frame is over.
+    /// The frame is over; its check sum and its length are right.
     pub comes: Signal<In, Bit>,
-    /// Its check sum and its length are right.
     pub is_sound: Signal<In, Bit>,
-    /// A session is open.
+    /// The session, and the number of the `Data` frame that is awaited.
     pub is_open: Signal<In, Bit>,
-    /// Its number.
     pub open_session: Signal<In, Bits<8>>,
-    /// Number of the frame that is awaited.
     pub expected: Signal<In, Bits<8>>,
-    /// Bytes of the FIFO that are free.
+    /// Bytes of the receive FIFO that are free.
     pub free: Signal<In, Bits<16>>,
-    /// The payload belongs into the FIFO.
+    /// The payload belongs into the FIFO, if the frame turns out to be sound.
     pub takes_payload: Signal<Out, Bit>,
-    /// What is asked for.
+    /// What is asked for, at the end of the frame.
     pub asked: Signal<Out, Asked>,
     // First rank: what the header says.
     kind_low: DFF<Bits<3>>,

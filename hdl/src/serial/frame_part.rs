@@ -1,12 +1,5 @@
 //! Whether a byte is the last one of its part of a frame to the host.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `part`, `index` | in | 3, 6 | part of the frame, as `FrameSender` numbers them, and byte of it |
-//! | `word_byte_is_last` | in | 1 | the byte is the last one of the words |
-//! | `is_last` | out | 1 | the byte is the last one of the part |
-//!
 //! Latency: 1 clock.
 
 use incircle_protocol::{ANSWER_HEADER_BYTES, CRC_BYTES, DEVICE_HEADER_BYTES, GREETING_WORDS};
@@ -16,15 +9,13 @@ use rust_hdl_widgets::prelude::*;
 /// The ends of parts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FramePart {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Part of the frame.
+    /// Part of the frame, as `FrameSender` numbers them, and byte of it.
     pub part: Signal<In, Bits<3>>,
-    /// Byte of it.
     pub index: Signal<In, Bits<6>>,
     /// The byte is the last one of the words.
     pub word_byte_is_last: Signal<In, Bit>,
-    /// It is the last one of the part.
+    /// The byte is the last one of the part.
     pub is_last: Signal<Out, Bit>,
     at_end: DFF<Bit>,
     last_index: Signal<Local, Bits<6>>,

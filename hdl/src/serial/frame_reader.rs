@@ -1,16 +1,5 @@
 //! Reads the frames of a host: header, payload, check sum.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset awaits a frame |
-//! | `data_valid`, `data` | in | 1, 8 | a byte of a frame |
-//! | `frame_ends`, `is_broken` | in | 1 | the frame is over; it lacks bytes |
-//! | `session`, `kind`, `number`, `length` | out | 8, 8, 8, 11 | the header |
-//! | `header_comes` | out | 1 | it is complete, and stands until the next frame |
-//! | `payload_valid`, `payload` | out | 1, 8 | a byte of the payload |
-//! | `value` | out | 32 | the last four bytes of the payload |
-//! | `comes`, `is_sound` | out | 1 | a frame is over; its check sum and its length are right |
-//!
 //! 1. Bytes, and the end of a frame, come at least 16 clocks apart.
 //! 2. A frame whose header says more than 1,024 bytes has no payload and is not sound.
 //! 3. The payload comes before the check sum is known.
@@ -46,37 +35,29 @@ pub enum ReadState {
 /// Frames of a host; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameReader {
-    /// Clock.
+    /// Reset awaits a frame.
     pub clock: Signal<In, Clock>,
-    /// Awaits a frame.
     pub reset: Signal<In, Bit>,
     /// A byte of a frame.
     pub data_valid: Signal<In, Bit>,
-    /// It.
     pub data: Signal<In, Bits<8>>,
-    /// The frame is over.
+    /// The frame is over; it lacks bytes.
     pub frame_ends: Signal<In, Bit>,
-    /// It lacks bytes.
     pub is_broken: Signal<In, Bit>,
-    /// Session of the frame.
+    /// The header.
     pub session: Signal<Out, Bits<8>>,
-    /// Its type.
     pub kind: Signal<Out, Bits<8>>,
-    /// Its number.
     pub number: Signal<Out, Bits<8>>,
-    /// Bytes of its payload.
     pub length: Signal<Out, Bits<11>>,
-    /// These are complete.
+    /// It is complete, and stands until the next frame.
     pub header_comes: Signal<Out, Bit>,
     /// A byte of the payload.
     pub payload_valid: Signal<Out, Bit>,
-    /// It.
     pub payload: Signal<Out, Bits<8>>,
     /// The last four bytes of the payload.
     pub value: Signal<Out, Bits<32>>,
-    /// A frame is over.
+    /// A frame is over; its check sum and its length are right.
     pub comes: Signal<Out, Bit>,
-    /// Check sum and length are right.
     pub is_sound: Signal<Out, Bit>,
     state: DFF<ReadState>,
     session_byte: DFF<Bits<8>>,

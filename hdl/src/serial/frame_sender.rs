@@ -1,20 +1,5 @@
 //! Sends a frame to the host: asks for its bytes in order.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset sends nothing |
-//! | `starts` | in | 1 | a frame begins at this edge |
-//! | `has_greeting`, `has_digest`, `has_answer`, `ends_answer` | in | 1 | what the frame under way has, from `FrameChoice` |
-//! | `cuts` | in | 1 | an answer is over: its frame is to end, invalid |
-//! | `part`, `index` | out | 3, 6 | part of the frame (0 header, 1 greeting, 2 digest, 3 head of an answer, 4 words, 5 check sum), and byte of that |
-//! | `byte_data`, `sum_is_busy` | in | 8, 1 | that byte, 2 clocks later; the check sum has not taken the byte before |
-//! | `word_byte_valid`, `word_byte_is_last` | in | 1 | the next byte of the words is there; it is the last one of the frame |
-//! | `loads`, `loads_word` | out | 1 | a byte that the check sum covers is loaded; it is one of the words |
-//! | `data_valid`, `data_ready`, `data` | out, in, out | 1, 1, 8 | bytes of the frame |
-//! | `ends`, `is_cut`, `ended` | out, out, in | 1 | no byte follows; the frame is to be invalid; it is over |
-//! | `answer_ended` | out | 1 | it was the last of an answer, and whole |
-//! | `is_idle` | out | 1 | no frame is under way |
-//!
 //! 1. `starts` only while `is_idle`.
 //! 2. A byte once offered stays until it is taken, unless the frame is cut.
 //!
@@ -38,51 +23,39 @@ pub enum SendState {
 /// Frames to the host; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameSender {
-    /// Clock.
+    /// Reset sends nothing.
     pub clock: Signal<In, Clock>,
-    /// Sends nothing.
     pub reset: Signal<In, Bit>,
-    /// A frame begins.
+    /// A frame begins at this edge.
     pub starts: Signal<In, Bit>,
-    /// It has a greeting.
+    /// What the frame under way has, from `FrameChoice`.
     pub has_greeting: Signal<In, Bit>,
-    /// It has a digest behind its header.
     pub has_digest: Signal<In, Bit>,
-    /// It has words of an answer.
     pub has_answer: Signal<In, Bit>,
-    /// It has the last ones, and a digest behind them.
     pub ends_answer: Signal<In, Bit>,
-    /// An answer is over.
+    /// An answer is over: its frame is to end, invalid.
     pub cuts: Signal<In, Bit>,
-    /// Part of the frame.
+    /// Part of the frame (0 header, 1 greeting, 2 digest, 3 head of an answer, 4 words, 5 check sum), and byte of that.
     pub part: Signal<Out, Bits<3>>,
-    /// Byte of the part.
     pub index: Signal<Out, Bits<6>>,
-    /// That byte.
+    /// That byte, 2 clocks later; the check sum has not taken the byte before.
     pub byte_data: Signal<In, Bits<8>>,
-    /// The check sum has not taken the byte before.
     pub sum_is_busy: Signal<In, Bit>,
-    /// A byte of the words is there.
+    /// The next byte of the words is there; it is the last one of the frame.
     pub word_byte_valid: Signal<In, Bit>,
-    /// It is the last one.
     pub word_byte_is_last: Signal<In, Bit>,
-    /// A byte under the check sum is loaded.
+    /// A byte that the check sum covers is loaded; it is one of the words.
     pub loads: Signal<Out, Bit>,
-    /// It is one of the words.
     pub loads_word: Signal<Out, Bit>,
-    /// A byte is offered.
+    /// Bytes of the frame.
     pub data_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub data_ready: Signal<In, Bit>,
-    /// The byte.
     pub data: Signal<Out, Bits<8>>,
-    /// No byte follows.
+    /// No byte follows; the frame is to be invalid; it is over.
     pub ends: Signal<Out, Bit>,
-    /// The frame is to be invalid.
     pub is_cut: Signal<Out, Bit>,
-    /// The frame is over.
     pub ended: Signal<In, Bit>,
-    /// The last frame of an answer is over.
+    /// It was the last of an answer, and whole.
     pub answer_ended: Signal<Out, Bit>,
     /// No frame is under way.
     pub is_idle: Signal<Out, Bit>,

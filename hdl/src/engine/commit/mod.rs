@@ -15,6 +15,7 @@
 //! Lock rules (see `docs/engine.md`): L4, the locks of a ring are released after its last write ([`CommitPath`], [`Release`]); L7, new
 //! ids count as not written until their commit has ended ([`FreshIds`]).
 
+#[expect(clippy::module_inception, reason = "the room carries the name of its main block")]
 mod commit;
 mod commit_path;
 mod fresh_ids;

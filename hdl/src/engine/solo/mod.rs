@@ -12,6 +12,7 @@
 //! Lock rules: none. No other visit is out and no lock is held while an insertion is alone; [`ContextFlags`](super::ContextFlags) and
 //! [`Starter`](super::Starter) see to that.
 
+#[expect(clippy::module_inception, reason = "the room carries the name of its main block")]
 mod solo;
 mod solo_star;
 mod solo_visit;

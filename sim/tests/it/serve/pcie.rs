@@ -6,7 +6,7 @@ use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
 
-use super::service::end;
+use super::service::{self, end};
 use incircle_protocol::{command_word, Opcode, StreamRegister, MAGIC, PROTOCOL_VERSION};
 
 /// A folder of a test's own, which is not there.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-use super::service::end;
+use super::service::{self, end};
 use incircle_model::serial::{FromDevice, FromHost};
 use incircle_protocol::{DeviceFrame, HostFrame};
 

@@ -3,12 +3,17 @@
 
 #![allow(dead_code)] // Every test that includes this uses a part of it.
 
+use std::collections::BTreeMap;
+
 use incircle_hdl::engine::{
     Attempt, Bundle, CommitJob, Deal, Entry, Plan, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
+use incircle_hdl::link::types::{Activity, AnswerProgress, Arrival, EngineState, Head, Request, Tally};
 use incircle_hdl::link::AnswerBeat;
+use incircle_hdl::mesh::Record;
 use incircle_hdl::serial::Asked;
+use incircle_hdl::stream::{AnswerEvents, CommandEvents};
 use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
 
@@ -82,35 +87,140 @@ packed_values!(
     Asked,
     AnswerBeat,
     Deal,
-    Plan
+    Plan,
+    Activity,
+    AnswerProgress,
+    Arrival,
+    EngineState,
+    Head,
+    Request,
+    Tally,
+    Record,
+    AnswerEvents,
+    CommandEvents
 );
 
-/// A block whose ports are reached by name.
+/// A block whose ports are reached by name: `reset`, and `command_valid` for the signal `valid` of the interface `command`.
 pub trait NamedPorts: Block {
     fn set(&mut self, port: &str, number: impl Into<u128>);
     fn get(&self, port: &str) -> u128;
+    /// What a port carries, if the block has the port.
+    fn layout(&self, port: &str) -> Option<TypeDescriptor>;
     fn set_clock(&mut self, high: bool);
 }
 
-/// Gives a block [`NamedPorts`]: its type, its inputs, its outputs, and `clock` if it has one. Before the type may stand generic
+/// What a signal carries.
+pub fn layout_of<D: Direction, T: Synth>(_: &Signal<D, T>) -> Option<TypeDescriptor> {
+    Some(T::descriptor())
+}
+
+/// Some bits of a port.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    pub port: String,
+    pub offset: u32,
+    pub width: u32,
+}
+
+impl Place {
+    fn mask(&self) -> u128 {
+        u128::MAX.checked_shr(128 - self.width).unwrap_or(0)
+    }
+
+    /// These bits of the port's value.
+    pub fn part_of(&self, value: u128) -> u128 {
+        value >> self.offset & self.mask()
+    }
+
+    /// The port's value with these bits replaced.
+    pub fn put_into(&self, value: u128, part: u128) -> u128 {
+        value & !(self.mask() << self.offset) | part << self.offset
+    }
+}
+
+/// Names of ports as the tests write them, and of the fields of those that carry a structure: `record_v0`, or `v0` alone where no other
+/// port has that name and no other structure a field of it.
+pub struct Places(BTreeMap<String, Option<Place>>);
+
+impl Places {
+    /// The ports of a model, with what `layout` says that they carry.
+    pub fn new(model: &Model, layout: impl Fn(&str) -> Option<TypeDescriptor>) -> Self {
+        let ports: Vec<(String, u32)> =
+            model.description().ports().map(|port| (plain(port.name), port.width)).collect();
+        let mut places = BTreeMap::new();
+        for (port, _) in &ports {
+            let mut offset = 0;
+            for (field, width) in layout(port).map(|layout| fields(&layout)).unwrap_or_default() {
+                let place = Place { port: port.clone(), offset, width };
+                offset += width;
+                places.insert(format!("{port}_{field}"), Some(place.clone()));
+                places.entry(field).and_modify(|place| *place = None).or_insert(Some(place));
+            }
+        }
+        let whole = |(port, width): (String, u32)| (port.clone(), Some(Place { port, offset: 0, width }));
+        places.extend(ports.into_iter().map(whole));
+        Self(places)
+    }
+
+    /// Where a name stands; it may be written with dots.
+    pub fn find(&self, name: &str) -> Place {
+        match self.0.get(&plain(name)) {
+            Some(Some(place)) => place.clone(),
+            Some(None) => panic!("{name} is a field of several structures"),
+            None => panic!("no port {name}; there are {:?}", self.0.keys()),
+        }
+    }
+}
+
+/// The name of a port as tests write it: members of an interface stand behind its name.
+pub fn plain(name: &str) -> String {
+    name.replace(['$', '.'], "_")
+}
+
+/// Names and widths of the fields of a structure, the lowest first, those of inner structures behind the name of the field.
+fn fields(layout: &TypeDescriptor) -> Vec<(String, u32)> {
+    let TypeKind::Composite(outer) = &layout.kind else { return Vec::new() };
+    let one = |field: &TypeField| match &field.kind.kind {
+        TypeKind::Bits(width) | TypeKind::Signed(width) => vec![(field.fieldname.clone(), *width as u32)],
+        TypeKind::Enum(states) => vec![(field.fieldname.clone(), states.len().next_power_of_two().trailing_zeros())],
+        TypeKind::Composite(_) => fields(&field.kind)
+            .into_iter()
+            .map(|(name, width)| (format!("{}_{name}", field.fieldname), width))
+            .collect(),
+    };
+    outer.iter().flat_map(|field| one(field)).collect()
+}
+
+/// Gives a block [`NamedPorts`]: its type, its inputs, its outputs, and `clock` if it has one. A signal of an interface is written
+/// with a dot: `command.valid`. Before the type may stand generic
 /// parameters in brackets, or none: `[]`.
 #[allow(unused_macros)] // As above.
 macro_rules! named_ports {
-    ([$($generics:tt)*] $block:ty, [$($input:ident),*], [$($output:ident),*] $(, $clock:ident)?) => {
+    ([$($generics:tt)*] $block:ty, [$($input:ident $(. $inner:ident)*),*], [$($output:ident $(. $outer:ident)*),*] $(, $clock:ident)?) => {
         impl<$($generics)*> $crate::rig::block_ports::NamedPorts for $block {
             fn set(&mut self, port: &str, number: impl Into<u128>) {
                 use $crate::rig::block_ports::PortValue;
                 let number = number.into();
                 match port {
-                    $(stringify!($input) => self.$input.next = PortValue::from_number(number),)*
+                    $(concat!(stringify!($input) $(, "_", stringify!($inner))*) => {
+                        self.$input$(.$inner)*.next = PortValue::from_number(number);
+                    })*
                     _ => panic!("no input {port}"),
                 }
             }
             fn get(&self, port: &str) -> u128 {
                 use $crate::rig::block_ports::PortValue;
                 match port {
-                    $(stringify!($output) => self.$output.val().to_number(),)*
+                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => self.$output$(.$outer)*.val().to_number(),)*
                     _ => panic!("no output {port}"),
+                }
+            }
+            fn layout(&self, port: &str) -> Option<rust_hdl_core::prelude::TypeDescriptor> {
+                use $crate::rig::block_ports::layout_of;
+                match port {
+                    $(concat!(stringify!($input) $(, "_", stringify!($inner))*) => layout_of(&self.$input$(.$inner)*),)*
+                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => layout_of(&self.$output$(.$outer)*),)*
+                    _ => None,
                 }
             }
             fn set_clock(&mut self, high: bool) {

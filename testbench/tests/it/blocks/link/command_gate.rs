@@ -7,7 +7,7 @@ use incircle_hdl::link::CommandGate;
 
 named_ports!(
     CommandGate,
-    [is_command, is_argument, is_points, sweeps, none_is_left, came, start_is_open, stuck],
+    [is_command, is_argument, is_points, sweeps, none_is_left, came, engine],
     [ready, takes_command, takes_point, awaits_point]
 );
 

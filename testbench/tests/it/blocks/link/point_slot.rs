@@ -4,12 +4,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::PointSlot;
 
-named_ports!(
-    PointSlot,
-    [reset, clears, capacity, collinear, stuck, accepts, word],
-    [came, came_id, point, arrived, refused, some_refused],
-    clock
-);
+named_ports!(PointSlot, [reset, clears, capacity, engine, accepts, word], [arrival, tally], clock);
 
 const CLOCKS: usize = 8000;
 
@@ -30,7 +25,7 @@ impl SlotReference {
         block.expect("refused", self.refused);
         block.expect("some_refused", self.refused > 0);
         if let (true, Some(point)) = (self.came, self.stored.last()) {
-            block.expect("came_id", self.stored.len() as u64 - 1);
+            block.expect("arrival_id", self.stored.len() as u64 - 1);
             block.expect("point", *point);
         }
     }

@@ -16,7 +16,7 @@ use verilated::{Model, PortId};
 
 #[allow(unused_imports)] // As below.
 pub(crate) use crate::rig::block_ports::{named_ports, NamedPorts};
-use crate::rig::block_ports::{number, set_number, settle};
+use crate::rig::block_ports::{number, plain, set_number, settle, Places};
 #[allow(unused_imports)] // As above.
 pub use wave::{Cell, Wave};
 
@@ -25,7 +25,10 @@ pub struct Stepper<U> {
     name: &'static str,
     rust: U,
     model: Model,
-    ports: BTreeMap<&'static str, PortId>,
+    ports: BTreeMap<String, PortId>,
+    places: Places,
+    /// The inputs as they were set last.
+    inputs: BTreeMap<String, u128>,
     clocks: usize,
 }
 
@@ -36,8 +39,9 @@ impl<U: NamedPorts> Stepper<U> {
         rust.connect_all();
         let model = blocks::randomized(name, seed);
         let ports = model.description().ports();
-        let ports = ports.map(|port| (port.name, model.port(port.name).expect("a port it lists"))).collect();
-        Self { name, rust, model, ports, clocks: 0 }
+        let ports = ports.map(|port| (plain(port.name), model.port(port.name).expect("a port it lists"))).collect();
+        let places = Places::new(&model, |port| rust.layout(port));
+        Self { name, rust, model, ports, places, inputs: BTreeMap::new(), clocks: 0 }
     }
 
     /// Clocks that have passed.
@@ -45,10 +49,13 @@ impl<U: NamedPorts> Stepper<U> {
         self.clocks
     }
 
+    /// Sets an input, or a field of one that carries a structure.
     pub fn set(&mut self, port: &str, number: impl Into<u128>) {
-        let number = number.into();
-        self.rust.set(port, number);
-        set_number(&mut self.model, self.ports[port], number);
+        let place = self.places.find(port);
+        let whole = self.inputs.entry(place.port.clone()).or_default();
+        *whole = place.put_into(*whole, number.into());
+        self.rust.set(&place.port, *whole);
+        set_number(&mut self.model, self.ports[&place.port], *whole);
     }
 
     /// Brings the outputs up to date with the inputs.
@@ -115,6 +122,8 @@ impl<U: NamedPorts> Stepper<U> {
     }
 
     fn both(&self, port: &str) -> (u128, u128) {
-        (self.rust.get(port), number(&self.model, self.ports[port]))
+        let place = self.places.find(port);
+        let whole = (self.rust.get(&place.port), number(&self.model, self.ports[&place.port]));
+        (place.part_of(whole.0), place.part_of(whole.1))
     }
 }

@@ -12,7 +12,7 @@ use incircle_protocol::{StreamRegister, STREAM_STATUS_RESETTING, STREAM_STATUS_R
 use incircle_testbench::blocks;
 use verilated::{Model, PortId};
 
-use crate::rig::block_ports::{number, set_number};
+use crate::rig::block_ports::{number, plain, set_number};
 use crate::rig::stepper::{NamedPorts, Stepper};
 pub use bus::Bus;
 #[allow(unused_imports)] // As above.
@@ -85,7 +85,7 @@ impl<U: NamedPorts> Pins for Stepper<U> {
 /// The Verilog alone: fast.
 pub struct Verilog {
     model: Model,
-    ports: BTreeMap<&'static str, PortId>,
+    ports: BTreeMap<String, PortId>,
 }
 
 impl Verilog {
@@ -93,7 +93,7 @@ impl Verilog {
     pub fn new(name: &str, seed: u32) -> Self {
         let model = blocks::randomized(name, seed);
         let ports = model.description().ports();
-        let ports = ports.map(|port| (port.name, model.port(port.name).expect("a port it lists"))).collect();
+        let ports = ports.map(|port| (plain(port.name), model.port(port.name).expect("a port it lists"))).collect();
         Self { model, ports }
     }
 }

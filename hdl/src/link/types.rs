@@ -1,0 +1,78 @@
+//! What travels between the blocks of the command and answer streams.
+
+use rust_hdl_core::prelude::*;
+
+/// Words that are compared and added.
+pub type Word = Bits<32>;
+/// Number of a word of a payload.
+pub type WordIndex = Bits<7>;
+
+crate::packed! {
+    /// A command and its arguments.
+    pub struct Request {
+        pub opcode: Bits<8>,
+        /// First record of a read.
+        pub first: Bits<32>,
+        /// Records of a read; points of an insert that are still to come.
+        pub count: Bits<32>,
+    }
+
+    /// A point that is written into the vertex memory at this edge.
+    pub struct Arrival {
+        /// There is one; the others mean nothing without it.
+        pub came: bool,
+        pub id: Bits<15>,
+        /// x in the low half, y in the high.
+        pub point: Bits<32>,
+    }
+
+    /// Counts of points since the last `Clear`.
+    pub struct Tally {
+        /// Points that were given an id.
+        pub arrived: Bits<15>,
+        /// Points that were not, and whether there are some.
+        pub refused: Bits<32>,
+        pub some_refused: bool,
+    }
+
+    /// What the command stream must know of the engine.
+    pub struct EngineState {
+        /// Three points are being looked at for a first triangle.
+        pub start_is_open: bool,
+        /// The first three points are collinear.
+        pub collinear: bool,
+        /// Nothing is finished any more: points are refused, and nothing is waited for.
+        pub stuck: bool,
+        /// Every point that has come is finished, and no lock is held.
+        pub is_quiet: bool,
+    }
+
+    /// What the cycle counters count.
+    pub struct Activity {
+        pub inserting: bool,
+        pub reading: bool,
+        /// A point may come.
+        pub awaits_point: bool,
+    }
+
+    /// An answer's first two words, and what its payload consists of.
+    pub struct Head {
+        pub header: Bits<32>,
+        /// Words of the payload, and whether there are none.
+        pub length: Bits<32>,
+        pub is_empty: bool,
+        /// The payload consists of records, or of their vertices alone (both are set then).
+        pub is_read: bool,
+        pub is_packed: bool,
+    }
+
+    /// How far an answer is.
+    pub struct AnswerProgress {
+        /// No answer is under way.
+        pub is_idle: bool,
+        /// The last word of the answer is loaded at this edge.
+        pub ends: bool,
+        /// No word waits, or it is taken.
+        pub is_taken: bool,
+    }
+}
