@@ -138,7 +138,6 @@ impl Logic for Starter {
         self.plans.deal.next = self.deal.val();
         self.pointer.restarts.next = self.reset.val() | self.clears.val();
         self.pointer.contexts.next = self.contexts_at_work.val();
-        self.pointer.moves.next = self.moves.val();
 
         // The one before: is it due?
         self.check.contexts.next = self.contexts.val();
@@ -157,6 +156,7 @@ impl Logic for Starter {
         self.wants.next = (self.wants_again.q.val() | self.wants_new.q.val()) & (!self.contexts.val().solo_valid);
         self.lacks_port.next = self.wants_new.q.val() & self.came.val();
         self.moves.next = !(self.wants.val() & (self.is_done.val() | self.lacks_port.val()));
+        self.pointer.moves.next = self.moves.val();
         self.begins.next = self.wants.val() & (!self.is_blocked.val()) & (!self.lacks_port.val());
         self.is_taken.next = self.wants_new.q.val() & self.begins.val();
         self.start.next.valid = self.begins.val();
