@@ -6,6 +6,7 @@
 //!
 //! Latency: 3 clocks from the first two words of an answer to `is_due`.
 
+use super::types::AnswerPlace;
 use incircle_protocol::MAX_PAYLOAD;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -40,9 +41,8 @@ pub struct AnswerPacker {
     pub is_last: Signal<Out, Bit>,
     /// Its frame begins.
     pub starts: Signal<In, Bit>,
-    /// Answers that have been sent to their end; the part's first word, divided by 256.
-    pub number: Signal<Out, Bits<8>>,
-    pub part: Signal<Out, Bits<8>>,
+    /// The part.
+    pub answer: Signal<Out, AnswerPlace>,
     /// A byte of the part; it is taken at this edge.
     pub byte_valid: Signal<Out, Bit>,
     pub byte_data: Signal<Out, Bits<8>>,
@@ -96,8 +96,8 @@ impl Logic for AnswerPacker {
         self.eight.next = 8.into();
         self.is_due.next = (self.state.q.val() == PackState::Start) & self.is_settled.q.val();
         self.is_last.next = self.is_short.q.val();
-        self.number.next = self.answers.q.val();
-        self.part.next = self.part_number.q.val();
+        self.answer.next.number = self.answers.q.val();
+        self.answer.next.part = self.part_number.q.val();
         self.byte_valid.next = (self.state.q.val() == PackState::Words) & self.is_held.q.val();
         self.byte_data.next = self.word.q.val().get_bits::<8>(0);
         self.byte_is_last.next = self.part_ends.q.val() & (self.place.q.val() == self.last_place.val());

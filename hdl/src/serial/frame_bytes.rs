@@ -4,6 +4,7 @@
 //!
 //! Latency: 1 clock.
 
+use super::types::AnswerPlace;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -20,9 +21,8 @@ pub struct FrameBytes {
     pub header: Signal<In, Bits<8>>,
     pub greeting: Signal<In, Bits<8>>,
     pub word: Signal<In, Bits<8>>,
-    /// Number of the answer; index of the frame's first word, divided by 256.
-    pub answers: Signal<In, Bits<8>>,
-    pub answer_part: Signal<In, Bits<8>>,
+    /// The part of the answer in the frame.
+    pub answer: Signal<In, AnswerPlace>,
     /// States of the check sums: of the payload, of the answer, of the frame.
     pub payload_state: Signal<In, Bits<32>>,
     pub answer_state: Signal<In, Bits<32>>,
@@ -48,7 +48,7 @@ impl Logic for FrameBytes {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(0);
                 self.answer_byte.next = self.answer_state.val().get_bits::<8>(0);
                 self.sum_byte.next = self.sum_state.val().get_bits::<8>(0);
-                self.head_byte.next = self.answers.val();
+                self.head_byte.next = self.answer.val().number;
             }
             1 => {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(8);
@@ -60,13 +60,13 @@ impl Logic for FrameBytes {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(16);
                 self.answer_byte.next = self.answer_state.val().get_bits::<8>(16);
                 self.sum_byte.next = self.sum_state.val().get_bits::<8>(16);
-                self.head_byte.next = self.answer_part.val();
+                self.head_byte.next = self.answer.val().part;
             }
             _ => {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(24);
                 self.answer_byte.next = self.answer_state.val().get_bits::<8>(24);
                 self.sum_byte.next = self.sum_state.val().get_bits::<8>(24);
-                self.head_byte.next = self.answer_part.val();
+                self.head_byte.next = self.answer.val().part;
             }
         }
         match self.part.val().index() {

@@ -5,6 +5,7 @@
 //!
 //! Latency: none to `starts` (combinational), 1 clock to the type.
 
+use super::types::Contents;
 use incircle_protocol::DeviceFrame;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -31,11 +32,7 @@ pub struct FrameChoice {
     pub starts_answer: Signal<Out, Bit>,
     /// Type of the frame under way.
     pub kind: Signal<Out, Bits<8>>,
-    /// What it has.
-    pub has_greeting: Signal<Out, Bit>,
-    pub has_digest: Signal<Out, Bit>,
-    pub has_answer: Signal<Out, Bit>,
-    pub ends_answer: Signal<Out, Bit>,
+    pub contents: Signal<Out, Contents>,
     kind_byte: DFF<Bits<8>>,
     is_hello: DFF<Bit>,
     is_receipt: DFF<Bit>,
@@ -67,10 +64,10 @@ impl Logic for FrameChoice {
         self.ack_kind.next = 0x83.into();
         self.nak_kind.next = 0x84.into();
         self.kind.next = self.kind_byte.q.val();
-        self.has_greeting.next = self.is_hello.q.val();
-        self.has_digest.next = self.is_receipt.q.val();
-        self.has_answer.next = self.is_answer.q.val();
-        self.ends_answer.next = self.is_end.q.val();
+        self.contents.next.has_greeting = self.is_hello.q.val();
+        self.contents.next.has_digest = self.is_receipt.q.val();
+        self.contents.next.has_answer = self.is_answer.q.val();
+        self.contents.next.ends_answer = self.is_end.q.val();
 
         self.may_start.next = self.is_idle.val() & (!self.holds.val());
         self.begins_reply.next = self.may_start.val() & self.reply_is_due.val();

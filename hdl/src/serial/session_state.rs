@@ -6,6 +6,7 @@
 //!
 //! Latency: 1 clock.
 
+use super::types::Session;
 use super::Asked;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -21,11 +22,7 @@ pub struct SessionState {
     pub session: Signal<In, Bits<8>>,
     /// Silence or a break: the session ends at this edge.
     pub fails: Signal<In, Bit>,
-    /// A session is open; its number, or 0.
-    pub is_open: Signal<Out, Bit>,
-    pub number: Signal<Out, Bits<8>>,
-    /// Number of the `Data` frame that is awaited.
-    pub expected: Signal<Out, Bits<8>>,
+    pub open: Signal<Out, Session>,
     /// A `Data` frame behind it has come, or one without room, since the last that was taken.
     pub saw_gap: Signal<Out, Bit>,
     /// Whatever belongs to a session is to be forgotten: none is open, or one begins.
@@ -48,9 +45,9 @@ impl Logic for SessionState {
         dff_setup!(self, clock, opened, session_number, awaited, gap, begins, settling);
         self.one.next = 1.into();
         self.one_clock.next = 1.into();
-        self.is_open.next = self.opened.q.val();
-        self.number.next = self.session_number.q.val();
-        self.expected.next = self.awaited.q.val();
+        self.open.next.is_open = self.opened.q.val();
+        self.open.next.number = self.session_number.q.val();
+        self.open.next.expected = self.awaited.q.val();
         self.saw_gap.next = self.gap.q.val();
         self.forgets.next = self.begins.q.val() | (!self.opened.q.val());
         self.settles.next = self.settling.q.val().any();

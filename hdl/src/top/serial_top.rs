@@ -28,9 +28,6 @@ pub struct SerialTop {
     core: Core,
     link: SerialLink,
     resets: DFF<Bit>,
-    alive: Signal<Local, Bits<3>>,
-    busy: Signal<Local, Bits<3>>,
-    error: Signal<Local, Bits<3>>,
 }
 
 impl SerialTop {
@@ -49,9 +46,6 @@ impl SerialTop {
             core: Core::new(config)?,
             link: SerialLink::new(config, link)?,
             resets: DFF::default(),
-            alive: Signal::default(),
-            busy: Signal::default(),
-            error: Signal::default(),
         })
     }
 }
@@ -69,19 +63,6 @@ impl Logic for SerialTop {
         CommandSource::join(&mut self.link.command, &mut self.core.command);
         AnswerSink::join(&mut self.link.response, &mut self.core.response);
         self.write.next = self.core.write.val();
-
-        self.alive.next = 0.into();
-        self.busy.next = 0.into();
-        self.error.next = 0.into();
-        if self.link.alive.val() {
-            self.alive.next = 1.into();
-        }
-        if self.link.busy.val() {
-            self.busy.next = 2.into();
-        }
-        if self.link.error.val() {
-            self.error.next = 4.into();
-        }
-        self.leds.next = self.alive.val() | self.busy.val() | self.error.val();
+        self.leds.next = self.link.lamps.val().into();
     }
 }

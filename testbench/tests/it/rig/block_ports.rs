@@ -145,7 +145,7 @@ pub struct Places(BTreeMap<String, Option<Place>>);
 impl Places {
     /// The ports of a model, with what `layout` says that they carry.
     pub fn new(model: &Model, layout: impl Fn(&str) -> Option<TypeDescriptor>) -> Self {
-        let ports: Vec<_> = model.description().ports().map(|port| (plain(port.name), port.width())).collect();
+        let ports: Vec<(String, u32)> = model.description().ports().map(|port| (plain(port.name), port.width)).collect();
         let mut places = BTreeMap::new();
         for (port, _) in &ports {
             let mut offset = 0;
