@@ -5,7 +5,7 @@
 //!
 //! Latency: 1 clock; 2 to `refused` and `some_refused`.
 
-use super::types::{Arrival, EngineState, Tally};
+use super::types::{Arrival, EngineState, TakenWord, Tally};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -20,9 +20,8 @@ pub struct PointSlot {
     pub capacity: Signal<In, Bits<15>>,
     /// Points are refused where it is `collinear` or `stuck`.
     pub engine: Signal<In, EngineState>,
-    /// A point comes.
-    pub accepts: Signal<In, Bit>,
-    pub word: Signal<In, Bits<32>>,
+    /// A point may come.
+    pub taken: Signal<In, TakenWord>,
     /// It came with the last edge and is not refused.
     pub arrival: Signal<Out, Arrival>,
     pub tally: Signal<Out, Tally>,
@@ -58,11 +57,11 @@ impl Logic for PointSlot {
 
         self.is_full.d.next = self.arrivals.q.val() == self.capacity.val();
         self.has_room.next = (!self.engine.val().collinear) & (!self.engine.val().stuck) & (!self.is_full.q.val());
-        self.stores.next = self.accepts.val() & self.has_room.val();
-        self.is_surplus.d.next = self.accepts.val() & (!self.has_room.val());
+        self.stores.next = self.taken.val().is_point & self.has_room.val();
+        self.is_surplus.d.next = self.taken.val().is_point & (!self.has_room.val());
         self.is_new.d.next = self.stores.val();
         self.last_id.d.next = self.arrivals.q.val();
-        self.last_point.d.next = self.word.val();
+        self.last_point.d.next = self.taken.val().word;
         if self.stores.val() {
             self.arrivals.d.next = self.arrivals.q.val() + self.one_arrival.val();
         }

@@ -17,6 +17,21 @@ crate::packed! {
         pub count: Bits<32>,
     }
 
+    /// A command word that is taken.
+    pub struct TakenWord {
+        pub is_command: bool,
+        pub is_point: bool,
+        pub word: Bits<32>,
+    }
+
+    /// What the last `Clear` asks for.
+    pub struct Clearing {
+        /// Forget the mesh at this edge.
+        pub clears: bool,
+        /// The last command is a `Clear` that asks for more contexts than there are.
+        pub is_refused: bool,
+    }
+
     /// A point that is written into the vertex memory at this edge.
     pub struct Arrival {
         /// There is one; the others mean nothing without it.

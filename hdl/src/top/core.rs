@@ -106,7 +106,7 @@ impl Logic for Core {
 
         // The answer stream.
         self.answer_head.request.next = self.command_port.request.val();
-        self.answer_head.is_refused.next = self.command_port.is_refused.val();
+        self.answer_head.is_refused.next = self.command_port.clearing.val().is_refused;
         self.answer_head.records.next = self.engine.records.val();
         self.answer_head.collinear.next = self.engine.collinear.val();
         self.answer_head.stuck.next = self.engine.stuck.val();
@@ -146,7 +146,7 @@ impl Logic for Core {
         self.engine.all.next = self.all_contexts.val();
         self.engine.patience.next = self.patience.val();
         self.engine.deal.next = self.command_port.deal.val();
-        self.engine.clears.next = self.command_port.clears.val();
+        self.engine.clears.next = self.command_port.clearing.val().clears;
         self.engine.came.next = self.command_port.arrival.val().came;
         self.engine.came_id.next = self.command_port.arrival.val().id;
         self.engine.point.next = self.command_port.arrival.val().point;
@@ -157,7 +157,7 @@ impl Logic for Core {
         self.write.next = self.engine.write.val();
 
         // The counters.
-        self.counters.clears.next = self.command_port.clears.val();
+        self.counters.clears.next = self.command_port.clearing.val().clears;
         self.counters.inserting.next = self.command_port.activity.val().inserting;
         self.counters.waiting.next = self.command_port.activity.val().inserting
             & self.command_port.activity.val().awaits_point
@@ -187,7 +187,7 @@ impl Logic for Core {
         self.counters.is_releasing.next = self.engine.events.val().is_releasing;
         self.counters.refused.next = self.command_port.tally.val().refused;
         self.counters.select.next = self.responder.index_ahead.val().get_bits::<5>(0);
-        self.latencies.clears.next = self.command_port.clears.val();
+        self.latencies.clears.next = self.command_port.clearing.val().clears;
         self.latencies.comes.next = self.counters.latency_comes.val();
         self.latencies.latency.next = self.counters.latency.val();
         self.latencies.select.next = self.responder.index.val();

@@ -10,7 +10,7 @@ use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
 named_ports!(SoloVisit, [owner, is_locate, is_mend, is_second, is_fetch, root_id, root, id, outer, back], [bundle]);
 named_ports!(
     CommandGate,
-    [is_command, is_argument, is_points, sweeps, none_is_left, came, engine], [ready, takes_command, takes_point, awaits_point]
+    [command.valid, command.data, state, sweeps, none_is_left, came, engine], [command.ready, taken, awaits_point]
 );
 named_ports!(RecordWords, [record], [word0, word1, word2]);
 
@@ -52,11 +52,9 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
     let mut block = Stepper::new("command_gate", CommandGate::default(), 1);
     for _ in 0..ROUNDS {
         let meaning = random.below(4);
-        let [sweeps, none_is_left, came, start_is_open, stuck] = [(); 5].map(|()| flip(&mut random));
+        let [valid, sweeps, none_is_left, came, start_is_open, stuck] = [(); 6].map(|()| flip(&mut random));
         for (port, value) in [
-            ("is_command", meaning == 0),
-            ("is_argument", meaning == 1),
-            ("is_points", meaning == 2),
+            ("command_valid", valid),
             ("sweeps", sweeps),
             ("none_is_left", none_is_left),
             ("came", came),
@@ -65,6 +63,10 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
         ] {
             block.set(port, value);
         }
+        let word = if flip(&mut random) { random.below(1 << 32) } else { 0 };
+        block.set("command_data", word);
+        // The states are, in order, a command, two arguments, points, and two without words.
+        block.set("state", [0, 1 + random.below(2), 3, 4 + random.below(2)][meaning as usize]);
         let is_undecided = start_is_open && !stuck;
         let ready = match meaning {
             0 => !sweeps,
@@ -73,9 +75,10 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
             _ => false,
         };
         block.settle();
-        block.expect("ready", ready);
-        block.expect("takes_command", ready && meaning == 0);
-        block.expect("takes_point", ready && meaning == 2);
+        block.expect("command_ready", ready);
+        block.expect("taken_word", word);
+        block.expect("is_command", valid && ready && meaning == 0 && word != 0);
+        block.expect("is_point", valid && ready && meaning == 2);
         block.expect("awaits_point", meaning == 2 && !none_is_left);
     }
 }

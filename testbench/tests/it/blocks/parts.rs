@@ -21,10 +21,10 @@ named_ports!(
 );
 named_ports!(
     PointSlot,
-    [reset, clears, capacity, engine, accepts, word], [arrival, tally],
+    [reset, clears, capacity, engine, taken], [arrival, tally],
     clock
 );
-named_ports!(ClearCommand, [reset, built, accepts, word], [clears, deal, is_refused], clock);
+named_ports!(ClearCommand, [reset, built, taken], [clearing, deal], clock);
 named_ports!(
     RecordBuffer,
     [reset, read_done, record, takes, takes_whole], [holds, word, is_at_last, vertex0, vertex1, vertex2],
@@ -265,7 +265,7 @@ fn point_slot(capacity: u64) {
         let accepts = !reference.came && !clears && random.below(2) == 0;
         let word = random.below(1 << 32);
         for (port, value) in
-            [("reset", reset), ("clears", clears), ("collinear", collinear), ("stuck", stuck), ("accepts", accepts)]
+            [("reset", reset), ("clears", clears), ("collinear", collinear), ("stuck", stuck), ("is_point", accepts)]
         {
             block.set(port, value);
         }
@@ -316,7 +316,7 @@ fn clear_command_is_granted_or_refused() {
         let accepts = random.below(2) == 0;
         block.set("reset", reset);
         block.set("built", built);
-        block.set("accepts", accepts);
+        block.set("is_command", accepts);
         block.set("word", word);
         block.settle();
         if clock > 1 {

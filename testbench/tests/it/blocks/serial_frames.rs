@@ -7,20 +7,17 @@ use incircle_hdl::serial::{Asked, FrameJudge, FrameReader, Replies, SessionState
 
 named_ports!(
     FrameReader,
-    [reset, data_valid, data, frame_ends, is_broken],
-    [session, kind, number, length, header_comes, payload_valid, payload, value, comes, is_sound],
+    [reset, data_valid, data, frame_ends, is_broken], [head, header_comes, payload_valid, payload, value, comes, is_sound],
     clock
 );
 named_ports!(
     FrameJudge,
-    [reset, session, kind, number, length, header_comes, comes, is_sound, is_open, open_session, expected, free],
-    [takes_payload, asked],
+    [reset, head, header_comes, comes, is_sound, open, free], [takes_payload, asked],
     clock
 );
 named_ports!(
     SessionState,
-    [reset, asked, session, fails],
-    [is_open, number, expected, saw_gap, forgets, settles],
+    [reset, asked, session, fails], [open, saw_gap, forgets, settles],
     clock
 );
 named_ports!(Replies, [reset, asked, saw_gap, fails, starts], [is_due, kind, acknowledges, closes], clock);
@@ -224,10 +221,10 @@ fn judge_says_what_a_frame_asks_for() {
             for (port, value) in [
                 ("session", case.session.into()),
                 ("kind", case.kind.into()),
-                ("number", case.number.into()),
+                ("head_number", case.number.into()),
                 ("length", case.length),
                 ("is_open", case.is_open.into()),
-                ("open_session", case.open_session.into()),
+                ("open_number", case.open_session.into()),
                 ("expected", case.expected.into()),
                 ("free", case.free),
                 ("reset", (run == 0 && clock < 2).into()),

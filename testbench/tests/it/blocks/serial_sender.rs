@@ -8,43 +8,25 @@ use incircle_hdl::export::QUICK_LINK;
 use incircle_hdl::serial::{FrameBytes, FrameChoice, FrameHeader, FramePart, FrameSender, Greeting};
 use incircle_protocol::{CORE_VERSION, SMALL};
 
-named_ports!(FramePart, [part, index, word_byte_is_last], [is_last], clock);
+named_ports!(FramePart, [at, word_byte_is_last], [is_last], clock);
 named_ports!(
     FrameChoice,
-    [is_idle, reply_is_due, reply_kind, answer_is_due, answer_is_last, holds, cuts],
-    [starts, starts_reply, starts_answer, kind, has_greeting, has_digest, has_answer, ends_answer],
+    [is_idle, reply_is_due, reply_kind, answer_is_due, answer_is_last, holds, cuts], [starts, starts_reply, starts_answer, kind, contents],
     clock
 );
 named_ports!(
     FrameSender,
-    [
-        reset,
-        starts,
-        has_greeting,
-        has_digest,
-        has_answer,
-        ends_answer,
-        cuts,
-        byte_data,
-        sum_is_busy,
-        word_byte_valid,
-        word_byte_is_last,
-        data_ready,
-        ended
-    ],
-    [part, index, loads, loads_word, data_valid, data, ends, is_cut, answer_ended, is_idle],
+    [reset, starts, contents, cuts, byte_data, sum_is_busy, word_byte_valid, word_byte_is_last, data_ready, ended], [at, loads, loads_word, data_valid, data, ends, is_cut, answer_ended, is_idle],
     clock
 );
 named_ports!(
     FrameHeader,
-    [reset, starts, session, expected, answers, free, is_open, is_refused, is_busy, drops, digest, kind, index],
-    [byte_data, digest_taken],
+    [reset, starts, open, answers, receipt, is_refused, is_busy, drops, kind, index], [byte_data, digest_taken],
     clock
 );
 named_ports!(
     FrameBytes,
-    [part, index, ends_answer, header, greeting, word, answers, answer_part, payload_state, answer_state, sum_state],
-    [byte_data],
+    [part, index, ends_answer, header, greeting, word, answer, payload_state, answer_state, sum_state], [byte_data],
     clock
 );
 named_ports!(Greeting, [index], [byte_data], clock);
@@ -216,7 +198,7 @@ fn header_says_what_was_true_when_the_frame_began() {
         let index = random.below(7) as usize;
         let reset = clock == 0;
         for (port, value) in [
-            ("session", session.into()),
+            ("open_number", session.into()),
             ("expected", expected.into()),
             ("answers", answers.into()),
             ("kind", kind.into()),
@@ -269,7 +251,7 @@ fn bytes_of_a_frame_come_from_their_parts() {
             ("header", header.into()),
             ("greeting", greeting.into()),
             ("word", word.into()),
-            ("answers", answers.into()),
+            ("answer_number", answers.into()),
             ("answer_part", answer_part.into()),
             ("payload_state", payload),
             ("answer_state", answer),

@@ -15,8 +15,7 @@ named_ports!(CommandProgress, [reset, takes, word, offers_last, takes_answer, an
 named_ports!(WordNarrower, [reset, pair_valid, pair, both, word_ready], [pair_ready, word_valid, word], clock);
 named_ports!(
     AnswerPacker,
-    [reset, word_valid, word_data, starts, takes, ended],
-    [word_ready, is_due, is_last, number, part, byte_valid, byte_data, byte_is_last, awaits],
+    [reset, word_valid, word_data, starts, takes, ended], [word_ready, is_due, is_last, answer, byte_valid, byte_data, byte_is_last, awaits],
     clock
 );
 #[test]

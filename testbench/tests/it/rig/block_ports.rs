@@ -9,9 +9,10 @@ use incircle_hdl::engine::{
     Attempt, Bundle, CommitJob, Deal, Entry, Plan, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
-use incircle_hdl::link::types::{Activity, AnswerProgress, Arrival, EngineState, Head, Request, Tally};
-use incircle_hdl::link::AnswerBeat;
+use incircle_hdl::link::types::{Activity, AnswerProgress, Arrival, Clearing, EngineState, Head, Request, TakenWord, Tally};
+use incircle_hdl::link::{AnswerBeat, CommandState};
 use incircle_hdl::mesh::Record;
+use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FrameHead, Lamps, Receipt, Session};
 use incircle_hdl::serial::Asked;
 use incircle_hdl::stream::{AnswerEvents, CommandEvents};
 use rust_hdl_core::prelude::*;
@@ -60,6 +61,15 @@ impl<const N: usize> PortValue for Bits<N> {
     }
 }
 
+impl PortValue for CommandState {
+    fn from_number(number: u128) -> Self {
+        [Self::Command, Self::First, Self::Count, Self::Points, Self::Settle, Self::Answer][number as usize]
+    }
+    fn to_number(self) -> u128 {
+        self as u128
+    }
+}
+
 /// Structures travel packed, the first field in the lowest bits.
 macro_rules! packed_values {
     ($($structure:ty),*) => {$(
@@ -91,13 +101,22 @@ packed_values!(
     Activity,
     AnswerProgress,
     Arrival,
+    Clearing,
     EngineState,
     Head,
     Request,
+    TakenWord,
     Tally,
     Record,
     AnswerEvents,
-    CommandEvents
+    CommandEvents,
+    AnswerPlace,
+    BytePlace,
+    Contents,
+    FrameHead,
+    Lamps,
+    Receipt,
+    Session
 );
 
 /// A block whose ports are reached by name: `reset`, and `command_valid` for the signal `valid` of the interface `command`.
