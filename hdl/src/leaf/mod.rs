@@ -1,7 +1,7 @@
 //! Leaves: the blocks whose Verilog is written by hand, and the small blocks on top of them.
 //!
 //! A leaf states its behaviour twice: `update()` for simulation in Rust, `hdl()` for synthesis and Verilator.
-//! `testbench/tests/it/blocks/leaf.rs` runs both against a third statement of the same.
+//! `testbench/tests/it/blocks/leaf/` runs both against a third statement of the same.
 
 mod banked_memory;
 mod block_memory;

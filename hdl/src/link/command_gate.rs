@@ -1,13 +1,13 @@
 //! When a command word is taken.
 //!
 //! 1. The fourth point waits until the first three are known to span a triangle; in a batch so does the one behind the three of each job.
-//!
 //! 2. A word of zeros in place of a command is taken and forgotten.
 //!
 //! Latency: none (combinational).
 
-use super::types::{EngineState, TakenWord};
+use super::types::TakenWord;
 use super::{CommandSink, CommandState};
+use crate::engine::EngineState;
 use rust_hdl_core::prelude::*;
 
 /// When a command word is taken; see the top of this file.

@@ -20,9 +20,10 @@
 //! answers         _______________________________________/^^^^^^^^
 //! ```
 
-use super::types::{Activity, AnswerProgress, Arrival, Clearing, EngineState, Request, Tally};
+use super::types::{Activity, AnswerProgress, Clearing, Request, Tally};
 use super::{ClearCommand, CommandGate, CommandSink, PointSlot};
 use crate::engine::Deal;
+use crate::engine::{Arrival, EngineState};
 use incircle_protocol::{Opcode, PADDING};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

@@ -5,7 +5,8 @@
 //!
 //! Latency: 1 clock; 2 to `refused` and `some_refused`.
 
-use super::types::{Arrival, EngineState, TakenWord, Tally};
+use super::types::{TakenWord, Tally};
+use crate::engine::{Arrival, EngineState};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

@@ -32,15 +32,6 @@ crate::packed! {
         pub is_refused: bool,
     }
 
-    /// A point that is written into the vertex memory at this edge.
-    pub struct Arrival {
-        /// There is one; the others mean nothing without it.
-        pub came: bool,
-        pub id: Bits<15>,
-        /// x in the low half, y in the high.
-        pub point: Bits<32>,
-    }
-
     /// Counts of points since the last `Clear`.
     pub struct Tally {
         /// Points that were given an id.
@@ -48,18 +39,6 @@ crate::packed! {
         /// Points that were not, and whether there are some.
         pub refused: Bits<32>,
         pub some_refused: bool,
-    }
-
-    /// What the command stream must know of the engine.
-    pub struct EngineState {
-        /// Three points are being looked at for a first triangle.
-        pub start_is_open: bool,
-        /// The first three points are collinear.
-        pub collinear: bool,
-        /// Nothing is finished any more: points are refused, and nothing is waited for.
-        pub stuck: bool,
-        /// Every point that has come is finished, and no lock is held.
-        pub is_quiet: bool,
     }
 
     /// What the cycle counters count.

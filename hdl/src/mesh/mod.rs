@@ -6,6 +6,6 @@ mod triangle_store;
 mod vertex_store;
 
 pub use lock_store::LockStore;
-pub use record::Record;
+pub use record::{ReadRecord, Record};
 pub use triangle_store::TriangleStore;
 pub use vertex_store::VertexStore;

@@ -29,7 +29,7 @@ mod visit_case;
 pub use attempt_lists::AttemptLists;
 pub use attempt_points::AttemptPoints;
 pub use attempt_step::AttemptStep;
-pub use attempt_store::AttemptStore;
+pub use attempt_store::{AttemptStore, Held};
 pub use attempts::Attempts;
 pub use context_address::ContextAddress;
 pub use next_visits::NextVisits;

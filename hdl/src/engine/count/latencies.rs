@@ -14,6 +14,7 @@
 //! ```
 
 use super::latency_bucket::LatencyBucket;
+use crate::engine::types::Clocks;
 use crate::leaf::LutMemory;
 use incircle_protocol::LATENCY_BUCKETS;
 use rust_hdl_core::prelude::*;
@@ -33,7 +34,7 @@ pub struct Latencies {
     pub clears: Signal<In, Bit>,
     /// An insertion took that long; not while it sweeps.
     pub comes: Signal<In, Bit>,
-    pub latency: Signal<In, Bits<22>>,
+    pub latency: Signal<In, Clocks>,
     /// The buckets are being cleared, one a clock.
     pub sweeps: Signal<Out, Bit>,
     /// Bucket to read; see `latency_bucket` of the protocol.

@@ -13,6 +13,7 @@
 //! stuck           _________________________________/^^^^^^^^^^^^^^
 //! ```
 
+use crate::engine::types::Clocks;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -27,14 +28,14 @@ pub struct Watchdog {
     /// There is nothing to do.
     pub is_quiet: Signal<In, Bit>,
     /// Clocks to wait, a constant; see `patience` of the protocol.
-    pub patience: Signal<In, Bits<22>>,
+    pub patience: Signal<In, Clocks>,
     /// A fault: that many clocks have passed without either.
     pub stuck: Signal<Out, Bit>,
     rests: DFF<Bit>,
-    clocks: DFF<Bits<22>>,
+    clocks: DFF<Clocks>,
     is_over: DFF<Bit>,
     is_stuck: DFF<Bit>,
-    one: Signal<Local, Bits<22>>,
+    one: Signal<Local, Clocks>,
 }
 
 impl Logic for Watchdog {

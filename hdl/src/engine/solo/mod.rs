@@ -17,8 +17,10 @@ mod solo;
 mod solo_star;
 mod solo_visit;
 mod solo_writes;
+mod star_state;
 
 pub use solo::{Solo, SoloState};
 pub use solo_star::SoloStar;
 pub use solo_visit::SoloVisit;
 pub use solo_writes::SoloWrites;
+pub use star_state::{Beyond, SoloPhase, SoloTurn, StarTriangle};

@@ -164,7 +164,8 @@ pub struct Places(BTreeMap<String, Option<Place>>);
 impl Places {
     /// The ports of a model, with what `layout` says that they carry.
     pub fn new(model: &Model, layout: impl Fn(&str) -> Option<TypeDescriptor>) -> Self {
-        let ports: Vec<(String, u32)> = model.description().ports().map(|port| (plain(port.name), port.width)).collect();
+        let ports: Vec<(String, u32)> =
+            model.description().ports().map(|port| (plain(port.name), port.width)).collect();
         let mut places = BTreeMap::new();
         for (port, _) in &ports {
             let mut offset = 0;
@@ -201,9 +202,10 @@ fn fields(layout: &TypeDescriptor) -> Vec<(String, u32)> {
     let one = |field: &TypeField| match &field.kind.kind {
         TypeKind::Bits(width) | TypeKind::Signed(width) => vec![(field.fieldname.clone(), *width as u32)],
         TypeKind::Enum(states) => vec![(field.fieldname.clone(), states.len().next_power_of_two().trailing_zeros())],
-        TypeKind::Composite(_) => {
-            fields(&field.kind).into_iter().map(|(name, width)| (format!("{}_{name}", field.fieldname), width)).collect()
-        }
+        TypeKind::Composite(_) => fields(&field.kind)
+            .into_iter()
+            .map(|(name, width)| (format!("{}_{name}", field.fieldname), width))
+            .collect(),
     };
     outer.iter().flat_map(|field| one(field)).collect()
 }

@@ -38,8 +38,11 @@ impl<U: NamedPorts> Cosimulation<'_, U> {
         // Random registers show where an output depends on what nobody wrote.
         let mut model = blocks::randomized(self.name, 1);
         let places = Places::new(&model, |port| self.rust.layout(port));
-        let ids: BTreeMap<String, PortId> =
-            model.description().ports().map(|port| (plain(port.name), model.port(port.name).expect("a port"))).collect();
+        let ids: BTreeMap<String, PortId> = model
+            .description()
+            .ports()
+            .map(|port| (plain(port.name), model.port(port.name).expect("a port")))
+            .collect();
         let inputs: Vec<Place> = self.inputs.iter().map(|port| places.find(port)).collect();
         let mut driven: BTreeMap<String, u128> = BTreeMap::new();
         let parts: Vec<_> = self.outputs.iter().map(|output| part(output)).collect();

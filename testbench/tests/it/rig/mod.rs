@@ -1,20 +1,29 @@
 //! What several tests share.
 
+pub mod answer_words;
+pub mod asked;
 pub mod attempt_state;
 pub mod block_ports;
 pub mod cavity_growth;
+pub mod cells;
 pub mod command_reference;
 pub mod cosimulation;
+pub mod drawing;
 pub mod flip_mesh;
+pub mod ids;
 pub mod lockstep;
+pub mod memories;
 pub mod random_rings;
 pub mod record_count;
 pub mod serial_host;
 pub mod serial_rig;
 pub mod stepper;
+pub mod stream_bits;
 pub mod stream_rig;
 pub mod structures;
+pub mod vertex_beats;
 pub mod visit_model;
+pub mod visit_points;
 
 #[path = "../../../../sim/model/tests/it/common/mod.rs"]
 #[allow(dead_code, reason = "the model's own tests use the rest")]

@@ -43,3 +43,16 @@ pub fn unpack<const N: usize>(layout: Layout<N>, packed: u128) -> [u64; N] {
 pub fn random<const N: usize>(layout: Layout<N>, bits: impl FnMut(u32) -> u64) -> [u64; N] {
     layout.map(bits)
 }
+
+/// A bundle of context 1 from these ring entries.
+pub fn bundle(entries: &[u64]) -> u128 {
+    let [is_pair, is_triple] = [2, 3].map(|visits| u64::from(entries.len() >= visits));
+    let [x, x2, x3] = [0, 1, 2].map(|place| entries.get(place).copied().unwrap_or(0));
+    pack(BUNDLE, [is_pair, is_triple, 1, 1, 0, x, x2, 0, 0, 0, x3, 0, 0])
+}
+
+/// A write of a record with these columns; `columns` has a bit for the vertices and one for each link.
+pub fn write(id: u64, columns: u64, v0: u64, n1: u64) -> u128 {
+    let [vertices, link0, link1, link2] = [0, 1, 2, 3].map(|bit| columns >> bit & 1);
+    pack(WRITE, [1, id, vertices, link0, link1, link2, v0, 0, 0, 0, n1, 0])
+}

@@ -1,0 +1,69 @@
+//! `AttemptLists`: Rust, Verilog and a statement of each rule agree, over all inputs where these are single bits, and
+//! over random ones.
+
+use crate::rig::attempt_state::State;
+use crate::rig::stepper::bundles::{commit_job, flip, id, release_job, turned, Edge, LockFinding, Visit};
+use crate::rig::stepper::{named_ports, Stepper};
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::engine::AttemptLists;
+
+named_ports!(
+    AttemptLists,
+    [done, token, turned, attempt, after, p, since, is_root, settles, finds_inner, succeeds, fails, stops_at_root],
+    [
+        entry_enable,
+        entry_place,
+        entry,
+        inner_enable,
+        inner_place,
+        inner_id,
+        lock_enable,
+        lock_place,
+        lock_id,
+        commit_enable,
+        commit_job,
+        release_enable,
+        release_job
+    ]
+);
+
+const ROUNDS: usize = 6000;
+
+#[test]
+fn attempt_lists_add_what_was_found_and_hand_over_what_was_counted() {
+    let mut random = SplitMix64::new(53);
+    let mut block = Stepper::new("attempt_lists", AttemptLists::default(), 1);
+    for _ in 0..ROUNDS {
+        let token = Visit::random(&mut random);
+        let [v0, v1, v2, n0, n1, n2, p] = [(); 7].map(|()| id(&mut random));
+        let lock = LockFinding { took: flip(&mut random), ..LockFinding::default() };
+        let (slot, since) = (random.below(3), random.below(1 << 22));
+        let [before, after] = [(); 2].map(|()| State::random(&mut random));
+        block.set("token", token.token());
+        block.set("turned", turned([v0, v1, v2], [n0, n1, n2], slot, lock, [false; 3]));
+        block.set("attempt", before.packed());
+        block.set("after", after.packed());
+        block.set("p", p);
+        block.set("since", since);
+        let ports = ["done", "is_root", "settles", "finds_inner", "succeeds", "fails", "stops_at_root"];
+        let flags = ports.map(|_| flip(&mut random));
+        let [done, is_root, settles, finds_inner, succeeds, fails, stops_at_root] = flags;
+        for (port, value) in ports.into_iter().zip(flags) {
+            block.set(port, value);
+        }
+        block.settle();
+        block.expect("entry_enable", settles);
+        block.expect("entry_place", token.x);
+        block.expect("entry", Edge { a: v2, u: token.u, slot, f: token.f, after: token.after }.entry());
+        block.expect("inner_enable", finds_inner);
+        block.expect("inner_place", before.inners);
+        block.expect("inner_id", token.f);
+        block.expect("lock_enable", done && lock.took);
+        block.expect("lock_place", if is_root { 0 } else { before.logged });
+        block.expect("lock_id", token.u);
+        block.expect("commit_enable", succeeds);
+        block.expect("commit_job", commit_job(token.owner, p, before.inners, after.logged, since));
+        block.expect("release_enable", fails || stops_at_root);
+        block.expect("release_job", release_job(token.owner, if stops_at_root { 1 } else { after.logged }));
+    }
+}

@@ -1,0 +1,56 @@
+//! `AttemptPoints`: Rust, Verilog and a plain statement agree on random visits.
+
+use crate::rig::stepper::bundles::flip;
+use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::engine::AttemptPoints;
+use incircle_protocol::SMALL;
+
+named_ports!(AttemptPoints, [takes, taker, taken_id, now, owner], [p, since], clock);
+
+const ROUNDS: usize = 6000;
+
+#[test]
+fn attempt_points_show_the_wave_of_their_header() {
+    let mut random = SplitMix64::new(55);
+    let mut block = Stepper::new("attempt_points_small", AttemptPoints::new(SMALL), 3);
+    let mut points = [(); 4].map(|()| None);
+    let mut wave = Wave::default();
+    for clock in 0..ROUNDS {
+        // The wave first, then anything.
+        let takes = if clock < 4 { clock == 0 } else { flip(&mut random) };
+        let [taker, taken_id, now, owner] = match clock {
+            0..4 => [1, 7, 3, 1],
+            _ => [random.below(4), random.below(1 << 15), random.below(1 << 22), random.below(4)],
+        };
+        block.set("takes", takes);
+        for (port, value) in [("taker", taker), ("taken_id", taken_id), ("now", now), ("owner", owner)] {
+            block.set(port, value);
+        }
+        block.settle();
+        // What was taken at the last edge is not there yet.
+        let known: Option<[u64; 2]> =
+            points[owner as usize].filter(|(taken, _)| taken + 1 < clock).map(|(_, point)| point);
+        if let Some([p, since]) = known {
+            block.expect("p", p);
+            block.expect("since", since);
+        }
+        let cell = |is_shown: bool, value: u64| if is_shown { Cell::Number(value.into()) } else { Cell::Open };
+        if clock < 4 {
+            wave.take(&[
+                ("takes", Cell::Bit(takes)),
+                ("taker", cell(takes, taker)),
+                ("taken_id", cell(takes, taken_id)),
+                ("now", cell(takes, now)),
+                ("owner", cell(clock == 2, owner)),
+                ("p", cell(clock == 2 && known.is_some(), 7)),
+                ("since", cell(clock == 2 && known.is_some(), 3)),
+            ]);
+        }
+        block.edge();
+        if takes {
+            points[taker as usize] = Some((clock, [taken_id, now]));
+        }
+    }
+    wave.assert_drawn_in("attempt_points");
+}

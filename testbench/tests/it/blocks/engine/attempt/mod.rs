@@ -1,0 +1,9 @@
+//! The blocks of `hdl/src/engine/attempt`.
+
+mod attempt_lists;
+mod attempt_points;
+mod attempt_step;
+mod attempt_store;
+mod attempts;
+mod next_visits;
+mod visit_case;

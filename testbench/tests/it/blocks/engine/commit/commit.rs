@@ -1,0 +1,376 @@
+//! The commit: Rust, Verilog and a list of all it must do agree clock by clock. The list is written down beforehand,
+//! from the whole ring; the block sees one entry at a time.
+
+use std::collections::{BTreeSet, VecDeque};
+
+use crate::rig::random_rings::{random_length, Ring};
+use crate::rig::record_count::{Count, Event};
+use crate::rig::stepper::bundles::{link_write, record_write, Edge};
+use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::engine::Commit;
+use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
+
+named_ports!(
+    Commit,
+    [
+        reset,
+        head_valid,
+        head,
+        head_is_last,
+        head_shares,
+        head_job,
+        inner_enable,
+        inner_owner,
+        inner_place,
+        inner_id,
+        solo_inserts,
+        seeds,
+        clears
+    ],
+    [takes, write, ends, job, hint, fresh, records, is_at_work],
+    clock
+);
+
+const LONGEST: Config = Config { ring: MAX_RING, contexts: MAX_CONTEXTS, ..TINY };
+
+/// A step of a commit. Each takes a clock, or waits.
+#[derive(Clone, Copy, Debug, Default)]
+struct Act {
+    /// It takes an entry, and waits for that.
+    takes: bool,
+    /// It gives an inner triangle back, and waits until that is read.
+    gives_back: bool,
+    takes_fresh: bool,
+    ends: bool,
+    /// The write that is made at its edge, and seen in the next clock.
+    makes: Option<u128>,
+}
+
+/// Ids of the records of a ring, in order, by their definition: the first edge behind which a triangle lies keeps its id, all
+/// others get those that no edge has, then new ones. And whether each was inner or new.
+fn ids(ring: &Ring, fresh: u64) -> Vec<(u64, bool, bool)> {
+    let mut kept = BTreeSet::new();
+    let mut spare = ring.inner.iter();
+    let mut new = fresh..;
+    let mut id = |f| match (kept.insert(f), spare.as_slice().is_empty()) {
+        (true, _) => (f, false, false),
+        (false, false) => (*spare.next().expect("it is not empty"), true, false),
+        (false, true) => (new.next().expect("ids without end"), false, true),
+    };
+    let ids: Vec<_> = ring.in_order().into_iter().map(|edge| id(edge.f)).collect();
+    // Every triangle of the cavity gives its id to one of the star, and two are new.
+    let mut old: BTreeSet<u64> = ring.entries.iter().map(|edge| edge.f).collect();
+    old.extend(&ring.inner);
+    old.extend([fresh, fresh + 1]);
+    assert_eq!((ids.len(), ids.iter().map(|(id, ..)| *id).collect()), (old.len(), old), "{ring:?}");
+    ids
+}
+
+/// All that the commit of a ring does after it has taken the first entry.
+fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
+    let edges = ring.in_order();
+    let ids = ids(ring, fresh);
+    let count = edges.len();
+    let record = |place: usize| {
+        let (after, before) = ((place + 1) % count, (place + count - 1) % count);
+        record_write(
+            ids[place].0,
+            [ring.p, edges[place].a, edges[after].a],
+            [edges[place].u, ids[after].0, ids[before].0],
+        )
+    };
+    let mut acts = VecDeque::new();
+    for (place, edge) in edges.iter().enumerate() {
+        let ahead = ids.get(place + 1);
+        // The first entry is passed over until the last one's id is known.
+        acts.push_back(Act {
+            takes: ahead.is_some(),
+            gives_back: ahead.is_some_and(|(_, is_inner, _)| *is_inner),
+            takes_fresh: ahead.is_some_and(|(.., is_fresh)| *is_fresh),
+            ends: false,
+            makes: (place > 0).then(|| record(place)),
+        });
+        if ids[place].0 != edge.f {
+            acts.push_back(Act { makes: Some(link_write(edge.u, edge.slot, ids[place].0)), ..Act::default() });
+        }
+    }
+    acts.push_back(Act { ends: true, makes: Some(record(0)), ..Act::default() });
+    acts
+}
+
+/// What the test does in a clock.
+#[derive(Clone, Copy, Debug, Default)]
+struct Drive {
+    /// An entry that is offered already stays.
+    offers: bool,
+    /// The next inner triangle is listed, if there is one.
+    lists: bool,
+    solo_inserts: bool,
+    seeds: bool,
+    clears: bool,
+    reset: bool,
+}
+
+/// What a clock showed.
+#[derive(Clone, Copy, Debug, Default)]
+struct Shown {
+    head_valid: bool,
+    takes: bool,
+    ends: bool,
+    write: Option<u128>,
+    fresh: u64,
+    records: u64,
+}
+
+/// The commit, and the rings that come to it.
+struct CommitRig {
+    block: Stepper<Commit>,
+    /// Rings to come; the entries of the first one come first. Their inner triangles are listed one ring ahead.
+    rings: VecDeque<Ring>,
+    /// Inner triangles of the first ring, and of the second, that are listed.
+    listed: [usize; 2],
+    /// Entries of the first ring that have been taken.
+    taken: usize,
+    is_offered: bool,
+    /// The ring at work and what is still to do for it.
+    work: Option<(Ring, VecDeque<Act>)>,
+    /// Clocks that the next inner triangle has been looked for.
+    age: u32,
+    made: Option<u128>,
+    count: Count,
+    committed: usize,
+}
+
+impl CommitRig {
+    fn new(name: &'static str, config: Config) -> Self {
+        let mut rig = Self {
+            block: Stepper::new(name, Commit::new(config), 1),
+            rings: VecDeque::new(),
+            listed: [0; 2],
+            taken: 0,
+            is_offered: false,
+            work: None,
+            age: 0,
+            made: None,
+            count: Count::default(),
+            committed: 0,
+        };
+        rig.clock(Drive { reset: true, ..Drive::default() });
+        rig
+    }
+
+    /// Offers the next entry, and lists an inner triangle of the first ring, else of the second.
+    fn set_inputs(&mut self, drive: Drive) {
+        let block = &mut self.block;
+        for (port, value) in [
+            ("reset", drive.reset),
+            ("solo_inserts", drive.solo_inserts),
+            ("seeds", drive.seeds),
+            ("clears", drive.clears),
+        ] {
+            block.set(port, value);
+        }
+        let head = self.rings.front().filter(|ring| ring.inner.len() == self.listed[0]);
+        self.is_offered = head.is_some() && (self.is_offered || drive.offers);
+        let shares = head.is_some_and(|ring| ring.shares(self.taken)) && self.is_offered;
+        let edge = head.map(|ring| ring.in_order()[self.taken]).filter(|_| self.is_offered);
+        block.set("head_valid", edge.is_some());
+        block.set("head", Edge { after: 0, ..edge.unwrap_or_default() }.entry());
+        block.set("head_is_last", edge.is_some_and(|edge| edge.after == 0));
+        block.set("head_shares", shares);
+        block.set("head_job", head.map_or(0, Ring::job));
+        block.set("inner_enable", false);
+        let reader = self.work.as_ref().map(|(ring, _)| ring.owner);
+        for (ring, listed) in self.rings.iter().zip(&mut self.listed) {
+            if let Some(id) = ring.inner.get(*listed).filter(|_| drive.lists && reader != Some(ring.owner)) {
+                block.set("inner_enable", true);
+                block.set("inner_owner", ring.owner);
+                block.set("inner_place", *listed as u64);
+                block.set("inner_id", *id);
+                *listed += 1;
+                break;
+            }
+        }
+    }
+
+    /// What is done in this clock, and whether an entry is taken by it.
+    fn act(&self) -> (Option<Act>, bool) {
+        let Some((_, acts)) = &self.work else {
+            return (None, self.is_offered);
+        };
+        let act = acts[0];
+        let waits = act.takes && !self.is_offered || act.gives_back && self.age < 3;
+        match act {
+            _ if waits => (None, false),
+            Act { ends: true, .. } => (Some(act), self.is_offered),
+            _ => (Some(act), act.takes),
+        }
+    }
+
+    /// One clock of both; nothing is compared in the first one.
+    fn clock(&mut self, drive: Drive) -> Shown {
+        self.set_inputs(drive);
+        let (act, takes) = self.act();
+        let ends = act.is_some_and(|act| act.ends);
+        let (fresh, records) = (self.count.fresh, self.count.records);
+        let shown = Shown { head_valid: self.is_offered, takes, ends, write: self.made, fresh, records };
+        let block = &mut self.block;
+        block.settle();
+        if block.clocks() > 0 {
+            // It says so before there is an entry.
+            if self.is_offered {
+                block.expect("takes", takes);
+            }
+            block.expect("ends", ends);
+            block.expect("fresh", fresh);
+            block.expect("records", records);
+            block.expect("is_at_work", self.work.is_some());
+            match self.made {
+                Some(write) => block.expect("write", write),
+                None => block.expect_masked("write", 1, 0u128),
+            }
+        }
+        if let Some((ring, _)) = self.work.as_ref().filter(|_| ends) {
+            block.expect("job", ring.job());
+            block.expect("hint", ring.entries[0].f);
+        }
+        block.edge();
+        self.edge(drive, act, takes);
+        shown
+    }
+
+    fn edge(&mut self, drive: Drive, act: Option<Act>, takes: bool) {
+        self.made = act.and_then(|act| act.makes);
+        self.age += 1;
+        let act = act.unwrap_or_default();
+        if act.gives_back {
+            self.age = 0;
+        }
+        if let Some((_, acts)) = self.work.as_mut().filter(|_| act.makes.is_some() || act.takes) {
+            acts.pop_front();
+        }
+        if act.ends {
+            self.work = None;
+            self.committed += 1;
+        }
+        let Drive { solo_inserts, seeds, clears, reset, .. } = drive;
+        self.count.edge(Event { takes: act.takes_fresh, ends: act.ends, solo_inserts, seeds, clears, reset });
+        if takes {
+            self.take();
+        }
+        if reset {
+            self.rings.clear();
+            (self.listed, self.taken, self.is_offered) = ([0; 2], 0, false);
+            (self.work, self.made) = (None, None);
+        }
+    }
+
+    /// The entry on the head is taken: the first one of a ring begins its commit.
+    fn take(&mut self) {
+        if self.work.is_none() {
+            let ring = self.rings[0].clone();
+            let acts = acts(&ring, self.count.fresh);
+            self.work = Some((ring, acts));
+            self.age = 0;
+        }
+        self.is_offered = false;
+        self.taken += 1;
+        if self.taken == self.rings[0].entries.len() {
+            self.rings.pop_front();
+            self.listed = [self.listed[1], 0];
+            self.taken = 0;
+        }
+    }
+
+    /// Keeps two rings coming, never two of one context after each other: a list is written while the one before is read.
+    fn add_rings(&mut self, config: Config, random: &mut SplitMix64) {
+        while self.rings.len() < 2 {
+            let last = self.rings.back().or(self.work.as_ref().map(|(ring, _)| ring)).map(|ring| ring.owner);
+            let owner = random.below(config.contexts.into());
+            if last != Some(owner) {
+                self.rings.push_back(Ring::random(random_length(config.ring.into(), random), owner, random));
+            }
+        }
+    }
+}
+
+/// Runs a commit with rings that come one right after the other, and with gaps.
+fn writes_stars(name: &'static str, config: Config) {
+    let mut random = SplitMix64::new(9);
+    let mut rig = CommitRig::new(name, config);
+    let (mut at_once, mut waits, mut alone, mut resets, mut most_inners) = (0, 0, 0, 0, 0);
+    for clock in 0..14_000 {
+        rig.add_rings(config, &mut random);
+        let (offers, lists) = [(8, 8), (8, 8), (5, 8), (2, 4)][clock / 500 % 4];
+        let is_alone = rig.work.is_none() && !rig.is_offered && rig.made.is_none() && rig.count.is_settled();
+        let event = if is_alone { random.below(16) } else { 16 };
+        let drive = Drive {
+            offers: event > 2 && random.below(8) < offers,
+            lists: random.below(8) < lists,
+            solo_inserts: event == 0,
+            seeds: event == 1,
+            clears: event == 2,
+            reset: random.below(1200) == 0,
+        };
+        let shown = rig.clock(drive);
+        at_once += usize::from(shown.ends && shown.takes);
+        waits += usize::from(shown.head_valid && !shown.takes);
+        alone += usize::from(drive.solo_inserts);
+        resets += usize::from(drive.reset);
+        most_inners = most_inners.max(rig.work.as_ref().map_or(0, |(ring, _)| ring.inner.len()));
+    }
+    let reached = [rig.committed, at_once, waits, alone, resets];
+    assert!(
+        reached.iter().zip([400, 100, 1000, 10, 3]).all(|(seen, least)| *seen >= least)
+            && most_inners * 6 >= config.ring as usize,
+        "rings, taken at once, clocks an entry waited, insertions alone, resets: {reached:?}; {most_inners} inner triangles"
+    );
+}
+
+#[test]
+fn commit_of_the_shortest_list() {
+    writes_stars("commit_6", TINY);
+}
+
+#[test]
+fn commit_of_the_longest_list() {
+    writes_stars("commit_64", LONGEST);
+}
+
+fn number(number: u64) -> Cell {
+    Cell::Number(number.into())
+}
+
+/// The cavity of two triangles 0 and 1 becomes the star of four: two old ids, two new ones.
+#[test]
+fn commit_shows_the_wave_of_its_header() {
+    let edge = |a, u, f, after| Edge { a, u, slot: 1, f, after };
+    let ring = Ring {
+        p: 9,
+        entries: vec![edge(1, 5, 0, 1), edge(2, 6, 1, 2), edge(3, 7, 1, 3), edge(4, 8, 0, 0)],
+        ..Ring::default()
+    };
+    let mut rig = CommitRig::new("commit_6", TINY);
+    rig.clock(Drive { seeds: true, ..Drive::default() });
+    for _ in 0..3 {
+        rig.clock(Drive { solo_inserts: true, ..Drive::default() });
+    }
+    rig.rings.extend([ring.clone(), Ring { owner: 1, ..ring }]);
+    let mut wave = Wave::default();
+    for clock in 0..13 {
+        let shown = rig.clock(Drive { offers: clock > 0, ..Drive::default() });
+        let write = shown.write;
+        wave.take(&[
+            ("head_valid", Cell::Bit(shown.head_valid)),
+            ("takes", Cell::Bit(shown.takes)),
+            ("ends", Cell::Bit(shown.ends)),
+            ("write.valid", Cell::Bit(write.is_some())),
+            ("write.vertices", Cell::Bit(write.is_some_and(|write| write >> 16 & 1 == 1))),
+            ("write.id", write.map_or(Cell::Open, |write| Cell::Number(write >> 1 & 0x7fff))),
+            ("fresh", number(shown.fresh)),
+            ("records", number(shown.records)),
+        ]);
+    }
+    wave.assert_drawn_in("commit");
+}

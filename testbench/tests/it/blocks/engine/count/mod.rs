@@ -1,0 +1,7 @@
+//! The blocks of `hdl/src/engine/count`.
+
+mod counters;
+mod event_counter;
+mod latencies;
+mod latency_bucket;
+mod latency_range;

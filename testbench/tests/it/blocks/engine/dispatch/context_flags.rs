@@ -1,0 +1,299 @@
+//! `ContextFlags`: Rust, Verilog and lists of contexts agree clock by clock.
+
+use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::engine::ContextFlags;
+use incircle_protocol::MAX_CONTEXTS;
+
+named_ports!(
+    ContextFlags,
+    [
+        reset,
+        clears,
+        all,
+        owner,
+        sleeps,
+        keeps,
+        hands_over,
+        asks_to_wait,
+        waits,
+        stops_waiting,
+        overflows,
+        starts,
+        starter,
+        released,
+        released_owner,
+        commit_ends,
+        commit_owner,
+        solo_ends
+    ],
+    [
+        asleep,
+        keeping,
+        busy,
+        began,
+        hinted,
+        waiter_valid,
+        waiter,
+        is_urgent,
+        solo_valid,
+        solo_owner,
+        all_rest,
+        takes_token
+    ],
+    clock
+);
+
+/// What happens in a clock; contexts by number.
+#[derive(Clone, Copy, Debug, Default)]
+struct Events {
+    reset: bool,
+    clears: bool,
+    /// The context whose visit completes, and what that leads to.
+    owner: u64,
+    sleeps: bool,
+    keeps: bool,
+    hands_over: bool,
+    asks_to_wait: bool,
+    waits: bool,
+    stops_waiting: bool,
+    overflows: bool,
+    starter: Option<u64>,
+    released: Option<u64>,
+    committed: Option<u64>,
+    solo_ends: bool,
+}
+
+/// What one context is at.
+#[derive(Clone, Copy, Debug)]
+struct Flags {
+    asleep: bool,
+    keeping: bool,
+    busy: bool,
+    began: bool,
+    hinted: bool,
+}
+
+/// All contexts, the waiting token, and who is alone or wants to be.
+#[derive(Clone, Debug)]
+struct FlagsReference {
+    contexts: Vec<Flags>,
+    waiter: Option<u64>,
+    /// Foreign locks that the waiting context has met.
+    met: u64,
+    alone: Option<u64>,
+    /// Everybody rested a clock ago, and nobody has started since.
+    rested: bool,
+}
+
+impl FlagsReference {
+    fn new(contexts: u64) -> Self {
+        let rests = Flags { asleep: true, keeping: false, busy: false, began: false, hinted: false };
+        Self { contexts: vec![rests; contexts as usize], waiter: None, met: 0, alone: None, rested: false }
+    }
+
+    fn set(&self, flag: impl Fn(&Flags) -> bool) -> u64 {
+        (0..).zip(&self.contexts).fold(0, |set, (place, flags)| set | u64::from(flag(flags)) << place)
+    }
+
+    fn rests(&self) -> bool {
+        self.contexts.iter().all(|flags| flags.asleep && !flags.busy)
+    }
+
+    fn at(&mut self, context: u64) -> &mut Flags {
+        &mut self.contexts[context as usize]
+    }
+
+    fn edge(&mut self, events: &Events) {
+        self.rested = self.rests() && events.starter.is_none();
+        if events.reset || events.clears {
+            *self = Self::new(self.contexts.len() as u64);
+            return;
+        }
+        let owner = self.at(events.owner);
+        owner.asleep |= events.sleeps;
+        owner.keeping |= events.keeps;
+        owner.busy |= events.hands_over;
+        if let Some(context) = events.starter {
+            let starter = self.at(context);
+            (starter.asleep, starter.keeping, starter.began) = (false, false, true);
+        }
+        if let Some(context) = events.released {
+            self.at(context).busy = false;
+        }
+        if let Some(context) = events.committed {
+            self.at(context).hinted = true;
+        }
+        match self.waiter {
+            None if events.asks_to_wait => (self.waiter, self.met) = (Some(events.owner), 0),
+            Some(waiter) if events.stops_waiting && waiter == events.owner => self.waiter = None,
+            _ => {}
+        }
+        self.met += u64::from(events.waits);
+        if events.overflows {
+            self.alone = self.alone.or(Some(events.owner));
+        }
+        if events.solo_ends {
+            if let Some(context) = self.alone.take() {
+                self.at(context).keeping = false;
+                self.waiter = self.waiter.filter(|waiter| *waiter != context);
+            }
+        }
+    }
+}
+
+/// One clock of both.
+fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference, events: &Events) {
+    block.set("all", (1u64 << reference.contexts.len()) - 1);
+    for (port, value) in [
+        ("reset", events.reset),
+        ("clears", events.clears),
+        ("sleeps", events.sleeps),
+        ("keeps", events.keeps),
+        ("hands_over", events.hands_over),
+        ("asks_to_wait", events.asks_to_wait),
+        ("waits", events.waits),
+        ("stops_waiting", events.stops_waiting),
+        ("overflows", events.overflows),
+        ("starts", events.starter.is_some()),
+        ("released", events.released.is_some()),
+        ("commit_ends", events.committed.is_some()),
+        ("solo_ends", events.solo_ends),
+    ] {
+        block.set(port, value);
+    }
+    // A context that nothing happens to is named all the same.
+    let other = events.owner ^ 1;
+    block.set("owner", events.owner);
+    block.set("starter", events.starter.unwrap_or(other));
+    block.set("released_owner", events.released.unwrap_or(other));
+    block.set("commit_owner", events.committed.unwrap_or(other));
+    block.settle();
+    if block.clocks() > 0 {
+        block.expect("asleep", reference.set(|flags| flags.asleep));
+        block.expect("keeping", reference.set(|flags| flags.keeping));
+        block.expect("busy", reference.set(|flags| flags.busy));
+        block.expect("began", reference.set(|flags| flags.began));
+        block.expect("hinted", reference.set(|flags| flags.hinted));
+        block.expect("waiter_valid", reference.waiter.is_some());
+        block.expect("is_urgent", reference.waiter.is_some() && reference.met >= 8);
+        block.expect("solo_valid", reference.alone.is_some());
+        block.expect("all_rest", reference.rested);
+        block.expect("takes_token", events.asks_to_wait && reference.waiter.is_none());
+        reference.waiter.into_iter().for_each(|waiter| block.expect("waiter", waiter));
+        reference.alone.into_iter().for_each(|alone| block.expect("solo_owner", alone));
+    }
+    block.edge();
+    reference.edge(events);
+}
+
+/// Any context of which this holds.
+fn any(reference: &FlagsReference, random: &mut SplitMix64, holds: impl Fn(&Flags) -> bool) -> Option<u64> {
+    let context = random.below(reference.contexts.len() as u64);
+    holds(&reference.contexts[context as usize]).then_some(context)
+}
+
+/// Events that can come together: many at once, for the same context and for others.
+fn events(reference: &FlagsReference, random: &mut SplitMix64) -> Events {
+    let mut flip = |times: u64| random.below(times) == 0;
+    let (reset, clears, over) = (flip(900), flip(900), flip(2));
+    let (keeps, hands_over, asks_to_wait, overflows) = (flip(2), flip(2), flip(4), flip(12));
+    let (ends_alone, gives_back, meets) = (flip(4), flip(8), !flip(8));
+    let alone_works = reference.alone.is_some() && reference.rests();
+    let mut events =
+        Events { reset, clears, owner: random.below(reference.contexts.len() as u64), ..Events::default() };
+    // No visit of the owner completes while a context inserts alone.
+    if alone_works {
+        events.solo_ends = ends_alone;
+    } else if let Some(owner) = any(reference, random, |flags| !flags.asleep) {
+        let is_free = !reference.contexts[owner as usize].busy;
+        // Who meets a foreign lock with the token waits, and neither asks for it nor ends.
+        let waits = reference.waiter == Some(owner) && meets;
+        let sleeps = over && !waits;
+        let asks_to_wait = asks_to_wait && !waits;
+        events = Events {
+            owner,
+            sleeps,
+            keeps: sleeps && keeps,
+            hands_over: sleeps && hands_over && is_free,
+            asks_to_wait,
+            waits,
+            stops_waiting: sleeps && !asks_to_wait && gives_back,
+            overflows: overflows && !waits,
+            ..events
+        };
+    }
+    if reference.alone.is_none() {
+        events.starter = any(reference, random, |flags| flags.asleep);
+    }
+    events.released = any(reference, random, |flags| flags.busy);
+    events.committed = any(reference, random, |flags| flags.busy);
+    events
+}
+
+#[test]
+fn context_flags_are_those_of_lists_of_contexts() {
+    let mut random = SplitMix64::new(70);
+    let mut seen = [0; 6];
+    for contexts in [1, 2, 3, 4, 16, 23, u64::from(MAX_CONTEXTS)] {
+        let mut block = Stepper::new("context_flags", ContextFlags::default(), contexts as u32);
+        let mut reference = FlagsReference::new(contexts);
+        for clock in 0..12_000 {
+            let events = Events { reset: clock == 0, ..events(&reference, &mut random) };
+            let waits = reference.waiter.is_some();
+            for (seen, happens) in seen.iter_mut().zip([
+                events.asks_to_wait && waits,
+                events.stops_waiting && reference.waiter == Some(events.owner),
+                events.solo_ends && reference.waiter == reference.alone,
+                events.overflows && reference.alone.is_some(),
+                events.waits && reference.met > 8,
+                events.sleeps && events.starter.is_some() && events.released.is_some() && events.committed.is_some(),
+            ]) {
+                *seen += usize::from(happens);
+            }
+            flags_clock(&mut block, &mut reference, &events);
+        }
+    }
+    assert!(seen.iter().all(|seen| *seen > 20), "{seen:?}");
+}
+
+#[test]
+fn context_flags_show_the_wave_of_their_header() {
+    let mut block = Stepper::new("context_flags", ContextFlags::default(), 1);
+    let mut reference = FlagsReference::new(2);
+    flags_clock(&mut block, &mut reference, &Events { reset: true, ..Events::default() });
+    let owner = 1;
+    let base = Events { owner, ..Events::default() };
+    let mut wave = Wave::default();
+    for clock in 0..14 {
+        let events = match clock {
+            1 | 5 => Events { starter: Some(owner), ..base },
+            3 => Events { sleeps: true, keeps: true, asks_to_wait: true, ..base },
+            7 => Events { sleeps: true, hands_over: true, stops_waiting: true, ..base },
+            9 => Events { committed: Some(owner), ..base },
+            11 => Events { released: Some(owner), ..base },
+            _ => base,
+        };
+        flags_clock(&mut block, &mut reference.clone(), &events);
+        let set = |flag: fn(&Flags) -> bool| Cell::Number(reference.set(flag).into());
+        wave.take(&[
+            ("starts", Cell::Bit(events.starter.is_some())),
+            ("sleeps", Cell::Bit(events.sleeps)),
+            ("keeps", Cell::Bit(events.keeps)),
+            ("asks_to_wait", Cell::Bit(events.asks_to_wait)),
+            ("stops_waiting", Cell::Bit(events.stops_waiting)),
+            ("hands_over", Cell::Bit(events.hands_over)),
+            ("commit_ends", Cell::Bit(events.committed.is_some())),
+            ("released", Cell::Bit(events.released.is_some())),
+            ("asleep", set(|flags| flags.asleep)),
+            ("keeping", set(|flags| flags.keeping)),
+            ("busy", set(|flags| flags.busy)),
+            ("began", set(|flags| flags.began)),
+            ("hinted", set(|flags| flags.hinted)),
+            ("waiter_valid", Cell::Bit(reference.waiter.is_some())),
+            ("all_rest", Cell::Bit(reference.rested)),
+        ]);
+        reference.edge(&events);
+    }
+    wave.assert_drawn_in("context_flags");
+}

@@ -1,0 +1,57 @@
+//! `NextPoint`: Rust, Verilog and the rule by which points are dealt agree.
+
+use crate::rig::stepper::bundles::Deal;
+use crate::rig::stepper::{named_ports, Stepper};
+use incircle_hdl::engine::NextPoint;
+use incircle_protocol::MAX_CONTEXTS;
+
+named_ports!(
+    NextPoint,
+    [deal, turn, third, taker, taken, took_seed, taken_dealt],
+    [first, first_dealt, taken_is_dealt, after_taken, first_record]
+);
+
+#[test]
+fn next_point_deals_every_vertex_to_one_context() {
+    let mut block = Stepper::new("next_point", NextPoint::default(), 1);
+    for deal in (1..=u64::from(MAX_CONTEXTS)).flat_map(Deal::both) {
+        let contexts = deal.contexts;
+        block.set("deal", deal.bits());
+        let mut owners = vec![0; 400];
+        for turn in 0..contexts {
+            block.set("turn", turn);
+            block.set("third", 3 * turn + 2);
+            block.set("taker", turn);
+            let vertices: Vec<u64> = deal.dealt(turn).take_while(|vertex| *vertex < 450).collect();
+            for (place, pair) in vertices.windows(2).filter(|pair| pair[0] < 400).enumerate() {
+                block.set("taken", pair[0]);
+                let is_seed = deal.is_batch && place == 0;
+                block.set("took_seed", is_seed);
+                // Of others it is anything.
+                block.set("taken_dealt", if is_seed { pair[1] } else { pair[1] % 128 });
+                block.settle();
+                if place == 0 {
+                    block.expect("first", vertices[0] | u64::from(deal.is_batch) << 15);
+                }
+                if is_seed {
+                    block.expect("first_dealt", pair[1]);
+                }
+                block.expect("taken_is_dealt", pair[0] >= 16);
+                block.expect("after_taken", pair[1]);
+                block.expect("first_record", if deal.is_batch { 4 * turn } else { 0 });
+                owners[pair[0] as usize] += 1;
+            }
+        }
+        // The first two of a triple are taken with its third.
+        let triples = if deal.is_batch { contexts as usize } else { 1 };
+        let waits = |id: usize| id < 3 * triples && id % 3 != 2;
+        assert!((0..400).all(|id| owners[id] == usize::from(!waits(id))), "{deal:?}: {owners:?}");
+        block.set("took_seed", false);
+        for id in (1 << 14) - 40..1 << 14 {
+            block.set("taken", id as u64);
+            block.settle();
+            block.expect("taken_is_dealt", true);
+            block.expect("after_taken", id as u64 + contexts);
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! `PlanTable`: Rust, Verilog and the rule by which points are dealt agree.
+
+use crate::rig::stepper::bundles::Deal;
+use crate::rig::stepper::{named_ports, Stepper};
+use incircle_cli::generate::SplitMix64;
+use incircle_hdl::engine::PlanTable;
+use incircle_protocol::LARGE;
+
+named_ports!(
+    PlanTable,
+    [deal, turn, third, is_planned, taker, taken, took_seed, taken_dealt, takes, owner, planned],
+    [due, first_dealt, taken_is_dealt, after_taken, first_record],
+    clock
+);
+
+/// One job after the other in one table, of which nothing is cleared.
+#[test]
+fn plan_table_knows_what_each_context_takes_next() {
+    let mut random = SplitMix64::new(82);
+    let mut block = Stepper::new("plan_table", PlanTable::new(LARGE), 1);
+    for deal in [24, 1, 16, 2, 3, 24].into_iter().flat_map(Deal::both) {
+        block.set("deal", deal.bits());
+        let mut rests: Vec<_> = (0..deal.contexts).map(|context| deal.dealt(context).peekable()).collect();
+        for step in 0..40 * deal.contexts {
+            let turn = step % deal.contexts;
+            let next = *rests[turn as usize].peek().expect("points have no end");
+            let is_seed = deal.is_batch && next == 3 * turn + 2;
+            block.set("turn", turn);
+            block.set("third", 3 * turn + 2);
+            block.set("is_planned", step >= deal.contexts);
+            block.set("takes", false);
+            block.settle();
+            block.expect("due", next | u64::from(is_seed) << 15);
+            // Some context takes its vertex while the pointer stands at another one, or at itself.
+            let owner = random.below(deal.contexts);
+            let takes = step >= deal.contexts && random.below(2) == 0;
+            if takes {
+                let (taken, first_dealt) = (rests[owner as usize].next().expect("one"), 3 * deal.contexts + owner);
+                let is_seed = deal.is_batch && taken == 3 * owner + 2;
+                let after = *rests[owner as usize].peek().expect("points have no end");
+                for (port, value) in [("taker", owner), ("taken", taken), ("taken_dealt", first_dealt)] {
+                    block.set(port, value);
+                }
+                block.set("took_seed", is_seed);
+                block.settle();
+                block.expect("taken_is_dealt", taken >= 16);
+                block.expect("after_taken", after);
+                block.set("planned", after);
+            }
+            block.set("owner", owner);
+            block.set("takes", takes);
+            block.settle();
+            block.edge();
+        }
+    }
+}

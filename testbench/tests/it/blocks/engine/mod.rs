@@ -1,0 +1,10 @@
+//! The blocks of `hdl/src/engine`.
+
+mod attempt;
+mod commit;
+mod count;
+mod dispatch;
+mod seed;
+mod solo;
+mod visit;
+mod write;

@@ -1,0 +1,5 @@
+//! The blocks of `hdl/src/engine/solo`.
+
+mod solo;
+mod solo_visit;
+mod solo_writes;

@@ -1,0 +1,113 @@
+//! `Issue`: Rust, Verilog and plain arithmetic agree, clock by clock.
+
+use std::cell::RefCell;
+use std::collections::VecDeque;
+
+use crate::rig::cosimulation::{named_ports, Cosimulation, Expected, Numbers};
+use crate::rig::drawing::{draw, When};
+use crate::rig::structures::{bundle, pack, random, unpack, BUNDLE, TOKEN};
+use incircle_hdl::engine::Issue;
+
+named_ports!([] Issue, [reset, push, bundle, read, read_id], [token_valid, token, vertices_id, links_id, read_valid], clock);
+
+const CYCLES: usize = 6_000;
+
+/// Visits waiting, each with a mark on the last of its bundle, and the issue register.
+#[derive(Default)]
+struct Queue {
+    waiting: VecDeque<(u128, bool)>,
+    issued: Expected,
+    read_id: Option<u64>,
+    fullest: usize,
+}
+
+impl Queue {
+    fn bundles(&self) -> usize {
+        self.waiting.iter().filter(|(_, is_last)| *is_last).count()
+    }
+
+    fn push(&mut self, bundle: u128) {
+        let [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
+            unpack(BUNDLE, bundle);
+        let visits = [(x, after, u), (after, after2, u2), (after2, 0, u3)];
+        let last = (is_pair + is_triple) as usize;
+        for (place, (x, after, u)) in visits.into_iter().enumerate().take(last + 1) {
+            let token = pack(TOKEN, [owner, rotates, locks, x, after, f_entry, f, u]);
+            self.waiting.push_back((token, place == last));
+        }
+        self.fullest = self.fullest.max(self.bundles());
+    }
+}
+
+#[test]
+fn issue_makes_one_visit_a_clock_in_order() {
+    const PLACES: usize = 32;
+    let queue = RefCell::new((Queue::default(), Numbers::new(31)));
+    let stimuli = (0..CYCLES).map(|cycle| {
+        let (queue, numbers) = &mut *queue.borrow_mut();
+        // In turn: floods, drops, droughts.
+        let rate = [1, 2, 9, 40][cycle / 128 % 4];
+        let has_place = queue.bundles() < PLACES;
+        let push = has_place && numbers.once_in(rate);
+        let read = queue.waiting.is_empty() && !push && numbers.bits(1) == 1;
+        let mut bundle = random(BUNDLE, |bits| numbers.bits(bits));
+        bundle[1] &= bundle[0];
+        vec![
+            u128::from(cycle == 0 || numbers.once_in(200)),
+            push.into(),
+            pack(BUNDLE, bundle),
+            read.into(),
+            numbers.bits(15).into(),
+        ]
+    });
+    let mut is_known = false;
+    Cosimulation {
+        name: "issue_5",
+        rust: Issue::new(5),
+        inputs: &["reset", "push", "bundle", "read", "read_id"],
+        outputs: &["token_valid", "token", "read_valid", "token[40+:15]", "vertices_id", "links_id"],
+    }
+    .run(stimuli, |values| {
+        let queue = &mut queue.borrow_mut().0;
+        let token_valid = Some(queue.issued.is_some().into());
+        let read_valid = Some(queue.read_id.is_some().into());
+        let read_id = queue.read_id.map(u128::from);
+        let record = queue.issued.map(|token| unpack(TOKEN, token)[7].into()).or(read_id);
+        let outputs = vec![token_valid, queue.issued, read_valid, read_id, record, record];
+        if values[1] == 1 {
+            queue.push(values[2]);
+        }
+        queue.issued = queue.waiting.pop_front().map(|(token, _)| token);
+        queue.read_id = (values[3] == 1).then_some(values[4] as u64);
+        if values[0] == 1 {
+            let fullest = queue.fullest;
+            *queue = Queue { fullest, ..Queue::default() };
+        }
+        let shown = if is_known { outputs } else { vec![None; 6] };
+        is_known |= values[0] == 1;
+        shown
+    });
+    assert_eq!(queue.into_inner().0.fullest, PLACES, "the test fills every place");
+}
+
+#[test]
+fn issue_shows_the_wave_of_its_header() {
+    let stimuli = [
+        (1, "push", 1),
+        (1, "bundle", bundle(&[1, 2, 3])),
+        (2, "push", 1),
+        (2, "bundle", bundle(&[4])),
+        (6, "read", 1),
+        (6, "read_id", 9),
+    ];
+    let lanes = [
+        ("push", "push", 0, 1, When::Always),
+        ("bundle.x", "bundle", 9, 6, When::If("push")),
+        ("token_valid", "token_valid", 0, 1, When::Always),
+        ("token.x", "token", 7, 6, When::If("token_valid")),
+        ("read", "read", 0, 1, When::Always),
+        ("read_valid", "read_valid", 0, 1, When::Always),
+        ("token.u", "token", 40, 15, When::If("read_valid")),
+    ];
+    draw("issue_5", Issue::new(5), &stimuli, 9, &lanes).assert_drawn_in("issue");
+}

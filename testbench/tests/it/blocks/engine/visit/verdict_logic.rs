@@ -1,0 +1,108 @@
+//! `VerdictLogic`: Rust, Verilog and plain arithmetic agree, clock by clock.
+
+use super::visit_reader::record;
+use crate::rig::cosimulation::{named_ports, Cosimulation, Numbers};
+use crate::rig::visit_model::{incircle, orientation, verdict_parts, Point, VERDICT_PARTS};
+use incircle_hdl::engine::VerdictLogic;
+
+named_ports!([] VerdictLogic,
+    [turned, e0_negative, e1_negative, e2_negative, e0_zero, e1_zero, e2_zero, e1_below_e0, e2_below_e0, e2_below_e1,
+     incircle_positive, incircle_zero, p_before_r0, p_before_r1, p_before_r2, p_equals_r0, p_equals_r1, p_equals_r2,
+     r0_before_r1, r0_before_r2, r1_before_r2], [verdict]);
+
+const CYCLES: usize = 6_000;
+
+const INFINITE: u64 = 0x7fff;
+
+/// Four points: few places, so that lines, circles and equal points are common; or the whole range.
+pub fn points(numbers: &mut Numbers) -> [Point; 4] {
+    let bits = [1, 2, 2, 3, 4, 16][(numbers.next() % 6) as usize];
+    let shift = if bits < 16 { [0, 12][numbers.bits(1) as usize] } else { 0 };
+    let mut coordinate = || (numbers.bits(bits) << shift) as i64;
+    [(); 4].map(|()| (coordinate(), coordinate()))
+}
+
+#[test]
+fn verdict_logic_agrees_with_the_geometry() {
+    let mut numbers = Numbers::new(34);
+    let mut cases = vec![];
+    let stimuli: Vec<Vec<u128>> = (0..4 * CYCLES)
+        .map(|_| {
+            let [r0, r1, r2, p] = points(&mut numbers);
+            let r = [r0, r1, r2];
+            let record = record(&mut numbers);
+            let slot = (numbers.next() % 3) as usize;
+            cases.push((record, slot, r, p));
+            let e = [0, 1, 2].map(|k| orientation(r[(k + 1) % 3], r[(k + 2) % 3], p));
+            let inside = incircle(r, p);
+            let flags = [
+                e[0] < 0,
+                e[1] < 0,
+                e[2] < 0,
+                e[0] == 0,
+                e[1] == 0,
+                e[2] == 0,
+                e[1] < e[0],
+                e[2] < e[0],
+                e[2] < e[1],
+                inside > 0,
+                inside == 0,
+                p < r0,
+                p < r1,
+                p < r2,
+                p == r0,
+                p == r1,
+                p == r2,
+                r0 < r1,
+                r0 < r2,
+                r1 < r2,
+            ];
+            let turned = record.turned(slot).pack_turned(slot, [false; 3], INFINITE);
+            [&[turned][..], &flags.map(u128::from)].concat()
+        })
+        .collect();
+    let mut cases = cases.into_iter();
+    let mut seen = [0; 5];
+    Cosimulation {
+        name: "verdict_logic",
+        rust: VerdictLogic::default(),
+        inputs: &[
+            "turned",
+            "e0_negative",
+            "e1_negative",
+            "e2_negative",
+            "e0_zero",
+            "e1_zero",
+            "e2_zero",
+            "e1_below_e0",
+            "e2_below_e0",
+            "e2_below_e1",
+            "incircle_positive",
+            "incircle_zero",
+            "p_before_r0",
+            "p_before_r1",
+            "p_before_r2",
+            "p_equals_r0",
+            "p_equals_r1",
+            "p_equals_r2",
+            "r0_before_r1",
+            "r0_before_r2",
+            "r1_before_r2",
+        ],
+        outputs: &VERDICT_PARTS,
+    }
+    .run(stimuli, |_| {
+        let (record, slot, r, p) = cases.next().expect("a case for each stimulus");
+        let verdict = record.verdict(slot, r, p, INFINITE);
+        seen[0] += usize::from(verdict & 1 == 1);
+        seen[1] += usize::from(verdict >> 1 & 1 == 1);
+        seen[2] += usize::from(incircle(r, p) == 0 && !r.contains(&p));
+        seen[3] += usize::from(record.v.contains(&INFINITE));
+        seen[4] += usize::from(slot > 0 && incircle(r, p) == 0 && verdict & 1 == 1);
+        verdict_parts(verdict, slot, r).to_vec()
+    });
+    assert!(
+        seen.iter().all(|count| *count > CYCLES / 10),
+        "conflicts, located, cocircular, ghosts, turned ties: {seen:?}"
+    );
+}

@@ -1,0 +1,123 @@
+//! `VisitReader`: Rust, Verilog and plain arithmetic agree, clock by clock.
+
+use crate::rig::cosimulation::{named_ports, Cosimulation, Numbers};
+use crate::rig::drawing::{draw, When};
+use crate::rig::structures::{pack, random, unpack, TOKEN};
+use crate::rig::visit_model::Record;
+use incircle_hdl::engine::VisitReader;
+
+named_ports!([] VisitReader,
+    [infinite, token, v0, v1, v2, n0, n1, n2, took, foreign, again, position0, position1, position2],
+    [turned, token_at_record, r0, r1, r2], clock);
+
+const CYCLES: usize = 6_000;
+
+const INFINITE: u64 = 0x7fff;
+
+/// A record with three links that differ, and the infinite vertex on one corner or none.
+pub fn record(numbers: &mut Numbers) -> Record {
+    let mut v = [(); 3].map(|()| numbers.bits(15) % INFINITE);
+    let place = numbers.bits(3) as usize;
+    if place < 3 {
+        v[place] = INFINITE;
+    }
+    let n0 = numbers.bits(15);
+    Record { v, n: [n0, n0 ^ (1 + numbers.bits(3)), n0 ^ (9 + numbers.bits(2))] }
+}
+
+#[test]
+fn visit_reader_turns_record_and_corners() {
+    let mut numbers = Numbers::new(33);
+    let mut records: Vec<Record> = (0..CYCLES).map(|_| record(&mut numbers)).collect();
+    records.push(Record::default());
+    records.push(Record::default());
+    let stimuli: Vec<Vec<u128>> = (0..CYCLES)
+        .map(|cycle| {
+            // The visit's record is there two clocks later; it came through one of its links, or through none.
+            let mut token = random(TOKEN, |bits| numbers.bits(bits));
+            let link = numbers.bits(2) as usize;
+            if link < 3 {
+                token[6] = records[cycle + 2].n[link];
+            }
+            let Record { v, n } = records[cycle];
+            let columns = [v, n].concat();
+            let mut values = vec![INFINITE.into(), pack(TOKEN, token)];
+            values.extend(columns.into_iter().map(u128::from));
+            values.extend([(); 3].map(|()| u128::from(numbers.bits(1))));
+            values.extend([(); 3].map(|()| u128::from(numbers.bits(32))));
+            values
+        })
+        .collect();
+    let mut past: Vec<Vec<u128>> = vec![];
+    let mut turns = [0; 3];
+    Cosimulation {
+        name: "visit_reader",
+        rust: VisitReader::default(),
+        inputs: &[
+            "infinite",
+            "token",
+            "v0",
+            "v1",
+            "v2",
+            "n0",
+            "n1",
+            "n2",
+            "took",
+            "foreign",
+            "again",
+            "position0",
+            "position1",
+            "position2",
+        ],
+        outputs: &["token_at_record", "turned", "r0", "r1", "r2"],
+    }
+    .run(stimuli, |values| {
+        past.push(values.to_vec());
+        let ago = |clocks: usize| past.len().checked_sub(1 + clocks).map(|at| &past[at]);
+        // The record that stood on the columns three clocks ago, the slot that its visit puts first, and its lock a clock later.
+        let visit = || {
+            let (columns, lock, token) = (ago(3)?, ago(2)?, unpack(TOKEN, ago(5)?[1]));
+            let column = |port: usize| columns[port] as u64;
+            let record = Record { v: [2, 3, 4].map(column), n: [5, 6, 7].map(column) };
+            let found = [lock[8], lock[9], columns[10]].map(|flag| flag == 1);
+            Some((record, record.slot(token[1] == 1, token[6]), found))
+        };
+        let turned = visit().map(|(record, slot, found)| {
+            turns[slot] += 1;
+            record.turned(slot).pack_turned(slot, found, INFINITE)
+        });
+        let corners = [11, 12, 13].map(|port| ago(1).map(|then| then[port]));
+        [&[ago(2).map(|then| then[1]), turned][..], &corners].concat()
+    });
+    assert!(turns.iter().all(|turn| *turn > CYCLES / 10), "{turns:?}");
+}
+
+#[test]
+fn visit_reader_shows_the_wave_of_its_header() {
+    // Through link 1, so that vertex 1 comes first.
+    let stimuli = [
+        (0, "token", pack(TOKEN, [0, 1, 0, 0, 0, 0, 30, 5])),
+        (2, "v0", 11),
+        (2, "v1", 12),
+        (2, "n1", 30),
+        (2, "again", 1),
+        (3, "took", 1),
+        (4, "position0", 51),
+    ];
+    let lanes = [
+        ("token.f", "token", 25, 15, When::At(&[0])),
+        ("n1", "n1", 0, 15, When::At(&[2])),
+        ("v0", "v0", 0, 15, When::At(&[2])),
+        ("v1", "v1", 0, 15, When::At(&[2])),
+        ("again", "again", 0, 1, When::Always),
+        ("took", "took", 0, 1, When::Always),
+        ("turned.v0", "turned", 0, 15, When::At(&[5])),
+        ("turned.slot", "turned", 90, 2, When::At(&[5])),
+        ("turned.again", "turned", 94, 1, When::At(&[5])),
+        ("turned.took", "turned", 92, 1, When::At(&[5])),
+        ("position0", "position0", 0, 32, When::At(&[4])),
+        ("r0", "r0", 0, 32, When::At(&[5])),
+    ];
+    let reader = VisitReader::default();
+    draw("visit_reader", reader, &stimuli, 7, &lanes).assert_drawn_in("visit_reader");
+}

@@ -1,0 +1,26 @@
+//! `DelayLine`: Rust, Verilog and an independent reference agree clock by clock.
+
+use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Numbers};
+use incircle_hdl::leaf::DelayLine;
+
+named_ports!([const D: usize] DelayLine<D>, [data_in], [data_out], clock);
+
+const CYCLES: usize = 20_000;
+
+fn delay_line<const D: usize>(name: &str, stages: usize) {
+    let mut numbers = Numbers::new(5);
+    let stimuli: Vec<_> = (0..CYCLES).map(|_| vec![numbers.bits(D as u32)]).collect();
+    let mut delay = Delay::new(stages);
+    Cosimulation { name, rust: DelayLine::<D>::new(stages), inputs: &["data_in"], outputs: &["data_out"] }
+        .run(stimuli, |values| vec![delay.pass(values[0].into())]);
+}
+
+#[test]
+fn delay_line_of_the_fewest_stages() {
+    delay_line::<8>("delay_line_3", DelayLine::<8>::MIN_STAGES);
+}
+
+#[test]
+fn delay_line_of_nineteen_stages() {
+    delay_line::<40>("delay_line_19", 19);
+}

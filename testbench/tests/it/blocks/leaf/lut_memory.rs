@@ -1,0 +1,29 @@
+//! `LutMemory`: Rust, Verilog and an independent reference agree clock by clock.
+
+use crate::rig::cosimulation::{named_ports, Cosimulation};
+use crate::rig::memories::{memory_reference, memory_stimuli, MEMORY_PORTS};
+use incircle_hdl::leaf::LutMemory;
+
+named_ports!([const A: usize, const D: usize] LutMemory<A, D>,
+    [write_address, write_data, write_enable, read_address], [read_data], clock);
+
+fn lut_memory<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
+    let mut reference = memory_reference(address_bits, stored_bits);
+    Cosimulation {
+        name,
+        rust: LutMemory::<A, D>::new(address_bits, stored_bits),
+        inputs: &MEMORY_PORTS,
+        outputs: &["read_data"],
+    }
+    .run(memory_stimuli(A, D, address_bits), |values| vec![reference(values)]);
+}
+
+#[test]
+fn lut_memory_reads_at_once() {
+    lut_memory::<4, 8>("lut_memory_4x8", 4, 8);
+}
+
+#[test]
+fn lut_memory_ignores_what_is_above_its_shape() {
+    lut_memory::<6, 40>("lut_memory_5x37", 5, 37);
+}

@@ -1,0 +1,14 @@
+//! The blocks of `hdl/src/link`.
+
+mod answer_head;
+mod answer_words;
+mod clear_command;
+mod command_gate;
+mod command_port;
+mod point_slot;
+mod record_buffer;
+mod record_reads;
+mod record_words;
+mod responder;
+mod vertex_packer;
+mod vertex_stream;

@@ -1,0 +1,5 @@
+//! The blocks of `hdl/src/mesh`.
+
+mod lock_store;
+mod triangle_store;
+mod vertex_store;

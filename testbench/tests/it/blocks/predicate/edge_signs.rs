@@ -1,0 +1,39 @@
+//! `EdgeSigns`: Rust, Verilog and plain integer arithmetic agree clock by clock.
+
+use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Numbers};
+use crate::rig::visit_points::{bits_of, edge_flags, shown, signed, EDGE_FLAGS};
+use incircle_hdl::predicate::EdgeSigns;
+
+named_ports!([] EdgeSigns, [e0, e1, e2],
+    [e0_negative, e1_negative, e2_negative, e0_zero, e1_zero, e2_zero, e1_below_e0, e2_below_e0, e2_below_e1], clock);
+
+const CYCLES: usize = 10_000;
+
+#[test]
+fn edge_signs_compare_signed() {
+    let mut numbers = Numbers::new(15);
+    let limit = 1_i64 << 32;
+    let corners = [0, 1, -1, limit - 1, -limit];
+    let stimuli: Vec<Vec<u64>> = (0..CYCLES)
+        .map(|_| {
+            let mut value = || match numbers.next() % 3 {
+                0 => corners[(numbers.next() % 5) as usize],
+                1 => numbers.bits(2) as i64 - 2,
+                _ => numbers.bits(33) as i64 - limit,
+            };
+            (0..3).map(|_| bits_of(value().into(), 36) as u64).collect()
+        })
+        .collect();
+    let latency = 2;
+    let mut delay = Delay::new(latency);
+    Cosimulation {
+        name: "edge_signs",
+        rust: EdgeSigns::new(latency),
+        inputs: &["e0", "e1", "e2"],
+        outputs: &EDGE_FLAGS,
+    }
+    .run(stimuli, |values| {
+        let e = [0, 1, 2].map(|k| signed(values[k], 36));
+        shown(delay.pass(edge_flags(e)), EDGE_FLAGS.len())
+    });
+}

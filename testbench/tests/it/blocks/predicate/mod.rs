@@ -1,0 +1,9 @@
+//! The blocks of `hdl/src/predicate`.
+
+mod cross_product;
+mod dot_product;
+mod edge_signs;
+mod point_difference;
+mod vertex_order;
+mod visit_predicates;
+mod wide_product;

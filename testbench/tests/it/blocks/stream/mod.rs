@@ -1,0 +1,14 @@
+//! The blocks of `hdl/src/stream`.
+
+mod answer_beats;
+mod answer_pairs;
+mod answer_watch;
+mod async_fifo;
+mod beat_gate;
+mod beat_words;
+mod progress;
+mod register_block;
+mod register_port;
+mod reset_reply;
+mod reset_request;
+mod stream_link;
