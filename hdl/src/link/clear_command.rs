@@ -6,7 +6,7 @@
 //!
 //! Latency: 1 clock, 2 to `deal.dealt_from`.
 
-use super::types::{Clearing, TakenWord};
+use super::types::{Clearing, TakenWord, Word};
 use crate::engine::Deal;
 use incircle_protocol::{Opcode, CLEAR_BATCH, FIRST_ROUND};
 use rust_hdl_core::prelude::*;
@@ -30,7 +30,7 @@ pub struct ClearCommand {
     batch: DFF<Bit>,
     dealt: DFF<Bits<7>>,
     refusing: DFF<Bit>,
-    word: Signal<Local, Bits<32>>,
+    word: Signal<Local, Word>,
     code: Signal<Local, Bits<8>>,
     asked: Signal<Local, Bits<8>>,
     wide_built: Signal<Local, Bits<8>>,

@@ -14,7 +14,7 @@ use rust_hdl_core::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct CommandGate {
     pub command: CommandSink,
-    /// What the next word means.
+    /// The meaning of the next word.
     pub state: Signal<In, CommandState>,
     /// The core is not ready for commands yet.
     pub sweeps: Signal<In, Bit>,

@@ -20,7 +20,7 @@
 //! answers         _______________________________________/^^^^^^^^
 //! ```
 
-use super::types::{Activity, AnswerProgress, Clearing, Request, Tally};
+use super::types::{Activity, AnswerProgress, Clearing, Request, Tally, VertexCount, Word};
 use super::{ClearCommand, CommandGate, CommandSink, PointSlot};
 use crate::engine::Deal;
 use crate::engine::{Arrival, EngineState};
@@ -52,7 +52,7 @@ pub struct CommandPort {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     /// Points the core holds, and contexts it has; constants.
-    pub capacity: Signal<In, Bits<15>>,
+    pub capacity: Signal<In, VertexCount>,
     pub built: Signal<In, Bits<5>>,
     pub command: CommandSink,
     /// Memories are being cleared: the core is not ready for commands.
@@ -81,7 +81,7 @@ pub struct CommandPort {
     read_code: Signal<Local, Bits<8>>,
     packed_code: Signal<Local, Bits<8>>,
     insert_code: Signal<Local, Bits<8>>,
-    one: Signal<Local, Bits<32>>,
+    one: Signal<Local, Word>,
 }
 
 // The kernel names opcodes by number, because rust-hdl takes literals only; a change in the protocol must come here.

@@ -5,7 +5,8 @@
 //!
 //! Latency: 1 clock; 2 to `refused` and `some_refused`.
 
-use super::types::{TakenWord, Tally};
+use super::types::{TakenWord, Tally, VertexCount, Word};
+use crate::engine::types::VertexId;
 use crate::engine::{Arrival, EngineState};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -18,7 +19,7 @@ pub struct PointSlot {
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// Points the core holds, a constant.
-    pub capacity: Signal<In, Bits<15>>,
+    pub capacity: Signal<In, VertexCount>,
     /// Points are refused where it is `collinear` or `stuck`.
     pub engine: Signal<In, EngineState>,
     /// A point may come.
@@ -27,19 +28,19 @@ pub struct PointSlot {
     pub arrival: Signal<Out, Arrival>,
     pub tally: Signal<Out, Tally>,
     is_new: DFF<Bit>,
-    last_id: DFF<Bits<15>>,
-    last_point: DFF<Bits<32>>,
-    arrivals: DFF<Bits<15>>,
+    last_id: DFF<VertexId>,
+    last_point: DFF<Word>,
+    arrivals: DFF<VertexCount>,
     /// As many as the core holds.
     is_full: DFF<Bit>,
     /// The last point is refused, and counted now.
     is_surplus: DFF<Bit>,
-    refusals: DFF<Bits<32>>,
+    refusals: DFF<Word>,
     has_refused: DFF<Bit>,
     stores: Signal<Local, Bit>,
     has_room: Signal<Local, Bit>,
-    one_arrival: Signal<Local, Bits<15>>,
-    one: Signal<Local, Bits<32>>,
+    one_arrival: Signal<Local, VertexCount>,
+    one: Signal<Local, Word>,
 }
 
 impl Logic for PointSlot {

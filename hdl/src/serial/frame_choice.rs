@@ -5,7 +5,7 @@
 //!
 //! Latency: none to `starts` (combinational), 1 clock to the type.
 
-use super::types::Contents;
+use super::types::{Byte, Contents};
 use incircle_protocol::DeviceFrame;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -18,7 +18,7 @@ pub struct FrameChoice {
     pub is_idle: Signal<In, Bit>,
     /// A control frame is due; its type.
     pub reply_is_due: Signal<In, Bit>,
-    pub reply_kind: Signal<In, Bits<8>>,
+    pub reply_kind: Signal<In, Byte>,
     /// A part of an answer is; it is the last one.
     pub answer_is_due: Signal<In, Bit>,
     pub answer_is_last: Signal<In, Bit>,
@@ -31,9 +31,9 @@ pub struct FrameChoice {
     pub starts_reply: Signal<Out, Bit>,
     pub starts_answer: Signal<Out, Bit>,
     /// Type of the frame under way.
-    pub kind: Signal<Out, Bits<8>>,
+    pub kind: Signal<Out, Byte>,
     pub contents: Signal<Out, Contents>,
-    kind_byte: DFF<Bits<8>>,
+    kind_byte: DFF<Byte>,
     is_hello: DFF<Bit>,
     is_receipt: DFF<Bit>,
     is_answer: DFF<Bit>,
@@ -41,9 +41,9 @@ pub struct FrameChoice {
     may_start: Signal<Local, Bit>,
     begins_reply: Signal<Local, Bit>,
     begins_answer: Signal<Local, Bit>,
-    hello_kind: Signal<Local, Bits<8>>,
-    ack_kind: Signal<Local, Bits<8>>,
-    nak_kind: Signal<Local, Bits<8>>,
+    hello_kind: Signal<Local, Byte>,
+    ack_kind: Signal<Local, Byte>,
+    nak_kind: Signal<Local, Byte>,
 }
 
 // The kernel names types by number, because rust-hdl takes literals only; a change in the protocol must come here.

@@ -4,7 +4,8 @@
 //!
 //! Latency: none (combinational) from `kind` and `index`.
 
-use super::types::{Receipt, Session};
+use super::types::{Byte, Receipt, Session};
+use crate::link::types::Word;
 use incircle_protocol::{STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -19,7 +20,7 @@ pub struct FrameHeader {
     pub starts: Signal<In, Bit>,
     /// Fields of the header.
     pub open: Signal<In, Session>,
-    pub answers: Signal<In, Bits<8>>,
+    pub answers: Signal<In, Byte>,
     pub receipt: Signal<In, Receipt>,
     /// The last `Rate` was refused; a command is under way.
     pub is_refused: Signal<In, Bit>,
@@ -27,22 +28,22 @@ pub struct FrameHeader {
     /// A frame of the host is dropped.
     pub drops: Signal<In, Bit>,
     /// Type of the frame; byte of the header.
-    pub kind: Signal<In, Bits<8>>,
+    pub kind: Signal<In, Byte>,
     pub index: Signal<In, Bits<3>>,
-    pub byte_data: Signal<Out, Bits<8>>,
+    pub byte_data: Signal<Out, Byte>,
     /// The digest as it was.
-    pub digest_taken: Signal<Out, Bits<32>>,
-    session_then: DFF<Bits<8>>,
-    expected_then: DFF<Bits<8>>,
-    answers_then: DFF<Bits<8>>,
+    pub digest_taken: Signal<Out, Word>,
+    session_then: DFF<Byte>,
+    expected_then: DFF<Byte>,
+    answers_then: DFF<Byte>,
     free_then: DFF<Bits<16>>,
-    status_then: DFF<Bits<8>>,
-    digest_then: DFF<Bits<32>>,
+    status_then: DFF<Byte>,
+    digest_then: DFF<Word>,
     has_dropped: DFF<Bit>,
-    open_bit: Signal<Local, Bits<8>>,
-    refused_bit: Signal<Local, Bits<8>>,
-    dropped_bit: Signal<Local, Bits<8>>,
-    busy_bit: Signal<Local, Bits<8>>,
+    open_bit: Signal<Local, Byte>,
+    refused_bit: Signal<Local, Byte>,
+    dropped_bit: Signal<Local, Byte>,
+    busy_bit: Signal<Local, Byte>,
 }
 
 // The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.

@@ -7,14 +7,14 @@
 //!
 //! Latency: 1 clock.
 
-use super::types::{FrameHead, Session};
+use super::types::{Byte, FrameHead, Session};
 use crate::packed;
 use incircle_protocol::{HostFrame, MAX_PAYLOAD};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 packed! {
-    /// What a frame asks for.
+    /// The request of a frame of the host.
     pub struct Asked {
         /// A sound frame: there is a host.
         pub hears: bool,
@@ -49,7 +49,7 @@ pub struct FrameJudge {
     pub reset: Signal<In, Bit>,
     /// The header of the frame, from `FrameReader`.
     pub head: Signal<In, FrameHead>,
-    /// It is complete.
+    /// The header is complete.
     pub header_comes: Signal<In, Bit>,
     /// The frame is over; its check sum and its length are right.
     pub comes: Signal<In, Bit>,
@@ -69,7 +69,7 @@ pub struct FrameJudge {
     is_none: DFF<Bit>,
     is_four: DFF<Bit>,
     is_words: DFF<Bit>,
-    distance: DFF<Bits<8>>,
+    distance: DFF<Byte>,
     has_room: DFF<Bit>,
     // Second rank: what follows.
     is_fit: DFF<Bit>,
@@ -80,19 +80,19 @@ pub struct FrameJudge {
     header_first: DFF<Bit>,
     taking: DFF<Bit>,
     answer: DFF<Asked>,
-    kind: Signal<Local, Bits<8>>,
+    kind: Signal<Local, Byte>,
     high_kind: Signal<Local, Bits<5>>,
     low_length: Signal<Local, Bits<2>>,
     wide_length: Signal<Local, Bits<16>>,
     four: Signal<Local, Bits<11>>,
     is_ours: Signal<Local, Bit>,
-    wide_kind: Signal<Local, Bits<8>>,
+    wide_kind: Signal<Local, Byte>,
     /// Bit `k`: the frame is of type `k`.
-    kinds: Signal<Local, Bits<8>>,
+    kinds: Signal<Local, Byte>,
     is_behind: Signal<Local, Bit>,
     is_data_of_ours: Signal<Local, Bit>,
     is_of_session: Signal<Local, Bit>,
-    one: Signal<Local, Bits<8>>,
+    one: Signal<Local, Byte>,
     is_wanted: Signal<Local, Bit>,
 }
 

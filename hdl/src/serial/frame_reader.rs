@@ -6,8 +6,9 @@
 //!
 //! Latency: 1 clock.
 
-use super::types::FrameHead;
+use super::types::{Byte, FrameHead};
 use super::Crc32;
+use crate::link::types::Word;
 use incircle_protocol::{CRC_BYTES, HOST_HEADER_BYTES, MAX_PAYLOAD};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -41,7 +42,7 @@ pub struct FrameReader {
     pub reset: Signal<In, Bit>,
     /// A byte of a frame.
     pub data_valid: Signal<In, Bit>,
-    pub data: Signal<In, Bits<8>>,
+    pub data: Signal<In, Byte>,
     /// The frame is over; it lacks bytes.
     pub frame_ends: Signal<In, Bit>,
     pub is_broken: Signal<In, Bit>,
@@ -51,9 +52,9 @@ pub struct FrameReader {
     pub header_comes: Signal<Out, Bit>,
     /// A byte of the payload.
     pub payload_valid: Signal<Out, Bit>,
-    pub payload: Signal<Out, Bits<8>>,
+    pub payload: Signal<Out, Byte>,
     /// The last four bytes of the payload.
-    pub value: Signal<Out, Bits<32>>,
+    pub value: Signal<Out, Word>,
     /// A frame is over; its check sum and its length are right.
     pub comes: Signal<Out, Bit>,
     pub is_sound: Signal<Out, Bit>,
@@ -63,24 +64,24 @@ pub struct FrameReader {
     left: DFF<Bits<11>>,
     has_header: DFF<Bit>,
     gives: DFF<Bit>,
-    given: DFF<Bits<8>>,
-    last_bytes: DFF<Bits<32>>,
+    given: DFF<Byte>,
+    last_bytes: DFF<Word>,
     is_over: DFF<Bit>,
     is_good: DFF<Bit>,
     crc: Crc32,
     low_length: Signal<Local, Bits<16>>,
     high_length: Signal<Local, Bits<16>>,
     full_length: Signal<Local, Bits<16>>,
-    wide_data: Signal<Local, Bits<32>>,
-    top_byte: Signal<Local, Bits<32>>,
-    older_bytes: Signal<Local, Bits<32>>,
+    wide_data: Signal<Local, Word>,
+    top_byte: Signal<Local, Word>,
+    older_bytes: Signal<Local, Word>,
     most: Signal<Local, Bits<16>>,
     eight: Signal<Local, Bits<16>>,
-    wide_eight: Signal<Local, Bits<32>>,
-    three_bytes: Signal<Local, Bits<32>>,
+    wide_eight: Signal<Local, Word>,
+    three_bytes: Signal<Local, Word>,
     one: Signal<Local, Bits<11>>,
-    first_state: Signal<Local, Bits<32>>,
-    sound_state: Signal<Local, Bits<32>>,
+    first_state: Signal<Local, Word>,
+    sound_state: Signal<Local, Word>,
 }
 
 // The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.

@@ -5,7 +5,7 @@
 //!
 //! Latency: 4 clocks from `starts` to the first byte; 4 from a byte taken to the next, and not before the check sum has taken it.
 
-use super::types::{BytePlace, Contents};
+use super::types::{Byte, BytePlace, Contents};
 use super::FramePart;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -36,7 +36,7 @@ pub struct FrameSender {
     /// The byte of the frame that is wanted.
     pub at: Signal<Out, BytePlace>,
     /// The byte, 2 clocks later; the check sum has not taken the byte before.
-    pub byte_data: Signal<In, Bits<8>>,
+    pub byte_data: Signal<In, Byte>,
     pub sum_is_busy: Signal<In, Bit>,
     /// The next byte of the words is there; it is the last one of the frame.
     pub word_byte_valid: Signal<In, Bit>,
@@ -47,7 +47,7 @@ pub struct FrameSender {
     /// Bytes of the frame.
     pub data_valid: Signal<Out, Bit>,
     pub data_ready: Signal<In, Bit>,
-    pub data: Signal<Out, Bits<8>>,
+    pub data: Signal<Out, Byte>,
     /// No byte follows; the frame is to be invalid; it is over.
     pub ends: Signal<Out, Bit>,
     pub is_cut: Signal<Out, Bit>,
@@ -63,7 +63,7 @@ pub struct FrameSender {
     asked_once: DFF<Bit>,
     asked_twice: DFF<Bit>,
     is_loaded: DFF<Bit>,
-    loaded: DFF<Bits<8>>,
+    loaded: DFF<Byte>,
     was_cut: DFF<Bit>,
     part_end: FramePart,
     is_words: Signal<Local, Bit>,

@@ -9,8 +9,9 @@
 //! ```
 //! Latency: see the blocks.
 
-use super::types::{Receipt, Session};
+use super::types::{Byte, Receipt, Session, Step};
 use super::{Asked, CobsDecoder, CommandWords, FrameJudge, FrameReader, PayloadDigest, ReceiveFifo, UartReceiver};
+use crate::link::types::Word;
 use crate::link::CommandSource;
 use incircle_protocol::LinkConfig;
 use rust_hdl_core::prelude::*;
@@ -21,15 +22,15 @@ pub struct LinkReceiver {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     /// Rate, and the line.
-    pub step: Signal<In, Bits<22>>,
+    pub step: Signal<In, Step>,
     pub rx: Signal<In, Bit>,
     pub open: Signal<In, Session>,
     /// Empty the FIFO.
     pub forgets: Signal<In, Bit>,
     /// What a frame asks for, the session it names, the last four bytes of its payload.
     pub asked: Signal<Out, Asked>,
-    pub named: Signal<Out, Bits<8>>,
-    pub value: Signal<Out, Bits<32>>,
+    pub named: Signal<Out, Byte>,
+    pub value: Signal<Out, Word>,
     pub receipt: Signal<Out, Receipt>,
     /// The line is low.
     pub is_low: Signal<Out, Bit>,

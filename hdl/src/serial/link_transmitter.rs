@@ -9,11 +9,12 @@
 //! ```
 //! Latency: see the blocks.
 
-use super::types::{Receipt, Session};
+use super::types::{Receipt, Session, Step};
 use super::{
     AnswerPacker, Asked, CobsEncoder, Crc32, FrameBytes, FrameChoice, FrameHeader, FrameSender, Greeting, Replies,
     UartTransmitter, WordNarrower,
 };
+use crate::link::types::Word;
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;
 
@@ -23,12 +24,12 @@ pub struct LinkTransmitter {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     /// Rate, and the line.
-    pub step: Signal<In, Bits<22>>,
+    pub step: Signal<In, Step>,
     pub tx: Signal<Out, Bit>,
     /// What a frame of the host asks for; a gap was seen before it.
     pub asked: Signal<In, Asked>,
     pub saw_gap: Signal<In, Bit>,
-    /// What a frame to the host says.
+    /// The session and the receipt that a frame to the host reports.
     pub open: Signal<In, Session>,
     pub receipt: Signal<In, Receipt>,
     pub is_refused: Signal<In, Bit>,
@@ -63,7 +64,7 @@ pub struct LinkTransmitter {
     encoder: CobsEncoder,
     uart: UartTransmitter,
     is_over: Signal<Local, Bit>,
-    first_state: Signal<Local, Bits<32>>,
+    first_state: Signal<Local, Word>,
 }
 
 const _: () = assert!(Crc32::FIRST == 0xffff_ffff, "the literal of this block follows the check sum");

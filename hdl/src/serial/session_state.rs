@@ -6,7 +6,7 @@
 //!
 //! Latency: 1 clock.
 
-use super::types::Session;
+use super::types::{Byte, Session};
 use super::Asked;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -19,7 +19,7 @@ pub struct SessionState {
     pub reset: Signal<In, Bit>,
     /// What a frame asks for, and the session it names.
     pub asked: Signal<In, Asked>,
-    pub session: Signal<In, Bits<8>>,
+    pub session: Signal<In, Byte>,
     /// Silence or a break: the session ends at this edge.
     pub fails: Signal<In, Bit>,
     pub open: Signal<Out, Session>,
@@ -30,12 +30,12 @@ pub struct SessionState {
     /// Something has just changed: no frame to the host may begin.
     pub settles: Signal<Out, Bit>,
     opened: DFF<Bit>,
-    session_number: DFF<Bits<8>>,
-    awaited: DFF<Bits<8>>,
+    session_number: DFF<Byte>,
+    awaited: DFF<Byte>,
     gap: DFF<Bit>,
     begins: DFF<Bit>,
     settling: DFF<Bits<3>>,
-    one: Signal<Local, Bits<8>>,
+    one: Signal<Local, Byte>,
     one_clock: Signal<Local, Bits<3>>,
 }
 

@@ -2,12 +2,17 @@
 
 use rust_hdl_core::prelude::*;
 
+/// A byte of the line, of a frame or of a header.
+pub type Byte = Bits<8>;
+/// Rate of the line: a bit takes `2^24 / step` clocks.
+pub type Step = Bits<22>;
+
 crate::packed! {
     /// The header of a frame of a host.
     pub struct FrameHead {
-        pub session: Bits<8>,
-        pub kind: Bits<8>,
-        pub number: Bits<8>,
+        pub session: Byte,
+        pub kind: Byte,
+        pub number: Byte,
         /// Bytes of the payload.
         pub length: Bits<11>,
     }
@@ -16,9 +21,9 @@ crate::packed! {
     pub struct Session {
         /// A session is open; its number, or 0.
         pub is_open: bool,
-        pub number: Bits<8>,
+        pub number: Byte,
         /// Number of the `Data` frame that is awaited.
-        pub expected: Bits<8>,
+        pub expected: Byte,
     }
 
     /// What a host may send, and what has come of it.
@@ -49,9 +54,9 @@ crate::packed! {
     /// A part of an answer that fits a frame.
     pub struct AnswerPlace {
         /// Answers that have been sent to their end.
-        pub number: Bits<8>,
+        pub number: Byte,
         /// The part's first word, divided by 256.
-        pub part: Bits<8>,
+        pub part: Byte,
     }
 
     /// For lamps.

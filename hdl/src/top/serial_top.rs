@@ -13,7 +13,7 @@ use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The core behind its serial link; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct SerialTop {
     /// One clock; synchronous reset, active high.
     pub clock: Signal<In, Clock>,
@@ -36,17 +36,7 @@ impl SerialTop {
     /// # Errors
     /// If a parameter is out of range; the error says which and what is possible.
     pub fn new(config: Config, link: LinkConfig) -> Result<Self, SerialError> {
-        Ok(Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            rx: Signal::default(),
-            tx: Signal::default(),
-            leds: Signal::default(),
-            write: Signal::default(),
-            core: Core::new(config)?,
-            link: SerialLink::new(config, link)?,
-            resets: DFF::default(),
-        })
+        Ok(Self { core: Core::new(config)?, link: SerialLink::new(config, link)?, ..Self::default() })
     }
 }
 

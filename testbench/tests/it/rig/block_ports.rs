@@ -9,7 +9,9 @@ use incircle_hdl::engine::{
     Attempt, Bundle, CommitJob, Deal, Entry, Plan, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
-use incircle_hdl::link::types::{Activity, AnswerProgress, Arrival, Clearing, EngineState, Head, Request, TakenWord, Tally};
+use incircle_hdl::link::types::{
+    Activity, AnswerProgress, Arrival, Clearing, EngineState, Head, Request, TakenWord, Tally,
+};
 use incircle_hdl::link::{AnswerBeat, CommandState};
 use incircle_hdl::mesh::Record;
 use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FrameHead, Lamps, Receipt, Session};
