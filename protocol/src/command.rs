@@ -81,7 +81,7 @@ pub const fn command_opcode(word: u32) -> u8 {
 
 /// The first word of an answer: opcode in the top byte, status in the next, zeros below.
 /// An unknown opcode is echoed as it came.
-pub const fn answer_header(opcode: u8, status: crate::Status) -> u32 {
+pub const fn answer_header(opcode: u8, status: crate::status::Status) -> u32 {
     (opcode as u32) << 24 | (status as u32) << 16
 }
 

@@ -147,7 +147,7 @@ pub struct Greeting {
     /// Milliseconds of silence after which it forgets the session.
     pub silence_ms: u32,
     /// The core's identity.
-    pub identity: crate::Identity,
+    pub identity: crate::layout::Identity,
 }
 
 impl Greeting {
@@ -180,7 +180,7 @@ impl Greeting {
             fifo_bytes: words[3],
             max_rate: words[4],
             silence_ms: words[5],
-            identity: crate::Identity::from_words([
+            identity: crate::layout::Identity::from_words([
                 words[6], words[7], words[8], words[9], words[10], words[11], words[12],
             ]),
         }

@@ -6,7 +6,8 @@ use std::path::Path;
 use incircle_protocol::{Config, NAMED};
 use verilated::{Model, ModelDescription, PortId};
 
-use crate::{models, Awaited, SimError};
+use crate::error::{Awaited, SimError};
+use crate::models;
 
 /// Clocks that reset is held: one is enough for registers, more flush what has no reset.
 pub(crate) const RESET_CLOCKS: u32 = 4;

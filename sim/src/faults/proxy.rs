@@ -3,7 +3,9 @@
 use std::time::Duration;
 
 use super::liar::Liar;
-use super::{Direction, FaultSpec, FaultyLine};
+use super::line::FaultyLine;
+use super::spec::FaultSpec;
+use super::Direction;
 use crate::serial::Symbol;
 
 /// What stands between a host and a board.

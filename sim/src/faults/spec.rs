@@ -2,7 +2,8 @@
 
 use std::str::FromStr;
 
-use super::{Direction, Lie};
+use super::liar::Lie;
+use super::Direction;
 
 /// Faults of a line, parsed from text.
 ///

@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use incircle_protocol::{StreamRegister, CONTROL_RESET};
 
+use super::beats::Beats;
 use super::faults::{CardFaultSpec, Strike};
 use super::liar::Liar;
-use super::Beats;
 use crate::faults::Random;
 
 /// What a register of a card reads as that is gone.

@@ -15,7 +15,7 @@ use fuser::{
 };
 use rustix::mount::UnmountFlags;
 
-use super::{Card, Errno};
+use super::card::{Card, Errno};
 
 /// The files, by inode from [`FIRST`] on.
 const NAMES: [&str; 3] = ["xdma0_h2c_0", "xdma0_c2h_0", "xdma0_user"];

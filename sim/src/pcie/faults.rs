@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::CardLie;
+use super::liar::CardLie;
 
 /// Faults of a card and of its driver, parsed from text.
 ///

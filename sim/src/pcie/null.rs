@@ -9,7 +9,7 @@ use incircle_protocol::{
     COUNTER_WORDS, LATENCY_BUCKETS, PADDING, STREAM_FIFO_BEATS, STREAM_STATUS_RUNS, STREAM_VERSION,
 };
 
-use super::Beats;
+use super::beats::Beats;
 
 /// Bytes of a word.
 const WORD: usize = 4;

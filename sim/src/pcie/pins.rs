@@ -6,8 +6,9 @@ use incircle_model::stream::{BusError, Given};
 use incircle_protocol::{Config, StreamRegister, CONTROL_RESET, STREAM_STATUS_BUSY, STREAM_STATUS_RUNS};
 use verilated::{Model, PortError, PortId};
 
-use super::Beats;
-use crate::{models, SimError};
+use super::beats::Beats;
+use crate::error::SimError;
+use crate::models;
 
 /// What the build script puts before the name of a configuration, and the bits of a beat behind it.
 const STREAM: &str = "stream_";

@@ -5,7 +5,7 @@ use incircle_protocol::Config;
 use verilated::{Model, PortId};
 
 use crate::device::description;
-use crate::SimError;
+use crate::error::SimError;
 
 /// The two streams of a Verilated core.
 #[derive(Debug)]

@@ -5,10 +5,12 @@ use std::collections::VecDeque;
 use incircle_protocol::{Config, LinkConfig, FIRST_RATE};
 use verilated::{Model, ModelDescription, PortId};
 
+use super::uart::Symbol;
 use super::uart::{bit_length, UartReceiver, UartSender};
-use super::{Board, Symbol};
+use super::Board;
 use crate::device::RESET_CLOCKS;
-use crate::{models, SimError};
+use crate::error::SimError;
+use crate::models;
 
 /// Clocks after which a board that was reset has cleared its memories.
 const SETTLING: u64 = 100_000;
@@ -45,7 +47,7 @@ impl PinBoard {
     pub fn new(config: Config) -> Result<Self, SimError> {
         let description = description(config)?;
         let model = Model::new(description);
-        let link = super::board_link(config);
+        let link = super::board::board_link(config);
         let mut board = Self {
             link,
             reset: model.port("reset")?,

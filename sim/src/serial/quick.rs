@@ -6,9 +6,10 @@ use incircle_model::serial::{core_identity, SerialModel};
 use incircle_protocol::{Config, LinkConfig, FIRST_RATE};
 
 use super::core::StreamCore;
+use super::uart::Symbol;
 use super::uart::{bit_length, bit_length_of_step, symbol_clocks};
-use super::{Board, Symbol};
-use crate::SimError;
+use super::Board;
+use crate::error::SimError;
 
 /// Clocks that pass at once while the core works: less than a byte takes.
 const QUANTUM: u64 = 64;

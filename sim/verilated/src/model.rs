@@ -5,7 +5,7 @@ use std::ffi::c_void;
 use std::ptr::NonNull;
 use std::sync::{Mutex, PoisonError};
 
-use crate::{Direction, ModelDescription, PortError, PortId};
+use crate::description::{Direction, ModelDescription, PortError, PortId};
 
 /// Verilator draws random state from a generator that all threads reseed together, so instances are made one at a
 /// time: then equal seeds give equal states.

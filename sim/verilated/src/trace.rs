@@ -4,7 +4,7 @@
 use std::ffi::CString;
 use std::path::{Path, PathBuf};
 
-use crate::Model;
+use crate::model::Model;
 
 /// Why no waveform can be written.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

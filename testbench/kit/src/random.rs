@@ -14,6 +14,11 @@ impl SplitMix64 {
         Self { state: seed }
     }
 
+    /// The seed of the numbers that are still to come.
+    pub fn state(&self) -> u64 {
+        self.state
+    }
+
     /// The next 64 bits.
     pub fn next_u64(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -79,6 +84,13 @@ mod tests {
         let words: Vec<u64> = (0..3).map(|_| random.next_u64()).collect();
         let published = [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423];
         assert_eq!(words, published);
+    }
+
+    #[test]
+    fn the_state_is_the_seed_of_what_comes() {
+        let mut random = SplitMix64::new(5);
+        random.next_u64();
+        assert_eq!(SplitMix64::new(random.state()).next_u64(), random.next_u64());
     }
 
     #[test]

@@ -7,7 +7,8 @@ use std::sync::Mutex;
 use incircle_protocol::Counter;
 use incircle_testkit::Distribution;
 
-use super::{measure, measure_points, thinned_airports, Counters, MeasureError};
+use super::airports::thinned_airports;
+use super::{measure, measure_points, Counters, MeasureError};
 
 /// The sets, a row each.
 pub const ROWS: [Distribution; 11] = [

@@ -3,59 +3,15 @@
 //! rust-hdl's Rust behaviour and its Verilog can disagree without a word from rust-hdl; this gate finds the half of it that tools
 //! can see in the text (undeclared names, latches, loops, undriven nets). Co-simulation finds the other half.
 
+mod error;
 mod scratch;
 mod synthesis;
 mod tool;
 
+pub use error::GateError;
 use scratch::Scratch;
 pub use synthesis::{artix_cell_count, cell_count, netlist, prove, synthesise, ArtixCells, Cells};
-use tool::run;
-
-/// Why Verilog does not pass.
-#[derive(Debug, thiserror::Error)]
-pub enum GateError {
-    /// The tool cannot be started.
-    #[error("cannot run {tool} ({source}): install the Debian package {tool}")]
-    Missing {
-        /// The program.
-        tool: &'static str,
-        /// What the system says.
-        source: std::io::Error,
-    },
-    /// The tool ended with an error.
-    #[error("{tool} refuses {top}:\n{output}")]
-    Refused {
-        /// The program.
-        tool: &'static str,
-        /// The top module.
-        top: String,
-        /// All that the tool printed.
-        output: String,
-    },
-    /// The tool ended well but printed what is a fault in this project.
-    #[error("{tool} says of {top}:\n{lines}")]
-    Complaint {
-        /// The program.
-        tool: &'static str,
-        /// The top module.
-        top: String,
-        /// The lines that complain.
-        lines: String,
-    },
-    /// The tool's report is not in the form known.
-    #[error("the report of {tool} on {top} cannot be read: {reason}")]
-    Report {
-        /// The program.
-        tool: &'static str,
-        /// The top module.
-        top: String,
-        /// What is wrong with it.
-        reason: String,
-    },
-    /// The scratch folder fails.
-    #[error("cannot use the scratch folder: {0}")]
-    Scratch(#[from] std::io::Error),
-}
+use tool::{complain, run};
 
 /// Lint warnings that rust-hdl's output needs waived, and why none of them hides a fault that the gate is there to find.
 const WAIVED: [&str; 5] = [
@@ -114,14 +70,6 @@ fn lint_with(verilog: &str, top: &str, waived: &[&str]) -> Result<(), GateError>
     let complaints: Vec<_> =
         printed.lines().filter(|line| line.starts_with("%Warning") && !is_accepted(line)).collect();
     complain("verilator", top, &complaints)
-}
-
-/// An error, if there are complaints.
-fn complain(tool: &'static str, top: &str, complaints: &[&str]) -> Result<(), GateError> {
-    if complaints.is_empty() {
-        return Ok(());
-    }
-    Err(GateError::Complaint { tool, top: top.to_string(), lines: complaints.join("\n") })
 }
 
 /// The whole gate: [`lint`], then [`synthesise`].

@@ -1,6 +1,8 @@
 //! The half of the gate that is synthesis: yosys must take the Verilog, without latches or invented nets.
 
-use super::{complain, run, GateError, Scratch};
+use super::error::GateError;
+use super::scratch::Scratch;
+use super::tool::{complain, run};
 
 const YOSYS: &str = "yosys";
 

@@ -2,7 +2,8 @@
 
 use std::process::Command;
 
-use super::{GateError, Scratch};
+use super::error::GateError;
+use super::scratch::Scratch;
 
 /// Runs a tool and gives all it printed.
 ///
@@ -20,4 +21,12 @@ pub(super) fn run(tool: &'static str, arguments: &[&str], top: &str, scratch: &S
     } else {
         Err(GateError::Refused { tool, top: top.to_string(), output: printed })
     }
+}
+
+/// An error, if there are complaints.
+pub(super) fn complain(tool: &'static str, top: &str, complaints: &[&str]) -> Result<(), GateError> {
+    if complaints.is_empty() {
+        return Ok(());
+    }
+    Err(GateError::Complaint { tool, top: top.to_string(), lines: complaints.join("\n") })
 }

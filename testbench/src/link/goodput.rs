@@ -7,7 +7,8 @@ use std::time::Duration;
 use incircle_protocol::{answer_status, clear_word, command_word, Config, Opcode, Status, FULL};
 use incircle_sim::faults::FaultSpec;
 
-use super::{Detail, VirtualLine};
+use super::virtual_line::VirtualLine;
+use super::Detail;
 
 /// Rates of the table.
 pub const RATES: [u32; 2] = [3_000_000, 12_000_000];
@@ -66,7 +67,7 @@ pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2],
     }
     line.ask(&[clear_word(0)], LIMIT)?;
     let mut insert = vec![command_word(Opcode::Insert), u32::try_from(points)?];
-    insert.extend(super::random_points(points, 1).iter().map(|point| point.x | (point.y << 16)));
+    insert.extend(super::jobs::random_points(points, 1).iter().map(|point| point.x | (point.y << 16)));
     let begun = line.now();
     let report = line.ask(&insert, LIMIT)?;
     let status = report.first().map(|&header| answer_status(header));

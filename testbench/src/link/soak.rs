@@ -11,7 +11,9 @@ use incircle_protocol::Config;
 use incircle_sim::faults::FaultSpec;
 use incircle_sim::SimError;
 
-use super::{is_one_mesh, random_points, Detail, VirtualLine, VirtualTransport};
+use super::jobs::{is_one_mesh, random_points};
+use super::virtual_line::{VirtualLine, VirtualTransport};
+use super::Detail;
 
 /// Time of the board for one command of a job.
 const LIMIT: Duration = Duration::from_secs(10);

@@ -1,6 +1,7 @@
 //! Drives a command stream through the pair, with idle clocks and back-pressure.
 
-use super::{Lockstep, Mismatch};
+use super::report::Mismatch;
+use super::Lockstep;
 use incircle_model::Inputs;
 use incircle_protocol::{batch_word, clear_word, command_word, Config, Opcode, PADDING};
 

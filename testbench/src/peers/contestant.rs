@@ -6,8 +6,8 @@ use std::time::Instant;
 use incircle::{Device, Options, Point, Stage};
 use spade::Triangulation;
 
+use super::error::PeerError;
 use super::process::{cgal, triangle, Missing};
-use super::PeerError;
 
 /// One triangulation.
 #[derive(Clone, Copy, Debug)]

@@ -7,6 +7,7 @@
 //! also have the processor's time on the calling thread ("busy"), which others disturb less.
 
 mod contestant;
+mod error;
 mod points;
 mod process;
 mod table;
@@ -17,6 +18,7 @@ use clap::Parser;
 use incircle_testkit::SplitMix64;
 
 use contestant::{Contestant, Run};
+pub use error::PeerError;
 pub use points::Set;
 
 /// Timed points of all repetitions together, unless their number is given.
@@ -52,28 +54,6 @@ pub struct Arguments {
     /// Print one JSON object a line for each set and number of points
     #[arg(long)]
     json: bool,
-}
-
-/// Why there is no comparison.
-#[derive(Debug, thiserror::Error)]
-pub enum PeerError {
-    /// The set cannot be made.
-    #[error("{0}")]
-    Generate(#[from] incircle_testkit::GenerateError),
-    /// Our own work failed.
-    #[error("{0}")]
-    Ours(#[from] incircle::Error),
-    /// A peer stopped in the middle, or answered nonsense.
-    #[error("{peer}: {reason}")]
-    Peer {
-        /// Its name.
-        peer: &'static str,
-        /// What happened.
-        reason: String,
-    },
-    /// The results cannot be printed.
-    #[error("{0}")]
-    Print(#[from] std::io::Error),
 }
 
 /// What all repetitions of one set gave.

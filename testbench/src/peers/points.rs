@@ -7,7 +7,7 @@ use incircle::quantize::{quantize, Quantize};
 use incircle::Point;
 use incircle_testkit::{generate, Distribution, SplitMix64};
 
-use super::PeerError;
+use super::error::PeerError;
 
 const AIRPORTS: &str = include_str!("../../data/airports.csv");
 const AIRPORTS_NAME: &str = "airports";

@@ -9,7 +9,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use incircle::Point;
 
 use super::contestant::{Contestant, Run};
-use super::PeerError;
+use super::error::PeerError;
 
 const CGAL_SOURCE: &str = include_str!("cgal.cpp");
 const TRIANGLE_SOURCE: &str = include_str!("triangle.py");

@@ -2,8 +2,9 @@
 
 use serde_json::{json, Map, Value};
 
+use super::contestant::Run;
 use super::process::Missing;
-use super::{Arguments, Outcome, Run};
+use super::{Arguments, Outcome};
 
 /// Widths of the set and of a column.
 const SET: usize = 16;

@@ -9,16 +9,17 @@ pub mod mock;
 pub mod rig;
 
 use incircle::{Device, Mesh, Point};
+use incircle_testkit::SplitMix64;
 
-/// A small random generator: SplitMix64.
+/// The kit's random numbers with bounds of 32 bits, by their remainder: the seeds of many tests stand for these numbers.
 pub struct Random(pub u64);
 
 impl Random {
     pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
+        let mut random = SplitMix64::new(self.0);
+        let word = random.next_u64();
+        self.0 = random.state();
+        word
     }
 
     pub fn below(&mut self, limit: u32) -> u32 {
@@ -45,49 +46,10 @@ pub fn by(address: &str, points: &[Point]) -> Mesh {
     mesh
 }
 
-fn area(a: Point, b: Point, c: Point) -> i64 {
-    let d = |u: u32, v: u32| i64::from(u) - i64::from(v);
-    d(b.x, a.x) * d(c.y, a.y) - d(b.y, a.y) * d(c.x, a.x)
-}
-
-/// Whether `d` lies inside the circle of the counter-clockwise `a b c`, a point on it decided by lowering the
-/// lexicographically smallest of the four on the lifted paraboloid. For small coordinates.
-fn conflicts(a: Point, b: Point, c: Point, d: Point) -> bool {
-    let lift = |p: Point| {
-        let (x, y) = (i64::from(p.x) - i64::from(d.x), i64::from(p.y) - i64::from(d.y));
-        x * x + y * y
-    };
-    let inside = lift(a) * area(d, b, c) + lift(b) * area(d, c, a) + lift(c) * area(d, a, b);
-    if inside != 0 {
-        return inside > 0;
-    }
-    // Lowering a corner changes the determinant by minus the factor of its lift; lowering `d` moves it inside.
-    match [a, b, c, d].into_iter().min() {
-        Some(smallest) if smallest == a => area(d, b, c) < 0,
-        Some(smallest) if smallest == b => area(d, c, a) < 0,
-        Some(smallest) if smallest == c => area(d, a, b) < 0,
-        _ => true,
-    }
-}
-
-/// The canonical triangles by definition: all triples that no point conflicts with. O(n^4).
+/// The canonical triangles by definition.
 pub fn brute_force(points: &[Point]) -> Vec<[u32; 3]> {
-    let first = |k: usize| points.iter().position(|p| *p == points[k]) == Some(k);
-    let distinct: Vec<usize> = (0..points.len()).filter(|&k| first(k)).collect();
-    let mut triangles = Vec::new();
-    for (place, &i) in distinct.iter().enumerate() {
-        for &j in &distinct[place + 1..] {
-            for &k in &distinct[place + 1..] {
-                let (a, b, c) = (points[i], points[j], points[k]);
-                let empty = |&m: &usize| m == i || m == j || m == k || !conflicts(a, b, c, points[m]);
-                if area(a, b, c) > 0 && distinct.iter().all(empty) {
-                    triangles.push([i as u32, j as u32, k as u32]);
-                }
-            }
-        }
-    }
-    triangles.sort_unstable();
-    triangles
+    let pairs: Vec<[u32; 2]> = points.iter().map(|point| [point.x, point.y]).collect();
+    incircle_testkit::delaunay(&pairs)
 }
 
 /// The mesh passes the validator, and its counts agree with its lists.

@@ -1,4 +1,7 @@
 //! What blocks show each other within a clock: functions of registers and inputs.
+//!
+//! The one module that may stand in a circle of imports: every block reads these wires and drives some of them, with
+//! types of its own, as the blocks of the core do. `testbench/tests/it/project/import_circles` allows no other.
 
 use super::attempts::{Around, Outcome};
 use super::command_port::State as CommandState;
@@ -63,9 +66,9 @@ impl ClockModel {
         let outcome = done.filter(|_| !was.solo.is_at_work()).map(|done| self.outcome(&done));
         let solo_push = was.solo.push_request(was);
         let wanted = was.starter.wants(was);
-        // The queue takes one bundle, and the vertex memory has one port for points that arrive and points that are taken. Whether a
-        // visit that completes asks for others is known too late: all count but those that find their edge final.
-        // The pointer does not know even that much.
+        // The queue takes one bundle, and the vertex memory has one port for points that arrive and points that are
+        // taken. Whether a visit that completes asks for others is known too late: all count but those that find their
+        // edge final. The pointer does not know even that much.
         let lacks_port = wanted.is_some_and(|start| start.id.is_some() && was.command.came);
         let lacks_queue = outcome.is_some() && done.is_some_and(|done| done.may_ask());
         let stored = was.command.state == CommandState::Points && was.command.stores_points(was, config);

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::{runtime, shim, verilator, write, BuildError, ModelSource, Optimisation, Verilator};
+use super::verilator::{BuildError, Verilator};
+use super::{runtime, shim, verilator, write, ModelSource, Optimisation};
 
 /// The object files of the model. Built in a fresh folder unless the folder holds them already, made from the same
 /// text with the same tool and options.

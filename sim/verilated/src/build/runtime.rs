@@ -1,6 +1,6 @@
 //! The C++ compiler with the flags that Verilator's headers expect, and Verilator's own runtime.
 
-use super::{BuildError, Verilator};
+use super::verilator::{BuildError, Verilator};
 
 /// A compiler for everything that includes `verilated.h`.
 pub(super) fn compiler(verilator: &Verilator) -> cc::Build {

@@ -5,6 +5,7 @@
 //! all machines give the same points. Points may fall together; where a definition has room for fewer distinct points
 //! than asked for, they do. Sets with a fixed shape are shuffled, so that the seed chooses their order.
 
+mod grid;
 mod sampled;
 mod shaped;
 
@@ -12,6 +13,9 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::random::SplitMix64;
+use grid::Grid;
+
+pub use grid::{GenerateError, BITS};
 
 /// The sets that can be generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -123,46 +127,6 @@ impl FromStr for Distribution {
     }
 }
 
-/// Coordinate bits that a grid can have.
-pub const BITS: std::ops::RangeInclusive<u32> = 1..=31;
-
-/// Why a set cannot be made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GenerateError {
-    /// Coordinate bits outside [`BITS`].
-    Bits(u32),
-    /// There is no memory for so many points.
-    Memory(usize),
-}
-
-impl fmt::Display for GenerateError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Bits(bits) => {
-                write!(f, "{bits} coordinate bits are not possible: choose 1 to 31")
-            }
-            Self::Memory(n) => write!(f, "there is no memory for {n} points of {POINT_BYTES} bytes: choose fewer"),
-        }
-    }
-}
-
-impl std::error::Error for GenerateError {}
-
-/// Bytes that a point takes.
-const POINT_BYTES: usize = size_of::<[u32; 2]>();
-
-/// The points, or that there is no memory for them.
-type Points = Result<Vec<[u32; 2]>, GenerateError>;
-
-/// An empty list with room for `n` points.
-fn room(n: usize) -> Points {
-    let mut points = Vec::new();
-    match points.try_reserve_exact(n) {
-        Ok(()) => Ok(points),
-        Err(_) => Err(GenerateError::Memory(n)),
-    }
-}
-
 /// Exactly `n` points of a distribution on the grid `[0, 2^bits)` squared. O(n).
 ///
 /// # Errors
@@ -188,32 +152,6 @@ pub fn generate(distribution: Distribution, n: usize, bits: u32, seed: u64) -> R
         Distribution::TwoChains => shaped::two_chains(n, grid, random),
         Distribution::Spiral => shaped::spiral(n, grid, random),
         Distribution::Box => shaped::filled_box(n, grid, random),
-    }
-}
-
-/// The grid that points lie on.
-#[derive(Clone, Copy)]
-struct Grid {
-    /// Points along a side: 2^bits.
-    size: u64,
-}
-
-impl Grid {
-    /// Half the side, in grid units.
-    fn half(self) -> f64 {
-        self.size as f64 / 2.0
-    }
-
-    /// The grid point below and left of this place; `None` outside the grid.
-    fn cell(self, x: f64, y: f64) -> Option<[u32; 2]> {
-        let inside = |value: f64| value >= 0.0 && value < self.size as f64;
-        (inside(x) && inside(y)).then_some([x as u32, y as u32])
-    }
-
-    /// The nearest grid point of the closed grid square.
-    fn nearest(self, x: f64, y: f64) -> [u32; 2] {
-        let last = (self.size - 1) as f64;
-        [libm::rint(x).clamp(0.0, last) as u32, libm::rint(y).clamp(0.0, last) as u32]
     }
 }
 

@@ -5,7 +5,7 @@
 //! Delaunay triangulations along space-filling curves", ESA 2009, with O. Schrijvers, F. van Bommel, K. Buchin, EuroCG
 //! 2012 (checkers).
 
-use super::{room, Grid, Points};
+use super::grid::{room, Grid, Points};
 use crate::random::SplitMix64;
 
 /// Standard deviations from the centre of the grid to its sides.

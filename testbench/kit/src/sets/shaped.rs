@@ -1,6 +1,6 @@
 //! Sets of a fixed shape, shuffled.
 
-use super::{room, Grid, Points};
+use super::grid::{room, Grid, Points};
 use crate::random::SplitMix64;
 
 /// Copies of each point of a box, on average.

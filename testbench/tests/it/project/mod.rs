@@ -1,5 +1,6 @@
-//! What holds for the project as a whole: who may use whom, and the documents.
+//! What holds for the project as a whole: who may use whom, what may import what, and the documents.
 
 mod dependencies;
 mod documents;
+mod import_circles;
 mod rules;

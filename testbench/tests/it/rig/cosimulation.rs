@@ -11,7 +11,7 @@ use verilated::PortId;
 
 #[allow(unused_imports)] // Every test that includes this uses a part of it.
 pub(crate) use crate::rig::block_ports::{named_ports, NamedPorts};
-use crate::rig::block_ports::{number, plain, set_number, settle, Place, Places};
+use crate::rig::block_ports::{number, plain, set_number, settle, Place, Places, Whole};
 
 /// What a reference says of an output: a value, or nothing where the contract leaves it open.
 pub type Expected = Option<u128>;
@@ -44,7 +44,7 @@ impl<U: NamedPorts> Cosimulation<'_, U> {
             .map(|port| (plain(port.name), model.port(port.name).expect("a port")))
             .collect();
         let inputs: Vec<Place> = self.inputs.iter().map(|port| places.find(port)).collect();
-        let mut driven: BTreeMap<String, u128> = BTreeMap::new();
+        let mut driven: BTreeMap<String, Whole> = BTreeMap::new();
         let parts: Vec<_> = self.outputs.iter().map(|output| part(output)).collect();
         let outputs: Vec<Place> = parts.iter().map(|(port, ..)| places.find(port)).collect();
         let is_clocked = model.port("clock").is_ok();

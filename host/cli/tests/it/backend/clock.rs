@@ -2,8 +2,8 @@
 
 use crate::common::Scratch;
 use incircle::{Device, Mesh, Options, Order, Point, Session};
-use incircle_cli::generate::{generate, Distribution};
 use incircle_protocol::{Config, LARGE};
+use incircle_testkit::{generate, Distribution};
 use serde_json::Value;
 
 /// Contexts that are tried.

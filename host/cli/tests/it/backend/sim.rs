@@ -17,7 +17,7 @@ fn compare(scratch: &Scratch, grid: &str, core: &str) -> Value {
 #[test]
 fn named_sets_of_a_thousand_points() {
     let scratch = Scratch::new();
-    for distribution in incircle_cli::generate::Distribution::all() {
+    for distribution in incircle_testkit::Distribution::all() {
         scratch.run(&format!("generate {distribution} -n 1000 --bits 16 --seed 1 -o p.csv")).ok();
         let report = compare(&scratch, "", "");
         assert_eq!(report["backend"], "sim");
@@ -35,7 +35,7 @@ fn named_sets_of_a_thousand_points() {
 #[test]
 fn any_number_of_contexts() {
     let scratch = Scratch::new();
-    for distribution in incircle_cli::generate::Distribution::all() {
+    for distribution in incircle_testkit::Distribution::all() {
         scratch.run(&format!("generate {distribution} -n 1000 --bits 16 --seed 2 -o p.csv")).ok();
         for (config, has) in [("small", 4), ("full", 16), ("large", 24)] {
             for contexts in [1, 2, 4, 8, 16, 24].into_iter().filter(|&contexts| contexts <= has) {
@@ -50,7 +50,7 @@ fn any_number_of_contexts() {
 #[test]
 fn any_order_with_all_contexts() {
     let scratch = Scratch::new();
-    for distribution in incircle_cli::generate::Distribution::all() {
+    for distribution in incircle_testkit::Distribution::all() {
         scratch.run(&format!("generate {distribution} -n 1000 --bits 16 --seed 3 -o p.csv")).ok();
         for order in ["brio-hilbert", "hilbert", "input"] {
             compare(&scratch, "", &format!("--config full --order {order}"));

@@ -1,7 +1,7 @@
 //! `incircle generate`: the same points on every machine, in every format.
 
 use crate::common::Scratch;
-use incircle_cli::generate::{generate, Distribution};
+use incircle_testkit::{generate, Distribution};
 
 #[test]
 fn files_hold_exactly_the_points_of_the_library() {

@@ -1,7 +1,7 @@
 //! No reader panics, whatever the bytes; what it accepts is finite.
 
 use incircle_cli::formats::{MeshFormat, PointFormat};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 
 const POINT_FILES: [(PointFormat, &[u8]); 9] = [
     (PointFormat::Csv, b"x,y,\"name\"\n1,2,a\n3.5,-4e2,\"b\"\n# c\n5,6,d\n"),

@@ -9,14 +9,14 @@
 pub mod bundles;
 mod wave;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use incircle_testbench::blocks;
 use verilated::{Model, PortId};
 
 #[allow(unused_imports)] // As below.
 pub(crate) use crate::rig::block_ports::{named_ports, NamedPorts};
-use crate::rig::block_ports::{number, plain, set_number, settle, Places};
+use crate::rig::block_ports::{number, plain, set_number, settle, Places, Whole};
 #[allow(unused_imports)] // As above.
 pub use wave::{Cell, Wave};
 
@@ -28,7 +28,9 @@ pub struct Stepper<U> {
     ports: BTreeMap<String, PortId>,
     places: Places,
     /// The inputs as they were set last.
-    inputs: BTreeMap<String, u128>,
+    inputs: BTreeMap<String, Whole>,
+    /// Inputs that have been set since the block settled last.
+    changed: BTreeSet<String>,
     clocks: usize,
 }
 
@@ -41,7 +43,7 @@ impl<U: NamedPorts> Stepper<U> {
         let ports = model.description().ports();
         let ports = ports.map(|port| (plain(port.name), model.port(port.name).expect("a port it lists"))).collect();
         let places = Places::new(&model, |port| rust.layout(port));
-        Self { name, rust, model, ports, places, inputs: BTreeMap::new(), clocks: 0 }
+        Self { name, rust, model, ports, places, inputs: BTreeMap::new(), changed: BTreeSet::new(), clocks: 0 }
     }
 
     /// Clocks that have passed.
@@ -54,12 +56,20 @@ impl<U: NamedPorts> Stepper<U> {
         let place = self.places.find(port);
         let whole = self.inputs.entry(place.port.clone()).or_default();
         *whole = place.put_into(*whole, number.into());
-        self.rust.set(&place.port, *whole);
-        set_number(&mut self.model, self.ports[&place.port], *whole);
+        self.changed.insert(place.port);
+    }
+
+    fn drive(&mut self) {
+        for port in std::mem::take(&mut self.changed) {
+            let whole = self.inputs[&port];
+            self.rust.set(&port, whole);
+            set_number(&mut self.model, self.ports[&port], whole);
+        }
     }
 
     /// Brings the outputs up to date with the inputs.
     pub fn settle(&mut self) {
+        self.drive();
         self.rust.set_clock(false);
         settle(&mut self.rust, self.name);
         self.model.eval();
@@ -115,6 +125,7 @@ impl<U: NamedPorts> Stepper<U> {
 
     /// A rising edge.
     pub fn edge(&mut self) {
+        self.drive();
         self.rust.set_clock(true);
         settle(&mut self.rust, self.name);
         self.model.clock();

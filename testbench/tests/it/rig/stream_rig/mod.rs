@@ -101,10 +101,10 @@ impl Verilog {
 impl Pins for Verilog {
     fn set(&mut self, port: &'static str, value: u128) {
         let port = self.ports[port];
-        set_number(&mut self.model, port, value & (u128::MAX >> (128 - port.width())));
+        set_number(&mut self.model, port, (value & (u128::MAX >> (128 - port.width()))).into());
     }
     fn get(&self, port: &'static str) -> u128 {
-        number(&self.model, self.ports[port])
+        number(&self.model, self.ports[port]).low
     }
     fn settle(&mut self) {
         self.model.eval();
