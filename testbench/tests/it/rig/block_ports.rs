@@ -99,11 +99,11 @@ impl<const N: usize> PortValue for Bits<N> {
 }
 
 impl PortValue for CommandState {
-    fn from_number(number: u128) -> Self {
-        [Self::Command, Self::First, Self::Count, Self::Points, Self::Settle, Self::Answer][number as usize]
+    fn from_number(number: Whole) -> Self {
+        [Self::Command, Self::First, Self::Count, Self::Points, Self::Settle, Self::Answer][number.low as usize]
     }
-    fn to_number(self) -> u128 {
-        self as u128
+    fn to_number(self) -> Whole {
+        (self as u128).into()
     }
 }
 
