@@ -36,9 +36,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
     reg  command_port$sweeps;
     reg  [19:0] command_port$engine;
     wire  [47:0] command_port$arrival;
-    wire  command_port$clears;
+    wire  [1:0] command_port$clearing;
     wire  [12:0] command_port$deal;
-    wire  command_port$is_refused;
     wire  command_port$answers;
     wire  [71:0] command_port$request;
     wire  [47:0] command_port$tally;
@@ -133,9 +132,8 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         .sweeps(command_port$sweeps),
         .engine(command_port$engine),
         .arrival(command_port$arrival),
-        .clears(command_port$clears),
+        .clearing(command_port$clearing),
         .deal(command_port$deal),
-        .is_refused(command_port$is_refused),
         .answers(command_port$answers),
         .request(command_port$request),
         .tally(command_port$tally),
@@ -254,7 +252,7 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         command_port$engine = engine$state;
         command_port$answer = responder$progress;
         answer_head$request = command_port$request;
-        answer_head$is_refused = command_port$is_refused;
+        answer_head$is_refused = command_port$clearing[(64'h1)+:(1)];
         answer_head$records = engine$state[(64'h5)+:(15)];
         answer_head$collinear = engine$state[(64'h1)+:(1)];
         answer_head$stuck = engine$state[(64'h3)+:(1)];
@@ -284,21 +282,21 @@ module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,
         engine$limits[(64'h25)+:(24)] = all_contexts;
         engine$limits[(64'h3d)+:(22)] = patience;
         engine$deal = command_port$deal;
-        engine$clears = command_port$clears;
+        engine$clears = command_port$clearing[(64'h0)+:(1)];
         engine$arrival = command_port$arrival;
         engine$arrived = command_port$tally[(64'h0)+:(15)];
         engine$read[(64'h0)+:(1)] = responder$read;
         engine$read[(64'h1)+:(15)] = responder$read_id;
         engine$now = counters$now;
         write = engine$write;
-        counters$clears = command_port$clears;
+        counters$clears = command_port$clearing[(64'h0)+:(1)];
         counters$inserting = command_port$activity[(64'h0)+:(1)];
         counters$waiting = command_port$activity[(64'h0)+:(1)] & command_port$activity[(64'h2)+:(1)] & engine$state[(64'h2)+:(1)];
         counters$reading = command_port$activity[(64'h1)+:(1)];
         counters$events = engine$events;
         counters$refused = command_port$tally[(64'hf)+:(32)];
         counters$select = responder$index_ahead[(32'h0)+:(5)];
-        latencies$clears = command_port$clears;
+        latencies$clears = command_port$clearing[(64'h0)+:(1)];
         latencies$comes = counters$latency_comes;
         latencies$latency = counters$latency;
         latencies$select = responder$index;
@@ -997,7 +995,7 @@ module incircle_core_logic$answer_words$report(d,q,clock);
 endmodule // incircle_core_logic$answer_words$report
 
 
-module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid,command$ready,command$data,sweeps,engine,arrival,clears,deal,is_refused,answers,request,tally,answer,activity);
+module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid,command$ready,command$data,sweeps,engine,arrival,clearing,deal,answers,request,tally,answer,activity);
     
     // Module arguments
     input wire  clock;
@@ -1005,14 +1003,13 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
     input wire  [14:0] capacity;
     input wire  [4:0] built;
     input wire  command$valid;
-    output reg  command$ready;
+    output wire  command$ready;
     input wire  [31:0] command$data;
     input wire  sweeps;
     input wire  [19:0] engine;
     output reg  [47:0] arrival;
-    output reg  clears;
+    output reg  [1:0] clearing;
     output reg  [12:0] deal;
-    output reg  is_refused;
     output reg  answers;
     output reg  [71:0] request;
     output reg  [47:0] tally;
@@ -1031,15 +1028,9 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [7:0] opcode$d;
-    wire  [7:0] opcode$q;
-    reg  opcode$clock;
-    reg  [31:0] first_word$d;
-    wire  [31:0] first_word$q;
-    reg  first_word$clock;
-    reg  [31:0] left$d;
-    wire  [31:0] left$q;
-    reg  left$clock;
+    reg  [71:0] held$d;
+    wire  [71:0] held$q;
+    reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
     reg  none_is_left$clock;
@@ -1054,39 +1045,28 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
     reg  slot$clears;
     reg  [14:0] slot$capacity;
     reg  [19:0] slot$engine;
-    reg  slot$accepts;
-    reg  [31:0] slot$word;
+    reg  [33:0] slot$taken;
     wire  [47:0] slot$arrival;
     wire  [47:0] slot$tally;
-    reg  gate$is_command;
-    reg  gate$is_argument;
-    reg  gate$is_points;
+    reg  [2:0] gate$state;
     reg  gate$sweeps;
     reg  gate$none_is_left;
     reg  gate$came;
     reg  [19:0] gate$engine;
-    wire  gate$ready;
-    wire  gate$takes_command;
-    wire  gate$takes_point;
+    wire  [33:0] gate$taken;
     wire  gate$awaits_point;
     reg  clear$clock;
     reg  clear$reset;
     reg  [4:0] clear$built;
-    reg  clear$accepts;
-    reg  [31:0] clear$word;
-    wire  clear$clears;
+    reg  [33:0] clear$taken;
+    wire  [1:0] clear$clearing;
     wire  [12:0] clear$deal;
-    wire  clear$is_refused;
     
     // Local signals
-    reg  accepts_command;
-    reg  accepts_point;
     reg  [7:0] code;
-    reg  is_padding;
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  [7:0] insert_code;
-    reg  [31:0] none;
     reg  [31:0] one;
     
     // Sub module instances
@@ -1095,20 +1075,10 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
         .q(state$q),
         .clock(state$clock)
     );
-    incircle_core_logic$command_port$opcode opcode(
-        .d(opcode$d),
-        .q(opcode$q),
-        .clock(opcode$clock)
-    );
-    incircle_core_logic$command_port$first_word first_word(
-        .d(first_word$d),
-        .q(first_word$q),
-        .clock(first_word$clock)
-    );
-    incircle_core_logic$command_port$left left(
-        .d(left$d),
-        .q(left$q),
-        .clock(left$clock)
+    incircle_core_logic$command_port$held held(
+        .d(held$d),
+        .q(held$q),
+        .clock(held$clock)
     );
     incircle_core_logic$command_port$none_is_left none_is_left(
         .d(none_is_left$d),
@@ -1131,48 +1101,40 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
         .clears(slot$clears),
         .capacity(slot$capacity),
         .engine(slot$engine),
-        .accepts(slot$accepts),
-        .word(slot$word),
+        .taken(slot$taken),
         .arrival(slot$arrival),
         .tally(slot$tally)
     );
     incircle_core_logic$command_port$gate gate(
-        .is_command(gate$is_command),
-        .is_argument(gate$is_argument),
-        .is_points(gate$is_points),
+        .command$valid(command$valid),
+        .command$ready(command$ready),
+        .command$data(command$data),
+        .state(gate$state),
         .sweeps(gate$sweeps),
         .none_is_left(gate$none_is_left),
         .came(gate$came),
         .engine(gate$engine),
-        .ready(gate$ready),
-        .takes_command(gate$takes_command),
-        .takes_point(gate$takes_point),
+        .taken(gate$taken),
         .awaits_point(gate$awaits_point)
     );
     incircle_core_logic$command_port$clear clear(
         .clock(clear$clock),
         .reset(clear$reset),
         .built(clear$built),
-        .accepts(clear$accepts),
-        .word(clear$word),
-        .clears(clear$clears),
-        .deal(clear$deal),
-        .is_refused(clear$is_refused)
+        .taken(clear$taken),
+        .clearing(clear$clearing),
+        .deal(clear$deal)
     );
     
     // Update code
     always @(*) begin
         state$clock = clock;
-        opcode$clock = clock;
-        first_word$clock = clock;
-        left$clock = clock;
+        held$clock = clock;
         none_is_left$clock = clock;
         is_inserting$clock = clock;
         is_reading$clock = clock;
         state$d = state$q;
-        opcode$d = opcode$q;
-        first_word$d = first_word$q;
-        left$d = left$q;
+        held$d = held$q;
         none_is_left$d = none_is_left$q;
         is_inserting$d = is_inserting$q;
         is_reading$d = is_reading$q;
@@ -1181,41 +1143,29 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
         insert_code = 32'h3;
         read_code = 32'h4;
         packed_code = 32'h7;
-        none = 32'h0;
         one = 32'h1;
         arrival = slot$arrival;
-        clears = clear$clears;
+        clearing = clear$clearing;
         deal = clear$deal;
-        is_refused = clear$is_refused;
-        answers = (state$q == CommandState$Answer) & (~clear$clears);
-        request[(64'h0)+:(8)] = opcode$q;
-        request[(64'h8)+:(32)] = first_word$q;
-        request[(64'h28)+:(32)] = left$q;
+        answers = (state$q == CommandState$Answer) & (~clear$clearing[(64'h0)+:(1)]);
+        request = held$q;
         tally = slot$tally;
         activity[(64'h0)+:(1)] = is_inserting$q;
         activity[(64'h1)+:(1)] = is_reading$q;
-        gate$is_command = state$q == CommandState$Command;
-        gate$is_argument = (state$q == CommandState$First) | (state$q == CommandState$Count);
-        gate$is_points = state$q == CommandState$Points;
+        gate$state = state$q;
         gate$sweeps = sweeps;
         gate$none_is_left = none_is_left$q;
         gate$came = slot$arrival[(64'h0)+:(1)];
         gate$engine = engine;
         activity[(64'h2)+:(1)] = gate$awaits_point;
-        command$ready = gate$ready;
-        is_padding = command$data == none;
-        accepts_command = command$valid & gate$takes_command & (~is_padding);
-        accepts_point = command$valid & gate$takes_point;
         clear$reset = reset;
         clear$built = built;
-        clear$accepts = accepts_command;
-        clear$word = command$data;
+        clear$taken = gate$taken;
         slot$reset = reset;
-        slot$clears = clear$clears;
+        slot$clears = clear$clearing[(64'h0)+:(1)];
         slot$capacity = capacity;
         slot$engine = engine;
-        slot$accepts = accepts_point;
-        slot$word = command$data;
+        slot$taken = gate$taken;
         code = command$data[(32'h18)+:(8)];
         if ((state$q != CommandState$Answer) & answer[(64'h0)+:(1)] & answer[(64'h2)+:(1)]) begin
             is_reading$d = 1'b0;
@@ -1223,8 +1173,8 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
         case (state$q)
             CommandState$Command:
                 begin
-                    if (accepts_command) begin
-                        opcode$d = code;
+                    if (gate$taken[(64'h0)+:(1)]) begin
+                        held$d[(64'h0)+:(8)] = code;
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -1237,16 +1187,16 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
             CommandState$First:
                 begin
                     if (command$valid) begin
-                        first_word$d = command$data;
+                        held$d[(64'h8)+:(32)] = command$data;
                         state$d = CommandState$Count;
                     end
                 end
             CommandState$Count:
                 begin
                     if (command$valid) begin
-                        left$d = command$data;
-                        none_is_left$d = command$data == none;
-                        if (opcode$q == insert_code) begin
+                        held$d[(64'h28)+:(32)] = command$data;
+                        none_is_left$d = ~|command$data;
+                        if (held$q[(64'h0)+:(8)] == insert_code) begin
                             state$d = CommandState$Points;
                         end
                         else begin
@@ -1260,9 +1210,9 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
                     if (none_is_left$q) begin
                         state$d = CommandState$Settle;
                     end
-                    if (accepts_point) begin
-                        left$d = left$q - one;
-                        none_is_left$d = left$q == one;
+                    if (gate$taken[(64'h1)+:(1)]) begin
+                        held$d[(64'h28)+:(32)] = held$q[(64'h28)+:(32)] - one;
+                        none_is_left$d = held$q[(64'h28)+:(32)] == one;
                         is_inserting$d = 1'b1;
                     end
                 end
@@ -1294,22 +1244,20 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid
 endmodule // incircle_core_logic$command_port
 
 
-module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,clears,deal,is_refused);
+module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,deal);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  [4:0] built;
-    input wire  accepts;
-    input wire  [31:0] word;
-    output reg  clears;
+    input wire  [33:0] taken;
+    output reg  [1:0] clearing;
     output reg  [12:0] deal;
-    output reg  is_refused;
     
     // Stub signals
-    reg  clearing$d;
-    wire  clearing$q;
-    reg  clearing$clock;
+    reg  clears$d;
+    wire  clears$q;
+    reg  clears$clock;
     reg  [4:0] working$d;
     wire  [4:0] working$q;
     reg  working$clock;
@@ -1324,6 +1272,7 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     reg  refusing$clock;
     
     // Local signals
+    reg  [31:0] word;
     reg  [7:0] code;
     reg  [7:0] asked;
     reg  [7:0] wide_built;
@@ -1336,10 +1285,10 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     reg  [7:0] all_contexts;
     
     // Sub module instances
-    incircle_core_logic$command_port$clear$clearing clearing(
-        .d(clearing$d),
-        .q(clearing$q),
-        .clock(clearing$clock)
+    incircle_core_logic$command_port$clear$clears clears(
+        .d(clears$d),
+        .q(clears$q),
+        .clock(clears$clock)
     );
     incircle_core_logic$command_port$clear$working working(
         .d(working$d),
@@ -1364,31 +1313,32 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     
     // Update code
     always @(*) begin
-        clearing$clock = clock;
+        clears$clock = clock;
         working$clock = clock;
         batch$clock = clock;
         dealt$clock = clock;
         refusing$clock = clock;
-        clearing$d = clearing$q;
+        clears$d = clears$q;
         working$d = working$q;
         batch$d = batch$q;
         dealt$d = dealt$q;
         refusing$d = refusing$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
-        clears = clearing$q;
+        clearing[(64'h0)+:(1)] = clears$q;
         deal[(64'h0)+:(5)] = working$q;
         deal[(64'h5)+:(1)] = batch$q;
         deal[(64'h6)+:(7)] = dealt$q;
-        is_refused = refusing$q;
+        clearing[(64'h1)+:(1)] = refusing$q;
+        word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
-        is_granted = accepts & is_clear & (~asks_too_much);
-        clearing$d = is_granted;
-        if (accepts) begin
+        is_granted = taken[(64'h0)+:(1)] & is_clear & (~asks_too_much);
+        clears$d = is_granted;
+        if (taken[(64'h0)+:(1)]) begin
             refusing$d = is_clear & asks_too_much;
         end
         if (is_granted) begin
@@ -1405,7 +1355,7 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
             dealt$d = twice_working + wide_working;
         end
         if (reset) begin
-            clearing$d = 1'b0;
+            clears$d = 1'b0;
             batch$d = 1'b0;
             dealt$d = 32'h10;
             working$d = built;
@@ -1434,7 +1384,7 @@ module incircle_core_logic$command_port$clear$batch(d,q,clock);
 endmodule // incircle_core_logic$command_port$clear$batch
 
 
-module incircle_core_logic$command_port$clear$clearing(d,q,clock);
+module incircle_core_logic$command_port$clear$clears(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -1450,7 +1400,7 @@ module incircle_core_logic$command_port$clear$clearing(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$command_port$clear$clearing
+endmodule // incircle_core_logic$command_port$clear$clears
 
 
 module incircle_core_logic$command_port$clear$dealt(d,q,clock);
@@ -1510,53 +1460,71 @@ module incircle_core_logic$command_port$clear$working(d,q,clock);
 endmodule // incircle_core_logic$command_port$clear$working
 
 
-module incircle_core_logic$command_port$first_word(d,q,clock);
+module incircle_core_logic$command_port$gate(command$valid,command$ready,command$data,state,sweeps,none_is_left,came,engine,taken,awaits_point);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  command$valid;
+    output reg  command$ready;
+    input wire  [31:0] command$data;
+    input wire  [2:0] state;
+    input wire  sweeps;
+    input wire  none_is_left;
+    input wire  came;
+    input wire  [19:0] engine;
+    output reg  [33:0] taken;
+    output reg  awaits_point;
+    
+    // Enums
+    localparam CommandState$Command = 0;
+    localparam CommandState$First = 1;
+    localparam CommandState$Count = 2;
+    localparam CommandState$Points = 3;
+    localparam CommandState$Settle = 4;
+    localparam CommandState$Answer = 5;
+    
+    // Local signals
+    reg  is_held;
+    reg  may_be_point;
+    reg  takes_command;
+    reg  takes_argument;
+    reg  takes_point;
+    reg  is_some;
+    
+    // Update code
+    always @(*) begin
+        is_held = engine[(64'h0)+:(1)] & (~engine[(64'h3)+:(1)]);
+        may_be_point = (state == CommandState$Points) & (~none_is_left);
+        awaits_point = may_be_point;
+        takes_command = (state == CommandState$Command) & (~sweeps);
+        takes_argument = (state == CommandState$First) | (state == CommandState$Count);
+        takes_point = may_be_point & (~came) & (~is_held);
+        command$ready = takes_argument | takes_command | takes_point;
+        is_some = |command$data;
+        taken[(64'h0)+:(1)] = command$valid & takes_command & is_some;
+        taken[(64'h1)+:(1)] = command$valid & takes_point;
+        taken[(64'h2)+:(32)] = command$data;
+    end
+    
+endmodule // incircle_core_logic$command_port$gate
+
+
+module incircle_core_logic$command_port$held(d,q,clock);
+    
+    // Module arguments
+    input wire  [71:0] d;
+    output reg  [71:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 72'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$command_port$first_word
-
-
-module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,came,engine,ready,takes_command,takes_point,awaits_point);
-    
-    // Module arguments
-    input wire  is_command;
-    input wire  is_argument;
-    input wire  is_points;
-    input wire  sweeps;
-    input wire  none_is_left;
-    input wire  came;
-    input wire  [19:0] engine;
-    output reg  ready;
-    output reg  takes_command;
-    output reg  takes_point;
-    output reg  awaits_point;
-    
-    // Local signals
-    reg  is_held;
-    
-    // Update code
-    always @(*) begin
-        is_held = engine[(64'h0)+:(1)] & (~engine[(64'h3)+:(1)]);
-        awaits_point = is_points & (~none_is_left);
-        takes_command = is_command & (~sweeps);
-        takes_point = awaits_point & (~came) & (~is_held);
-        ready = is_argument | takes_command | takes_point;
-    end
-    
-endmodule // incircle_core_logic$command_port$gate
+endmodule // incircle_core_logic$command_port$held
 
 
 module incircle_core_logic$command_port$is_inserting(d,q,clock);
@@ -1597,25 +1565,6 @@ module incircle_core_logic$command_port$is_reading(d,q,clock);
 endmodule // incircle_core_logic$command_port$is_reading
 
 
-module incircle_core_logic$command_port$left(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$left
-
-
 module incircle_core_logic$command_port$none_is_left(d,q,clock);
     
     // Module arguments
@@ -1635,26 +1584,7 @@ module incircle_core_logic$command_port$none_is_left(d,q,clock);
 endmodule // incircle_core_logic$command_port$none_is_left
 
 
-module incircle_core_logic$command_port$opcode(d,q,clock);
-    
-    // Module arguments
-    input wire  [7:0] d;
-    output reg  [7:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 8'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$opcode
-
-
-module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,engine,accepts,word,arrival,tally);
+module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,engine,taken,arrival,tally);
     
     // Module arguments
     input wire  clock;
@@ -1662,8 +1592,7 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,engine,
     input wire  clears;
     input wire  [14:0] capacity;
     input wire  [19:0] engine;
-    input wire  accepts;
-    input wire  [31:0] word;
+    input wire  [33:0] taken;
     output reg  [47:0] arrival;
     output reg  [47:0] tally;
     
@@ -1769,11 +1698,11 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,engine,
         tally[(64'h2f)+:(1)] = has_refused$q;
         is_full$d = arrivals$q == capacity;
         has_room = (~engine[(64'h1)+:(1)]) & (~engine[(64'h3)+:(1)]) & (~is_full$q);
-        stores = accepts & has_room;
-        is_surplus$d = accepts & (~has_room);
+        stores = taken[(64'h1)+:(1)] & has_room;
+        is_surplus$d = taken[(64'h1)+:(1)] & (~has_room);
         is_new$d = stores;
         last_id$d = arrivals$q;
-        last_point$d = word;
+        last_point$d = taken[(64'h2)+:(32)];
         if (stores) begin
             arrivals$d = arrivals$q + one_arrival;
         end

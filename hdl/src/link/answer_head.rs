@@ -6,7 +6,7 @@
 //!
 //! Latency: 3 clocks.
 
-use super::types::{Head, Request};
+use super::types::{Head, RecordCount, Request, Word};
 use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -19,7 +19,7 @@ pub struct AnswerHead {
     /// It is a `Clear` that asks for more contexts than there are.
     pub is_refused: Signal<In, Bit>,
     /// Records of the mesh.
-    pub records: Signal<In, Bits<15>>,
+    pub records: Signal<In, RecordCount>,
     /// The first three points are collinear; nothing is finished any more.
     pub collinear: Signal<In, Bit>,
     pub stuck: Signal<In, Bit>,
@@ -28,36 +28,36 @@ pub struct AnswerHead {
     pub head: Signal<Out, Head>,
     /// First rank.
     range_end: DFF<Bits<33>>,
-    range_bound: DFF<Bits<15>>,
-    triple: DFF<Bits<32>>,
+    range_bound: DFF<RecordCount>,
+    triple: DFF<Word>,
     counts_none: DFF<Bit>,
     insert_status: DFF<Bits<3>>,
     /// Second rank.
     is_outside: DFF<Bit>,
-    read_length: DFF<Bits<32>>,
-    packed_length: DFF<Bits<32>>,
+    read_length: DFF<Word>,
+    packed_length: DFF<Word>,
     reads_none: DFF<Bit>,
     report_status: DFF<Bits<3>>,
     /// Third rank.
     answer_status: DFF<Bits<3>>,
-    answer_length: DFF<Bits<32>>,
+    answer_length: DFF<Word>,
     has_none: DFF<Bit>,
     wide_first: Signal<Local, Bits<33>>,
     wide_count: Signal<Local, Bits<33>>,
     wide_bound: Signal<Local, Bits<33>>,
-    double_count: Signal<Local, Bits<32>>,
-    status: Signal<Local, Bits<32>>,
-    shifted_status: Signal<Local, Bits<32>>,
-    wide_opcode: Signal<Local, Bits<32>>,
-    shifted_opcode: Signal<Local, Bits<32>>,
-    none: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<32>>,
-    status_shift: Signal<Local, Bits<32>>,
-    opcode_shift: Signal<Local, Bits<32>>,
+    double_count: Signal<Local, Word>,
+    status: Signal<Local, Word>,
+    shifted_status: Signal<Local, Word>,
+    wide_opcode: Signal<Local, Word>,
+    shifted_opcode: Signal<Local, Word>,
+    none: Signal<Local, Word>,
+    one: Signal<Local, Word>,
+    status_shift: Signal<Local, Word>,
+    opcode_shift: Signal<Local, Word>,
     read_code: Signal<Local, Bits<8>>,
     packed_code: Signal<Local, Bits<8>>,
     packs: Signal<Local, Bit>,
-    rounded: Signal<Local, Bits<32>>,
+    rounded: Signal<Local, Word>,
 }
 
 // The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.

@@ -6,7 +6,7 @@
 //!
 //! Latency: 2 clocks from `index`, and 1 from `counter` and `latency`, at an edge with `chooses`.
 
-use super::types::Tally;
+use super::types::{RecordCount, Tally, VertexCount, Word};
 use incircle_protocol::{Opcode, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -18,25 +18,25 @@ pub struct AnswerWords {
     /// The command.
     pub opcode: Signal<In, Bits<8>>,
     /// Parameters of the core, constants.
-    pub capacity: Signal<In, Bits<15>>,
+    pub capacity: Signal<In, VertexCount>,
     pub contexts: Signal<In, Bits<5>>,
     pub ring: Signal<In, Bits<7>>,
     pub tally: Signal<In, Tally>,
-    pub insertions: Signal<In, Bits<32>>,
-    pub duplicates: Signal<In, Bits<32>>,
-    pub records: Signal<In, Bits<15>>,
+    pub insertions: Signal<In, Word>,
+    pub duplicates: Signal<In, Word>,
+    pub records: Signal<In, RecordCount>,
     /// Word of the payload.
     pub index: Signal<In, Bits<7>>,
     /// The counter, and the bucket of the histogram, of the number that `index` was a clock ago.
-    pub counter: Signal<In, Bits<32>>,
-    pub latency: Signal<In, Bits<32>>,
+    pub counter: Signal<In, Word>,
+    pub latency: Signal<In, Word>,
     /// Take the word that `index` was a clock ago.
     pub chooses: Signal<In, Bit>,
-    /// That word, until the next one is taken.
-    pub word: Signal<Out, Bits<32>>,
-    identity: DFF<Bits<32>>,
-    report: DFF<Bits<32>>,
-    chosen: DFF<Bits<32>>,
+    /// The word that was taken, until the next one is.
+    pub word: Signal<Out, Word>,
+    identity: DFF<Word>,
+    report: DFF<Word>,
+    chosen: DFF<Word>,
     /// The two payloads chosen here are shorter than 8 words.
     place: Signal<Local, Bits<3>>,
 }

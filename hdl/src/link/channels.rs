@@ -1,5 +1,6 @@
 //! The two streams of the core. What is offered stays until an edge with `valid` and `ready`, at which it is taken.
 
+use super::types::Word;
 use rust_hdl_core::prelude::*;
 
 /// Command words that a block takes.
@@ -8,7 +9,7 @@ use rust_hdl_core::prelude::*;
 pub struct CommandSink {
     pub valid: Signal<In, Bit>,
     pub ready: Signal<Out, Bit>,
-    pub data: Signal<In, Bits<32>>,
+    pub data: Signal<In, Word>,
 }
 
 /// Command words that a block gives.
@@ -17,7 +18,7 @@ pub struct CommandSink {
 pub struct CommandSource {
     pub valid: Signal<Out, Bit>,
     pub ready: Signal<In, Bit>,
-    pub data: Signal<Out, Bits<32>>,
+    pub data: Signal<Out, Word>,
 }
 
 /// Answer words that a block takes, one or two at a time.

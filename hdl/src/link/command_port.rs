@@ -20,7 +20,7 @@
 //! answers         _______________________________________/^^^^^^^^
 //! ```
 
-use super::types::{Activity, AnswerProgress, Request, Tally};
+use super::types::{Activity, AnswerProgress, Clearing, Request, Tally, VertexCount, Word};
 use super::{ClearCommand, CommandGate, CommandSink, PointSlot};
 use crate::engine::Deal;
 use crate::engine::{Arrival, EngineState};
@@ -52,19 +52,16 @@ pub struct CommandPort {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     /// Points the core holds, and contexts it has; constants.
-    pub capacity: Signal<In, Bits<15>>,
+    pub capacity: Signal<In, VertexCount>,
     pub built: Signal<In, Bits<5>>,
     pub command: CommandSink,
     /// Memories are being cleared: the core is not ready for commands.
     pub sweeps: Signal<In, Bit>,
     pub engine: Signal<In, EngineState>,
     pub arrival: Signal<Out, Arrival>,
-    /// Forget the mesh at this edge.
-    pub clears: Signal<Out, Bit>,
+    pub clearing: Signal<Out, Clearing>,
     /// Contexts that work, and which points are theirs.
     pub deal: Signal<Out, Deal>,
-    /// The last command is a `Clear` that asks for more contexts than there are.
-    pub is_refused: Signal<Out, Bit>,
     /// An answer is due, until `answer.ends`.
     pub answers: Signal<Out, Bit>,
     pub request: Signal<Out, Request>,
@@ -72,9 +69,7 @@ pub struct CommandPort {
     pub answer: Signal<In, AnswerProgress>,
     pub activity: Signal<Out, Activity>,
     state: DFF<CommandState>,
-    opcode: DFF<Bits<8>>,
-    first_word: DFF<Bits<32>>,
-    left: DFF<Bits<32>>,
+    held: DFF<Request>,
     /// No point is left; good while points come.
     none_is_left: DFF<Bit>,
     is_inserting: DFF<Bit>,
@@ -82,15 +77,11 @@ pub struct CommandPort {
     slot: PointSlot,
     gate: CommandGate,
     clear: ClearCommand,
-    accepts_command: Signal<Local, Bit>,
-    accepts_point: Signal<Local, Bit>,
     code: Signal<Local, Bits<8>>,
-    is_padding: Signal<Local, Bit>,
     read_code: Signal<Local, Bits<8>>,
     packed_code: Signal<Local, Bits<8>>,
     insert_code: Signal<Local, Bits<8>>,
-    none: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<32>>,
+    one: Signal<Local, Word>,
 }
 
 // The kernel names opcodes by number, because rust-hdl takes literals only; a change in the protocol must come here.
@@ -102,50 +93,38 @@ const _: () = assert!(
 impl Logic for CommandPort {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, opcode, first_word, left, none_is_left, is_inserting, is_reading);
+        dff_setup!(self, clock, state, held, none_is_left, is_inserting, is_reading);
         clock!(self, clock, slot, clear);
         self.insert_code.next = 3.into();
         self.read_code.next = 4.into();
         self.packed_code.next = 7.into();
-        self.none.next = 0.into();
         self.one.next = 1.into();
 
         self.arrival.next = self.slot.arrival.val();
-        self.clears.next = self.clear.clears.val();
+        self.clearing.next = self.clear.clearing.val();
         self.deal.next = self.clear.deal.val();
-        self.is_refused.next = self.clear.is_refused.val();
-        self.answers.next = (self.state.q.val() == CommandState::Answer) & (!self.clear.clears.val());
-        self.request.next.opcode = self.opcode.q.val();
-        self.request.next.first = self.first_word.q.val();
-        self.request.next.count = self.left.q.val();
+        self.answers.next = (self.state.q.val() == CommandState::Answer) & (!self.clear.clearing.val().clears);
+        self.request.next = self.held.q.val();
         self.tally.next = self.slot.tally.val();
         self.activity.next.inserting = self.is_inserting.q.val();
         self.activity.next.reading = self.is_reading.q.val();
 
         // Is a word taken?
-        self.gate.is_command.next = self.state.q.val() == CommandState::Command;
-        self.gate.is_argument.next =
-            (self.state.q.val() == CommandState::First) | (self.state.q.val() == CommandState::Count);
-        self.gate.is_points.next = self.state.q.val() == CommandState::Points;
+        CommandSink::link(&mut self.command, &mut self.gate.command);
+        self.gate.state.next = self.state.q.val();
         self.gate.sweeps.next = self.sweeps.val();
         self.gate.none_is_left.next = self.none_is_left.q.val();
         self.gate.came.next = self.slot.arrival.val().came;
         self.gate.engine.next = self.engine.val();
         self.activity.next.awaits_point = self.gate.awaits_point.val();
-        self.command.ready.next = self.gate.ready.val();
-        self.is_padding.next = self.command.data.val() == self.none.val();
-        self.accepts_command.next = self.command.valid.val() & self.gate.takes_command.val() & (!self.is_padding.val());
-        self.accepts_point.next = self.command.valid.val() & self.gate.takes_point.val();
         self.clear.reset.next = self.reset.val();
         self.clear.built.next = self.built.val();
-        self.clear.accepts.next = self.accepts_command.val();
-        self.clear.word.next = self.command.data.val();
+        self.clear.taken.next = self.gate.taken.val();
         self.slot.reset.next = self.reset.val();
-        self.slot.clears.next = self.clear.clears.val();
+        self.slot.clears.next = self.clear.clearing.val().clears;
         self.slot.capacity.next = self.capacity.val();
         self.slot.engine.next = self.engine.val();
-        self.slot.accepts.next = self.accepts_point.val();
-        self.slot.word.next = self.command.data.val();
+        self.slot.taken.next = self.gate.taken.val();
         self.code.next = self.command.data.val().get_bits::<8>(24);
 
         if (self.state.q.val() != CommandState::Answer) & self.answer.val().is_idle & self.answer.val().is_taken {
@@ -153,8 +132,8 @@ impl Logic for CommandPort {
         }
         match self.state.q.val() {
             CommandState::Command => {
-                if self.accepts_command.val() {
-                    self.opcode.d.next = self.code.val();
+                if self.gate.taken.val().is_command {
+                    self.held.d.next.opcode = self.code.val();
                     self.state.d.next = CommandState::Answer;
                     if self.code.val() == self.insert_code.val() {
                         self.state.d.next = CommandState::Count;
@@ -166,15 +145,15 @@ impl Logic for CommandPort {
             }
             CommandState::First => {
                 if self.command.valid.val() {
-                    self.first_word.d.next = self.command.data.val();
+                    self.held.d.next.first = self.command.data.val();
                     self.state.d.next = CommandState::Count;
                 }
             }
             CommandState::Count => {
                 if self.command.valid.val() {
-                    self.left.d.next = self.command.data.val();
-                    self.none_is_left.d.next = self.command.data.val() == self.none.val();
-                    if self.opcode.q.val() == self.insert_code.val() {
+                    self.held.d.next.count = self.command.data.val();
+                    self.none_is_left.d.next = !self.command.data.val().any();
+                    if self.held.q.val().opcode == self.insert_code.val() {
                         self.state.d.next = CommandState::Points;
                     } else {
                         self.is_reading.d.next = true;
@@ -186,9 +165,9 @@ impl Logic for CommandPort {
                 if self.none_is_left.q.val() {
                     self.state.d.next = CommandState::Settle;
                 }
-                if self.accepts_point.val() {
-                    self.left.d.next = self.left.q.val() - self.one.val();
-                    self.none_is_left.d.next = self.left.q.val() == self.one.val();
+                if self.gate.taken.val().is_point {
+                    self.held.d.next.count = self.held.q.val().count - self.one.val();
+                    self.none_is_left.d.next = self.held.q.val().count == self.one.val();
                     self.is_inserting.d.next = true;
                 }
             }

@@ -5,7 +5,8 @@
 //!
 //! Latency: 1 clock; 2 to `refused` and `some_refused`.
 
-use super::types::Tally;
+use super::types::{TakenWord, Tally, VertexCount, Word};
+use crate::engine::types::VertexId;
 use crate::engine::{Arrival, EngineState};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -18,29 +19,28 @@ pub struct PointSlot {
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// Points the core holds, a constant.
-    pub capacity: Signal<In, Bits<15>>,
+    pub capacity: Signal<In, VertexCount>,
     /// Points are refused where it is `collinear` or `stuck`.
     pub engine: Signal<In, EngineState>,
-    /// A point comes.
-    pub accepts: Signal<In, Bit>,
-    pub word: Signal<In, Bits<32>>,
+    /// A point may come.
+    pub taken: Signal<In, TakenWord>,
     /// It came with the last edge and is not refused.
     pub arrival: Signal<Out, Arrival>,
     pub tally: Signal<Out, Tally>,
     is_new: DFF<Bit>,
-    last_id: DFF<Bits<15>>,
-    last_point: DFF<Bits<32>>,
-    arrivals: DFF<Bits<15>>,
+    last_id: DFF<VertexId>,
+    last_point: DFF<Word>,
+    arrivals: DFF<VertexCount>,
     /// As many as the core holds.
     is_full: DFF<Bit>,
     /// The last point is refused, and counted now.
     is_surplus: DFF<Bit>,
-    refusals: DFF<Bits<32>>,
+    refusals: DFF<Word>,
     has_refused: DFF<Bit>,
     stores: Signal<Local, Bit>,
     has_room: Signal<Local, Bit>,
-    one_arrival: Signal<Local, Bits<15>>,
-    one: Signal<Local, Bits<32>>,
+    one_arrival: Signal<Local, VertexCount>,
+    one: Signal<Local, Word>,
 }
 
 impl Logic for PointSlot {
@@ -59,11 +59,11 @@ impl Logic for PointSlot {
 
         self.is_full.d.next = self.arrivals.q.val() == self.capacity.val();
         self.has_room.next = (!self.engine.val().collinear) & (!self.engine.val().stuck) & (!self.is_full.q.val());
-        self.stores.next = self.accepts.val() & self.has_room.val();
-        self.is_surplus.d.next = self.accepts.val() & (!self.has_room.val());
+        self.stores.next = self.taken.val().is_point & self.has_room.val();
+        self.is_surplus.d.next = self.taken.val().is_point & (!self.has_room.val());
         self.is_new.d.next = self.stores.val();
         self.last_id.d.next = self.arrivals.q.val();
-        self.last_point.d.next = self.word.val();
+        self.last_point.d.next = self.taken.val().word;
         if self.stores.val() {
             self.arrivals.d.next = self.arrivals.q.val() + self.one_arrival.val();
         }

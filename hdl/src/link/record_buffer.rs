@@ -4,7 +4,9 @@
 //!
 //! Latency: 1 clock.
 
+use super::types::Word;
 use super::RecordWords;
+use crate::engine::types::VertexId;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -20,20 +22,20 @@ pub struct RecordBuffer {
     pub record: Signal<In, Record>,
     pub holds: Signal<Out, Bit>,
     /// The first that is left; there is no other.
-    pub word: Signal<Out, Bits<32>>,
+    pub word: Signal<Out, Word>,
     pub is_at_last: Signal<Out, Bit>,
     /// It is taken at this edge; only while `holds`.
     pub takes: Signal<In, Bit>,
     /// The vertices of the record, while no word of it has been taken.
-    pub vertex0: Signal<Out, Bits<15>>,
-    pub vertex1: Signal<Out, Bits<15>>,
-    pub vertex2: Signal<Out, Bits<15>>,
+    pub vertex0: Signal<Out, VertexId>,
+    pub vertex1: Signal<Out, VertexId>,
+    pub vertex2: Signal<Out, VertexId>,
     /// All of it is taken at this edge; only while `holds`, and no word of it has been.
     pub takes_whole: Signal<In, Bit>,
     is_held: DFF<Bit>,
-    buffer0: DFF<Bits<32>>,
-    buffer1: DFF<Bits<32>>,
-    buffer2: DFF<Bits<32>>,
+    buffer0: DFF<Word>,
+    buffer1: DFF<Word>,
+    buffer2: DFF<Word>,
     is_second: DFF<Bit>,
     is_third: DFF<Bit>,
     words: RecordWords,

@@ -6,7 +6,9 @@
 //!
 //! Latency: 2 clocks from `read_done` to the first word of the record, 3 to the beat that its vertices fill.
 
+use super::types::{RecordCount, Word};
 use super::{AnswerBeat, RecordBuffer, VertexStream};
+use crate::engine::types::TriangleId;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -19,15 +21,15 @@ pub struct RecordReads {
     pub reset: Signal<In, Bit>,
     /// The payload is of so many records from this one on; only when nothing of another one is left.
     pub starts: Signal<In, Bit>,
-    pub first: Signal<In, Bits<15>>,
-    pub count: Signal<In, Bits<15>>,
+    pub first: Signal<In, TriangleId>,
+    pub count: Signal<In, RecordCount>,
     /// It has their vertices alone; stands still from the clock before `runs` on.
     pub is_packed: Signal<In, Bit>,
     /// The payload is being sent.
     pub runs: Signal<In, Bit>,
     /// A record is wanted.
     pub read: Signal<Out, Bit>,
-    pub read_id: Signal<Out, Bits<15>>,
+    pub read_id: Signal<Out, TriangleId>,
     /// It has come; records come in the order in which they were wanted.
     pub read_done: Signal<In, Bit>,
     pub record: Signal<In, Record>,
@@ -36,9 +38,9 @@ pub struct RecordReads {
     /// It is taken at this edge; only while `valid`.
     pub takes: Signal<In, Bit>,
     vertices_alone: DFF<Bit>,
-    record_id: DFF<Bits<15>>,
+    record_id: DFF<TriangleId>,
     /// Records still to be read.
-    left: DFF<Bits<15>>,
+    left: DFF<RecordCount>,
     some_are_left: DFF<Bit>,
     fetching: DFF<Bit>,
     buffer: RecordBuffer,
@@ -49,8 +51,8 @@ pub struct RecordReads {
     may_ask: Signal<Local, Bit>,
     asks: Signal<Local, Bit>,
     packs: Signal<Local, Bit>,
-    no_word: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<15>>,
+    no_word: Signal<Local, Word>,
+    one: Signal<Local, RecordCount>,
 }
 
 impl Logic for RecordReads {

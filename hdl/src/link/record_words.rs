@@ -2,6 +2,7 @@
 //!
 //! Latency: none (combinational).
 
+use super::types::Word;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 
@@ -10,20 +11,20 @@ use rust_hdl_core::prelude::*;
 pub struct RecordWords {
     pub record: Signal<In, Record>,
     /// `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
-    pub word0: Signal<Out, Bits<32>>,
-    pub word1: Signal<Out, Bits<32>>,
-    pub word2: Signal<Out, Bits<32>>,
-    lock: Signal<Local, Bits<32>>,
-    vertex0: Signal<Local, Bits<32>>,
-    vertex1: Signal<Local, Bits<32>>,
-    vertex2: Signal<Local, Bits<32>>,
-    link0: Signal<Local, Bits<32>>,
-    link1: Signal<Local, Bits<32>>,
-    link2: Signal<Local, Bits<32>>,
-    high0: Signal<Local, Bits<32>>,
-    high1: Signal<Local, Bits<32>>,
-    high2: Signal<Local, Bits<32>>,
-    link_shift: Signal<Local, Bits<32>>,
+    pub word0: Signal<Out, Word>,
+    pub word1: Signal<Out, Word>,
+    pub word2: Signal<Out, Word>,
+    lock: Signal<Local, Word>,
+    vertex0: Signal<Local, Word>,
+    vertex1: Signal<Local, Word>,
+    vertex2: Signal<Local, Word>,
+    link0: Signal<Local, Word>,
+    link1: Signal<Local, Word>,
+    link2: Signal<Local, Word>,
+    high0: Signal<Local, Word>,
+    high1: Signal<Local, Word>,
+    high2: Signal<Local, Word>,
+    link_shift: Signal<Local, Word>,
 }
 
 impl Logic for RecordWords {

@@ -22,6 +22,7 @@
 
 use super::types::{AnswerProgress, Head, Request, Word, WordIndex};
 use super::{AnswerBeat, AnswerSource, PayloadWords, RecordReads, WordPair, WORD_PAIR_BITS};
+use crate::engine::types::TriangleId;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -64,7 +65,7 @@ pub struct Responder {
     pub chooses: Signal<Out, Bit>,
     /// A record is wanted.
     pub read: Signal<Out, Bit>,
-    pub read_id: Signal<Out, Bits<15>>,
+    pub read_id: Signal<Out, TriangleId>,
     /// A record has come; records come in the order in which they were wanted.
     pub read_done: Signal<In, Bit>,
     pub record: Signal<In, Record>,

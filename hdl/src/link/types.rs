@@ -2,8 +2,12 @@
 
 use rust_hdl_core::prelude::*;
 
-/// Words that are compared and added.
+/// A word of a command or an answer.
 pub type Word = Bits<32>;
+/// A count of vertices.
+pub type VertexCount = Bits<15>;
+/// A count of records.
+pub type RecordCount = Bits<15>;
 /// Number of a word of a payload.
 pub type WordIndex = Bits<7>;
 
@@ -12,21 +16,36 @@ crate::packed! {
     pub struct Request {
         pub opcode: Bits<8>,
         /// First record of a read.
-        pub first: Bits<32>,
+        pub first: Word,
         /// Records of a read; points of an insert that are still to come.
-        pub count: Bits<32>,
+        pub count: Word,
+    }
+
+    /// A command word that is taken.
+    pub struct TakenWord {
+        pub is_command: bool,
+        pub is_point: bool,
+        pub word: Word,
+    }
+
+    /// The effect of the last `Clear`.
+    pub struct Clearing {
+        /// Forget the mesh at this edge.
+        pub clears: bool,
+        /// The last command is a `Clear` that asks for more contexts than there are.
+        pub is_refused: bool,
     }
 
     /// Counts of points since the last `Clear`.
     pub struct Tally {
         /// Points that were given an id.
-        pub arrived: Bits<15>,
+        pub arrived: VertexCount,
         /// Points that were not, and whether there are some.
-        pub refused: Bits<32>,
+        pub refused: Word,
         pub some_refused: bool,
     }
 
-    /// What the cycle counters count.
+    /// Activity for the cycle counters.
     pub struct Activity {
         pub inserting: bool,
         pub reading: bool,
@@ -36,16 +55,16 @@ crate::packed! {
 
     /// An answer's first two words, and what its payload consists of.
     pub struct Head {
-        pub header: Bits<32>,
+        pub header: Word,
         /// Words of the payload, and whether there are none.
-        pub length: Bits<32>,
+        pub length: Word,
         pub is_empty: bool,
         /// The payload consists of records, or of their vertices alone (both are set then).
         pub is_read: bool,
         pub is_packed: bool,
     }
 
-    /// How far an answer is.
+    /// The progress of an answer.
     pub struct AnswerProgress {
         /// No answer is under way.
         pub is_idle: bool,

@@ -16,7 +16,9 @@
 //! last            ________________________/^^\__
 //! ```
 
+use super::types::{RecordCount, Word};
 use super::AnswerBeat;
+use crate::engine::types::VertexId;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -28,12 +30,12 @@ pub struct VertexPacker {
     pub reset: Signal<In, Bit>,
     /// So many records will come, one at least.
     pub starts: Signal<In, Bit>,
-    pub count: Signal<In, Bits<15>>,
+    pub count: Signal<In, RecordCount>,
     /// A record comes.
     pub comes: Signal<In, Bit>,
-    pub v0: Signal<In, Bits<15>>,
-    pub v1: Signal<In, Bits<15>>,
-    pub v2: Signal<In, Bits<15>>,
+    pub v0: Signal<In, VertexId>,
+    pub v1: Signal<In, VertexId>,
+    pub v2: Signal<In, VertexId>,
     /// A beat is full, or the last one; it stands for one clock.
     pub valid: Signal<Out, Bit>,
     pub beat: Signal<Out, AnswerBeat>,
@@ -41,31 +43,31 @@ pub struct VertexPacker {
     filled: DFF<AnswerBeat>,
     /// Records of the present four that have come.
     place: DFF<Bits<2>>,
-    left: DFF<Bits<15>>,
+    left: DFF<RecordCount>,
     /// One record is left.
     is_last: DFF<Bit>,
     /// The rest is due.
     flushes: DFF<Bit>,
-    held0: DFF<Bits<15>>,
-    held1: DFF<Bits<15>>,
-    held2: DFF<Bits<15>>,
+    held0: DFF<VertexId>,
+    held1: DFF<VertexId>,
+    held2: DFF<VertexId>,
     takes: Signal<Local, Bit>,
     ends_full: Signal<Local, Bit>,
-    new0: Signal<Local, Bits<15>>,
-    new1: Signal<Local, Bits<15>>,
-    new2: Signal<Local, Bits<15>>,
-    half1: Signal<Local, Bits<15>>,
-    half2: Signal<Local, Bits<15>>,
-    half3: Signal<Local, Bits<15>>,
-    even0: Signal<Local, Bits<32>>,
-    even1: Signal<Local, Bits<32>>,
-    odd0: Signal<Local, Bits<32>>,
-    odd1: Signal<Local, Bits<32>>,
-    high0: Signal<Local, Bits<32>>,
-    high1: Signal<Local, Bits<32>>,
-    half_shift: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<15>>,
-    two: Signal<Local, Bits<15>>,
+    new0: Signal<Local, VertexId>,
+    new1: Signal<Local, VertexId>,
+    new2: Signal<Local, VertexId>,
+    half1: Signal<Local, VertexId>,
+    half2: Signal<Local, VertexId>,
+    half3: Signal<Local, VertexId>,
+    even0: Signal<Local, Word>,
+    even1: Signal<Local, Word>,
+    odd0: Signal<Local, Word>,
+    odd1: Signal<Local, Word>,
+    high0: Signal<Local, Word>,
+    high1: Signal<Local, Word>,
+    half_shift: Signal<Local, Word>,
+    one: Signal<Local, RecordCount>,
+    two: Signal<Local, RecordCount>,
     first_place: Signal<Local, Bits<2>>,
     second_place: Signal<Local, Bits<2>>,
     last_place: Signal<Local, Bits<2>>,

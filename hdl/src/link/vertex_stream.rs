@@ -5,7 +5,9 @@
 //!
 //! Latency: 1 clock from a record to the beat that it fills, when none waits.
 
+use super::types::RecordCount;
 use super::{AnswerBeat, VertexPacker, ANSWER_BEAT_BITS};
+use crate::engine::types::VertexId;
 use crate::leaf::{Fifo, Unpack};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -21,14 +23,14 @@ pub struct VertexStream {
     pub reset: Signal<In, Bit>,
     /// So many records will come; only when no beat of others is left.
     pub starts: Signal<In, Bit>,
-    pub count: Signal<In, Bits<15>>,
+    pub count: Signal<In, RecordCount>,
     /// A record may be asked for.
     pub has_room: Signal<Out, Bit>,
     /// One that was asked for comes.
     pub comes: Signal<In, Bit>,
-    pub v0: Signal<In, Bits<15>>,
-    pub v1: Signal<In, Bits<15>>,
-    pub v2: Signal<In, Bits<15>>,
+    pub v0: Signal<In, VertexId>,
+    pub v1: Signal<In, VertexId>,
+    pub v2: Signal<In, VertexId>,
     /// The first beat that is left.
     pub valid: Signal<Out, Bit>,
     pub beat: Signal<Out, AnswerBeat>,

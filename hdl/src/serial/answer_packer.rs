@@ -6,6 +6,8 @@
 //!
 //! Latency: 3 clocks from the first two words of an answer to `is_due`.
 
+use super::types::{AnswerPlace, Byte};
+use crate::link::types::Word;
 use incircle_protocol::MAX_PAYLOAD;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -34,27 +36,26 @@ pub struct AnswerPacker {
     /// The answer stream of the core, word by word.
     pub word_valid: Signal<In, Bit>,
     pub word_ready: Signal<Out, Bit>,
-    pub word_data: Signal<In, Bits<32>>,
+    pub word_data: Signal<In, Word>,
     /// A part is ready to be sent; it is the last one of its answer.
     pub is_due: Signal<Out, Bit>,
     pub is_last: Signal<Out, Bit>,
-    /// Its frame begins.
+    /// The frame of the part begins.
     pub starts: Signal<In, Bit>,
-    /// Answers that have been sent to their end; the part's first word, divided by 256.
-    pub number: Signal<Out, Bits<8>>,
-    pub part: Signal<Out, Bits<8>>,
+    /// The part.
+    pub answer: Signal<Out, AnswerPlace>,
     /// A byte of the part; it is taken at this edge.
     pub byte_valid: Signal<Out, Bit>,
-    pub byte_data: Signal<Out, Bits<8>>,
+    pub byte_data: Signal<Out, Byte>,
     pub takes: Signal<In, Bit>,
-    /// It is the last one.
+    /// The byte is the last one of the part.
     pub byte_is_last: Signal<Out, Bit>,
     /// The frame of the last part is over.
     pub ended: Signal<In, Bit>,
     /// No word of an answer has come.
     pub awaits: Signal<Out, Bit>,
     state: DFF<PackState>,
-    word: DFF<Bits<32>>,
+    word: DFF<Word>,
     is_held: DFF<Bit>,
     place: DFF<Bits<2>>,
     /// The first word of an answer is held.
@@ -62,23 +63,23 @@ pub struct AnswerPacker {
     /// Words of the answer behind the one that is held, without the second word.
     after: DFF<Bits<17>>,
     /// The word that is held in its part.
-    position: DFF<Bits<8>>,
-    part_number: DFF<Bits<8>>,
-    answers: DFF<Bits<8>>,
+    position: DFF<Byte>,
+    part_number: DFF<Byte>,
+    answers: DFF<Byte>,
     is_settled: DFF<Bit>,
     is_short: DFF<Bit>,
     part_ends: DFF<Bit>,
     is_taking: Signal<Local, Bit>,
     loads: Signal<Local, Bit>,
     many: Signal<Local, Bits<9>>,
-    few: Signal<Local, Bits<8>>,
+    few: Signal<Local, Byte>,
     is_end: Signal<Local, Bit>,
     one: Signal<Local, Bits<17>>,
-    one_byte: Signal<Local, Bits<8>>,
+    one_byte: Signal<Local, Byte>,
     one_place: Signal<Local, Bits<2>>,
     last_place: Signal<Local, Bits<2>>,
-    last_position: Signal<Local, Bits<8>>,
-    eight: Signal<Local, Bits<32>>,
+    last_position: Signal<Local, Byte>,
+    eight: Signal<Local, Word>,
 }
 
 const _: () = assert!(MAX_PAYLOAD == 4 * 256, "the parts of this block are as long as the protocol says");
@@ -96,8 +97,8 @@ impl Logic for AnswerPacker {
         self.eight.next = 8.into();
         self.is_due.next = (self.state.q.val() == PackState::Start) & self.is_settled.q.val();
         self.is_last.next = self.is_short.q.val();
-        self.number.next = self.answers.q.val();
-        self.part.next = self.part_number.q.val();
+        self.answer.next.number = self.answers.q.val();
+        self.answer.next.part = self.part_number.q.val();
         self.byte_valid.next = (self.state.q.val() == PackState::Words) & self.is_held.q.val();
         self.byte_data.next = self.word.q.val().get_bits::<8>(0);
         self.byte_is_last.next = self.part_ends.q.val() & (self.place.q.val() == self.last_place.val());

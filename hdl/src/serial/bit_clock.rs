@@ -5,6 +5,7 @@
 //!
 //! Latency: the tick shows a clock after the addition that passes the end.
 
+use super::types::Step;
 use crate::leaf::Parameter;
 use incircle_protocol::PHASE_BITS;
 use rust_hdl_core::prelude::*;
@@ -17,7 +18,7 @@ const _: () = assert!(PHASE_BITS == 24, "the phase of this block has as many bit
 pub struct BitClock {
     pub clock: Signal<In, Clock>,
     /// Added to the phase at every clock: a bit takes `2^24 / step` clocks.
-    pub step: Signal<In, Bits<22>>,
+    pub step: Signal<In, Step>,
     /// Set the phase to its first value at this edge.
     pub starts: Signal<In, Bit>,
     /// The phase has passed its end.

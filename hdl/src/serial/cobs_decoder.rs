@@ -15,6 +15,7 @@
 //! is_broken       ____________________________________/^^\________
 //! ```
 
+use super::types::Byte;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -26,29 +27,29 @@ pub struct CobsDecoder {
     pub reset: Signal<In, Bit>,
     /// A byte from the line.
     pub byte_valid: Signal<In, Bit>,
-    pub byte_data: Signal<In, Bits<8>>,
+    pub byte_data: Signal<In, Byte>,
     /// A byte from the line was lost.
     pub noise: Signal<In, Bit>,
     /// A byte of a frame.
     pub data_valid: Signal<Out, Bit>,
-    pub data: Signal<Out, Bits<8>>,
+    pub data: Signal<Out, Byte>,
     /// The frame is over; it lacks bytes.
     pub frame_ends: Signal<Out, Bit>,
     pub is_broken: Signal<Out, Bit>,
     /// Bytes before the next length byte.
-    left: DFF<Bits<8>>,
+    left: DFF<Byte>,
     in_frame: DFF<Bit>,
     /// A zero stands behind the present piece, if another one follows.
     owes_zero: DFF<Bit>,
     lacks: DFF<Bit>,
     gives: DFF<Bit>,
-    value: DFF<Bits<8>>,
+    value: DFF<Byte>,
     ends: DFF<Bit>,
     ends_broken: DFF<Bit>,
     is_end: Signal<Local, Bit>,
     is_length: Signal<Local, Bit>,
-    one: Signal<Local, Bits<8>>,
-    longest: Signal<Local, Bits<8>>,
+    one: Signal<Local, Byte>,
+    longest: Signal<Local, Byte>,
 }
 
 impl Logic for CobsDecoder {

@@ -18,6 +18,7 @@
 //! ended           ______________________________/^^
 //! ```
 
+use super::types::Byte;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -41,7 +42,7 @@ pub struct CobsEncoder {
     /// The bytes of a frame.
     pub data_valid: Signal<In, Bit>,
     pub data_ready: Signal<Out, Bit>,
-    pub data: Signal<In, Bits<8>>,
+    pub data: Signal<In, Byte>,
     /// No byte follows, held until `ended`; with `cuts` the frame is to be invalid.
     pub ends: Signal<In, Bit>,
     pub cuts: Signal<In, Bit>,
@@ -50,14 +51,14 @@ pub struct CobsEncoder {
     /// Bytes for the line.
     pub byte_valid: Signal<Out, Bit>,
     pub byte_ready: Signal<In, Bit>,
-    pub byte_data: Signal<Out, Bits<8>>,
+    pub byte_data: Signal<Out, Byte>,
     state: DFF<EncodeState>,
     /// Bytes since the last length byte, plus one.
-    length: DFF<Bits<8>>,
+    length: DFF<Byte>,
     is_zero: Signal<Local, Bit>,
     is_frame: Signal<Local, Bit>,
-    one: Signal<Local, Bits<8>>,
-    last_length: Signal<Local, Bits<8>>,
+    one: Signal<Local, Byte>,
+    last_length: Signal<Local, Byte>,
 }
 
 impl Logic for CobsEncoder {

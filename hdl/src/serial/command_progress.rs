@@ -6,6 +6,7 @@
 //!
 //! Latency: 1 clock from a word taken and from the end of an answer.
 
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -17,7 +18,7 @@ pub struct CommandProgress {
     pub reset: Signal<In, Bit>,
     /// The core takes a command word.
     pub takes: Signal<In, Bit>,
-    pub word: Signal<In, Bits<32>>,
+    pub word: Signal<In, Word>,
     /// The core offers the last word of an answer; what it offers is taken.
     pub offers_last: Signal<In, Bit>,
     pub takes_answer: Signal<In, Bit>,

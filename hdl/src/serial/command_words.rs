@@ -14,6 +14,8 @@
 //! word              .  .  .  .  .  5  5  5  .  .
 //! ```
 
+use super::types::Byte;
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -25,21 +27,21 @@ pub struct CommandWords {
     pub reset: Signal<In, Bit>,
     /// A byte; it is taken at this edge.
     pub byte_valid: Signal<In, Bit>,
-    pub byte_data: Signal<In, Bits<8>>,
+    pub byte_data: Signal<In, Byte>,
     pub takes: Signal<Out, Bit>,
     /// A word.
     pub word_valid: Signal<Out, Bit>,
     pub word_ready: Signal<In, Bit>,
-    pub word: Signal<Out, Bits<32>>,
-    bytes: DFF<Bits<32>>,
+    pub word: Signal<Out, Word>,
+    bytes: DFF<Word>,
     count: DFF<Bits<2>>,
     is_full: DFF<Bit>,
     takes_byte: Signal<Local, Bit>,
-    older: Signal<Local, Bits<32>>,
-    wide: Signal<Local, Bits<32>>,
-    newest: Signal<Local, Bits<32>>,
-    eight: Signal<Local, Bits<32>>,
-    three_bytes: Signal<Local, Bits<32>>,
+    older: Signal<Local, Word>,
+    wide: Signal<Local, Word>,
+    newest: Signal<Local, Word>,
+    eight: Signal<Local, Word>,
+    three_bytes: Signal<Local, Word>,
     one: Signal<Local, Bits<2>>,
     last: Signal<Local, Bits<2>>,
 }

@@ -7,6 +7,8 @@
 //!
 //! Source: polynomial 04C11DB7, reflected, as Ethernet and zip have it.
 
+use super::types::Byte;
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -16,22 +18,22 @@ pub struct Crc32 {
     pub clock: Signal<In, Clock>,
     /// Begin with this state at this edge.
     pub sets: Signal<In, Bit>,
-    pub start: Signal<In, Bits<32>>,
+    pub start: Signal<In, Word>,
     /// One more byte.
     pub takes: Signal<In, Bit>,
-    pub byte_data: Signal<In, Bits<8>>,
+    pub byte_data: Signal<In, Byte>,
     /// The last byte is not in the state yet.
     pub is_busy: Signal<Out, Bit>,
     /// The state: all ones in the beginning, and the check sum is its complement.
-    pub state: Signal<Out, Bits<32>>,
-    remainder: DFF<Bits<32>>,
-    bits: DFF<Bits<8>>,
+    pub state: Signal<Out, Word>,
+    remainder: DFF<Word>,
+    bits: DFF<Byte>,
     left: DFF<Bits<4>>,
-    shifted: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<32>>,
-    one_bit: Signal<Local, Bits<8>>,
+    shifted: Signal<Local, Word>,
+    one: Signal<Local, Word>,
+    one_bit: Signal<Local, Byte>,
     one_left: Signal<Local, Bits<4>>,
-    polynomial: Signal<Local, Bits<32>>,
+    polynomial: Signal<Local, Word>,
     feeds_back: Signal<Local, Bit>,
 }
 

@@ -4,6 +4,8 @@
 //!
 //! Latency: 1 clock.
 
+use super::types::{AnswerPlace, Byte};
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -17,24 +19,23 @@ pub struct FrameBytes {
     /// The digest is that of an answer.
     pub ends_answer: Signal<In, Bit>,
     /// The byte, if it is of the header, of the greeting, of the words.
-    pub header: Signal<In, Bits<8>>,
-    pub greeting: Signal<In, Bits<8>>,
-    pub word: Signal<In, Bits<8>>,
-    /// Number of the answer; index of the frame's first word, divided by 256.
-    pub answers: Signal<In, Bits<8>>,
-    pub answer_part: Signal<In, Bits<8>>,
+    pub header: Signal<In, Byte>,
+    pub greeting: Signal<In, Byte>,
+    pub word: Signal<In, Byte>,
+    /// The part of the answer in the frame.
+    pub answer: Signal<In, AnswerPlace>,
     /// States of the check sums: of the payload, of the answer, of the frame.
-    pub payload_state: Signal<In, Bits<32>>,
-    pub answer_state: Signal<In, Bits<32>>,
-    pub sum_state: Signal<In, Bits<32>>,
+    pub payload_state: Signal<In, Word>,
+    pub answer_state: Signal<In, Word>,
+    pub sum_state: Signal<In, Word>,
     /// The byte.
-    pub byte_data: Signal<Out, Bits<8>>,
-    chosen: DFF<Bits<8>>,
-    payload_byte: Signal<Local, Bits<8>>,
-    answer_byte: Signal<Local, Bits<8>>,
-    sum_byte: Signal<Local, Bits<8>>,
-    head_byte: Signal<Local, Bits<8>>,
-    all: Signal<Local, Bits<8>>,
+    pub byte_data: Signal<Out, Byte>,
+    chosen: DFF<Byte>,
+    payload_byte: Signal<Local, Byte>,
+    answer_byte: Signal<Local, Byte>,
+    sum_byte: Signal<Local, Byte>,
+    head_byte: Signal<Local, Byte>,
+    all: Signal<Local, Byte>,
 }
 
 impl Logic for FrameBytes {
@@ -48,7 +49,7 @@ impl Logic for FrameBytes {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(0);
                 self.answer_byte.next = self.answer_state.val().get_bits::<8>(0);
                 self.sum_byte.next = self.sum_state.val().get_bits::<8>(0);
-                self.head_byte.next = self.answers.val();
+                self.head_byte.next = self.answer.val().number;
             }
             1 => {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(8);
@@ -60,13 +61,13 @@ impl Logic for FrameBytes {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(16);
                 self.answer_byte.next = self.answer_state.val().get_bits::<8>(16);
                 self.sum_byte.next = self.sum_state.val().get_bits::<8>(16);
-                self.head_byte.next = self.answer_part.val();
+                self.head_byte.next = self.answer.val().part;
             }
             _ => {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(24);
                 self.answer_byte.next = self.answer_state.val().get_bits::<8>(24);
                 self.sum_byte.next = self.sum_state.val().get_bits::<8>(24);
-                self.head_byte.next = self.answer_part.val();
+                self.head_byte.next = self.answer.val().part;
             }
         }
         match self.part.val().index() {

@@ -5,6 +5,7 @@
 //!
 //! Latency: none to `starts` (combinational), 1 clock to the type.
 
+use super::types::{Byte, Contents};
 use incircle_protocol::DeviceFrame;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -17,7 +18,7 @@ pub struct FrameChoice {
     pub is_idle: Signal<In, Bit>,
     /// A control frame is due; its type.
     pub reply_is_due: Signal<In, Bit>,
-    pub reply_kind: Signal<In, Bits<8>>,
+    pub reply_kind: Signal<In, Byte>,
     /// A part of an answer is; it is the last one.
     pub answer_is_due: Signal<In, Bit>,
     pub answer_is_last: Signal<In, Bit>,
@@ -30,13 +31,9 @@ pub struct FrameChoice {
     pub starts_reply: Signal<Out, Bit>,
     pub starts_answer: Signal<Out, Bit>,
     /// Type of the frame under way.
-    pub kind: Signal<Out, Bits<8>>,
-    /// What it has.
-    pub has_greeting: Signal<Out, Bit>,
-    pub has_digest: Signal<Out, Bit>,
-    pub has_answer: Signal<Out, Bit>,
-    pub ends_answer: Signal<Out, Bit>,
-    kind_byte: DFF<Bits<8>>,
+    pub kind: Signal<Out, Byte>,
+    pub contents: Signal<Out, Contents>,
+    kind_byte: DFF<Byte>,
     is_hello: DFF<Bit>,
     is_receipt: DFF<Bit>,
     is_answer: DFF<Bit>,
@@ -44,9 +41,9 @@ pub struct FrameChoice {
     may_start: Signal<Local, Bit>,
     begins_reply: Signal<Local, Bit>,
     begins_answer: Signal<Local, Bit>,
-    hello_kind: Signal<Local, Bits<8>>,
-    ack_kind: Signal<Local, Bits<8>>,
-    nak_kind: Signal<Local, Bits<8>>,
+    hello_kind: Signal<Local, Byte>,
+    ack_kind: Signal<Local, Byte>,
+    nak_kind: Signal<Local, Byte>,
 }
 
 // The kernel names types by number, because rust-hdl takes literals only; a change in the protocol must come here.
@@ -67,10 +64,10 @@ impl Logic for FrameChoice {
         self.ack_kind.next = 0x83.into();
         self.nak_kind.next = 0x84.into();
         self.kind.next = self.kind_byte.q.val();
-        self.has_greeting.next = self.is_hello.q.val();
-        self.has_digest.next = self.is_receipt.q.val();
-        self.has_answer.next = self.is_answer.q.val();
-        self.ends_answer.next = self.is_end.q.val();
+        self.contents.next.has_greeting = self.is_hello.q.val();
+        self.contents.next.has_digest = self.is_receipt.q.val();
+        self.contents.next.has_answer = self.is_answer.q.val();
+        self.contents.next.ends_answer = self.is_end.q.val();
 
         self.may_start.next = self.is_idle.val() & (!self.holds.val());
         self.begins_reply.next = self.may_start.val() & self.reply_is_due.val();

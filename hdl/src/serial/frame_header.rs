@@ -4,6 +4,8 @@
 //!
 //! Latency: none (combinational) from `kind` and `index`.
 
+use super::types::{Byte, Receipt, Session};
+use crate::link::types::Word;
 use incircle_protocol::{STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -17,36 +19,31 @@ pub struct FrameHeader {
     /// A frame begins: all below is as it is now, until the next begins.
     pub starts: Signal<In, Bit>,
     /// Fields of the header.
-    pub session: Signal<In, Bits<8>>,
-    pub expected: Signal<In, Bits<8>>,
-    pub answers: Signal<In, Bits<8>>,
-    pub free: Signal<In, Bits<16>>,
-    /// A session is open; the last `Rate` was refused; a command is under way.
-    pub is_open: Signal<In, Bit>,
+    pub open: Signal<In, Session>,
+    pub answers: Signal<In, Byte>,
+    pub receipt: Signal<In, Receipt>,
+    /// The last `Rate` was refused; a command is under way.
     pub is_refused: Signal<In, Bit>,
     pub is_busy: Signal<In, Bit>,
     /// A frame of the host is dropped.
     pub drops: Signal<In, Bit>,
-    /// State of the check sum of the session's payload.
-    pub digest: Signal<In, Bits<32>>,
     /// Type of the frame; byte of the header.
-    pub kind: Signal<In, Bits<8>>,
+    pub kind: Signal<In, Byte>,
     pub index: Signal<In, Bits<3>>,
-    /// It.
-    pub byte_data: Signal<Out, Bits<8>>,
-    /// The state as it was.
-    pub digest_taken: Signal<Out, Bits<32>>,
-    session_then: DFF<Bits<8>>,
-    expected_then: DFF<Bits<8>>,
-    answers_then: DFF<Bits<8>>,
+    pub byte_data: Signal<Out, Byte>,
+    /// The digest as it was.
+    pub digest_taken: Signal<Out, Word>,
+    session_then: DFF<Byte>,
+    expected_then: DFF<Byte>,
+    answers_then: DFF<Byte>,
     free_then: DFF<Bits<16>>,
-    status_then: DFF<Bits<8>>,
-    digest_then: DFF<Bits<32>>,
+    status_then: DFF<Byte>,
+    digest_then: DFF<Word>,
     has_dropped: DFF<Bit>,
-    open_bit: Signal<Local, Bits<8>>,
-    refused_bit: Signal<Local, Bits<8>>,
-    dropped_bit: Signal<Local, Bits<8>>,
-    busy_bit: Signal<Local, Bits<8>>,
+    open_bit: Signal<Local, Byte>,
+    refused_bit: Signal<Local, Byte>,
+    dropped_bit: Signal<Local, Byte>,
+    busy_bit: Signal<Local, Byte>,
 }
 
 // The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
@@ -65,7 +62,7 @@ impl Logic for FrameHeader {
         self.refused_bit.next = 0.into();
         self.dropped_bit.next = 0.into();
         self.busy_bit.next = 0.into();
-        if self.is_open.val() {
+        if self.open.val().is_open {
             self.open_bit.next = 1.into();
         }
         if self.is_refused.val() {
@@ -78,13 +75,13 @@ impl Logic for FrameHeader {
             self.busy_bit.next = 8.into();
         }
         if self.starts.val() {
-            self.session_then.d.next = self.session.val();
-            self.expected_then.d.next = self.expected.val();
+            self.session_then.d.next = self.open.val().number;
+            self.expected_then.d.next = self.open.val().expected;
             self.answers_then.d.next = self.answers.val();
-            self.free_then.d.next = self.free.val();
+            self.free_then.d.next = self.receipt.val().free;
             self.status_then.d.next =
                 self.open_bit.val() | self.refused_bit.val() | self.dropped_bit.val() | self.busy_bit.val();
-            self.digest_then.d.next = self.digest.val();
+            self.digest_then.d.next = self.receipt.val().digest;
             self.has_dropped.d.next = false;
         }
         if self.drops.val() {

@@ -5,6 +5,7 @@
 //!
 //! Latency: 4 clocks from `starts` to the first byte; 4 from a byte taken to the next, and not before the check sum has taken it.
 
+use super::types::{Byte, BytePlace, Contents};
 use super::FramePart;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -29,17 +30,13 @@ pub struct FrameSender {
     /// A frame begins at this edge.
     pub starts: Signal<In, Bit>,
     /// What the frame under way has, from `FrameChoice`.
-    pub has_greeting: Signal<In, Bit>,
-    pub has_digest: Signal<In, Bit>,
-    pub has_answer: Signal<In, Bit>,
-    pub ends_answer: Signal<In, Bit>,
+    pub contents: Signal<In, Contents>,
     /// An answer is over: its frame is to end, invalid.
     pub cuts: Signal<In, Bit>,
-    /// Part of the frame (0 header, 1 greeting, 2 digest, 3 head of an answer, 4 words, 5 check sum), and byte of that.
-    pub part: Signal<Out, Bits<3>>,
-    pub index: Signal<Out, Bits<6>>,
-    /// That byte, 2 clocks later; the check sum has not taken the byte before.
-    pub byte_data: Signal<In, Bits<8>>,
+    /// The byte of the frame that is wanted.
+    pub at: Signal<Out, BytePlace>,
+    /// The byte, 2 clocks later; the check sum has not taken the byte before.
+    pub byte_data: Signal<In, Byte>,
     pub sum_is_busy: Signal<In, Bit>,
     /// The next byte of the words is there; it is the last one of the frame.
     pub word_byte_valid: Signal<In, Bit>,
@@ -50,7 +47,7 @@ pub struct FrameSender {
     /// Bytes of the frame.
     pub data_valid: Signal<Out, Bit>,
     pub data_ready: Signal<In, Bit>,
-    pub data: Signal<Out, Bits<8>>,
+    pub data: Signal<Out, Byte>,
     /// No byte follows; the frame is to be invalid; it is over.
     pub ends: Signal<Out, Bit>,
     pub is_cut: Signal<Out, Bit>,
@@ -66,7 +63,7 @@ pub struct FrameSender {
     asked_once: DFF<Bit>,
     asked_twice: DFF<Bit>,
     is_loaded: DFF<Bit>,
-    loaded: DFF<Bits<8>>,
+    loaded: DFF<Byte>,
     was_cut: DFF<Bit>,
     part_end: FramePart,
     is_words: Signal<Local, Bit>,
@@ -87,19 +84,18 @@ impl Logic for FrameSender {
         self.one.next = 1.into();
         self.words_part.next = 4.into();
         self.sum_part.next = 5.into();
-        self.part.next = self.part_number.q.val();
-        self.index.next = self.place.q.val();
+        self.at.next.part = self.part_number.q.val();
+        self.at.next.index = self.place.q.val();
         self.data_valid.next = self.is_loaded.q.val();
         self.data.next = self.loaded.q.val();
         self.is_cut.next = self.was_cut.q.val();
         self.is_idle.next = self.state.q.val() == SendState::Idle;
         self.ends.next = (self.state.q.val() == SendState::End) & (!self.is_loaded.q.val());
         self.answer_ended.next =
-            self.ended.val() & self.ends_answer.val() & (!self.was_cut.q.val()) & (!self.cuts.val());
+            self.ended.val() & self.contents.val().ends_answer & (!self.was_cut.q.val()) & (!self.cuts.val());
 
         // A byte is asked for through two ranks of registers, while none is loaded and the check sum rests.
-        self.part_end.part.next = self.part_number.q.val();
-        self.part_end.index.next = self.place.q.val();
+        self.part_end.at.next = self.at.val();
         self.part_end.word_byte_is_last.next = self.word_byte_is_last.val();
         self.is_words.next = self.part_number.q.val() == self.words_part.val();
         self.is_sum.next = self.part_number.q.val() == self.sum_part.val();
@@ -127,13 +123,13 @@ impl Logic for FrameSender {
             self.part_number.d.next = 5.into();
             match self.part_number.q.val().index() {
                 0 => {
-                    if self.has_greeting.val() {
+                    if self.contents.val().has_greeting {
                         self.part_number.d.next = 1.into();
                     }
-                    if self.has_digest.val() {
+                    if self.contents.val().has_digest {
                         self.part_number.d.next = 2.into();
                     }
-                    if self.has_answer.val() {
+                    if self.contents.val().has_answer {
                         self.part_number.d.next = 3.into();
                     }
                 }
@@ -141,7 +137,7 @@ impl Logic for FrameSender {
                     self.part_number.d.next = 4.into();
                 }
                 4 => {
-                    if self.ends_answer.val() {
+                    if self.contents.val().ends_answer {
                         self.part_number.d.next = 2.into();
                     }
                 }
@@ -162,7 +158,7 @@ impl Logic for FrameSender {
         if (self.state.q.val() == SendState::End) & self.ended.val() {
             self.state.d.next = SendState::Idle;
         }
-        if self.cuts.val() & self.has_answer.val() & (self.state.q.val() != SendState::Idle) {
+        if self.cuts.val() & self.contents.val().has_answer & (self.state.q.val() != SendState::Idle) {
             self.was_cut.d.next = true;
             self.is_loaded.d.next = false;
             if self.state.q.val() == SendState::Parts {

@@ -2,7 +2,9 @@
 //!
 //! Latency: 1 clock.
 
+use super::types::Byte;
 use crate::leaf::Parameter;
+use crate::link::types::Word;
 use incircle_protocol::{
     Config, Greeting as GreetingWords, Identity, LinkConfig, CORE_COORD_BITS, CORE_VERSION, GREETING_WORDS, LINK_MAGIC,
     LINK_VERSION, MAGIC, PROTOCOL_VERSION,
@@ -18,25 +20,24 @@ pub struct Greeting {
     pub clock: Signal<In, Clock>,
     /// A byte of the greeting, 0 to 51.
     pub index: Signal<In, Bits<6>>,
-    /// It.
-    pub byte_data: Signal<Out, Bits<8>>,
-    chosen: DFF<Bits<8>>,
-    word: Signal<Local, Bits<32>>,
+    pub byte_data: Signal<Out, Byte>,
+    chosen: DFF<Byte>,
+    word: Signal<Local, Word>,
     word_index: Signal<Local, Bits<4>>,
     place: Signal<Local, Bits<2>>,
-    word0: Parameter<Bits<32>>,
-    word1: Parameter<Bits<32>>,
-    word2: Parameter<Bits<32>>,
-    word3: Parameter<Bits<32>>,
-    word4: Parameter<Bits<32>>,
-    word5: Parameter<Bits<32>>,
-    word6: Parameter<Bits<32>>,
-    word7: Parameter<Bits<32>>,
-    word8: Parameter<Bits<32>>,
-    word9: Parameter<Bits<32>>,
-    word10: Parameter<Bits<32>>,
-    word11: Parameter<Bits<32>>,
-    word12: Parameter<Bits<32>>,
+    word0: Parameter<Word>,
+    word1: Parameter<Word>,
+    word2: Parameter<Word>,
+    word3: Parameter<Word>,
+    word4: Parameter<Word>,
+    word5: Parameter<Word>,
+    word6: Parameter<Word>,
+    word7: Parameter<Word>,
+    word8: Parameter<Word>,
+    word9: Parameter<Word>,
+    word10: Parameter<Word>,
+    word11: Parameter<Word>,
+    word12: Parameter<Word>,
 }
 
 impl Greeting {
@@ -62,7 +63,7 @@ impl Greeting {
         }
     }
 
-    /// Its words.
+    /// The words of the greeting.
     fn words(config: Config, link: LinkConfig) -> [u32; GREETING_WORDS] {
         let LinkConfig { clock_hz, fifo_bytes, silence_ms } = link;
         let identity = Identity {

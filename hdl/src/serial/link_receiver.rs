@@ -9,7 +9,9 @@
 //! ```
 //! Latency: see the blocks.
 
+use super::types::{Byte, Receipt, Session, Step};
 use super::{Asked, CobsDecoder, CommandWords, FrameJudge, FrameReader, PayloadDigest, ReceiveFifo, UartReceiver};
+use crate::link::types::Word;
 use crate::link::CommandSource;
 use incircle_protocol::LinkConfig;
 use rust_hdl_core::prelude::*;
@@ -20,22 +22,16 @@ pub struct LinkReceiver {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     /// Rate, and the line.
-    pub step: Signal<In, Bits<22>>,
+    pub step: Signal<In, Step>,
     pub rx: Signal<In, Bit>,
-    /// The session.
-    pub is_open: Signal<In, Bit>,
-    pub open_session: Signal<In, Bits<8>>,
-    pub expected: Signal<In, Bits<8>>,
+    pub open: Signal<In, Session>,
     /// Empty the FIFO.
     pub forgets: Signal<In, Bit>,
     /// What a frame asks for, the session it names, the last four bytes of its payload.
     pub asked: Signal<Out, Asked>,
-    pub session: Signal<Out, Bits<8>>,
-    pub value: Signal<Out, Bits<32>>,
-    /// Bytes of the FIFO that are free.
-    pub free: Signal<Out, Bits<16>>,
-    /// State of the check sum of the session's payload.
-    pub digest: Signal<Out, Bits<32>>,
+    pub named: Signal<Out, Byte>,
+    pub value: Signal<Out, Word>,
+    pub receipt: Signal<Out, Receipt>,
     /// The line is low.
     pub is_low: Signal<Out, Bit>,
     pub command: CommandSource,
@@ -76,20 +72,15 @@ impl Logic for LinkReceiver {
         self.reader.data.next = self.decoder.data.val();
         self.reader.frame_ends.next = self.decoder.frame_ends.val();
         self.reader.is_broken.next = self.decoder.is_broken.val();
-        self.session.next = self.reader.session.val();
+        self.named.next = self.reader.head.val().session;
         self.value.next = self.reader.value.val();
 
         self.judge.reset.next = self.reset.val();
-        self.judge.session.next = self.reader.session.val();
-        self.judge.kind.next = self.reader.kind.val();
-        self.judge.number.next = self.reader.number.val();
-        self.judge.length.next = self.reader.length.val();
+        self.judge.head.next = self.reader.head.val();
         self.judge.header_comes.next = self.reader.header_comes.val();
         self.judge.comes.next = self.reader.comes.val();
         self.judge.is_sound.next = self.reader.is_sound.val();
-        self.judge.is_open.next = self.is_open.val();
-        self.judge.open_session.next = self.open_session.val();
-        self.judge.expected.next = self.expected.val();
+        self.judge.open.next = self.open.val();
         self.judge.free.next = self.fifo.free.val();
         self.asked.next = self.judge.asked.val();
 
@@ -100,13 +91,13 @@ impl Logic for LinkReceiver {
         self.fifo.push.next = self.pushes.val();
         self.fifo.push_data.next = self.reader.payload.val();
         self.fifo.commits.next = self.judge.asked.val().takes;
-        self.free.next = self.fifo.free.val();
+        self.receipt.next.free = self.fifo.free.val();
         self.payload_digest.reset.next = self.clears.val();
         self.payload_digest.begins.next = self.reader.header_comes.val();
         self.payload_digest.push.next = self.pushes.val();
         self.payload_digest.push_data.next = self.reader.payload.val();
         self.payload_digest.commits.next = self.judge.asked.val().takes;
-        self.digest.next = self.payload_digest.state.val();
+        self.receipt.next.digest = self.payload_digest.state.val();
 
         self.words.reset.next = self.clears.val();
         self.words.byte_valid.next = self.fifo.byte_valid.val();

@@ -9,10 +9,12 @@
 //! ```
 //! Latency: see the blocks.
 
+use super::types::{Receipt, Session, Step};
 use super::{
     AnswerPacker, Asked, CobsEncoder, Crc32, FrameBytes, FrameChoice, FrameHeader, FrameSender, Greeting, Replies,
     UartTransmitter, WordNarrower,
 };
+use crate::link::types::Word;
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;
 
@@ -22,18 +24,14 @@ pub struct LinkTransmitter {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     /// Rate, and the line.
-    pub step: Signal<In, Bits<22>>,
+    pub step: Signal<In, Step>,
     pub tx: Signal<Out, Bit>,
     /// What a frame of the host asks for; a gap was seen before it.
     pub asked: Signal<In, Asked>,
     pub saw_gap: Signal<In, Bit>,
-    /// What a frame to the host says.
-    pub session: Signal<In, Bits<8>>,
-    pub expected: Signal<In, Bits<8>>,
-    pub free: Signal<In, Bits<16>>,
-    pub digest: Signal<In, Bits<32>>,
-    /// Its status.
-    pub is_open: Signal<In, Bit>,
+    /// The session and the receipt that a frame to the host reports.
+    pub open: Signal<In, Session>,
+    pub receipt: Signal<In, Receipt>,
     pub is_refused: Signal<In, Bit>,
     pub is_busy: Signal<In, Bit>,
     /// The session ends; its answers are over; no frame may begin.
@@ -66,7 +64,7 @@ pub struct LinkTransmitter {
     encoder: CobsEncoder,
     uart: UartTransmitter,
     is_over: Signal<Local, Bit>,
-    first_state: Signal<Local, Bits<32>>,
+    first_state: Signal<Local, Word>,
 }
 
 const _: () = assert!(Crc32::FIRST == 0xffff_ffff, "the literal of this block follows the check sum");
@@ -124,10 +122,7 @@ impl Logic for LinkTransmitter {
         // The frame.
         self.sender.reset.next = self.reset.val();
         self.sender.starts.next = self.choice.starts.val();
-        self.sender.has_greeting.next = self.choice.has_greeting.val();
-        self.sender.has_digest.next = self.choice.has_digest.val();
-        self.sender.has_answer.next = self.choice.has_answer.val();
-        self.sender.ends_answer.next = self.choice.ends_answer.val();
+        self.sender.contents.next = self.choice.contents.val();
         self.sender.cuts.next = self.is_over.val();
         self.sender.byte_data.next = self.bytes.byte_data.val();
         self.sender.sum_is_busy.next = self.frame_sum.is_busy.val() | self.answer_digest.is_busy.val();
@@ -141,26 +136,22 @@ impl Logic for LinkTransmitter {
         // Its bytes.
         self.header.reset.next = self.reset.val();
         self.header.starts.next = self.choice.starts.val();
-        self.header.session.next = self.session.val();
-        self.header.expected.next = self.expected.val();
-        self.header.answers.next = self.packer.number.val();
-        self.header.free.next = self.free.val();
-        self.header.is_open.next = self.is_open.val();
+        self.header.open.next = self.open.val();
+        self.header.answers.next = self.packer.answer.val().number;
+        self.header.receipt.next = self.receipt.val();
         self.header.is_refused.next = self.is_refused.val();
         self.header.is_busy.next = self.is_busy.val();
         self.header.drops.next = self.asked.val().drops;
-        self.header.digest.next = self.digest.val();
         self.header.kind.next = self.choice.kind.val();
-        self.header.index.next = self.sender.index.val().get_bits::<3>(0);
-        self.greeting.index.next = self.sender.index.val();
-        self.bytes.part.next = self.sender.part.val();
-        self.bytes.index.next = self.sender.index.val().get_bits::<2>(0);
-        self.bytes.ends_answer.next = self.choice.ends_answer.val();
+        self.header.index.next = bit_cast::<3, 6>(self.sender.at.val().index);
+        self.greeting.index.next = self.sender.at.val().index;
+        self.bytes.part.next = self.sender.at.val().part;
+        self.bytes.index.next = bit_cast::<2, 6>(self.sender.at.val().index);
+        self.bytes.ends_answer.next = self.choice.contents.val().ends_answer;
         self.bytes.header.next = self.header.byte_data.val();
         self.bytes.greeting.next = self.greeting.byte_data.val();
         self.bytes.word.next = self.packer.byte_data.val();
-        self.bytes.answers.next = self.packer.number.val();
-        self.bytes.answer_part.next = self.packer.part.val();
+        self.bytes.answer.next = self.packer.answer.val();
         self.bytes.payload_state.next = self.header.digest_taken.val();
         self.bytes.answer_state.next = self.answer_digest.state.val();
         self.bytes.sum_state.next = self.frame_sum.state.val();

@@ -4,7 +4,9 @@
 //!
 //! Latency: 1 clock from `commits`.
 
+use super::types::Byte;
 use super::Crc32;
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -18,14 +20,14 @@ pub struct PayloadDigest {
     pub begins: Signal<In, Bit>,
     /// One more byte, which does not count yet.
     pub push: Signal<In, Bit>,
-    pub push_data: Signal<In, Bits<8>>,
+    pub push_data: Signal<In, Byte>,
     /// All bytes count.
     pub commits: Signal<In, Bit>,
     /// State of the check sum over all bytes that count.
-    pub state: Signal<Out, Bits<32>>,
-    committed: DFF<Bits<32>>,
+    pub state: Signal<Out, Word>,
+    committed: DFF<Word>,
     crc: Crc32,
-    first_state: Signal<Local, Bits<32>>,
+    first_state: Signal<Local, Word>,
 }
 
 const _: () = assert!(Crc32::FIRST == 0xffff_ffff, "the literal of this block follows the check sum");

@@ -6,8 +6,10 @@
 //!
 //! Latency: 1 clock.
 
+use super::types::Step;
 use super::Asked;
 use crate::leaf::Parameter;
+use crate::link::types::Word;
 use incircle_protocol::{LinkConfig, FIRST_RATE, MAX_STEP};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -20,7 +22,7 @@ pub struct RateControl {
     pub reset: Signal<In, Bit>,
     /// What a frame asks for, and the step if it is a `Rate`.
     pub asked: Signal<In, Asked>,
-    pub value: Signal<In, Bits<32>>,
+    pub value: Signal<In, Word>,
     /// Return to the first rate at this edge.
     pub fails: Signal<In, Bit>,
     /// An `Ack` or `Nak` begins; a `Closed`.
@@ -29,14 +31,14 @@ pub struct RateControl {
     /// No frame to the host is under way, and the last stop bit is over.
     pub is_quiet: Signal<In, Bit>,
     /// A bit takes `2^24 / step` clocks.
-    pub step: Signal<Out, Bits<22>>,
+    pub step: Signal<Out, Step>,
     /// The last `Rate` of the session was refused.
     pub is_refused: Signal<Out, Bit>,
     /// No frame may begin: the rate is about to change.
     pub holds: Signal<Out, Bit>,
-    present: DFF<Bits<22>>,
-    wanted: DFF<Bits<22>>,
-    coming: DFF<Bits<22>>,
+    present: DFF<Step>,
+    wanted: DFF<Step>,
+    coming: DFF<Step>,
     is_some: DFF<Bit>,
     is_small: DFF<Bit>,
     is_large: DFF<Bit>,
@@ -47,7 +49,7 @@ pub struct RateControl {
     is_fit: Signal<Local, Bit>,
     low: Signal<Local, Bits<21>>,
     high: Signal<Local, Bits<10>>,
-    first: Parameter<Bits<22>>,
+    first: Parameter<Step>,
 }
 
 const _: () = assert!(MAX_STEP == 1 << 21, "the largest step of this block is the protocol's");

@@ -10,6 +10,7 @@
 //! a whole memory behind the oldest byte and so is its address too. They have 16 bits, of which the memory uses as many as it has: the
 //! difference of two is the number of bytes between them.
 
+use super::types::Byte;
 use crate::leaf::{BlockMemory, Parameter};
 use incircle_protocol::LinkConfig;
 use rust_hdl_core::prelude::*;
@@ -28,14 +29,14 @@ pub struct ReceiveFifo {
     pub begins: Signal<In, Bit>,
     /// One more byte, which does not count yet.
     pub push: Signal<In, Bit>,
-    pub push_data: Signal<In, Bits<8>>,
+    pub push_data: Signal<In, Byte>,
     /// All bytes count.
     pub commits: Signal<In, Bit>,
     /// Bytes that may be pushed, apart from those that do not count yet.
     pub free: Signal<Out, Bits<16>>,
     /// The oldest byte that counts; it is taken at this edge.
     pub byte_valid: Signal<Out, Bit>,
-    pub byte_data: Signal<Out, Bits<8>>,
+    pub byte_data: Signal<Out, Byte>,
     pub takes: Signal<In, Bit>,
     memory: BlockMemory<ADDRESS_BITS, 8>,
     provisional: DFF<Bits<16>>,

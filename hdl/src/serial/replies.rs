@@ -7,6 +7,7 @@
 //!
 //! Latency: 1 clock.
 
+use super::types::Byte;
 use super::Asked;
 use incircle_protocol::DeviceFrame;
 use rust_hdl_core::prelude::*;
@@ -25,8 +26,8 @@ pub struct Replies {
     pub fails: Signal<In, Bit>,
     /// A control frame is due; its type.
     pub is_due: Signal<Out, Bit>,
-    pub kind: Signal<Out, Bits<8>>,
-    /// It begins at this edge.
+    pub kind: Signal<Out, Byte>,
+    /// The control frame begins at this edge.
     pub starts: Signal<In, Bit>,
     /// The frame that is due is an `Ack` or `Nak`; a `Closed`.
     pub acknowledges: Signal<Out, Bit>,

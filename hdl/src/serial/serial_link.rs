@@ -13,6 +13,7 @@
 //! ```
 //! Latency: see the blocks.
 
+use super::types::Lamps;
 use super::{CommandProgress, LineTimers, LinkReceiver, LinkTransmitter, RateControl, SessionState};
 use crate::link::{AnswerSink, CommandSource};
 use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
@@ -28,10 +29,7 @@ pub struct SerialLink {
     /// The line, high when idle.
     pub rx: Signal<In, Bit>,
     pub tx: Signal<Out, Bit>,
-    /// For lamps: a beat, or steady in a session; a command is under way; a frame was dropped in this session.
-    pub alive: Signal<Out, Bit>,
-    pub busy: Signal<Out, Bit>,
-    pub error: Signal<Out, Bit>,
+    pub lamps: Signal<Out, Lamps>,
     /// Reset of the core.
     pub core_reset: Signal<Out, Bit>,
     pub command: CommandSource,
@@ -106,9 +104,7 @@ impl Logic for SerialLink {
         // From the line to the core.
         self.receiver.step.next = self.rate.step.val();
         self.receiver.rx.next = self.rx.val();
-        self.receiver.is_open.next = self.session.is_open.val();
-        self.receiver.open_session.next = self.session.number.val();
-        self.receiver.expected.next = self.session.expected.val();
+        self.receiver.open.next = self.session.open.val();
         self.receiver.forgets.next = self.session.forgets.val();
         self.takes_command.next =
             self.receiver.command.valid.val() & self.command.ready.val() & (!self.resets_core.q.val());
@@ -120,9 +116,9 @@ impl Logic for SerialLink {
         self.timers.is_low.next = self.receiver.is_low.val();
         self.timers.hears.next = self.receiver.asked.val().hears;
         self.has_failed.d.next = self.timers.is_broken.val()
-            | (self.timers.is_silent.val() & self.session.is_open.val() & (!self.receiver.asked.val().hears));
+            | (self.timers.is_silent.val() & self.session.open.val().is_open & (!self.receiver.asked.val().hears));
         self.session.asked.next = self.receiver.asked.val();
-        self.session.session.next = self.receiver.session.val();
+        self.session.session.next = self.receiver.named.val();
         self.session.fails.next = self.has_failed.q.val();
         self.rate.asked.next = self.receiver.asked.val();
         self.rate.value.next = self.receiver.value.val();
@@ -141,11 +137,8 @@ impl Logic for SerialLink {
         self.transmitter.step.next = self.rate.step.val();
         self.transmitter.asked.next = self.receiver.asked.val();
         self.transmitter.saw_gap.next = self.session.saw_gap.val();
-        self.transmitter.session.next = self.session.number.val();
-        self.transmitter.expected.next = self.session.expected.val();
-        self.transmitter.free.next = self.receiver.free.val();
-        self.transmitter.digest.next = self.receiver.digest.val();
-        self.transmitter.is_open.next = self.session.is_open.val();
+        self.transmitter.open.next = self.session.open.val();
+        self.transmitter.receipt.next = self.receiver.receipt.val();
         self.transmitter.is_refused.next = self.rate.is_refused.val();
         self.transmitter.is_busy.next = self.progress.is_busy.val();
         self.transmitter.fails.next = self.has_failed.q.val();
@@ -164,8 +157,8 @@ impl Logic for SerialLink {
         if self.clears.val() {
             self.dropped.d.next = false;
         }
-        self.alive.next = self.session.is_open.val() | self.timers.beat.val();
-        self.busy.next = self.progress.is_busy.val();
-        self.error.next = self.dropped.q.val();
+        self.lamps.next.alive = self.session.open.val().is_open | self.timers.beat.val();
+        self.lamps.next.busy = self.progress.is_busy.val();
+        self.lamps.next.error = self.dropped.q.val();
     }
 }

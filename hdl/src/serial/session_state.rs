@@ -6,6 +6,7 @@
 //!
 //! Latency: 1 clock.
 
+use super::types::{Byte, Session};
 use super::Asked;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -18,14 +19,10 @@ pub struct SessionState {
     pub reset: Signal<In, Bit>,
     /// What a frame asks for, and the session it names.
     pub asked: Signal<In, Asked>,
-    pub session: Signal<In, Bits<8>>,
+    pub session: Signal<In, Byte>,
     /// Silence or a break: the session ends at this edge.
     pub fails: Signal<In, Bit>,
-    /// A session is open; its number, or 0.
-    pub is_open: Signal<Out, Bit>,
-    pub number: Signal<Out, Bits<8>>,
-    /// Number of the `Data` frame that is awaited.
-    pub expected: Signal<Out, Bits<8>>,
+    pub open: Signal<Out, Session>,
     /// A `Data` frame behind it has come, or one without room, since the last that was taken.
     pub saw_gap: Signal<Out, Bit>,
     /// Whatever belongs to a session is to be forgotten: none is open, or one begins.
@@ -33,12 +30,12 @@ pub struct SessionState {
     /// Something has just changed: no frame to the host may begin.
     pub settles: Signal<Out, Bit>,
     opened: DFF<Bit>,
-    session_number: DFF<Bits<8>>,
-    awaited: DFF<Bits<8>>,
+    session_number: DFF<Byte>,
+    awaited: DFF<Byte>,
     gap: DFF<Bit>,
     begins: DFF<Bit>,
     settling: DFF<Bits<3>>,
-    one: Signal<Local, Bits<8>>,
+    one: Signal<Local, Byte>,
     one_clock: Signal<Local, Bits<3>>,
 }
 
@@ -48,9 +45,9 @@ impl Logic for SessionState {
         dff_setup!(self, clock, opened, session_number, awaited, gap, begins, settling);
         self.one.next = 1.into();
         self.one_clock.next = 1.into();
-        self.is_open.next = self.opened.q.val();
-        self.number.next = self.session_number.q.val();
-        self.expected.next = self.awaited.q.val();
+        self.open.next.is_open = self.opened.q.val();
+        self.open.next.number = self.session_number.q.val();
+        self.open.next.expected = self.awaited.q.val();
         self.saw_gap.next = self.gap.q.val();
         self.forgets.next = self.begins.q.val() | (!self.opened.q.val());
         self.settles.next = self.settling.q.val().any();

@@ -9,6 +9,7 @@
 //!
 //! Source: the two registers are the usual guard against metastability. All store the line inverted, so that they begin as an idle one.
 
+use super::types::{Byte, Step};
 use super::BitClock;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -35,12 +36,12 @@ pub struct UartReceiver {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     /// A bit takes `2^24 / step` clocks, at least 8.
-    pub step: Signal<In, Bits<22>>,
+    pub step: Signal<In, Step>,
     /// The line, high when idle; it may change at any time.
     pub rx: Signal<In, Bit>,
     /// A byte has come.
     pub byte_valid: Signal<Out, Bit>,
-    pub byte_data: Signal<Out, Bits<8>>,
+    pub byte_data: Signal<Out, Byte>,
     /// A byte without a stop bit has come: it is lost.
     pub noise: Signal<Out, Bit>,
     /// The line as it is, for the detection of a break.
@@ -51,16 +52,16 @@ pub struct UartReceiver {
     sample_first: DFF<Bit>,
     vote: DFF<Bit>,
     state: DFF<ReceiveState>,
-    bits: DFF<Bits<8>>,
+    bits: DFF<Byte>,
     place: DFF<Bits<3>>,
     comes: DFF<Bit>,
     is_noise: DFF<Bit>,
     bit_clock: BitClock,
-    shifted: Signal<Local, Bits<8>>,
-    one: Signal<Local, Bits<8>>,
+    shifted: Signal<Local, Byte>,
+    one: Signal<Local, Byte>,
     one_place: Signal<Local, Bits<3>>,
     last_place: Signal<Local, Bits<3>>,
-    top_bit: Signal<Local, Bits<8>>,
+    top_bit: Signal<Local, Byte>,
 }
 
 impl UartReceiver {

@@ -7,6 +7,7 @@
 //!
 //! Source: the line is stored inverted, so that it is high before reset too.
 
+use super::types::{Byte, Step};
 use super::BitClock;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -18,24 +19,24 @@ pub struct UartTransmitter {
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     /// A bit takes `2^24 / step` clocks.
-    pub step: Signal<In, Bits<22>>,
+    pub step: Signal<In, Step>,
     /// The bytes.
     pub byte_valid: Signal<In, Bit>,
     pub byte_ready: Signal<Out, Bit>,
-    pub byte_data: Signal<In, Bits<8>>,
+    pub byte_data: Signal<In, Byte>,
     /// The line, high when idle.
     pub tx: Signal<Out, Bit>,
     /// The last stop bit is over.
     pub is_idle: Signal<Out, Bit>,
     is_low: DFF<Bit>,
     /// Data bits that are still to come, inverted; the stop bit follows them as zeros.
-    bits: DFF<Bits<8>>,
+    bits: DFF<Byte>,
     /// Bits of the byte, the one on the line included.
     left: DFF<Bits<4>>,
     bit_clock: BitClock,
     is_over: Signal<Local, Bit>,
-    all: Signal<Local, Bits<8>>,
-    one: Signal<Local, Bits<8>>,
+    all: Signal<Local, Byte>,
+    one: Signal<Local, Byte>,
     one_bit: Signal<Local, Bits<4>>,
 }
 

@@ -13,6 +13,7 @@
 //! word_ready      /^^\__/^^^^^^^^
 //! ```
 
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -26,12 +27,12 @@ pub struct WordNarrower {
     pub pair_valid: Signal<In, Bit>,
     pub pair_ready: Signal<Out, Bit>,
     pub pair: Signal<In, Bits<64>>,
-    /// It has two.
+    /// The beat has two words.
     pub both: Signal<In, Bit>,
     /// The words.
     pub word_valid: Signal<Out, Bit>,
     pub word_ready: Signal<In, Bit>,
-    pub word: Signal<Out, Bits<32>>,
+    pub word: Signal<Out, Word>,
     /// The first word of the beat has been taken.
     is_second: DFF<Bit>,
     is_first_of_two: Signal<Local, Bit>,

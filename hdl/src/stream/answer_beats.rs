@@ -26,7 +26,7 @@ pub struct AnswerBeats<const W: usize> {
     pub beat_valid: Signal<Out, Bit>,
     pub beat_data: Signal<Out, Bits<W>>,
     pub beat_last: Signal<Out, Bit>,
-    /// It is not taken at this edge.
+    /// The beat is not taken at this edge.
     pub is_full: Signal<In, Bit>,
     /// Pairs are held.
     pub is_held: Signal<Out, Bit>,

@@ -19,6 +19,7 @@
 //! second            .  .  2  0  .  5  7  0  .  .  .
 //! ```
 
+use crate::link::types::Word;
 use crate::link::AnswerSink;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -34,25 +35,25 @@ pub struct AnswerPairs {
     pub pair_valid: Signal<Out, Bit>,
     pub pair_data: Signal<Out, Bits<64>>,
     pub pair_last: Signal<Out, Bit>,
-    /// It cannot go on at this edge.
+    /// The pair cannot go on at this edge.
     pub is_stalled: Signal<In, Bit>,
     /// Words are held.
     pub is_held: Signal<Out, Bit>,
     /// A word that awaits its second.
-    waiting: DFF<Bits<32>>,
+    waiting: DFF<Word>,
     awaits: DFF<Bit>,
     /// It is the last of its answer and goes alone.
     ends: DFF<Bit>,
-    first: DFF<Bits<32>>,
-    second: DFF<Bits<32>>,
+    first: DFF<Word>,
+    second: DFF<Word>,
     is_offered: DFF<Bit>,
     is_last: DFF<Bit>,
     is_free: Signal<Local, Bit>,
     is_ready: Signal<Local, Bit>,
     takes: Signal<Local, Bit>,
     keeps: Signal<Local, Bit>,
-    low: Signal<Local, Bits<32>>,
-    high: Signal<Local, Bits<32>>,
+    low: Signal<Local, Word>,
+    high: Signal<Local, Word>,
     low_half: Signal<Local, Bits<64>>,
     wide_second: Signal<Local, Bits<64>>,
     high_half: Signal<Local, Bits<64>>,

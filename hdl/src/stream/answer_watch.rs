@@ -2,6 +2,7 @@
 //!
 //! Latency: 1 clock.
 
+use crate::link::types::Word;
 use incircle_protocol::{answer_header, Status};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -28,7 +29,7 @@ pub struct AnswerWatch<const W: usize> {
     waits: DFF<Bit>,
     ends: DFF<Bit>,
     begins: DFF<Bit>,
-    word: DFF<Bits<32>>,
+    word: DFF<Word>,
     is_taken: Signal<Local, Bit>,
     status: Signal<Local, Bits<8>>,
 }

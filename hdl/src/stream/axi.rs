@@ -1,6 +1,12 @@
 //! The ports of an AXI bus on the device's side, spelt once. Names of the signals are AXI's own.
 
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
+
+/// Address of a register, in bytes.
+pub type Address = Bits<12>;
+/// Number of a register: its address divided by 4.
+pub type RegisterIndex = Bits<10>;
 
 /// AXI4-Lite: five channels, each with a `valid` and a `ready` of its own.
 #[derive(LogicInterface, Default)]
@@ -8,11 +14,11 @@ pub struct AxiLite {
     /// Address of a write.
     pub awvalid: Signal<In, Bit>,
     pub awready: Signal<Out, Bit>,
-    pub awaddr: Signal<In, Bits<12>>,
+    pub awaddr: Signal<In, Address>,
     /// Data of a write, and the bytes of it that count.
     pub wvalid: Signal<In, Bit>,
     pub wready: Signal<Out, Bit>,
-    pub wdata: Signal<In, Bits<32>>,
+    pub wdata: Signal<In, Word>,
     pub wstrb: Signal<In, Bits<4>>,
     /// Answer to a write.
     pub bvalid: Signal<Out, Bit>,
@@ -21,11 +27,11 @@ pub struct AxiLite {
     /// Address of a read.
     pub arvalid: Signal<In, Bit>,
     pub arready: Signal<Out, Bit>,
-    pub araddr: Signal<In, Bits<12>>,
+    pub araddr: Signal<In, Address>,
     /// Answer to a read.
     pub rvalid: Signal<Out, Bit>,
     pub rready: Signal<In, Bit>,
-    pub rdata: Signal<Out, Bits<32>>,
+    pub rdata: Signal<Out, Word>,
     pub rresp: Signal<Out, Bits<2>>,
 }
 

@@ -2,6 +2,8 @@
 //!
 //! Latency: none.
 
+use super::RegisterIndex;
+use crate::link::types::Word;
 use incircle_protocol::{
     Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
 };
@@ -12,21 +14,21 @@ use crate::leaf::Parameter;
 /// Registers of constants; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct DeviceIdentity {
-    /// Number of a register: its offset divided by 4.
-    pub index: Signal<In, Bits<10>>,
+    /// The register that is read.
+    pub index: Signal<In, RegisterIndex>,
     /// Its value, 0 if it is none of these, and whether it is one.
-    pub value: Signal<Out, Bits<32>>,
+    pub value: Signal<Out, Word>,
     pub is_known: Signal<Out, Bit>,
-    magic: Parameter<Bits<32>>,
-    stream_version: Parameter<Bits<32>>,
-    protocol_version: Parameter<Bits<32>>,
-    core_version: Parameter<Bits<32>>,
-    coord_bits: Parameter<Bits<32>>,
-    capacity: Parameter<Bits<32>>,
-    contexts: Parameter<Bits<32>>,
-    ring: Parameter<Bits<32>>,
-    beat_bits: Parameter<Bits<32>>,
-    fifo_beats: Parameter<Bits<32>>,
+    magic: Parameter<Word>,
+    stream_version: Parameter<Word>,
+    protocol_version: Parameter<Word>,
+    core_version: Parameter<Word>,
+    coord_bits: Parameter<Word>,
+    capacity: Parameter<Word>,
+    contexts: Parameter<Word>,
+    ring: Parameter<Word>,
+    beat_bits: Parameter<Word>,
+    fifo_beats: Parameter<Word>,
 }
 
 // The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.

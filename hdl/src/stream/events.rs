@@ -1,5 +1,6 @@
 //! What happened on the two streams in the clock before.
 
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 
 crate::packed! {
@@ -24,6 +25,6 @@ crate::packed! {
         /// The beat was taken and was the first one of an answer with a status other than `Ok`.
         pub failed: bool,
         /// The header word of that answer.
-        pub header: Bits<32>,
+        pub header: Word,
     }
 }

@@ -23,7 +23,7 @@ pub use answer_beats::AnswerBeats;
 pub use answer_pairs::AnswerPairs;
 pub use answer_watch::AnswerWatch;
 pub use async_fifo::AsyncFifo;
-pub use axi::{AxiLite, AxisSink, AxisSource};
+pub use axi::{Address, AxiLite, AxisSink, AxisSource, RegisterIndex};
 pub use beat_gate::BeatGate;
 pub use beat_words::BeatWords;
 pub use bus_side::BusSide;

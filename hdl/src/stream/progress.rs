@@ -5,6 +5,7 @@
 //!
 //! Latency: 1 clock.
 
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -16,7 +17,7 @@ pub struct Progress {
     pub reset: Signal<In, Bit>,
     /// The core takes this command word.
     pub takes: Signal<In, Bit>,
-    pub word: Signal<In, Bits<32>>,
+    pub word: Signal<In, Word>,
     /// It offers the last word of an answer; that is taken.
     pub offers_last: Signal<In, Bit>,
     pub ends: Signal<In, Bit>,

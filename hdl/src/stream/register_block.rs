@@ -6,11 +6,12 @@
 //!
 //! Latency: that of [`RegisterPort`]; 1 clock from an event to its register.
 
+use crate::link::types::Word;
 use incircle_protocol::{Config, StreamRegister};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{AnswerEvents, AxiLite, CommandEvents, DeviceIdentity, RegisterPort, Traffic};
+use super::{AnswerEvents, AxiLite, CommandEvents, DeviceIdentity, RegisterIndex, RegisterPort, Traffic};
 
 /// The register block; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -23,7 +24,7 @@ pub struct RegisterBlock {
     pub resets: Signal<In, Bit>,
     pub core_runs: Signal<In, Bit>,
     pub is_busy: Signal<In, Bit>,
-    /// What happens on the streams.
+    /// Events on the streams.
     pub commands: Signal<In, CommandEvents>,
     pub answers: Signal<In, AnswerEvents>,
     /// A reset is written to the control register.
@@ -33,21 +34,21 @@ pub struct RegisterBlock {
     traffic: Traffic,
     was_dropped: DFF<Bit>,
     has_failed: DFF<Bit>,
-    fault: DFF<Bits<32>>,
-    read_index: Signal<Local, Bits<10>>,
-    write_index: Signal<Local, Bits<10>>,
+    fault: DFF<Word>,
+    read_index: Signal<Local, RegisterIndex>,
+    write_index: Signal<Local, RegisterIndex>,
     writes_control: Signal<Local, Bit>,
     writes_errors: Signal<Local, Bit>,
     writes_low: Signal<Local, Bit>,
-    runs_bit: Signal<Local, Bits<32>>,
-    busy_bit: Signal<Local, Bits<32>>,
-    resets_bit: Signal<Local, Bits<32>>,
-    error_bit: Signal<Local, Bits<32>>,
-    control: Signal<Local, Bits<32>>,
-    dropped_bit: Signal<Local, Bits<32>>,
-    failed_bit: Signal<Local, Bits<32>>,
-    control_index: Signal<Local, Bits<10>>,
-    errors_index: Signal<Local, Bits<10>>,
+    runs_bit: Signal<Local, Word>,
+    busy_bit: Signal<Local, Word>,
+    resets_bit: Signal<Local, Word>,
+    error_bit: Signal<Local, Word>,
+    control: Signal<Local, Word>,
+    dropped_bit: Signal<Local, Word>,
+    failed_bit: Signal<Local, Word>,
+    control_index: Signal<Local, RegisterIndex>,
+    errors_index: Signal<Local, RegisterIndex>,
 }
 
 // The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.

@@ -22,10 +22,11 @@
 //! rdata             .  .  .  .  5  .  .  .  .
 //! ```
 
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::AxiLite;
+use super::{Address, AxiLite};
 
 /// The AXI4-Lite port; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -36,28 +37,28 @@ pub struct RegisterPort {
     pub s_axi: AxiLite,
     /// A register is written at this edge.
     pub write_enable: Signal<Out, Bit>,
-    pub write_address: Signal<Out, Bits<12>>,
-    pub write_data: Signal<Out, Bits<32>>,
+    pub write_address: Signal<Out, Address>,
+    pub write_data: Signal<Out, Word>,
     pub write_bytes: Signal<Out, Bits<4>>,
     /// There is a register at that address, and it can be written.
     pub write_is_known: Signal<In, Bit>,
     /// A register is read at this edge.
     pub read_enable: Signal<Out, Bit>,
-    pub read_address: Signal<Out, Bits<12>>,
+    pub read_address: Signal<Out, Address>,
     /// Its value; there is a register at that address.
-    pub read_data: Signal<In, Bits<32>>,
+    pub read_data: Signal<In, Word>,
     pub read_is_known: Signal<In, Bit>,
     has_address: DFF<Bit>,
-    address: DFF<Bits<12>>,
+    address: DFF<Address>,
     has_data: DFF<Bit>,
-    data: DFF<Bits<32>>,
+    data: DFF<Word>,
     bytes: DFF<Bits<4>>,
     is_written: DFF<Bit>,
     write_response: DFF<Bits<2>>,
     has_read: DFF<Bit>,
-    read_from: DFF<Bits<12>>,
+    read_from: DFF<Address>,
     is_read: DFF<Bit>,
-    value: DFF<Bits<32>>,
+    value: DFF<Word>,
     read_response: DFF<Bits<2>>,
     writes: Signal<Local, Bit>,
     reads: Signal<Local, Bit>,

@@ -14,7 +14,7 @@ use rust_hdl_widgets::prelude::*;
 pub enum ResetState {
     /// That the core's side is in reset.
     Begin,
-    /// That it is out of it.
+    /// That the core's side is out of reset.
     End,
     /// That a reset is wanted.
     Rest,

@@ -4,11 +4,12 @@
 //!
 //! Latency: 1 clock to a count, none to `value`.
 
+use crate::link::types::Word;
 use incircle_protocol::StreamRegister;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{AnswerEvents, CommandEvents};
+use super::{AnswerEvents, CommandEvents, RegisterIndex};
 
 /// Counters of the streams; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -16,25 +17,25 @@ pub struct Traffic {
     /// The bus's clock; reset sets all to 0.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// What is counted, modulo 2^32.
+    /// Events to count, modulo 2^32.
     pub commands: Signal<In, CommandEvents>,
     pub answers: Signal<In, AnswerEvents>,
-    /// Number of a register: its offset divided by 4. The register is read at this edge.
-    pub index: Signal<In, Bits<10>>,
+    /// The register that is looked at, and whether it is read at this edge.
+    pub index: Signal<In, RegisterIndex>,
     pub reads: Signal<In, Bit>,
     /// Its value, 0 if it is none of these, and whether it is one.
-    pub value: Signal<Out, Bits<32>>,
+    pub value: Signal<Out, Word>,
     pub is_known: Signal<Out, Bit>,
     clocks: DFF<Bits<64>>,
-    kept: DFF<Bits<32>>,
-    commands_taken: DFF<Bits<32>>,
-    commands_waited: DFF<Bits<32>>,
-    answers_taken: DFF<Bits<32>>,
-    answers_ended: DFF<Bits<32>>,
-    answers_waited: DFF<Bits<32>>,
-    one: Signal<Local, Bits<32>>,
+    kept: DFF<Word>,
+    commands_taken: DFF<Word>,
+    commands_waited: DFF<Word>,
+    answers_taken: DFF<Word>,
+    answers_ended: DFF<Word>,
+    answers_waited: DFF<Word>,
+    one: Signal<Local, Word>,
     one_clock: Signal<Local, Bits<64>>,
-    low_clocks: Signal<Local, Bits<10>>,
+    low_clocks: Signal<Local, RegisterIndex>,
 }
 
 // The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.

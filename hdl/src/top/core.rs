@@ -12,12 +12,13 @@
 //! Latency: see the blocks.
 
 use crate::engine::{Counters, InsertionEngine, Latencies, Write};
+use crate::leaf::Parameter;
 use crate::link::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
 /// The core; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct Core {
     /// One clock; synchronous reset, active high.
     pub clock: Signal<In, Clock>,
@@ -33,13 +34,13 @@ pub struct Core {
     engine: InsertionEngine,
     counters: Counters,
     latencies: Latencies,
-    infinite: Constant<Bits<15>>,
-    capacity: Constant<Bits<15>>,
-    ring: Constant<Bits<7>>,
-    last_id: Constant<Bits<15>>,
-    contexts: Constant<Bits<5>>,
-    all_contexts: Constant<Bits<24>>,
-    patience: Constant<Bits<22>>,
+    infinite: Parameter<Bits<15>>,
+    capacity: Parameter<Bits<15>>,
+    ring: Parameter<Bits<7>>,
+    last_id: Parameter<Bits<15>>,
+    contexts: Parameter<Bits<5>>,
+    all_contexts: Parameter<Bits<24>>,
+    patience: Parameter<Bits<22>>,
     sweeps: Signal<Local, Bit>,
 }
 
@@ -51,26 +52,15 @@ impl Core {
     pub fn new(config: Config) -> Result<Self, ConfigError> {
         let config = config.check()?;
         Ok(Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            command: CommandSink::default(),
-            response: AnswerSource::default(),
-            write: Signal::default(),
-            command_port: CommandPort::default(),
-            answer_head: AnswerHead::default(),
-            answer_words: AnswerWords::default(),
-            responder: Responder::default(),
             engine: InsertionEngine::new(config),
-            counters: Counters::default(),
-            latencies: Latencies::default(),
-            infinite: Constant::new(u64::from(infinite_vertex(config.points)).into()),
-            capacity: Constant::new(u64::from(config.points).into()),
-            ring: Constant::new(u64::from(config.ring).into()),
-            last_id: Constant::new(u64::from(triangle_capacity(config.points) - 1).into()),
-            contexts: Constant::new(u64::from(config.contexts).into()),
-            all_contexts: Constant::new(((1u64 << config.contexts) - 1).into()),
-            patience: Constant::new(u64::from(patience(config.points)).into()),
-            sweeps: Signal::default(),
+            infinite: Parameter::new(u64::from(infinite_vertex(config.points)).into()),
+            capacity: Parameter::new(u64::from(config.points).into()),
+            ring: Parameter::new(u64::from(config.ring).into()),
+            last_id: Parameter::new(u64::from(triangle_capacity(config.points) - 1).into()),
+            contexts: Parameter::new(u64::from(config.contexts).into()),
+            all_contexts: Parameter::new(((1u64 << config.contexts) - 1).into()),
+            patience: Parameter::new(u64::from(patience(config.points)).into()),
+            ..Self::default()
         })
     }
 }
@@ -96,7 +86,7 @@ impl Logic for Core {
 
         // The answer stream.
         self.answer_head.request.next = self.command_port.request.val();
-        self.answer_head.is_refused.next = self.command_port.is_refused.val();
+        self.answer_head.is_refused.next = self.command_port.clearing.val().is_refused;
         self.answer_head.records.next = self.engine.state.val().records;
         self.answer_head.collinear.next = self.engine.state.val().collinear;
         self.answer_head.stuck.next = self.engine.state.val().stuck;
@@ -129,7 +119,7 @@ impl Logic for Core {
         self.engine.limits.next.all = self.all_contexts.val();
         self.engine.limits.next.patience = self.patience.val();
         self.engine.deal.next = self.command_port.deal.val();
-        self.engine.clears.next = self.command_port.clears.val();
+        self.engine.clears.next = self.command_port.clearing.val().clears;
         self.engine.arrival.next = self.command_port.arrival.val();
         self.engine.arrived.next = self.command_port.tally.val().arrived;
         self.engine.read.next.valid = self.responder.read.val();
@@ -138,7 +128,7 @@ impl Logic for Core {
         self.write.next = self.engine.write.val();
 
         // The counters.
-        self.counters.clears.next = self.command_port.clears.val();
+        self.counters.clears.next = self.command_port.clearing.val().clears;
         self.counters.inserting.next = self.command_port.activity.val().inserting;
         self.counters.waiting.next = self.command_port.activity.val().inserting
             & self.command_port.activity.val().awaits_point
@@ -147,7 +137,7 @@ impl Logic for Core {
         self.counters.events.next = self.engine.events.val();
         self.counters.refused.next = self.command_port.tally.val().refused;
         self.counters.select.next = self.responder.index_ahead.val().get_bits::<5>(0);
-        self.latencies.clears.next = self.command_port.clears.val();
+        self.latencies.clears.next = self.command_port.clearing.val().clears;
         self.latencies.comes.next = self.counters.latency_comes.val();
         self.latencies.latency.next = self.counters.latency.val();
         self.latencies.select.next = self.responder.index.val();

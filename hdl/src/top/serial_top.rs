@@ -13,7 +13,7 @@ use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The core behind its serial link; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct SerialTop {
     /// One clock; synchronous reset, active high.
     pub clock: Signal<In, Clock>,
@@ -28,9 +28,6 @@ pub struct SerialTop {
     core: Core,
     link: SerialLink,
     resets: DFF<Bit>,
-    alive: Signal<Local, Bits<3>>,
-    busy: Signal<Local, Bits<3>>,
-    error: Signal<Local, Bits<3>>,
 }
 
 impl SerialTop {
@@ -39,20 +36,7 @@ impl SerialTop {
     /// # Errors
     /// If a parameter is out of range; the error says which and what is possible.
     pub fn new(config: Config, link: LinkConfig) -> Result<Self, SerialError> {
-        Ok(Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            rx: Signal::default(),
-            tx: Signal::default(),
-            leds: Signal::default(),
-            write: Signal::default(),
-            core: Core::new(config)?,
-            link: SerialLink::new(config, link)?,
-            resets: DFF::default(),
-            alive: Signal::default(),
-            busy: Signal::default(),
-            error: Signal::default(),
-        })
+        Ok(Self { core: Core::new(config)?, link: SerialLink::new(config, link)?, ..Self::default() })
     }
 }
 
@@ -69,19 +53,6 @@ impl Logic for SerialTop {
         CommandSource::join(&mut self.link.command, &mut self.core.command);
         AnswerSink::join(&mut self.link.response, &mut self.core.response);
         self.write.next = self.core.write.val();
-
-        self.alive.next = 0.into();
-        self.busy.next = 0.into();
-        self.error.next = 0.into();
-        if self.link.alive.val() {
-            self.alive.next = 1.into();
-        }
-        if self.link.busy.val() {
-            self.busy.next = 2.into();
-        }
-        if self.link.error.val() {
-            self.error.next = 4.into();
-        }
-        self.leds.next = self.alive.val() | self.busy.val() | self.error.val();
+        self.leds.next = self.link.lamps.val().into();
     }
 }

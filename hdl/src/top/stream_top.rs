@@ -12,7 +12,7 @@ use incircle_protocol::{Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
 /// The core behind its stream link; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct StreamTop<const W: usize, const K: usize, const E: usize> {
     /// Clock and reset of the AXI ports; the reset is active low and synchronous.
     pub bus_clock: Signal<In, Clock>,
@@ -37,17 +37,7 @@ impl<const W: usize, const K: usize, const E: usize> StreamTop<W, K, E> {
     /// # Panics
     /// If W is not 64 or 128, K not W / 8, or E not W + 1.
     pub fn new(config: Config) -> Result<Self, ConfigError> {
-        Ok(Self {
-            bus_clock: Signal::default(),
-            bus_reset_n: Signal::default(),
-            s_axis: AxisSink::default(),
-            m_axis: AxisSource::default(),
-            s_axi: AxiLite::default(),
-            core_clock: Signal::default(),
-            write: Signal::default(),
-            core: Core::new(config)?,
-            link: StreamLink::new(config)?,
-        })
+        Ok(Self { core: Core::new(config)?, link: StreamLink::new(config)?, ..Self::default() })
     }
 }
 

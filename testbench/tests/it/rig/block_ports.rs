@@ -14,10 +14,11 @@ use incircle_hdl::engine::{
     WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
-use incircle_hdl::link::types::{Activity, AnswerProgress, Head, Request, Tally};
-use incircle_hdl::link::AnswerBeat;
+use incircle_hdl::link::types::{Activity, AnswerProgress, Clearing, Head, Request, TakenWord, Tally};
+use incircle_hdl::link::{AnswerBeat, CommandState};
 use incircle_hdl::mesh::{ReadRecord, Record};
 use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
+use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FrameHead, Lamps, Receipt, Session};
 use incircle_hdl::serial::Asked;
 use incircle_hdl::stream::{AnswerEvents, CommandEvents};
 use rust_hdl_core::prelude::*;
@@ -97,6 +98,15 @@ impl<const N: usize> PortValue for Bits<N> {
     }
 }
 
+impl PortValue for CommandState {
+    fn from_number(number: Whole) -> Self {
+        [Self::Command, Self::First, Self::Count, Self::Points, Self::Settle, Self::Answer][number.low as usize]
+    }
+    fn to_number(self) -> Whole {
+        (self as u128).into()
+    }
+}
+
 /// Structures travel packed, the first field in the lowest bits.
 macro_rules! packed_values {
     ($($structure:ty),*) => {$(
@@ -128,13 +138,22 @@ packed_values!(
     Activity,
     AnswerProgress,
     Arrival,
+    Clearing,
     EngineState,
     Head,
     Request,
+    TakenWord,
     Tally,
     Record,
     AnswerEvents,
     CommandEvents,
+    AnswerPlace,
+    BytePlace,
+    Contents,
+    FrameHead,
+    Lamps,
+    Receipt,
+    Session,
     Beyond,
     Case,
     CommitRequest,

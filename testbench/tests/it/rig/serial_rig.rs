@@ -17,7 +17,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 named_ports!(
     SerialLink,
     [reset, rx, command.ready, response.valid, response.data, response.both, response.last],
-    [tx, alive, busy, error, core_reset, command.valid, command.data, response.ready],
+    [tx, lamps, core_reset, command.valid, command.data, response.ready],
     clock
 );
 

@@ -12,7 +12,7 @@ use incircle_protocol::{batch_word, clear_word, command_word, Opcode, PADDING};
 named_ports!(
     CommandPort,
     [reset, capacity, built, command.valid, command.data, sweeps, engine, answer],
-    [command.ready, arrival, clears, deal, is_refused, answers, request, tally, activity],
+    [command.ready, arrival, clearing, deal, answers, request, tally, activity],
     clock
 );
 

@@ -4,7 +4,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::PointSlot;
 
-named_ports!(PointSlot, [reset, clears, capacity, engine, accepts, word], [arrival, tally], clock);
+named_ports!(PointSlot, [reset, clears, capacity, engine, taken], [arrival, tally], clock);
 
 const CLOCKS: usize = 8000;
 
@@ -52,7 +52,7 @@ fn point_slot(capacity: u64) {
         let accepts = !reference.came && !clears && random.below(2) == 0;
         let word = random.below(1 << 32);
         for (port, value) in
-            [("reset", reset), ("clears", clears), ("collinear", collinear), ("stuck", stuck), ("accepts", accepts)]
+            [("reset", reset), ("clears", clears), ("collinear", collinear), ("stuck", stuck), ("is_point", accepts)]
         {
             block.set(port, value);
         }
