@@ -7,7 +7,7 @@ use incircle_protocol::{answer_header, Status};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::AnswerEvents;
+use super::events::AnswerEvents;
 
 /// The watch on answers; see the top of this file.
 #[derive(LogicBlock, Default)]

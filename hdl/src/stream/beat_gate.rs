@@ -5,7 +5,7 @@
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::CommandEvents;
+use super::events::CommandEvents;
 
 /// The gate for command beats; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -8,7 +8,13 @@ use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{AnswerWatch, AxiLite, AxisSink, AxisSource, BeatGate, RegisterBlock, ResetRequest};
+use super::answer_watch::AnswerWatch;
+use super::axi::AxiLite;
+use super::axi::AxisSink;
+use super::axi::AxisSource;
+use super::beat_gate::BeatGate;
+use super::register_block::RegisterBlock;
+use super::reset_request::ResetRequest;
 use crate::leaf::{Parameter, Synchroniser};
 
 /// The bus's side; see the top of this file.

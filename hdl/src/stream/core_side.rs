@@ -7,7 +7,11 @@
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{AnswerBeats, AnswerPairs, BeatWords, Progress, ResetReply};
+use super::answer_beats::AnswerBeats;
+use super::answer_pairs::AnswerPairs;
+use super::beat_words::BeatWords;
+use super::progress::Progress;
+use super::reset_reply::ResetReply;
 use crate::leaf::{Parameter, Synchroniser};
 use crate::link::{AnswerSink, CommandSource};
 

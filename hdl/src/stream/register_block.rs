@@ -11,7 +11,13 @@ use incircle_protocol::{Config, StreamRegister};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{AnswerEvents, AxiLite, CommandEvents, DeviceIdentity, RegisterIndex, RegisterPort, Traffic};
+use super::axi::AxiLite;
+use super::axi::RegisterIndex;
+use super::device_identity::DeviceIdentity;
+use super::events::AnswerEvents;
+use super::events::CommandEvents;
+use super::register_port::RegisterPort;
+use super::traffic::Traffic;
 
 /// The register block; see the top of this file.
 #[derive(LogicBlock, Default)]

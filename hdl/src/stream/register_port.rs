@@ -26,7 +26,8 @@ use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{Address, AxiLite};
+use super::axi::Address;
+use super::axi::AxiLite;
 
 /// The AXI4-Lite port; see the top of this file.
 #[derive(LogicBlock, Default)]

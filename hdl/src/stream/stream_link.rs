@@ -17,7 +17,12 @@
 use incircle_protocol::{Config, ConfigError, STREAM_FIFO_BEATS};
 use rust_hdl_core::prelude::*;
 
-use super::{AsyncFifo, AxiLite, AxisSink, AxisSource, BusSide, CoreSide};
+use super::async_fifo::AsyncFifo;
+use super::axi::AxiLite;
+use super::axi::AxisSink;
+use super::axi::AxisSource;
+use super::bus_side::BusSide;
+use super::core_side::CoreSide;
 use crate::link::{AnswerSink, CommandSource};
 
 /// Bits of a pointer of the FIFOs.

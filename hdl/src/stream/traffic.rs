@@ -9,7 +9,9 @@ use incircle_protocol::StreamRegister;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{AnswerEvents, CommandEvents, RegisterIndex};
+use super::axi::RegisterIndex;
+use super::events::AnswerEvents;
+use super::events::CommandEvents;
 
 /// Counters of the streams; see the top of this file.
 #[derive(LogicBlock, Default)]

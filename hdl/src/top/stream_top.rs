@@ -4,7 +4,7 @@
 //!
 //! Latency: see the blocks.
 
-use super::Core;
+use super::core::Core;
 use crate::engine::Write;
 use crate::link::{AnswerSink, CommandSource};
 use crate::stream::{AxiLite, AxisSink, AxisSource, StreamLink};
