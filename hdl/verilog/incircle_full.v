@@ -4,19 +4,19 @@
 `default_nettype none
 
 
-module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,response_valid,response_ready,response_data,response_both,response_last,write);
+module incircle_core_logic(clock,reset,command$valid,command$ready,command$data,response$valid,response$ready,response$data,response$both,response$last,write);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
-    input wire  command_valid;
-    output reg  command_ready;
-    input wire  [31:0] command_data;
-    output reg  response_valid;
-    input wire  response_ready;
-    output reg  [63:0] response_data;
-    output reg  response_both;
-    output reg  response_last;
+    input wire  command$valid;
+    output wire  command$ready;
+    input wire  [31:0] command$data;
+    output wire  response$valid;
+    input wire  response$ready;
+    output wire  [63:0] response$data;
+    output wire  response$both;
+    output wire  response$last;
     output reg  [109:0] write;
     
     // Constant declarations
@@ -33,54 +33,30 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  command_port$reset;
     reg  [14:0] command_port$capacity;
     reg  [4:0] command_port$built;
-    reg  command_port$command_valid;
-    wire  command_port$command_ready;
-    reg  [31:0] command_port$command_data;
     reg  command_port$sweeps;
-    reg  command_port$start_is_open;
-    reg  command_port$collinear;
-    reg  command_port$stuck;
-    reg  command_port$is_quiet;
-    wire  command_port$came;
-    wire  [14:0] command_port$came_id;
-    wire  [31:0] command_port$point;
-    wire  command_port$clears;
+    reg  [19:0] command_port$engine;
+    wire  [47:0] command_port$arrival;
+    wire  [1:0] command_port$clearing;
     wire  [12:0] command_port$deal;
-    wire  command_port$is_refused;
     wire  command_port$answers;
-    wire  [7:0] command_port$opcode;
-    wire  [31:0] command_port$first;
-    wire  [31:0] command_port$count;
-    wire  [14:0] command_port$arrived;
-    wire  [31:0] command_port$refused;
-    wire  command_port$some_refused;
-    reg  command_port$responder_is_idle;
-    reg  command_port$answer_ends;
-    reg  command_port$answer_is_taken;
-    wire  command_port$inserting;
-    wire  command_port$reading;
-    wire  command_port$awaits_point;
+    wire  [71:0] command_port$request;
+    wire  [47:0] command_port$tally;
+    reg  [2:0] command_port$answer;
+    wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [7:0] answer_head$opcode;
-    reg  [31:0] answer_head$first;
-    reg  [31:0] answer_head$count;
+    reg  [71:0] answer_head$request;
     reg  answer_head$is_refused;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [31:0] answer_head$header;
-    wire  [31:0] answer_head$length;
-    wire  answer_head$is_empty;
-    wire  answer_head$is_read;
-    wire  answer_head$is_packed;
+    wire  [66:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
     reg  [4:0] answer_words$contexts;
     reg  [6:0] answer_words$ring;
-    reg  [14:0] answer_words$arrived;
-    reg  [31:0] answer_words$refused;
+    reg  [47:0] answer_words$tally;
     reg  [31:0] answer_words$insertions;
     reg  [31:0] answer_words$duplicates;
     reg  [14:0] answer_words$records;
@@ -93,95 +69,37 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [31:0] responder$first;
-    reg  [31:0] responder$count;
-    reg  [31:0] responder$header;
-    reg  [31:0] responder$length;
-    reg  responder$is_empty;
+    reg  [71:0] responder$request;
+    reg  [66:0] responder$head;
     reg  [31:0] responder$word;
-    reg  responder$is_read;
-    reg  responder$is_packed;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
     wire  responder$chooses;
     wire  responder$read;
     wire  [14:0] responder$read_id;
     reg  responder$read_done;
-    reg  [14:0] responder$v0;
-    reg  [14:0] responder$v1;
-    reg  [14:0] responder$v2;
-    reg  [14:0] responder$n0;
-    reg  [14:0] responder$n1;
-    reg  [14:0] responder$n2;
-    reg  responder$was_set;
-    wire  responder$response_valid;
-    reg  responder$response_ready;
-    wire  [63:0] responder$response_data;
-    wire  responder$response_both;
-    wire  responder$response_last;
-    wire  responder$is_idle;
-    wire  responder$ends;
-    wire  responder$is_taken;
+    reg  [90:0] responder$record;
+    wire  [2:0] responder$progress;
     reg  engine$clock;
     reg  engine$reset;
-    reg  [14:0] engine$infinite;
-    reg  [6:0] engine$ring;
-    reg  [14:0] engine$last_id;
-    reg  [23:0] engine$all;
-    reg  [21:0] engine$patience;
+    reg  [82:0] engine$limits;
     reg  [12:0] engine$deal;
     reg  engine$clears;
-    reg  engine$came;
-    reg  [14:0] engine$came_id;
-    reg  [31:0] engine$point;
+    reg  [47:0] engine$arrival;
     reg  [14:0] engine$arrived;
-    reg  engine$read;
-    reg  [14:0] engine$read_id;
+    reg  [15:0] engine$read;
+    wire  [91:0] engine$read_out;
     reg  [21:0] engine$now;
-    wire  engine$start_is_open;
-    wire  engine$collinear;
-    wire  [14:0] engine$records;
-    wire  engine$is_quiet;
-    wire  engine$stuck;
-    wire  engine$sweeps;
-    wire  engine$read_done;
-    wire  [14:0] engine$v0;
-    wire  [14:0] engine$v1;
-    wire  [14:0] engine$v2;
-    wire  [14:0] engine$n0;
-    wire  [14:0] engine$n1;
-    wire  [14:0] engine$n2;
-    wire  engine$was_set;
+    wire  [19:0] engine$state;
     wire  [109:0] engine$write;
-    wire  [48:0] engine$events;
+    wire  [47:0] engine$events;
     reg  counters$clock;
     reg  counters$reset;
     reg  counters$clears;
     reg  counters$inserting;
     reg  counters$waiting;
     reg  counters$reading;
-    reg  counters$is_issuing;
-    reg  counters$is_writing;
-    reg  counters$is_committing;
-    reg  counters$is_releasing;
-    reg  counters$walk_visit;
-    reg  counters$test;
-    reg  counters$solo_test;
-    reg  counters$overflows;
-    reg  counters$flip;
-    reg  counters$root_visit;
-    reg  counters$revisit;
-    reg  counters$gives_up;
-    reg  counters$retries;
-    reg  counters$takes_token;
-    reg  counters$cavity_ends;
-    reg  [6:0] counters$cavity_triangles;
-    reg  counters$seeds;
-    reg  counters$commit_ends;
-    reg  [21:0] counters$since;
-    reg  counters$solo_inserts;
-    reg  counters$duplicate;
-    reg  counters$solo_duplicate;
+    reg  [47:0] counters$events;
     reg  [31:0] counters$refused;
     reg  [4:0] counters$select;
     wire  [31:0] counters$value;
@@ -208,49 +126,29 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .reset(command_port$reset),
         .capacity(command_port$capacity),
         .built(command_port$built),
-        .command_valid(command_port$command_valid),
-        .command_ready(command_port$command_ready),
-        .command_data(command_port$command_data),
+        .command$valid(command$valid),
+        .command$ready(command$ready),
+        .command$data(command$data),
         .sweeps(command_port$sweeps),
-        .start_is_open(command_port$start_is_open),
-        .collinear(command_port$collinear),
-        .stuck(command_port$stuck),
-        .is_quiet(command_port$is_quiet),
-        .came(command_port$came),
-        .came_id(command_port$came_id),
-        .point(command_port$point),
-        .clears(command_port$clears),
+        .engine(command_port$engine),
+        .arrival(command_port$arrival),
+        .clearing(command_port$clearing),
         .deal(command_port$deal),
-        .is_refused(command_port$is_refused),
         .answers(command_port$answers),
-        .opcode(command_port$opcode),
-        .first(command_port$first),
-        .count(command_port$count),
-        .arrived(command_port$arrived),
-        .refused(command_port$refused),
-        .some_refused(command_port$some_refused),
-        .responder_is_idle(command_port$responder_is_idle),
-        .answer_ends(command_port$answer_ends),
-        .answer_is_taken(command_port$answer_is_taken),
-        .inserting(command_port$inserting),
-        .reading(command_port$reading),
-        .awaits_point(command_port$awaits_point)
+        .request(command_port$request),
+        .tally(command_port$tally),
+        .answer(command_port$answer),
+        .activity(command_port$activity)
     );
     incircle_core_logic$answer_head answer_head(
         .clock(answer_head$clock),
-        .opcode(answer_head$opcode),
-        .first(answer_head$first),
-        .count(answer_head$count),
+        .request(answer_head$request),
         .is_refused(answer_head$is_refused),
         .records(answer_head$records),
         .collinear(answer_head$collinear),
         .stuck(answer_head$stuck),
         .some_refused(answer_head$some_refused),
-        .header(answer_head$header),
-        .length(answer_head$length),
-        .is_empty(answer_head$is_empty),
-        .is_read(answer_head$is_read),
-        .is_packed(answer_head$is_packed)
+        .head(answer_head$head)
     );
     incircle_core_logic$answer_words answer_words(
         .clock(answer_words$clock),
@@ -258,8 +156,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .capacity(answer_words$capacity),
         .contexts(answer_words$contexts),
         .ring(answer_words$ring),
-        .arrived(answer_words$arrived),
-        .refused(answer_words$refused),
+        .tally(answer_words$tally),
         .insertions(answer_words$insertions),
         .duplicates(answer_words$duplicates),
         .records(answer_words$records),
@@ -274,67 +171,35 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .reset(responder$reset),
         .answers(responder$answers),
         .sweeps(responder$sweeps),
-        .first(responder$first),
-        .count(responder$count),
-        .header(responder$header),
-        .length(responder$length),
-        .is_empty(responder$is_empty),
+        .request(responder$request),
+        .head(responder$head),
         .word(responder$word),
-        .is_read(responder$is_read),
-        .is_packed(responder$is_packed),
         .index(responder$index),
         .index_ahead(responder$index_ahead),
         .chooses(responder$chooses),
         .read(responder$read),
         .read_id(responder$read_id),
         .read_done(responder$read_done),
-        .v0(responder$v0),
-        .v1(responder$v1),
-        .v2(responder$v2),
-        .n0(responder$n0),
-        .n1(responder$n1),
-        .n2(responder$n2),
-        .was_set(responder$was_set),
-        .response_valid(responder$response_valid),
-        .response_ready(responder$response_ready),
-        .response_data(responder$response_data),
-        .response_both(responder$response_both),
-        .response_last(responder$response_last),
-        .is_idle(responder$is_idle),
-        .ends(responder$ends),
-        .is_taken(responder$is_taken)
+        .record(responder$record),
+        .response$valid(response$valid),
+        .response$ready(response$ready),
+        .response$data(response$data),
+        .response$both(response$both),
+        .response$last(response$last),
+        .progress(responder$progress)
     );
     incircle_core_logic$engine engine(
         .clock(engine$clock),
         .reset(engine$reset),
-        .infinite(engine$infinite),
-        .ring(engine$ring),
-        .last_id(engine$last_id),
-        .all(engine$all),
-        .patience(engine$patience),
+        .limits(engine$limits),
         .deal(engine$deal),
         .clears(engine$clears),
-        .came(engine$came),
-        .came_id(engine$came_id),
-        .point(engine$point),
+        .arrival(engine$arrival),
         .arrived(engine$arrived),
         .read(engine$read),
-        .read_id(engine$read_id),
+        .read_out(engine$read_out),
         .now(engine$now),
-        .start_is_open(engine$start_is_open),
-        .collinear(engine$collinear),
-        .records(engine$records),
-        .is_quiet(engine$is_quiet),
-        .stuck(engine$stuck),
-        .sweeps(engine$sweeps),
-        .read_done(engine$read_done),
-        .v0(engine$v0),
-        .v1(engine$v1),
-        .v2(engine$v2),
-        .n0(engine$n0),
-        .n1(engine$n1),
-        .n2(engine$n2),
-        .was_set(engine$was_set),
+        .state(engine$state),
         .write(engine$write),
         .events(engine$events)
     );
@@ -345,28 +210,7 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         .inserting(counters$inserting),
         .waiting(counters$waiting),
         .reading(counters$reading),
-        .is_issuing(counters$is_issuing),
-        .is_writing(counters$is_writing),
-        .is_committing(counters$is_committing),
-        .is_releasing(counters$is_releasing),
-        .walk_visit(counters$walk_visit),
-        .test(counters$test),
-        .solo_test(counters$solo_test),
-        .overflows(counters$overflows),
-        .flip(counters$flip),
-        .root_visit(counters$root_visit),
-        .revisit(counters$revisit),
-        .gives_up(counters$gives_up),
-        .retries(counters$retries),
-        .takes_token(counters$takes_token),
-        .cavity_ends(counters$cavity_ends),
-        .cavity_triangles(counters$cavity_triangles),
-        .seeds(counters$seeds),
-        .commit_ends(counters$commit_ends),
-        .since(counters$since),
-        .solo_inserts(counters$solo_inserts),
-        .duplicate(counters$duplicate),
-        .solo_duplicate(counters$solo_duplicate),
+        .events(counters$events),
         .refused(counters$refused),
         .select(counters$select),
         .value(counters$value),
@@ -401,35 +245,24 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         engine$reset = reset;
         counters$reset = reset;
         latencies$reset = reset;
-        sweeps = engine$sweeps | latencies$sweeps;
+        sweeps = engine$state[(64'h4)+:(1)] | latencies$sweeps;
         command_port$capacity = capacity;
         command_port$built = contexts;
-        command_port$command_valid = command_valid;
-        command_port$command_data = command_data;
-        command_ready = command_port$command_ready;
         command_port$sweeps = sweeps;
-        command_port$start_is_open = engine$start_is_open;
-        command_port$collinear = engine$collinear;
-        command_port$stuck = engine$stuck;
-        command_port$is_quiet = engine$is_quiet;
-        command_port$responder_is_idle = responder$is_idle;
-        command_port$answer_ends = responder$ends;
-        command_port$answer_is_taken = responder$is_taken;
-        answer_head$opcode = command_port$opcode;
-        answer_head$first = command_port$first;
-        answer_head$count = command_port$count;
-        answer_head$is_refused = command_port$is_refused;
-        answer_head$records = engine$records;
-        answer_head$collinear = engine$collinear;
-        answer_head$stuck = engine$stuck;
-        answer_head$some_refused = command_port$some_refused;
-        answer_words$opcode = command_port$opcode;
-        answer_words$arrived = command_port$arrived;
-        answer_words$refused = command_port$refused;
+        command_port$engine = engine$state;
+        command_port$answer = responder$progress;
+        answer_head$request = command_port$request;
+        answer_head$is_refused = command_port$clearing[(64'h1)+:(1)];
+        answer_head$records = engine$state[(64'h5)+:(15)];
+        answer_head$collinear = engine$state[(64'h1)+:(1)];
+        answer_head$stuck = engine$state[(64'h3)+:(1)];
+        answer_head$some_refused = command_port$tally[(64'h2f)+:(1)];
+        answer_words$opcode = command_port$request[(64'h0)+:(8)];
+        answer_words$tally = command_port$tally;
         answer_words$capacity = capacity;
         answer_words$contexts = contexts;
         answer_words$ring = ring;
-        answer_words$records = engine$records;
+        answer_words$records = engine$state[(64'h5)+:(15)];
         answer_words$insertions = counters$insertions;
         answer_words$duplicates = counters$duplicates;
         answer_words$index = responder$index;
@@ -438,71 +271,32 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
         answer_words$latency = latencies$value;
         responder$answers = command_port$answers;
         responder$sweeps = latencies$sweeps;
-        responder$first = command_port$first;
-        responder$count = command_port$count;
-        responder$header = answer_head$header;
-        responder$length = answer_head$length;
-        responder$is_empty = answer_head$is_empty;
+        responder$request = command_port$request;
+        responder$head = answer_head$head;
         responder$word = answer_words$word;
-        responder$is_read = answer_head$is_read;
-        responder$is_packed = answer_head$is_packed;
-        responder$read_done = engine$read_done;
-        responder$v0 = engine$v0;
-        responder$v1 = engine$v1;
-        responder$v2 = engine$v2;
-        responder$n0 = engine$n0;
-        responder$n1 = engine$n1;
-        responder$n2 = engine$n2;
-        responder$was_set = engine$was_set;
-        responder$response_ready = response_ready;
-        response_valid = responder$response_valid;
-        response_data = responder$response_data;
-        response_both = responder$response_both;
-        response_last = responder$response_last;
-        engine$infinite = infinite;
-        engine$ring = ring;
-        engine$last_id = last_id;
-        engine$all = all_contexts;
-        engine$patience = patience;
+        responder$read_done = engine$read_out[(64'h0)+:(1)];
+        responder$record = engine$read_out[(64'h1)+:(91)];
+        engine$limits[(64'h0)+:(15)] = infinite;
+        engine$limits[(64'hf)+:(7)] = ring;
+        engine$limits[(64'h16)+:(15)] = last_id;
+        engine$limits[(64'h25)+:(24)] = all_contexts;
+        engine$limits[(64'h3d)+:(22)] = patience;
         engine$deal = command_port$deal;
-        engine$clears = command_port$clears;
-        engine$came = command_port$came;
-        engine$came_id = command_port$came_id;
-        engine$point = command_port$point;
-        engine$arrived = command_port$arrived;
-        engine$read = responder$read;
-        engine$read_id = responder$read_id;
+        engine$clears = command_port$clearing[(64'h0)+:(1)];
+        engine$arrival = command_port$arrival;
+        engine$arrived = command_port$tally[(64'h0)+:(15)];
+        engine$read[(64'h0)+:(1)] = responder$read;
+        engine$read[(64'h1)+:(15)] = responder$read_id;
         engine$now = counters$now;
         write = engine$write;
-        counters$clears = command_port$clears;
-        counters$inserting = command_port$inserting;
-        counters$waiting = command_port$inserting & command_port$awaits_point & engine$is_quiet;
-        counters$reading = command_port$reading;
-        counters$seeds = engine$events[(64'h0)+:(1)];
-        counters$commit_ends = engine$events[(64'h1)+:(1)];
-        counters$since = engine$events[(64'h2)+:(22)];
-        counters$solo_inserts = engine$events[(64'h18)+:(1)];
-        counters$solo_duplicate = engine$events[(64'h19)+:(1)];
-        counters$solo_test = engine$events[(64'h1a)+:(1)];
-        counters$flip = engine$events[(64'h1b)+:(1)];
-        counters$duplicate = engine$events[(64'h1c)+:(1)];
-        counters$walk_visit = engine$events[(64'h1d)+:(1)];
-        counters$root_visit = engine$events[(64'h1e)+:(1)];
-        counters$test = engine$events[(64'h1f)+:(1)];
-        counters$revisit = engine$events[(64'h20)+:(1)];
-        counters$overflows = engine$events[(64'h21)+:(1)];
-        counters$gives_up = engine$events[(64'h22)+:(1)];
-        counters$retries = engine$events[(64'h23)+:(1)];
-        counters$takes_token = engine$events[(64'h24)+:(1)];
-        counters$cavity_ends = engine$events[(64'h25)+:(1)];
-        counters$cavity_triangles = engine$events[(64'h26)+:(7)];
-        counters$is_issuing = engine$events[(64'h2d)+:(1)];
-        counters$is_writing = engine$events[(64'h2e)+:(1)];
-        counters$is_committing = engine$events[(64'h2f)+:(1)];
-        counters$is_releasing = engine$events[(64'h30)+:(1)];
-        counters$refused = command_port$refused;
+        counters$clears = command_port$clearing[(64'h0)+:(1)];
+        counters$inserting = command_port$activity[(64'h0)+:(1)];
+        counters$waiting = command_port$activity[(64'h0)+:(1)] & command_port$activity[(64'h2)+:(1)] & engine$state[(64'h2)+:(1)];
+        counters$reading = command_port$activity[(64'h1)+:(1)];
+        counters$events = engine$events;
+        counters$refused = command_port$tally[(64'hf)+:(32)];
         counters$select = responder$index_ahead[(32'h0)+:(5)];
-        latencies$clears = command_port$clears;
+        latencies$clears = command_port$clearing[(64'h0)+:(1)];
         latencies$comes = counters$latency_comes;
         latencies$latency = counters$latency;
         latencies$select = responder$index;
@@ -511,23 +305,17 @@ module incircle_core_logic(clock,reset,command_valid,command_ready,command_data,
 endmodule // incircle_core_logic
 
 
-module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,records,collinear,stuck,some_refused,header,length,is_empty,is_read,is_packed);
+module incircle_core_logic$answer_head(clock,request,is_refused,records,collinear,stuck,some_refused,head);
     
     // Module arguments
     input wire  clock;
-    input wire  [7:0] opcode;
-    input wire  [31:0] first;
-    input wire  [31:0] count;
+    input wire  [71:0] request;
     input wire  is_refused;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [31:0] header;
-    output reg  [31:0] length;
-    output reg  is_empty;
-    output reg  is_read;
-    output reg  is_packed;
+    output reg  [66:0] head;
     
     // Stub signals
     reg  [32:0] range_end$d;
@@ -689,13 +477,13 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
         opcode_shift = 32'h18;
         read_code = 32'h4;
         packed_code = 32'h7;
-        wide_first = ((first) & 33'h1ffffffff);
-        wide_count = ((count) & 33'h1ffffffff);
+        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
+        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
         range_end$d = wide_first + wide_count;
         range_bound$d = records;
-        double_count = count << one;
-        triple$d = double_count + count;
-        counts_none$d = count == none;
+        double_count = request[(64'h28)+:(32)] << one;
+        triple$d = double_count + request[(64'h28)+:(32)];
+        counts_none$d = request[(64'h28)+:(32)] == none;
         insert_status$d = 32'h0;
         if (some_refused) begin
             insert_status$d = 32'h4;
@@ -716,7 +504,7 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
         answer_status$d = 32'h0;
         answer_length$d = 32'h0;
         has_none$d = 1'b0;
-        case (opcode)
+        case (request[(64'h0)+:(8)])
             1:
                 begin
                     answer_length$d = 32'h7;
@@ -767,16 +555,16 @@ module incircle_core_logic$answer_head(clock,opcode,first,count,is_refused,recor
                     has_none$d = 1'b1;
                 end
         endcase
-        packs = opcode == packed_code;
-        is_packed = packs;
-        is_read = packs | (opcode == read_code);
-        length = answer_length$q;
-        is_empty = has_none$q;
+        packs = request[(64'h0)+:(8)] == packed_code;
+        head[(64'h42)+:(1)] = packs;
+        head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
+        head[(64'h20)+:(32)] = answer_length$q;
+        head[(64'h40)+:(1)] = has_none$q;
         status = ((answer_status$q) & 32'hffffffff);
         shifted_status = status << status_shift;
-        wide_opcode = ((opcode) & 32'hffffffff);
+        wide_opcode = ((request[(64'h0)+:(8)]) & 32'hffffffff);
         shifted_opcode = wide_opcode << opcode_shift;
-        header = shifted_opcode | shifted_status;
+        head[(64'h0)+:(32)] = shifted_opcode | shifted_status;
     end
     
 endmodule // incircle_core_logic$answer_head
@@ -1029,7 +817,7 @@ module incircle_core_logic$answer_head$triple(d,q,clock);
 endmodule // incircle_core_logic$answer_head$triple
 
 
-module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arrived,refused,insertions,duplicates,records,index,counter,latency,chooses,word);
+module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
     
     // Module arguments
     input wire  clock;
@@ -1037,8 +825,7 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arri
     input wire  [14:0] capacity;
     input wire  [4:0] contexts;
     input wire  [6:0] ring;
-    input wire  [14:0] arrived;
-    input wire  [31:0] refused;
+    input wire  [47:0] tally;
     input wire  [31:0] insertions;
     input wire  [31:0] duplicates;
     input wire  [14:0] records;
@@ -1093,7 +880,7 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arri
             0:
                 begin
                     identity$d = 32'h696e4369;
-                    report$d = ((arrived) & 32'hffffffff);
+                    report$d = ((tally[(64'h0)+:(15)]) & 32'hffffffff);
                 end
             1:
                 begin
@@ -1108,7 +895,7 @@ module incircle_core_logic$answer_words(clock,opcode,capacity,contexts,ring,arri
             3:
                 begin
                     identity$d = 32'h10;
-                    report$d = refused;
+                    report$d = tally[(64'hf)+:(32)];
                 end
             4:
                 begin
@@ -1208,40 +995,26 @@ module incircle_core_logic$answer_words$report(d,q,clock);
 endmodule // incircle_core_logic$answer_words$report
 
 
-module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid,command_ready,command_data,sweeps,start_is_open,collinear,stuck,is_quiet,came,came_id,point,clears,deal,is_refused,answers,opcode,first,count,arrived,refused,some_refused,responder_is_idle,answer_ends,answer_is_taken,inserting,reading,awaits_point);
+module incircle_core_logic$command_port(clock,reset,capacity,built,command$valid,command$ready,command$data,sweeps,engine,arrival,clearing,deal,answers,request,tally,answer,activity);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  [14:0] capacity;
     input wire  [4:0] built;
-    input wire  command_valid;
-    output reg  command_ready;
-    input wire  [31:0] command_data;
+    input wire  command$valid;
+    output wire  command$ready;
+    input wire  [31:0] command$data;
     input wire  sweeps;
-    input wire  start_is_open;
-    input wire  collinear;
-    input wire  stuck;
-    input wire  is_quiet;
-    output reg  came;
-    output reg  [14:0] came_id;
-    output reg  [31:0] point;
-    output reg  clears;
+    input wire  [19:0] engine;
+    output reg  [47:0] arrival;
+    output reg  [1:0] clearing;
     output reg  [12:0] deal;
-    output reg  is_refused;
     output reg  answers;
-    output reg  [7:0] opcode;
-    output reg  [31:0] first;
-    output reg  [31:0] count;
-    output reg  [14:0] arrived;
-    output reg  [31:0] refused;
-    output reg  some_refused;
-    input wire  responder_is_idle;
-    input wire  answer_ends;
-    input wire  answer_is_taken;
-    output reg  inserting;
-    output reg  reading;
-    output reg  awaits_point;
+    output reg  [71:0] request;
+    output reg  [47:0] tally;
+    input wire  [2:0] answer;
+    output reg  [2:0] activity;
     
     // Enums
     localparam CommandState$Command = 0;
@@ -1255,15 +1028,9 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [7:0] command$d;
-    wire  [7:0] command$q;
-    reg  command$clock;
-    reg  [31:0] first_word$d;
-    wire  [31:0] first_word$q;
-    reg  first_word$clock;
-    reg  [31:0] left$d;
-    wire  [31:0] left$q;
-    reg  left$clock;
+    reg  [71:0] held$d;
+    wire  [71:0] held$q;
+    reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
     reg  none_is_left$clock;
@@ -1277,46 +1044,29 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
     reg  slot$reset;
     reg  slot$clears;
     reg  [14:0] slot$capacity;
-    reg  slot$collinear;
-    reg  slot$stuck;
-    reg  slot$accepts;
-    reg  [31:0] slot$word;
-    wire  slot$came;
-    wire  [14:0] slot$came_id;
-    wire  [31:0] slot$point;
-    wire  [14:0] slot$arrived;
-    wire  [31:0] slot$refused;
-    wire  slot$some_refused;
-    reg  gate$is_command;
-    reg  gate$is_argument;
-    reg  gate$is_points;
+    reg  [19:0] slot$engine;
+    reg  [33:0] slot$taken;
+    wire  [47:0] slot$arrival;
+    wire  [47:0] slot$tally;
+    reg  [2:0] gate$state;
     reg  gate$sweeps;
     reg  gate$none_is_left;
     reg  gate$came;
-    reg  gate$start_is_open;
-    reg  gate$stuck;
-    wire  gate$ready;
-    wire  gate$takes_command;
-    wire  gate$takes_point;
+    reg  [19:0] gate$engine;
+    wire  [33:0] gate$taken;
     wire  gate$awaits_point;
     reg  clear$clock;
     reg  clear$reset;
     reg  [4:0] clear$built;
-    reg  clear$accepts;
-    reg  [31:0] clear$word;
-    wire  clear$clears;
+    reg  [33:0] clear$taken;
+    wire  [1:0] clear$clearing;
     wire  [12:0] clear$deal;
-    wire  clear$is_refused;
     
     // Local signals
-    reg  accepts_command;
-    reg  accepts_point;
     reg  [7:0] code;
-    reg  is_padding;
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  [7:0] insert_code;
-    reg  [31:0] none;
     reg  [31:0] one;
     
     // Sub module instances
@@ -1325,20 +1075,10 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .q(state$q),
         .clock(state$clock)
     );
-    incircle_core_logic$command_port$command command(
-        .d(command$d),
-        .q(command$q),
-        .clock(command$clock)
-    );
-    incircle_core_logic$command_port$first_word first_word(
-        .d(first_word$d),
-        .q(first_word$q),
-        .clock(first_word$clock)
-    );
-    incircle_core_logic$command_port$left left(
-        .d(left$d),
-        .q(left$q),
-        .clock(left$clock)
+    incircle_core_logic$command_port$held held(
+        .d(held$d),
+        .q(held$q),
+        .clock(held$clock)
     );
     incircle_core_logic$command_port$none_is_left none_is_left(
         .d(none_is_left$d),
@@ -1360,55 +1100,41 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         .reset(slot$reset),
         .clears(slot$clears),
         .capacity(slot$capacity),
-        .collinear(slot$collinear),
-        .stuck(slot$stuck),
-        .accepts(slot$accepts),
-        .word(slot$word),
-        .came(slot$came),
-        .came_id(slot$came_id),
-        .point(slot$point),
-        .arrived(slot$arrived),
-        .refused(slot$refused),
-        .some_refused(slot$some_refused)
+        .engine(slot$engine),
+        .taken(slot$taken),
+        .arrival(slot$arrival),
+        .tally(slot$tally)
     );
     incircle_core_logic$command_port$gate gate(
-        .is_command(gate$is_command),
-        .is_argument(gate$is_argument),
-        .is_points(gate$is_points),
+        .command$valid(command$valid),
+        .command$ready(command$ready),
+        .command$data(command$data),
+        .state(gate$state),
         .sweeps(gate$sweeps),
         .none_is_left(gate$none_is_left),
         .came(gate$came),
-        .start_is_open(gate$start_is_open),
-        .stuck(gate$stuck),
-        .ready(gate$ready),
-        .takes_command(gate$takes_command),
-        .takes_point(gate$takes_point),
+        .engine(gate$engine),
+        .taken(gate$taken),
         .awaits_point(gate$awaits_point)
     );
     incircle_core_logic$command_port$clear clear(
         .clock(clear$clock),
         .reset(clear$reset),
         .built(clear$built),
-        .accepts(clear$accepts),
-        .word(clear$word),
-        .clears(clear$clears),
-        .deal(clear$deal),
-        .is_refused(clear$is_refused)
+        .taken(clear$taken),
+        .clearing(clear$clearing),
+        .deal(clear$deal)
     );
     
     // Update code
     always @(*) begin
         state$clock = clock;
-        command$clock = clock;
-        first_word$clock = clock;
-        left$clock = clock;
+        held$clock = clock;
         none_is_left$clock = clock;
         is_inserting$clock = clock;
         is_reading$clock = clock;
         state$d = state$q;
-        command$d = command$q;
-        first_word$d = first_word$q;
-        left$d = left$q;
+        held$d = held$q;
         none_is_left$d = none_is_left$q;
         is_inserting$d = is_inserting$q;
         is_reading$d = is_reading$q;
@@ -1417,56 +1143,38 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
         insert_code = 32'h3;
         read_code = 32'h4;
         packed_code = 32'h7;
-        none = 32'h0;
         one = 32'h1;
-        came = slot$came;
-        came_id = slot$came_id;
-        point = slot$point;
-        clears = clear$clears;
+        arrival = slot$arrival;
+        clearing = clear$clearing;
         deal = clear$deal;
-        is_refused = clear$is_refused;
-        answers = (state$q == CommandState$Answer) & (~clear$clears);
-        opcode = command$q;
-        first = first_word$q;
-        count = left$q;
-        arrived = slot$arrived;
-        refused = slot$refused;
-        some_refused = slot$some_refused;
-        inserting = is_inserting$q;
-        reading = is_reading$q;
-        gate$is_command = state$q == CommandState$Command;
-        gate$is_argument = (state$q == CommandState$First) | (state$q == CommandState$Count);
-        gate$is_points = state$q == CommandState$Points;
+        answers = (state$q == CommandState$Answer) & (~clear$clearing[(64'h0)+:(1)]);
+        request = held$q;
+        tally = slot$tally;
+        activity[(64'h0)+:(1)] = is_inserting$q;
+        activity[(64'h1)+:(1)] = is_reading$q;
+        gate$state = state$q;
         gate$sweeps = sweeps;
         gate$none_is_left = none_is_left$q;
-        gate$came = slot$came;
-        gate$start_is_open = start_is_open;
-        gate$stuck = stuck;
-        awaits_point = gate$awaits_point;
-        command_ready = gate$ready;
-        is_padding = command_data == none;
-        accepts_command = command_valid & gate$takes_command & (~is_padding);
-        accepts_point = command_valid & gate$takes_point;
+        gate$came = slot$arrival[(64'h0)+:(1)];
+        gate$engine = engine;
+        activity[(64'h2)+:(1)] = gate$awaits_point;
         clear$reset = reset;
         clear$built = built;
-        clear$accepts = accepts_command;
-        clear$word = command_data;
+        clear$taken = gate$taken;
         slot$reset = reset;
-        slot$clears = clear$clears;
+        slot$clears = clear$clearing[(64'h0)+:(1)];
         slot$capacity = capacity;
-        slot$collinear = collinear;
-        slot$stuck = stuck;
-        slot$accepts = accepts_point;
-        slot$word = command_data;
-        code = command_data[(32'h18)+:(8)];
-        if ((state$q != CommandState$Answer) & responder_is_idle & answer_is_taken) begin
+        slot$engine = engine;
+        slot$taken = gate$taken;
+        code = command$data[(32'h18)+:(8)];
+        if ((state$q != CommandState$Answer) & answer[(64'h0)+:(1)] & answer[(64'h2)+:(1)]) begin
             is_reading$d = 1'b0;
         end
         case (state$q)
             CommandState$Command:
                 begin
-                    if (accepts_command) begin
-                        command$d = code;
+                    if (gate$taken[(64'h0)+:(1)]) begin
+                        held$d[(64'h0)+:(8)] = code;
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -1478,17 +1186,17 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
                 end
             CommandState$First:
                 begin
-                    if (command_valid) begin
-                        first_word$d = command_data;
+                    if (command$valid) begin
+                        held$d[(64'h8)+:(32)] = command$data;
                         state$d = CommandState$Count;
                     end
                 end
             CommandState$Count:
                 begin
-                    if (command_valid) begin
-                        left$d = command_data;
-                        none_is_left$d = command_data == none;
-                        if (command$q == insert_code) begin
+                    if (command$valid) begin
+                        held$d[(64'h28)+:(32)] = command$data;
+                        none_is_left$d = ~|command$data;
+                        if (held$q[(64'h0)+:(8)] == insert_code) begin
                             state$d = CommandState$Points;
                         end
                         else begin
@@ -1502,22 +1210,22 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
                     if (none_is_left$q) begin
                         state$d = CommandState$Settle;
                     end
-                    if (accepts_point) begin
-                        left$d = left$q - one;
-                        none_is_left$d = left$q == one;
+                    if (gate$taken[(64'h1)+:(1)]) begin
+                        held$d[(64'h28)+:(32)] = held$q[(64'h28)+:(32)] - one;
+                        none_is_left$d = held$q[(64'h28)+:(32)] == one;
                         is_inserting$d = 1'b1;
                     end
                 end
             CommandState$Settle:
                 begin
-                    if (is_quiet | stuck) begin
+                    if (engine[(64'h2)+:(1)] | engine[(64'h3)+:(1)]) begin
                         is_inserting$d = 1'b0;
                         state$d = CommandState$Answer;
                     end
                 end
             CommandState$Answer:
                 begin
-                    if (answer_ends) begin
+                    if (answer[(64'h1)+:(1)]) begin
                         state$d = CommandState$Command;
                     end
                 end
@@ -1536,22 +1244,20 @@ module incircle_core_logic$command_port(clock,reset,capacity,built,command_valid
 endmodule // incircle_core_logic$command_port
 
 
-module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,clears,deal,is_refused);
+module incircle_core_logic$command_port$clear(clock,reset,built,taken,clearing,deal);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  [4:0] built;
-    input wire  accepts;
-    input wire  [31:0] word;
-    output reg  clears;
+    input wire  [33:0] taken;
+    output reg  [1:0] clearing;
     output reg  [12:0] deal;
-    output reg  is_refused;
     
     // Stub signals
-    reg  clearing$d;
-    wire  clearing$q;
-    reg  clearing$clock;
+    reg  clears$d;
+    wire  clears$q;
+    reg  clears$clock;
     reg  [4:0] working$d;
     wire  [4:0] working$q;
     reg  working$clock;
@@ -1566,6 +1272,7 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     reg  refusing$clock;
     
     // Local signals
+    reg  [31:0] word;
     reg  [7:0] code;
     reg  [7:0] asked;
     reg  [7:0] wide_built;
@@ -1578,10 +1285,10 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     reg  [7:0] all_contexts;
     
     // Sub module instances
-    incircle_core_logic$command_port$clear$clearing clearing(
-        .d(clearing$d),
-        .q(clearing$q),
-        .clock(clearing$clock)
+    incircle_core_logic$command_port$clear$clears clears(
+        .d(clears$d),
+        .q(clears$q),
+        .clock(clears$clock)
     );
     incircle_core_logic$command_port$clear$working working(
         .d(working$d),
@@ -1606,31 +1313,32 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
     
     // Update code
     always @(*) begin
-        clearing$clock = clock;
+        clears$clock = clock;
         working$clock = clock;
         batch$clock = clock;
         dealt$clock = clock;
         refusing$clock = clock;
-        clearing$d = clearing$q;
+        clears$d = clears$q;
         working$d = working$q;
         batch$d = batch$q;
         dealt$d = dealt$q;
         refusing$d = refusing$q;
         clear_code = 32'h2;
         all_contexts = 32'h0;
-        clears = clearing$q;
+        clearing[(64'h0)+:(1)] = clears$q;
         deal[(64'h0)+:(5)] = working$q;
         deal[(64'h5)+:(1)] = batch$q;
         deal[(64'h6)+:(7)] = dealt$q;
-        is_refused = refusing$q;
+        clearing[(64'h1)+:(1)] = refusing$q;
+        word = taken[(64'h2)+:(32)];
         code = word[(32'h18)+:(8)];
         asked = word[(32'h0)+:(8)];
         wide_built = ((built) & 8'hff);
         is_clear = code == clear_code;
         asks_too_much = asked > wide_built;
-        is_granted = accepts & is_clear & (~asks_too_much);
-        clearing$d = is_granted;
-        if (accepts) begin
+        is_granted = taken[(64'h0)+:(1)] & is_clear & (~asks_too_much);
+        clears$d = is_granted;
+        if (taken[(64'h0)+:(1)]) begin
             refusing$d = is_clear & asks_too_much;
         end
         if (is_granted) begin
@@ -1647,7 +1355,7 @@ module incircle_core_logic$command_port$clear(clock,reset,built,accepts,word,cle
             dealt$d = twice_working + wide_working;
         end
         if (reset) begin
-            clearing$d = 1'b0;
+            clears$d = 1'b0;
             batch$d = 1'b0;
             dealt$d = 32'h10;
             working$d = built;
@@ -1676,7 +1384,7 @@ module incircle_core_logic$command_port$clear$batch(d,q,clock);
 endmodule // incircle_core_logic$command_port$clear$batch
 
 
-module incircle_core_logic$command_port$clear$clearing(d,q,clock);
+module incircle_core_logic$command_port$clear$clears(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -1692,7 +1400,7 @@ module incircle_core_logic$command_port$clear$clearing(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$command_port$clear$clearing
+endmodule // incircle_core_logic$command_port$clear$clears
 
 
 module incircle_core_logic$command_port$clear$dealt(d,q,clock);
@@ -1752,73 +1460,71 @@ module incircle_core_logic$command_port$clear$working(d,q,clock);
 endmodule // incircle_core_logic$command_port$clear$working
 
 
-module incircle_core_logic$command_port$command(d,q,clock);
+module incircle_core_logic$command_port$gate(command$valid,command$ready,command$data,state,sweeps,none_is_left,came,engine,taken,awaits_point);
     
     // Module arguments
-    input wire  [7:0] d;
-    output reg  [7:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 8'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$command
-
-
-module incircle_core_logic$command_port$first_word(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$first_word
-
-
-module incircle_core_logic$command_port$gate(is_command,is_argument,is_points,sweeps,none_is_left,came,start_is_open,stuck,ready,takes_command,takes_point,awaits_point);
-    
-    // Module arguments
-    input wire  is_command;
-    input wire  is_argument;
-    input wire  is_points;
+    input wire  command$valid;
+    output reg  command$ready;
+    input wire  [31:0] command$data;
+    input wire  [2:0] state;
     input wire  sweeps;
     input wire  none_is_left;
     input wire  came;
-    input wire  start_is_open;
-    input wire  stuck;
-    output reg  ready;
-    output reg  takes_command;
-    output reg  takes_point;
+    input wire  [19:0] engine;
+    output reg  [33:0] taken;
     output reg  awaits_point;
+    
+    // Enums
+    localparam CommandState$Command = 0;
+    localparam CommandState$First = 1;
+    localparam CommandState$Count = 2;
+    localparam CommandState$Points = 3;
+    localparam CommandState$Settle = 4;
+    localparam CommandState$Answer = 5;
     
     // Local signals
     reg  is_held;
+    reg  may_be_point;
+    reg  takes_command;
+    reg  takes_argument;
+    reg  takes_point;
+    reg  is_some;
     
     // Update code
     always @(*) begin
-        is_held = start_is_open & (~stuck);
-        awaits_point = is_points & (~none_is_left);
-        takes_command = is_command & (~sweeps);
-        takes_point = awaits_point & (~came) & (~is_held);
-        ready = is_argument | takes_command | takes_point;
+        is_held = engine[(64'h0)+:(1)] & (~engine[(64'h3)+:(1)]);
+        may_be_point = (state == CommandState$Points) & (~none_is_left);
+        awaits_point = may_be_point;
+        takes_command = (state == CommandState$Command) & (~sweeps);
+        takes_argument = (state == CommandState$First) | (state == CommandState$Count);
+        takes_point = may_be_point & (~came) & (~is_held);
+        command$ready = takes_argument | takes_command | takes_point;
+        is_some = |command$data;
+        taken[(64'h0)+:(1)] = command$valid & takes_command & is_some;
+        taken[(64'h1)+:(1)] = command$valid & takes_point;
+        taken[(64'h2)+:(32)] = command$data;
     end
     
 endmodule // incircle_core_logic$command_port$gate
+
+
+module incircle_core_logic$command_port$held(d,q,clock);
+    
+    // Module arguments
+    input wire  [71:0] d;
+    output reg  [71:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 72'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$command_port$held
 
 
 module incircle_core_logic$command_port$is_inserting(d,q,clock);
@@ -1859,25 +1565,6 @@ module incircle_core_logic$command_port$is_reading(d,q,clock);
 endmodule // incircle_core_logic$command_port$is_reading
 
 
-module incircle_core_logic$command_port$left(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$command_port$left
-
-
 module incircle_core_logic$command_port$none_is_left(d,q,clock);
     
     // Module arguments
@@ -1897,23 +1584,17 @@ module incircle_core_logic$command_port$none_is_left(d,q,clock);
 endmodule // incircle_core_logic$command_port$none_is_left
 
 
-module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,collinear,stuck,accepts,word,came,came_id,point,arrived,refused,some_refused);
+module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,engine,taken,arrival,tally);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
     input wire  [14:0] capacity;
-    input wire  collinear;
-    input wire  stuck;
-    input wire  accepts;
-    input wire  [31:0] word;
-    output reg  came;
-    output reg  [14:0] came_id;
-    output reg  [31:0] point;
-    output reg  [14:0] arrived;
-    output reg  [31:0] refused;
-    output reg  some_refused;
+    input wire  [19:0] engine;
+    input wire  [33:0] taken;
+    output reg  [47:0] arrival;
+    output reg  [47:0] tally;
     
     // Stub signals
     reg  is_new$d;
@@ -2009,19 +1690,19 @@ module incircle_core_logic$command_port$slot(clock,reset,clears,capacity,colline
         has_refused$d = has_refused$q;
         one_arrival = 32'h1;
         one = 32'h1;
-        came = is_new$q;
-        came_id = last_id$q;
-        point = last_point$q;
-        arrived = arrivals$q;
-        refused = refusals$q;
-        some_refused = has_refused$q;
+        arrival[(64'h0)+:(1)] = is_new$q;
+        arrival[(64'h1)+:(15)] = last_id$q;
+        arrival[(64'h10)+:(32)] = last_point$q;
+        tally[(64'h0)+:(15)] = arrivals$q;
+        tally[(64'hf)+:(32)] = refusals$q;
+        tally[(64'h2f)+:(1)] = has_refused$q;
         is_full$d = arrivals$q == capacity;
-        has_room = (~collinear) & (~stuck) & (~is_full$q);
-        stores = accepts & has_room;
-        is_surplus$d = accepts & (~has_room);
+        has_room = (~engine[(64'h1)+:(1)]) & (~engine[(64'h3)+:(1)]) & (~is_full$q);
+        stores = taken[(64'h1)+:(1)] & has_room;
+        is_surplus$d = taken[(64'h1)+:(1)] & (~has_room);
         is_new$d = stores;
         last_id$d = arrivals$q;
-        last_point$d = word;
+        last_point$d = taken[(64'h2)+:(32)];
         if (stores) begin
             arrivals$d = arrivals$q + one_arrival;
         end
@@ -2223,7 +1904,7 @@ module incircle_core_logic$command_port$state(d,q,clock);
 endmodule // incircle_core_logic$command_port$state
 
 
-module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading,is_issuing,is_writing,is_committing,is_releasing,walk_visit,test,solo_test,overflows,flip,root_visit,revisit,gives_up,retries,takes_token,cavity_ends,cavity_triangles,seeds,commit_ends,since,solo_inserts,duplicate,solo_duplicate,refused,select,value,insertions,duplicates,now,latency_comes,latency);
+module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading,events,refused,select,value,insertions,duplicates,now,latency_comes,latency);
     
     // Module arguments
     input wire  clock;
@@ -2232,28 +1913,7 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
     input wire  inserting;
     input wire  waiting;
     input wire  reading;
-    input wire  is_issuing;
-    input wire  is_writing;
-    input wire  is_committing;
-    input wire  is_releasing;
-    input wire  walk_visit;
-    input wire  test;
-    input wire  solo_test;
-    input wire  overflows;
-    input wire  flip;
-    input wire  root_visit;
-    input wire  revisit;
-    input wire  gives_up;
-    input wire  retries;
-    input wire  takes_token;
-    input wire  cavity_ends;
-    input wire  [6:0] cavity_triangles;
-    input wire  seeds;
-    input wire  commit_ends;
-    input wire  [21:0] since;
-    input wire  solo_inserts;
-    input wire  duplicate;
-    input wire  solo_duplicate;
+    input wire  [47:0] events;
     input wire  [31:0] refused;
     input wire  [4:0] select;
     output reg  [31:0] value;
@@ -2302,17 +1962,7 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
     wire  [31:0] cycles$value;
     reg  visits$clock;
     reg  visits$zero;
-    reg  visits$walk_visit;
-    reg  visits$test;
-    reg  visits$overflows;
-    reg  visits$flip;
-    reg  visits$root_visit;
-    reg  visits$revisit;
-    reg  visits$gives_up;
-    reg  visits$retries;
-    reg  visits$takes_token;
-    reg  visits$cavity_ends;
-    reg  [6:0] visits$cavity_triangles;
+    reg  [16:0] visits$events;
     reg  [4:0] visits$select;
     wire  [31:0] visits$value;
     reg  range$clock;
@@ -2389,17 +2039,7 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
     incircle_core_logic$counters$visits visits(
         .clock(visits$clock),
         .zero(visits$zero),
-        .walk_visit(visits$walk_visit),
-        .test(visits$test),
-        .overflows(visits$overflows),
-        .flip(visits$flip),
-        .root_visit(visits$root_visit),
-        .revisit(visits$revisit),
-        .gives_up(visits$gives_up),
-        .retries(visits$retries),
-        .takes_token(visits$takes_token),
-        .cavity_ends(visits$cavity_ends),
-        .cavity_triangles(visits$cavity_triangles),
+        .events(visits$events),
         .select(visits$select),
         .value(visits$value)
     );
@@ -2446,36 +2086,26 @@ module incircle_core_logic$counters(clock,reset,clears,inserting,waiting,reading
         cycles$inserting = inserting;
         cycles$waiting = waiting;
         cycles$reading = reading;
-        cycles$is_issuing = is_issuing;
-        cycles$is_writing = is_writing;
-        cycles$is_committing = is_committing;
-        cycles$is_releasing = is_releasing;
+        cycles$is_issuing = events[(64'h2c)+:(1)];
+        cycles$is_writing = events[(64'h2d)+:(1)];
+        cycles$is_committing = events[(64'h2e)+:(1)];
+        cycles$is_releasing = events[(64'h2f)+:(1)];
         cycles$select = select;
-        visits$walk_visit = walk_visit;
-        visits$test = test | solo_test;
-        visits$overflows = overflows;
-        visits$flip = flip;
-        visits$root_visit = root_visit;
-        visits$revisit = revisit;
-        visits$gives_up = gives_up;
-        visits$retries = retries;
-        visits$takes_token = takes_token;
-        visits$cavity_ends = cavity_ends;
-        visits$cavity_triangles = cavity_triangles;
+        visits$events = events[(64'h0)+:(17)];
         visits$select = select;
         ticks$d = ticks$q + one_tick;
         now = ticks$q;
-        range$commit_ends = commit_ends;
+        range$commit_ends = events[(64'h12)+:(1)];
         range$now = ticks$q;
-        range$since = since;
+        range$since = events[(64'h13)+:(22)];
         latency_comes = range$latency_comes;
         latency = range$latency;
-        duplicated$count = duplicate | solo_duplicate;
+        duplicated$count = events[(64'h2b)+:(1)] | events[(64'h2a)+:(1)];
         inserts$d = 32'h0;
-        if (commit_ends | solo_inserts) begin
+        if (events[(64'h12)+:(1)] | events[(64'h29)+:(1)]) begin
             inserts$d = 32'h1;
         end
-        if (seeds) begin
+        if (events[(64'h11)+:(1)]) begin
             inserts$d = 32'h3;
         end
         more = ((inserts$q) & 32'hffffffff);
@@ -3992,22 +3622,12 @@ module incircle_core_logic$counters$ticks(d,q,clock);
 endmodule // incircle_core_logic$counters$ticks
 
 
-module incircle_core_logic$counters$visits(clock,zero,walk_visit,test,overflows,flip,root_visit,revisit,gives_up,retries,takes_token,cavity_ends,cavity_triangles,select,value);
+module incircle_core_logic$counters$visits(clock,zero,events,select,value);
     
     // Module arguments
     input wire  clock;
     input wire  zero;
-    input wire  walk_visit;
-    input wire  test;
-    input wire  overflows;
-    input wire  flip;
-    input wire  root_visit;
-    input wire  revisit;
-    input wire  gives_up;
-    input wire  retries;
-    input wire  takes_token;
-    input wire  cavity_ends;
-    input wire  [6:0] cavity_triangles;
+    input wire  [16:0] events;
     input wire  [4:0] select;
     output reg  [31:0] value;
     
@@ -4158,18 +3778,18 @@ module incircle_core_logic$counters$visits(clock,zero,walk_visit,test,overflows,
         aborts$zero = zero;
         root_retries$zero = zero;
         waiting_tokens$zero = zero;
-        walk_visits$count = walk_visit;
-        tests$count = test;
-        overflowed$count = overflows;
-        flips$count = flip;
-        root_visits$count = root_visit;
-        revisits$count = revisit;
-        aborts$count = gives_up;
-        root_retries$count = retries;
-        waiting_tokens$count = takes_token;
+        walk_visits$count = events[(64'h0)+:(1)];
+        tests$count = events[(64'h2)+:(1)];
+        overflowed$count = events[(64'h4)+:(1)];
+        flips$count = events[(64'h5)+:(1)];
+        root_visits$count = events[(64'h1)+:(1)];
+        revisits$count = events[(64'h3)+:(1)];
+        aborts$count = events[(64'h6)+:(1)];
+        root_retries$count = events[(64'h7)+:(1)];
+        waiting_tokens$count = events[(64'h8)+:(1)];
         last_triangles$d = 32'h0;
-        if (cavity_ends) begin
-            last_triangles$d = cavity_triangles;
+        if (events[(64'h9)+:(1)]) begin
+            last_triangles$d = events[(64'ha)+:(7)];
         end
         wide_triangles = ((last_triangles$q) & 32'hffffffff);
         triangles$d = triangles$q + wide_triangles;
@@ -5101,172 +4721,94 @@ module incircle_core_logic$counters$zeroes(d,q,clock);
 endmodule // incircle_core_logic$counters$zeroes
 
 
-module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience,deal,clears,came,came_id,point,arrived,read,read_id,now,start_is_open,collinear,records,is_quiet,stuck,sweeps,read_done,v0,v1,v2,n0,n1,n2,was_set,write,events);
+module incircle_core_logic$engine(clock,reset,limits,deal,clears,arrival,arrived,read,read_out,now,state,write,events);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
-    input wire  [14:0] infinite;
-    input wire  [6:0] ring;
-    input wire  [14:0] last_id;
-    input wire  [23:0] all;
-    input wire  [21:0] patience;
+    input wire  [82:0] limits;
     input wire  [12:0] deal;
     input wire  clears;
-    input wire  came;
-    input wire  [14:0] came_id;
-    input wire  [31:0] point;
+    input wire  [47:0] arrival;
     input wire  [14:0] arrived;
-    input wire  read;
-    input wire  [14:0] read_id;
+    input wire  [15:0] read;
+    output reg  [91:0] read_out;
     input wire  [21:0] now;
-    output reg  start_is_open;
-    output reg  collinear;
-    output reg  [14:0] records;
-    output reg  is_quiet;
-    output reg  stuck;
-    output reg  sweeps;
-    output reg  read_done;
-    output reg  [14:0] v0;
-    output reg  [14:0] v1;
-    output reg  [14:0] v2;
-    output reg  [14:0] n0;
-    output reg  [14:0] n1;
-    output reg  [14:0] n2;
-    output reg  was_set;
+    output reg  [19:0] state;
     output reg  [109:0] write;
-    output reg  [48:0] events;
+    output reg  [47:0] events;
     
     // Stub signals
     reg  insertions$clock;
     reg  insertions$reset;
     reg  insertions$clears;
-    reg  [6:0] insertions$ring;
-    reg  [14:0] insertions$last_id;
-    reg  [23:0] insertions$all;
-    reg  [21:0] insertions$patience;
+    reg  [82:0] insertions$limits;
     reg  [12:0] insertions$deal;
     reg  [14:0] insertions$arrived;
     reg  insertions$came;
     reg  [21:0] insertions$now;
-    reg  insertions$early_done;
-    reg  [54:0] insertions$early_token;
-    reg  [97:0] insertions$early_turned;
-    reg  [54:0] insertions$token;
-    reg  [97:0] insertions$turned;
-    reg  [19:0] insertions$verdict;
-    reg  insertions$seeded;
-    reg  insertions$has_no_start;
-    reg  insertions$seeds;
-    reg  insertions$solo_is_at_work;
-    reg  insertions$solo_ends;
-    reg  insertions$solo_inserts;
-    wire  insertions$asks;
-    wire  insertions$may_ask;
-    wire  [92:0] insertions$follows;
-    wire  insertions$starts;
-    wire  [4:0] insertions$starter;
-    wire  [14:0] insertions$u;
+    reg  [153:0] insertions$early;
+    reg  [173:0] insertions$visit;
+    reg  [2:0] insertions$seed;
+    reg  [4:0] insertions$solo;
+    wire  [94:0] insertions$follow;
+    wire  [36:0] insertions$start;
     wire  insertions$looks;
-    wire  [14:0] insertions$fetch_id;
-    wire  insertions$position_enable;
-    wire  [4:0] insertions$position_owner;
-    wire  insertions$solo_starts;
-    wire  [4:0] insertions$solo_owner;
-    wire  [14:0] insertions$solo_p;
+    wire  [5:0] insertions$fetched;
+    wire  [35:0] insertions$solo_start;
     wire  [109:0] insertions$write;
     wire  [14:0] insertions$records;
     wire  [14:0] insertions$fresh;
-    wire  insertions$clear_enable;
-    wire  [14:0] insertions$clear_id;
+    wire  [15:0] insertions$clear;
     wire  insertions$sweeps;
     wire  insertions$is_quiet;
     wire  insertions$stuck;
-    wire  [48:0] insertions$events;
+    wire  [47:0] insertions$events;
     reg  pipeline$clock;
     reg  pipeline$reset;
     reg  [14:0] pipeline$infinite;
-    reg  pipeline$push;
-    reg  [92:0] pipeline$bundle;
     reg  [14:0] pipeline$records;
-    reg  [4:0] pipeline$position_owner;
-    reg  [31:0] pipeline$position;
-    reg  pipeline$position_enable;
+    reg  [93:0] pipeline$push;
+    reg  [37:0] pipeline$position;
     wire  pipeline$is_issuing;
-    wire  pipeline$done;
-    wire  [54:0] pipeline$token;
-    wire  [97:0] pipeline$turned;
-    wire  [19:0] pipeline$verdict;
-    wire  pipeline$early_done;
-    wire  [54:0] pipeline$early_token;
-    wire  [97:0] pipeline$early_turned;
-    reg  pipeline$read;
-    reg  [14:0] pipeline$read_id;
-    wire  pipeline$read_done;
-    wire  [14:0] pipeline$v0;
-    wire  [14:0] pipeline$v1;
-    wire  [14:0] pipeline$v2;
-    wire  [14:0] pipeline$n0;
-    wire  [14:0] pipeline$n1;
-    wire  [14:0] pipeline$n2;
-    wire  pipeline$was_set;
+    wire  [173:0] pipeline$visit;
+    wire  [153:0] pipeline$early;
+    reg  [15:0] pipeline$read;
+    wire  [91:0] pipeline$read_out;
     reg  [109:0] pipeline$write;
     reg  [33:0] pipeline$enables;
-    reg  [14:0] pipeline$vertex_id;
-    reg  [31:0] pipeline$vertex_position;
-    reg  pipeline$vertex_enable;
+    reg  [47:0] pipeline$arrival;
     reg  [14:0] pipeline$fetch_id;
     wire  [31:0] pipeline$fetched;
-    reg  [14:0] pipeline$clear_id;
-    reg  pipeline$clear_enable;
+    reg  [15:0] pipeline$clear;
     reg  solo$clock;
     reg  solo$reset;
-    reg  solo$starts;
-    reg  [4:0] solo$owner;
-    reg  [14:0] solo$p;
-    reg  [14:0] solo$start;
+    reg  [35:0] solo$start;
     reg  [14:0] solo$records;
-    reg  solo$done;
-    reg  [54:0] solo$token;
-    reg  [97:0] solo$turned;
-    reg  [19:0] solo$verdict;
-    wire  solo$push;
-    wire  [92:0] solo$bundle;
+    reg  [173:0] solo$visit;
+    wire  [93:0] solo$push;
     wire  [109:0] solo$write;
-    wire  solo$tests;
-    wire  solo$flips;
-    wire  solo$ends;
-    wire  solo$inserts;
-    wire  solo$is_at_work;
+    wire  [4:0] solo$progress;
     reg  seeder$clock;
     reg  seeder$reset;
     reg  seeder$clears;
     reg  [14:0] seeder$infinite;
     reg  [12:0] seeder$deal;
-    reg  seeder$came;
-    reg  [14:0] seeder$came_id;
+    reg  [47:0] seeder$arrival;
     reg  [14:0] seeder$arrived;
     reg  seeder$looks;
     reg  [19:0] seeder$verdict;
-    wire  seeder$seeded;
+    wire  [2:0] seeder$progress;
     wire  seeder$start_is_open;
     wire  seeder$collinear;
-    wire  seeder$has_no_start;
-    wire  seeder$seeds;
     wire  [109:0] seeder$write;
     reg  push_port$clock;
     reg  push_port$reset;
-    reg  push_port$asks;
-    reg  push_port$may_ask;
-    reg  [92:0] push_port$follows;
-    reg  push_port$starts;
-    reg  [4:0] push_port$starter;
-    reg  [14:0] push_port$u;
+    reg  [94:0] push_port$follow;
+    reg  [36:0] push_port$start;
     reg  push_port$is_alone;
-    reg  push_port$solo_asks;
-    reg  [92:0] push_port$solo;
-    wire  push_port$push;
-    wire  [92:0] push_port$bundle;
+    reg  [93:0] push_port$solo;
+    wire  [93:0] push_port$push;
     reg  write_port$clock;
     reg  write_port$reset;
     reg  [109:0] write_port$commit;
@@ -5275,49 +4817,33 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
     wire  [109:0] write_port$write;
     wire  [33:0] write_port$enables;
     
+    // Local signals
+    reg  [173:0] visit;
+    reg  [19:0] verdict;
+    
     // Sub module instances
     incircle_core_logic$engine$insertions insertions(
         .clock(insertions$clock),
         .reset(insertions$reset),
         .clears(insertions$clears),
-        .ring(insertions$ring),
-        .last_id(insertions$last_id),
-        .all(insertions$all),
-        .patience(insertions$patience),
+        .limits(insertions$limits),
         .deal(insertions$deal),
         .arrived(insertions$arrived),
         .came(insertions$came),
         .now(insertions$now),
-        .early_done(insertions$early_done),
-        .early_token(insertions$early_token),
-        .early_turned(insertions$early_turned),
-        .token(insertions$token),
-        .turned(insertions$turned),
-        .verdict(insertions$verdict),
-        .seeded(insertions$seeded),
-        .has_no_start(insertions$has_no_start),
-        .seeds(insertions$seeds),
-        .solo_is_at_work(insertions$solo_is_at_work),
-        .solo_ends(insertions$solo_ends),
-        .solo_inserts(insertions$solo_inserts),
-        .asks(insertions$asks),
-        .may_ask(insertions$may_ask),
-        .follows(insertions$follows),
-        .starts(insertions$starts),
-        .starter(insertions$starter),
-        .u(insertions$u),
+        .early(insertions$early),
+        .visit(insertions$visit),
+        .seed(insertions$seed),
+        .solo(insertions$solo),
+        .follow(insertions$follow),
+        .start(insertions$start),
         .looks(insertions$looks),
-        .fetch_id(insertions$fetch_id),
-        .position_enable(insertions$position_enable),
-        .position_owner(insertions$position_owner),
-        .solo_starts(insertions$solo_starts),
-        .solo_owner(insertions$solo_owner),
-        .solo_p(insertions$solo_p),
+        .fetched(insertions$fetched),
+        .solo_start(insertions$solo_start),
         .write(insertions$write),
         .records(insertions$records),
         .fresh(insertions$fresh),
-        .clear_enable(insertions$clear_enable),
-        .clear_id(insertions$clear_id),
+        .clear(insertions$clear),
         .sweeps(insertions$sweeps),
         .is_quiet(insertions$is_quiet),
         .stuck(insertions$stuck),
@@ -5327,60 +4853,30 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .clock(pipeline$clock),
         .reset(pipeline$reset),
         .infinite(pipeline$infinite),
-        .push(pipeline$push),
-        .bundle(pipeline$bundle),
         .records(pipeline$records),
-        .position_owner(pipeline$position_owner),
+        .push(pipeline$push),
         .position(pipeline$position),
-        .position_enable(pipeline$position_enable),
         .is_issuing(pipeline$is_issuing),
-        .done(pipeline$done),
-        .token(pipeline$token),
-        .turned(pipeline$turned),
-        .verdict(pipeline$verdict),
-        .early_done(pipeline$early_done),
-        .early_token(pipeline$early_token),
-        .early_turned(pipeline$early_turned),
+        .visit(pipeline$visit),
+        .early(pipeline$early),
         .read(pipeline$read),
-        .read_id(pipeline$read_id),
-        .read_done(pipeline$read_done),
-        .v0(pipeline$v0),
-        .v1(pipeline$v1),
-        .v2(pipeline$v2),
-        .n0(pipeline$n0),
-        .n1(pipeline$n1),
-        .n2(pipeline$n2),
-        .was_set(pipeline$was_set),
+        .read_out(pipeline$read_out),
         .write(pipeline$write),
         .enables(pipeline$enables),
-        .vertex_id(pipeline$vertex_id),
-        .vertex_position(pipeline$vertex_position),
-        .vertex_enable(pipeline$vertex_enable),
+        .arrival(pipeline$arrival),
         .fetch_id(pipeline$fetch_id),
         .fetched(pipeline$fetched),
-        .clear_id(pipeline$clear_id),
-        .clear_enable(pipeline$clear_enable)
+        .clear(pipeline$clear)
     );
     incircle_core_logic$engine$solo solo(
         .clock(solo$clock),
         .reset(solo$reset),
-        .starts(solo$starts),
-        .owner(solo$owner),
-        .p(solo$p),
         .start(solo$start),
         .records(solo$records),
-        .done(solo$done),
-        .token(solo$token),
-        .turned(solo$turned),
-        .verdict(solo$verdict),
+        .visit(solo$visit),
         .push(solo$push),
-        .bundle(solo$bundle),
         .write(solo$write),
-        .tests(solo$tests),
-        .flips(solo$flips),
-        .ends(solo$ends),
-        .inserts(solo$inserts),
-        .is_at_work(solo$is_at_work)
+        .progress(solo$progress)
     );
     incircle_core_logic$engine$seeder seeder(
         .clock(seeder$clock),
@@ -5388,32 +4884,23 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         .clears(seeder$clears),
         .infinite(seeder$infinite),
         .deal(seeder$deal),
-        .came(seeder$came),
-        .came_id(seeder$came_id),
+        .arrival(seeder$arrival),
         .arrived(seeder$arrived),
         .looks(seeder$looks),
         .verdict(seeder$verdict),
-        .seeded(seeder$seeded),
+        .progress(seeder$progress),
         .start_is_open(seeder$start_is_open),
         .collinear(seeder$collinear),
-        .has_no_start(seeder$has_no_start),
-        .seeds(seeder$seeds),
         .write(seeder$write)
     );
     incircle_core_logic$engine$push_port push_port(
         .clock(push_port$clock),
         .reset(push_port$reset),
-        .asks(push_port$asks),
-        .may_ask(push_port$may_ask),
-        .follows(push_port$follows),
-        .starts(push_port$starts),
-        .starter(push_port$starter),
-        .u(push_port$u),
+        .follow(push_port$follow),
+        .start(push_port$start),
         .is_alone(push_port$is_alone),
-        .solo_asks(push_port$solo_asks),
         .solo(push_port$solo),
-        .push(push_port$push),
-        .bundle(push_port$bundle)
+        .push(push_port$push)
     );
     incircle_core_logic$engine$write_port write_port(
         .clock(write_port$clock),
@@ -5441,144 +4928,90 @@ module incircle_core_logic$engine(clock,reset,infinite,ring,last_id,all,patience
         write_port$reset = reset;
         insertions$clears = clears;
         seeder$clears = clears;
-        start_is_open = seeder$start_is_open;
-        collinear = seeder$collinear;
-        records = insertions$records;
-        is_quiet = insertions$is_quiet;
-        stuck = insertions$stuck;
-        sweeps = insertions$sweeps;
-        read_done = pipeline$read_done;
-        v0 = pipeline$v0;
-        v1 = pipeline$v1;
-        v2 = pipeline$v2;
-        n0 = pipeline$n0;
-        n1 = pipeline$n1;
-        n2 = pipeline$n2;
-        was_set = pipeline$was_set;
+        state[(64'h0)+:(1)] = seeder$start_is_open;
+        state[(64'h1)+:(1)] = seeder$collinear;
+        state[(64'h2)+:(1)] = insertions$is_quiet;
+        state[(64'h3)+:(1)] = insertions$stuck;
+        state[(64'h4)+:(1)] = insertions$sweeps;
+        state[(64'h5)+:(15)] = insertions$records;
+        read_out = pipeline$read_out;
         write = write_port$write;
-        pipeline$infinite = infinite;
+        visit = pipeline$visit;
+        verdict = pipeline$visit[(64'h9a)+:(20)];
+        pipeline$infinite = limits[(64'h0)+:(15)];
         pipeline$records = insertions$records;
         pipeline$push = push_port$push;
-        pipeline$bundle = push_port$bundle;
-        pipeline$position_enable = insertions$position_enable;
-        pipeline$position_owner = insertions$position_owner;
-        pipeline$position = pipeline$fetched;
+        pipeline$position[(64'h0)+:(1)] = insertions$fetched[(64'h0)+:(1)];
+        pipeline$position[(64'h1)+:(5)] = insertions$fetched[(64'h1)+:(5)];
+        pipeline$position[(64'h6)+:(32)] = pipeline$fetched;
         pipeline$read = read;
-        pipeline$read_id = read_id;
         pipeline$write = write_port$write;
         pipeline$enables = write_port$enables;
-        pipeline$vertex_id = came_id;
-        pipeline$vertex_position = point;
-        pipeline$vertex_enable = came;
-        pipeline$fetch_id = insertions$fetch_id;
-        pipeline$clear_id = insertions$clear_id;
-        pipeline$clear_enable = insertions$clear_enable;
-        insertions$ring = ring;
-        insertions$last_id = last_id;
-        insertions$all = all;
-        insertions$patience = patience;
+        pipeline$arrival = arrival;
+        pipeline$fetch_id = insertions$start[(64'h16)+:(15)];
+        pipeline$clear = insertions$clear;
+        insertions$limits = limits;
         insertions$deal = deal;
         insertions$arrived = arrived;
-        insertions$came = came;
+        insertions$came = arrival[(64'h0)+:(1)];
         insertions$now = now;
-        insertions$early_done = pipeline$early_done & (~solo$is_at_work) & (~reset);
-        insertions$early_token = pipeline$early_token;
-        insertions$early_turned = pipeline$early_turned;
-        insertions$token = pipeline$token;
-        insertions$turned = pipeline$turned;
-        insertions$verdict = pipeline$verdict;
-        insertions$seeded = seeder$seeded;
-        insertions$seeds = seeder$seeds;
-        insertions$has_no_start = seeder$has_no_start;
-        insertions$solo_is_at_work = solo$is_at_work;
-        insertions$solo_ends = solo$ends;
-        insertions$solo_inserts = solo$inserts;
-        seeder$infinite = infinite;
+        insertions$early = pipeline$early;
+        insertions$early[(64'h0)+:(1)] = pipeline$early[(64'h0)+:(1)] & (~solo$progress[(64'h0)+:(1)]) & (~reset);
+        insertions$visit = visit;
+        insertions$seed = seeder$progress;
+        insertions$solo = solo$progress;
+        seeder$infinite = limits[(64'h0)+:(15)];
         seeder$deal = deal;
-        seeder$came = came;
-        seeder$came_id = came_id;
+        seeder$arrival = arrival;
         seeder$arrived = arrived;
         seeder$looks = insertions$looks;
-        seeder$verdict = pipeline$verdict;
-        solo$starts = insertions$solo_starts;
-        solo$owner = insertions$solo_owner;
-        solo$p = insertions$solo_p;
-        solo$start = insertions$u;
+        seeder$verdict = verdict;
+        solo$start = insertions$solo_start;
         solo$records = insertions$fresh;
-        solo$done = pipeline$done;
-        solo$token = pipeline$token;
-        solo$turned = pipeline$turned;
-        solo$verdict = pipeline$verdict;
-        push_port$asks = insertions$asks;
-        push_port$may_ask = insertions$may_ask;
-        push_port$follows = insertions$follows;
-        push_port$starts = insertions$starts;
-        push_port$starter = insertions$starter;
-        push_port$u = insertions$u;
-        push_port$is_alone = solo$is_at_work;
-        push_port$solo_asks = solo$push;
-        push_port$solo = solo$bundle;
+        solo$visit = visit;
+        push_port$follow = insertions$follow;
+        push_port$start = insertions$start;
+        push_port$is_alone = solo$progress[(64'h0)+:(1)];
+        push_port$solo = solo$push;
         write_port$commit = insertions$write;
         write_port$solo = solo$write;
         write_port$seed = seeder$write;
         events = insertions$events;
-        events[(64'h1a)+:(1)] = solo$tests;
-        events[(64'h1b)+:(1)] = solo$flips;
-        events[(64'h2d)+:(1)] = pipeline$is_issuing;
-        events[(64'h2e)+:(1)] = write_port$write[(64'h0)+:(1)];
+        events[(64'h2c)+:(1)] = pipeline$is_issuing;
+        events[(64'h2d)+:(1)] = write_port$write[(64'h0)+:(1)];
     end
     
 endmodule // incircle_core_logic$engine
 
 
-module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all,patience,deal,arrived,came,now,early_done,early_token,early_turned,token,turned,verdict,seeded,has_no_start,seeds,solo_is_at_work,solo_ends,solo_inserts,asks,may_ask,follows,starts,starter,u,looks,fetch_id,position_enable,position_owner,solo_starts,solo_owner,solo_p,write,records,fresh,clear_enable,clear_id,sweeps,is_quiet,stuck,events);
+module incircle_core_logic$engine$insertions(clock,reset,clears,limits,deal,arrived,came,now,early,visit,seed,solo,follow,start,looks,fetched,solo_start,write,records,fresh,clear,sweeps,is_quiet,stuck,events);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
-    input wire  [6:0] ring;
-    input wire  [14:0] last_id;
-    input wire  [23:0] all;
-    input wire  [21:0] patience;
+    input wire  [82:0] limits;
     input wire  [12:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
     input wire  [21:0] now;
-    input wire  early_done;
-    input wire  [54:0] early_token;
-    input wire  [97:0] early_turned;
-    input wire  [54:0] token;
-    input wire  [97:0] turned;
-    input wire  [19:0] verdict;
-    input wire  seeded;
-    input wire  has_no_start;
-    input wire  seeds;
-    input wire  solo_is_at_work;
-    input wire  solo_ends;
-    input wire  solo_inserts;
-    output reg  asks;
-    output reg  may_ask;
-    output reg  [92:0] follows;
-    output reg  starts;
-    output reg  [4:0] starter;
-    output reg  [14:0] u;
+    input wire  [153:0] early;
+    input wire  [173:0] visit;
+    input wire  [2:0] seed;
+    input wire  [4:0] solo;
+    output reg  [94:0] follow;
+    output reg  [36:0] start;
     output reg  looks;
-    output reg  [14:0] fetch_id;
-    output reg  position_enable;
-    output reg  [4:0] position_owner;
-    output reg  solo_starts;
-    output reg  [4:0] solo_owner;
-    output reg  [14:0] solo_p;
+    output reg  [5:0] fetched;
+    output reg  [35:0] solo_start;
     output reg  [109:0] write;
     output reg  [14:0] records;
     output reg  [14:0] fresh;
-    output reg  clear_enable;
-    output reg  [14:0] clear_id;
+    output reg  [15:0] clear;
     output reg  sweeps;
     output reg  is_quiet;
     output reg  stuck;
-    output reg  [48:0] events;
+    output reg  [47:0] events;
     
     // Stub signals
     reg  dispatcher$clock;
@@ -5589,128 +5022,61 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     reg  [12:0] dispatcher$deal;
     reg  [14:0] dispatcher$arrived;
     reg  dispatcher$came;
-    reg  dispatcher$seeded;
-    reg  dispatcher$has_no_start;
-    reg  dispatcher$seeds;
-    reg  [4:0] dispatcher$owner;
-    reg  dispatcher$sleeps;
-    reg  dispatcher$keeps;
-    reg  dispatcher$hands_over;
-    reg  dispatcher$asks_to_wait;
-    reg  dispatcher$waits;
-    reg  dispatcher$stops_waiting;
-    reg  dispatcher$overflows;
-    reg  dispatcher$duplicate;
-    reg  dispatcher$root_enable;
-    reg  [14:0] dispatcher$root;
+    reg  [2:0] dispatcher$seed;
     reg  dispatcher$is_done;
+    reg  [28:0] dispatcher$outcome;
     reg  dispatcher$may_ask;
-    reg  dispatcher$commit_ends;
-    reg  [4:0] dispatcher$commit_owner;
-    reg  [14:0] dispatcher$hint;
-    reg  dispatcher$released;
-    reg  [4:0] dispatcher$released_owner;
-    reg  dispatcher$solo_is_at_work;
-    reg  dispatcher$solo_ends;
-    wire  dispatcher$starts;
-    wire  [4:0] dispatcher$starter;
-    wire  [14:0] dispatcher$u;
-    wire  dispatcher$takes;
-    wire  [14:0] dispatcher$taken_id;
-    wire  dispatcher$position_enable;
-    wire  [4:0] dispatcher$position_owner;
-    wire  [23:0] dispatcher$busy;
-    wire  dispatcher$waiter_valid;
-    wire  [4:0] dispatcher$waiter;
-    wire  dispatcher$solo_starts;
-    wire  [4:0] dispatcher$solo_owner;
-    wire  [14:0] dispatcher$solo_p;
+    reg  [71:0] dispatcher$committed;
+    reg  [5:0] dispatcher$released;
+    reg  [4:0] dispatcher$solo;
+    wire  [36:0] dispatcher$start;
+    wire  [5:0] dispatcher$fetched;
+    wire  [133:0] dispatcher$contexts;
+    wire  [35:0] dispatcher$solo_start;
     wire  dispatcher$takes_token;
     wire  dispatcher$is_quiet;
     wire  dispatcher$stuck;
     reg  attempts$clock;
     reg  [6:0] attempts$ring;
-    reg  attempts$early_done;
-    reg  [54:0] attempts$early_token;
-    reg  [97:0] attempts$early_turned;
-    reg  [54:0] attempts$token;
-    reg  [97:0] attempts$turned;
-    reg  [19:0] attempts$verdict;
+    reg  [153:0] attempts$early;
+    reg  [173:0] attempts$visit;
     reg  attempts$seeded;
-    reg  [23:0] attempts$busy;
-    reg  attempts$waiter_valid;
-    reg  [4:0] attempts$waiter;
-    reg  attempts$takes;
-    reg  [4:0] attempts$taker;
-    reg  [14:0] attempts$taken_id;
+    reg  [133:0] attempts$contexts;
+    reg  [36:0] attempts$start;
     reg  [21:0] attempts$now;
-    wire  attempts$asks;
-    wire  attempts$may_ask;
-    wire  [92:0] attempts$bundle;
     wire  attempts$is_done;
-    wire  [4:0] attempts$owner;
-    wire  attempts$sleeps;
-    wire  attempts$keeps;
-    wire  attempts$root_enable;
-    wire  [14:0] attempts$root;
-    wire  attempts$entry_enable;
-    wire  [5:0] attempts$entry_place;
-    wire  [52:0] attempts$entry;
-    wire  attempts$inner_enable;
-    wire  [5:0] attempts$inner_place;
-    wire  [14:0] attempts$inner_id;
-    wire  attempts$lock_enable;
-    wire  [6:0] attempts$lock_place;
-    wire  [14:0] attempts$lock_id;
-    wire  attempts$commit_enable;
-    wire  [55:0] attempts$commit_job;
-    wire  attempts$release_enable;
-    wire  [11:0] attempts$release_job;
-    wire  attempts$asks_to_wait;
-    wire  attempts$waits;
-    wire  attempts$stops_waiting;
-    wire  attempts$overflows;
-    wire  attempts$duplicate;
+    wire  [94:0] attempts$follow;
+    wire  [28:0] attempts$outcome;
     wire  attempts$looks;
-    wire  attempts$walk_visit;
-    wire  attempts$root_visit;
-    wire  attempts$test;
-    wire  attempts$revisit;
-    wire  attempts$gives_up;
-    wire  attempts$retries;
-    wire  [6:0] attempts$cavity_triangles;
+    wire  [64:0] attempts$entry;
+    wire  [26:0] attempts$inner;
+    wire  [27:0] attempts$lock;
+    wire  [56:0] attempts$commit;
+    wire  [12:0] attempts$releases;
+    wire  [16:0] attempts$events;
     reg  commits$clock;
     reg  commits$reset;
     reg  commits$clears;
     reg  [14:0] commits$last_id;
-    reg  [4:0] commits$owner;
-    reg  commits$entry_enable;
-    reg  [5:0] commits$entry_place;
-    reg  [52:0] commits$entry;
-    reg  commits$inner_enable;
-    reg  [5:0] commits$inner_place;
-    reg  [14:0] commits$inner_id;
-    reg  commits$lock_enable;
-    reg  [6:0] commits$lock_place;
-    reg  [14:0] commits$lock_id;
-    reg  commits$commit_enable;
-    reg  [55:0] commits$commit_job;
-    reg  commits$release_enable;
-    reg  [11:0] commits$release_job;
+    reg  [64:0] commits$entry;
+    reg  [26:0] commits$inner;
+    reg  [27:0] commits$lock;
+    reg  [56:0] commits$commit;
+    reg  [12:0] commits$releases;
     reg  commits$seeds;
     reg  commits$solo_inserts;
     wire  [109:0] commits$write;
-    wire  commits$ends;
-    wire  [55:0] commits$job;
-    wire  [14:0] commits$hint;
+    wire  [71:0] commits$committed;
     wire  [14:0] commits$records;
     wire  [14:0] commits$fresh;
     wire  commits$is_at_work;
-    wire  commits$clear_enable;
-    wire  [14:0] commits$clear_id;
-    wire  commits$released;
-    wire  [4:0] commits$released_owner;
+    wire  [15:0] commits$clear;
+    wire  [5:0] commits$released;
     wire  commits$sweeps;
+    
+    // Local signals
+    reg  [55:0] job;
+    reg  [16:0] visit_events;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$dispatcher dispatcher(
@@ -5722,42 +5088,17 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         .deal(dispatcher$deal),
         .arrived(dispatcher$arrived),
         .came(dispatcher$came),
-        .seeded(dispatcher$seeded),
-        .has_no_start(dispatcher$has_no_start),
-        .seeds(dispatcher$seeds),
-        .owner(dispatcher$owner),
-        .sleeps(dispatcher$sleeps),
-        .keeps(dispatcher$keeps),
-        .hands_over(dispatcher$hands_over),
-        .asks_to_wait(dispatcher$asks_to_wait),
-        .waits(dispatcher$waits),
-        .stops_waiting(dispatcher$stops_waiting),
-        .overflows(dispatcher$overflows),
-        .duplicate(dispatcher$duplicate),
-        .root_enable(dispatcher$root_enable),
-        .root(dispatcher$root),
+        .seed(dispatcher$seed),
         .is_done(dispatcher$is_done),
+        .outcome(dispatcher$outcome),
         .may_ask(dispatcher$may_ask),
-        .commit_ends(dispatcher$commit_ends),
-        .commit_owner(dispatcher$commit_owner),
-        .hint(dispatcher$hint),
+        .committed(dispatcher$committed),
         .released(dispatcher$released),
-        .released_owner(dispatcher$released_owner),
-        .solo_is_at_work(dispatcher$solo_is_at_work),
-        .solo_ends(dispatcher$solo_ends),
-        .starts(dispatcher$starts),
-        .starter(dispatcher$starter),
-        .u(dispatcher$u),
-        .takes(dispatcher$takes),
-        .taken_id(dispatcher$taken_id),
-        .position_enable(dispatcher$position_enable),
-        .position_owner(dispatcher$position_owner),
-        .busy(dispatcher$busy),
-        .waiter_valid(dispatcher$waiter_valid),
-        .waiter(dispatcher$waiter),
-        .solo_starts(dispatcher$solo_starts),
-        .solo_owner(dispatcher$solo_owner),
-        .solo_p(dispatcher$solo_p),
+        .solo(dispatcher$solo),
+        .start(dispatcher$start),
+        .fetched(dispatcher$fetched),
+        .contexts(dispatcher$contexts),
+        .solo_start(dispatcher$solo_start),
         .takes_token(dispatcher$takes_token),
         .is_quiet(dispatcher$is_quiet),
         .stuck(dispatcher$stuck)
@@ -5765,88 +5106,42 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
     incircle_core_logic$engine$insertions$attempts attempts(
         .clock(attempts$clock),
         .ring(attempts$ring),
-        .early_done(attempts$early_done),
-        .early_token(attempts$early_token),
-        .early_turned(attempts$early_turned),
-        .token(attempts$token),
-        .turned(attempts$turned),
-        .verdict(attempts$verdict),
+        .early(attempts$early),
+        .visit(attempts$visit),
         .seeded(attempts$seeded),
-        .busy(attempts$busy),
-        .waiter_valid(attempts$waiter_valid),
-        .waiter(attempts$waiter),
-        .takes(attempts$takes),
-        .taker(attempts$taker),
-        .taken_id(attempts$taken_id),
+        .contexts(attempts$contexts),
+        .start(attempts$start),
         .now(attempts$now),
-        .asks(attempts$asks),
-        .may_ask(attempts$may_ask),
-        .bundle(attempts$bundle),
         .is_done(attempts$is_done),
-        .owner(attempts$owner),
-        .sleeps(attempts$sleeps),
-        .keeps(attempts$keeps),
-        .root_enable(attempts$root_enable),
-        .root(attempts$root),
-        .entry_enable(attempts$entry_enable),
-        .entry_place(attempts$entry_place),
-        .entry(attempts$entry),
-        .inner_enable(attempts$inner_enable),
-        .inner_place(attempts$inner_place),
-        .inner_id(attempts$inner_id),
-        .lock_enable(attempts$lock_enable),
-        .lock_place(attempts$lock_place),
-        .lock_id(attempts$lock_id),
-        .commit_enable(attempts$commit_enable),
-        .commit_job(attempts$commit_job),
-        .release_enable(attempts$release_enable),
-        .release_job(attempts$release_job),
-        .asks_to_wait(attempts$asks_to_wait),
-        .waits(attempts$waits),
-        .stops_waiting(attempts$stops_waiting),
-        .overflows(attempts$overflows),
-        .duplicate(attempts$duplicate),
+        .follow(attempts$follow),
+        .outcome(attempts$outcome),
         .looks(attempts$looks),
-        .walk_visit(attempts$walk_visit),
-        .root_visit(attempts$root_visit),
-        .test(attempts$test),
-        .revisit(attempts$revisit),
-        .gives_up(attempts$gives_up),
-        .retries(attempts$retries),
-        .cavity_triangles(attempts$cavity_triangles)
+        .entry(attempts$entry),
+        .inner(attempts$inner),
+        .lock(attempts$lock),
+        .commit(attempts$commit),
+        .releases(attempts$releases),
+        .events(attempts$events)
     );
     incircle_core_logic$engine$insertions$commits commits(
         .clock(commits$clock),
         .reset(commits$reset),
         .clears(commits$clears),
         .last_id(commits$last_id),
-        .owner(commits$owner),
-        .entry_enable(commits$entry_enable),
-        .entry_place(commits$entry_place),
         .entry(commits$entry),
-        .inner_enable(commits$inner_enable),
-        .inner_place(commits$inner_place),
-        .inner_id(commits$inner_id),
-        .lock_enable(commits$lock_enable),
-        .lock_place(commits$lock_place),
-        .lock_id(commits$lock_id),
-        .commit_enable(commits$commit_enable),
-        .commit_job(commits$commit_job),
-        .release_enable(commits$release_enable),
-        .release_job(commits$release_job),
+        .inner(commits$inner),
+        .lock(commits$lock),
+        .commit(commits$commit),
+        .releases(commits$releases),
         .seeds(commits$seeds),
         .solo_inserts(commits$solo_inserts),
         .write(commits$write),
-        .ends(commits$ends),
-        .job(commits$job),
-        .hint(commits$hint),
+        .committed(commits$committed),
         .records(commits$records),
         .fresh(commits$fresh),
         .is_at_work(commits$is_at_work),
-        .clear_enable(commits$clear_enable),
-        .clear_id(commits$clear_id),
+        .clear(commits$clear),
         .released(commits$released),
-        .released_owner(commits$released_owner),
         .sweeps(commits$sweeps)
     );
     
@@ -5859,279 +5154,155 @@ module incircle_core_logic$engine$insertions(clock,reset,clears,ring,last_id,all
         dispatcher$clears = clears;
         commits$reset = reset;
         commits$clears = clears;
-        attempts$ring = ring;
-        attempts$early_done = early_done;
-        attempts$early_token = early_token;
-        attempts$early_turned = early_turned;
-        attempts$token = token;
-        attempts$turned = turned;
-        attempts$verdict = verdict;
-        attempts$seeded = seeded;
+        attempts$ring = limits[(64'hf)+:(7)];
+        attempts$early = early;
+        attempts$visit = visit;
+        attempts$seeded = seed[(64'h0)+:(1)];
         attempts$now = now;
-        attempts$busy = dispatcher$busy;
-        attempts$waiter_valid = dispatcher$waiter_valid;
-        attempts$waiter = dispatcher$waiter;
-        attempts$takes = dispatcher$takes;
-        attempts$taken_id = dispatcher$taken_id;
-        attempts$taker = dispatcher$starter;
+        attempts$contexts = dispatcher$contexts;
+        attempts$start = dispatcher$start;
         looks = attempts$looks;
-        asks = attempts$asks;
-        may_ask = attempts$may_ask;
-        follows = attempts$bundle;
-        dispatcher$all = all;
-        dispatcher$patience = patience;
+        follow = attempts$follow;
+        dispatcher$all = limits[(64'h25)+:(24)];
+        dispatcher$patience = limits[(64'h3d)+:(22)];
         dispatcher$deal = deal;
         dispatcher$arrived = arrived;
         dispatcher$came = came;
-        dispatcher$seeded = seeded;
-        dispatcher$has_no_start = has_no_start;
-        dispatcher$seeds = seeds;
-        dispatcher$solo_is_at_work = solo_is_at_work;
-        dispatcher$solo_ends = solo_ends;
-        dispatcher$owner = attempts$owner;
-        dispatcher$sleeps = attempts$sleeps;
-        dispatcher$keeps = attempts$keeps;
-        dispatcher$asks_to_wait = attempts$asks_to_wait;
-        dispatcher$waits = attempts$waits;
-        dispatcher$stops_waiting = attempts$stops_waiting;
-        dispatcher$overflows = attempts$overflows;
-        dispatcher$duplicate = attempts$duplicate;
-        dispatcher$root_enable = attempts$root_enable;
-        dispatcher$root = attempts$root;
-        dispatcher$hands_over = attempts$commit_enable | attempts$release_enable;
+        dispatcher$seed = seed;
+        dispatcher$solo = solo;
         dispatcher$is_done = attempts$is_done;
-        dispatcher$may_ask = attempts$may_ask;
-        dispatcher$commit_ends = commits$ends;
-        dispatcher$commit_owner = commits$job[(64'h0)+:(5)];
-        dispatcher$hint = commits$hint;
+        dispatcher$outcome = attempts$outcome;
+        dispatcher$may_ask = attempts$follow[(64'h1)+:(1)];
+        dispatcher$committed = commits$committed;
         dispatcher$released = commits$released;
-        dispatcher$released_owner = commits$released_owner;
-        starts = dispatcher$starts;
-        starter = dispatcher$starter;
-        u = dispatcher$u;
-        fetch_id = dispatcher$taken_id;
-        position_enable = dispatcher$position_enable;
-        position_owner = dispatcher$position_owner;
-        solo_starts = dispatcher$solo_starts;
-        solo_owner = dispatcher$solo_owner;
-        solo_p = dispatcher$solo_p;
+        start = dispatcher$start;
+        fetched = dispatcher$fetched;
+        solo_start = dispatcher$solo_start;
         is_quiet = dispatcher$is_quiet;
         stuck = dispatcher$stuck;
-        commits$last_id = last_id;
-        commits$seeds = seeds;
-        commits$solo_inserts = solo_inserts;
-        commits$owner = attempts$owner;
-        commits$entry_enable = attempts$entry_enable;
-        commits$entry_place = attempts$entry_place;
+        commits$last_id = limits[(64'h16)+:(15)];
+        commits$seeds = seed[(64'h2)+:(1)];
+        commits$solo_inserts = solo[(64'h2)+:(1)];
         commits$entry = attempts$entry;
-        commits$inner_enable = attempts$inner_enable;
-        commits$inner_place = attempts$inner_place;
-        commits$inner_id = attempts$inner_id;
-        commits$lock_enable = attempts$lock_enable;
-        commits$lock_place = attempts$lock_place;
-        commits$lock_id = attempts$lock_id;
-        commits$commit_enable = attempts$commit_enable;
-        commits$commit_job = attempts$commit_job;
-        commits$release_enable = attempts$release_enable;
-        commits$release_job = attempts$release_job;
+        commits$inner = attempts$inner;
+        commits$lock = attempts$lock;
+        commits$commit = attempts$commit;
+        commits$releases = attempts$releases;
         write = commits$write;
         records = commits$records;
         fresh = commits$fresh;
-        clear_enable = commits$clear_enable;
-        clear_id = commits$clear_id;
+        clear = commits$clear;
         sweeps = commits$sweeps;
-        events[(64'h0)+:(1)] = seeds;
-        events[(64'h1)+:(1)] = commits$ends;
-        events[(64'h2)+:(22)] = commits$job[(64'h22)+:(22)];
-        events[(64'h1c)+:(1)] = attempts$duplicate;
-        events[(64'h1d)+:(1)] = attempts$walk_visit;
-        events[(64'h1e)+:(1)] = attempts$root_visit;
-        events[(64'h1f)+:(1)] = attempts$test;
-        events[(64'h20)+:(1)] = attempts$revisit;
-        events[(64'h21)+:(1)] = attempts$overflows;
-        events[(64'h22)+:(1)] = attempts$gives_up;
-        events[(64'h23)+:(1)] = attempts$retries;
-        events[(64'h24)+:(1)] = dispatcher$takes_token;
-        events[(64'h25)+:(1)] = attempts$commit_enable;
-        events[(64'h26)+:(7)] = attempts$cavity_triangles;
-        events[(64'h2f)+:(1)] = commits$is_at_work;
-        events[(64'h30)+:(1)] = commits$clear_enable;
-        events[(64'h18)+:(1)] = solo_inserts;
-        events[(64'h19)+:(1)] = solo_ends & (~solo_inserts);
-        events[(64'h1a)+:(1)] = 1'b0;
-        events[(64'h1b)+:(1)] = 1'b0;
+        visit_events = attempts$events;
+        visit_events[(64'h2)+:(1)] = attempts$events[(64'h2)+:(1)] | solo[(64'h3)+:(1)];
+        visit_events[(64'h5)+:(1)] = solo[(64'h4)+:(1)];
+        visit_events[(64'h8)+:(1)] = dispatcher$takes_token;
+        job = commits$committed[(64'h1)+:(56)];
+        events[(64'h0)+:(17)] = visit_events;
+        events[(64'h11)+:(1)] = seed[(64'h2)+:(1)];
+        events[(64'h12)+:(1)] = commits$committed[(64'h0)+:(1)];
+        events[(64'h13)+:(22)] = job[(64'h22)+:(22)];
+        events[(64'h2b)+:(1)] = attempts$outcome[(64'hc)+:(1)];
+        events[(64'h2e)+:(1)] = commits$is_at_work;
+        events[(64'h2f)+:(1)] = commits$clear[(64'h0)+:(1)];
+        events[(64'h29)+:(1)] = solo[(64'h2)+:(1)];
+        events[(64'h2a)+:(1)] = solo[(64'h1)+:(1)] & (~solo[(64'h2)+:(1)]);
+        events[(64'h2c)+:(1)] = 1'b0;
         events[(64'h2d)+:(1)] = 1'b0;
-        events[(64'h2e)+:(1)] = 1'b0;
     end
     
 endmodule // incircle_core_logic$engine$insertions
 
 
-module incircle_core_logic$engine$insertions$attempts(clock,ring,early_done,early_token,early_turned,token,turned,verdict,seeded,busy,waiter_valid,waiter,takes,taker,taken_id,now,asks,may_ask,bundle,is_done,owner,sleeps,keeps,root_enable,root,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job,asks_to_wait,waits,stops_waiting,overflows,duplicate,looks,walk_visit,root_visit,test,revisit,gives_up,retries,cavity_triangles);
+module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,seeded,contexts,start,now,is_done,follow,outcome,looks,entry,inner,lock,commit,releases,events);
     
     // Module arguments
     input wire  clock;
     input wire  [6:0] ring;
-    input wire  early_done;
-    input wire  [54:0] early_token;
-    input wire  [97:0] early_turned;
-    input wire  [54:0] token;
-    input wire  [97:0] turned;
-    input wire  [19:0] verdict;
+    input wire  [153:0] early;
+    input wire  [173:0] visit;
     input wire  seeded;
-    input wire  [23:0] busy;
-    input wire  waiter_valid;
-    input wire  [4:0] waiter;
-    input wire  takes;
-    input wire  [4:0] taker;
-    input wire  [14:0] taken_id;
+    input wire  [133:0] contexts;
+    input wire  [36:0] start;
     input wire  [21:0] now;
-    output reg  asks;
-    output reg  may_ask;
-    output reg  [92:0] bundle;
     output reg  is_done;
-    output reg  [4:0] owner;
-    output reg  sleeps;
-    output reg  keeps;
-    output reg  root_enable;
-    output reg  [14:0] root;
-    output reg  entry_enable;
-    output reg  [5:0] entry_place;
-    output reg  [52:0] entry;
-    output reg  inner_enable;
-    output reg  [5:0] inner_place;
-    output reg  [14:0] inner_id;
-    output reg  lock_enable;
-    output reg  [6:0] lock_place;
-    output reg  [14:0] lock_id;
-    output reg  commit_enable;
-    output reg  [55:0] commit_job;
-    output reg  release_enable;
-    output reg  [11:0] release_job;
-    output reg  asks_to_wait;
-    output reg  waits;
-    output reg  stops_waiting;
-    output reg  overflows;
-    output reg  duplicate;
+    output reg  [94:0] follow;
+    output reg  [28:0] outcome;
     output reg  looks;
-    output reg  walk_visit;
-    output reg  root_visit;
-    output reg  test;
-    output reg  revisit;
-    output reg  gives_up;
-    output reg  retries;
-    output reg  [6:0] cavity_triangles;
+    output reg  [64:0] entry;
+    output reg  [26:0] inner;
+    output reg  [27:0] lock;
+    output reg  [56:0] commit;
+    output reg  [12:0] releases;
+    output reg  [16:0] events;
     
     // Stub signals
     reg  store$clock;
     reg  [6:0] store$ring;
-    reg  [4:0] store$early_owner;
-    reg  [5:0] store$early_entry;
-    reg  [4:0] store$owner;
-    reg  [5:0] store$f_entry;
-    wire  [92:0] store$attempt;
-    wire  store$is_last;
-    wire  store$is_full;
-    wire  store$edge_was_passed;
-    wire  [63:0] store$entry_bit;
-    reg  store$opens;
-    reg  store$splits;
-    reg  store$repeats;
-    reg  store$is_test;
-    reg  store$passes_root;
+    reg  [54:0] store$early_token;
+    reg  [54:0] store$token;
+    wire  [159:0] store$held;
+    reg  [19:0] store$found;
+    reg  [3:0] store$step;
     reg  [92:0] store$after;
     reg  points$clock;
-    reg  points$takes;
-    reg  [4:0] points$taker;
-    reg  [14:0] points$taken_id;
+    reg  [36:0] points$start;
     reg  [21:0] points$now;
     reg  [4:0] points$owner;
     wire  [14:0] points$p;
     wire  [21:0] points$since;
     reg  meaning$clock;
-    reg  meaning$early_done;
-    reg  [54:0] meaning$early_token;
-    reg  [97:0] meaning$early_turned;
+    reg  [153:0] meaning$early;
     reg  meaning$seeded;
     reg  meaning$is_busy;
     reg  meaning$is_waiter;
     reg  [19:0] meaning$verdict;
     reg  meaning$drains;
     reg  meaning$is_full;
-    wire  meaning$is_done;
-    wire  meaning$is_walk;
-    wire  meaning$is_root;
-    wire  meaning$is_test;
-    wire  meaning$looks;
-    wire  meaning$repeats;
-    wire  meaning$waits;
-    wire  meaning$walks_on;
-    wire  meaning$locates;
-    wire  meaning$opens;
-    wire  meaning$retries;
-    wire  meaning$splits;
-    wire  meaning$settles;
-    wire  meaning$overflows;
-    wire  meaning$gives_up_root;
-    wire  meaning$gives_up;
-    wire  meaning$walk_duplicate;
-    wire  meaning$root_duplicate;
-    wire  meaning$asks;
-    wire  meaning$may_ask;
-    reg  [92:0] step$attempt;
-    reg  step$is_last;
-    reg  step$edge_was_passed;
-    reg  [63:0] step$entry_bit;
+    wire  [19:0] meaning$found;
+    reg  [159:0] step$held;
     reg  step$took;
-    reg  step$is_test;
-    reg  step$splits;
-    reg  step$repeats;
-    reg  step$gives_up;
-    reg  step$overflows;
+    reg  [19:0] step$found;
     wire  [92:0] step$after;
-    wire  step$is_over;
-    wire  step$succeeds;
-    wire  step$finds_inner;
-    wire  step$passes_root;
+    wire  [3:0] step$step;
     reg  visits$clock;
     reg  [54:0] visits$early_token;
     reg  [97:0] visits$early_turned;
-    reg  visits$walks_on;
-    reg  visits$locates;
+    reg  [19:0] visits$found;
     reg  [14:0] visits$walk_next;
     reg  [5:0] visits$entry;
     wire  [92:0] visits$bundle;
-    reg  lists$done;
-    reg  [54:0] lists$token;
-    reg  [97:0] lists$turned;
+    reg  [54:0] aftermath$token;
+    reg  [19:0] aftermath$found;
+    reg  [3:0] aftermath$step;
+    reg  [14:0] aftermath$walk_next;
+    reg  aftermath$hands_over;
+    wire  [28:0] aftermath$outcome;
+    wire  aftermath$fails;
+    wire  aftermath$stops_at_root;
+    reg  [173:0] lists$visit;
     reg  [92:0] lists$attempt;
     reg  [92:0] lists$after;
     reg  [14:0] lists$p;
     reg  [21:0] lists$since;
-    reg  lists$is_root;
-    reg  lists$settles;
-    reg  lists$finds_inner;
-    reg  lists$succeeds;
+    reg  [19:0] lists$found;
+    reg  [3:0] lists$step;
     reg  lists$fails;
     reg  lists$stops_at_root;
-    wire  lists$entry_enable;
-    wire  [5:0] lists$entry_place;
-    wire  [52:0] lists$entry;
-    wire  lists$inner_enable;
-    wire  [5:0] lists$inner_place;
-    wire  [14:0] lists$inner_id;
-    wire  lists$lock_enable;
-    wire  [6:0] lists$lock_place;
-    wire  [14:0] lists$lock_id;
-    wire  lists$commit_enable;
-    wire  [55:0] lists$commit_job;
-    wire  lists$release_enable;
-    wire  [11:0] lists$release_job;
+    wire  [64:0] lists$entry;
+    wire  [26:0] lists$inner;
+    wire  [27:0] lists$lock;
+    wire  [56:0] lists$commit;
+    wire  [12:0] lists$releases;
     
     // Local signals
+    reg  [54:0] early_token;
+    reg  [54:0] token;
+    reg  [97:0] turned;
+    reg  [19:0] verdict;
+    reg  [92:0] attempt;
+    reg  [23:0] busy;
     reg  [4:0] context_index;
-    reg  fails;
-    reg  stops_at_root;
     reg  [6:0] count;
     reg  [6:0] two;
     
@@ -6139,27 +5310,16 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early_done,earl
     incircle_core_logic$engine$insertions$attempts$store store(
         .clock(store$clock),
         .ring(store$ring),
-        .early_owner(store$early_owner),
-        .early_entry(store$early_entry),
-        .owner(store$owner),
-        .f_entry(store$f_entry),
-        .attempt(store$attempt),
-        .is_last(store$is_last),
-        .is_full(store$is_full),
-        .edge_was_passed(store$edge_was_passed),
-        .entry_bit(store$entry_bit),
-        .opens(store$opens),
-        .splits(store$splits),
-        .repeats(store$repeats),
-        .is_test(store$is_test),
-        .passes_root(store$passes_root),
+        .early_token(store$early_token),
+        .token(store$token),
+        .held(store$held),
+        .found(store$found),
+        .step(store$step),
         .after(store$after)
     );
     incircle_core_logic$engine$insertions$attempts$points points(
         .clock(points$clock),
-        .takes(points$takes),
-        .taker(points$taker),
-        .taken_id(points$taken_id),
+        .start(points$start),
         .now(points$now),
         .owner(points$owner),
         .p(points$p),
@@ -6167,90 +5327,56 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early_done,earl
     );
     incircle_core_logic$engine$insertions$attempts$meaning meaning(
         .clock(meaning$clock),
-        .early_done(meaning$early_done),
-        .early_token(meaning$early_token),
-        .early_turned(meaning$early_turned),
+        .early(meaning$early),
         .seeded(meaning$seeded),
         .is_busy(meaning$is_busy),
         .is_waiter(meaning$is_waiter),
         .verdict(meaning$verdict),
         .drains(meaning$drains),
         .is_full(meaning$is_full),
-        .is_done(meaning$is_done),
-        .is_walk(meaning$is_walk),
-        .is_root(meaning$is_root),
-        .is_test(meaning$is_test),
-        .looks(meaning$looks),
-        .repeats(meaning$repeats),
-        .waits(meaning$waits),
-        .walks_on(meaning$walks_on),
-        .locates(meaning$locates),
-        .opens(meaning$opens),
-        .retries(meaning$retries),
-        .splits(meaning$splits),
-        .settles(meaning$settles),
-        .overflows(meaning$overflows),
-        .gives_up_root(meaning$gives_up_root),
-        .gives_up(meaning$gives_up),
-        .walk_duplicate(meaning$walk_duplicate),
-        .root_duplicate(meaning$root_duplicate),
-        .asks(meaning$asks),
-        .may_ask(meaning$may_ask)
+        .found(meaning$found)
     );
     incircle_core_logic$engine$insertions$attempts$step step(
-        .attempt(step$attempt),
-        .is_last(step$is_last),
-        .edge_was_passed(step$edge_was_passed),
-        .entry_bit(step$entry_bit),
+        .held(step$held),
         .took(step$took),
-        .is_test(step$is_test),
-        .splits(step$splits),
-        .repeats(step$repeats),
-        .gives_up(step$gives_up),
-        .overflows(step$overflows),
+        .found(step$found),
         .after(step$after),
-        .is_over(step$is_over),
-        .succeeds(step$succeeds),
-        .finds_inner(step$finds_inner),
-        .passes_root(step$passes_root)
+        .step(step$step)
     );
     incircle_core_logic$engine$insertions$attempts$visits visits(
         .clock(visits$clock),
         .early_token(visits$early_token),
         .early_turned(visits$early_turned),
-        .walks_on(visits$walks_on),
-        .locates(visits$locates),
+        .found(visits$found),
         .walk_next(visits$walk_next),
         .entry(visits$entry),
         .bundle(visits$bundle)
     );
+    incircle_core_logic$engine$insertions$attempts$aftermath aftermath(
+        .token(aftermath$token),
+        .found(aftermath$found),
+        .step(aftermath$step),
+        .walk_next(aftermath$walk_next),
+        .hands_over(aftermath$hands_over),
+        .outcome(aftermath$outcome),
+        .fails(aftermath$fails),
+        .stops_at_root(aftermath$stops_at_root)
+    );
     incircle_core_logic$engine$insertions$attempts$lists lists(
-        .done(lists$done),
-        .token(lists$token),
-        .turned(lists$turned),
+        .visit(lists$visit),
         .attempt(lists$attempt),
         .after(lists$after),
         .p(lists$p),
         .since(lists$since),
-        .is_root(lists$is_root),
-        .settles(lists$settles),
-        .finds_inner(lists$finds_inner),
-        .succeeds(lists$succeeds),
+        .found(lists$found),
+        .step(lists$step),
         .fails(lists$fails),
         .stops_at_root(lists$stops_at_root),
-        .entry_enable(lists$entry_enable),
-        .entry_place(lists$entry_place),
         .entry(lists$entry),
-        .inner_enable(lists$inner_enable),
-        .inner_place(lists$inner_place),
-        .inner_id(lists$inner_id),
-        .lock_enable(lists$lock_enable),
-        .lock_place(lists$lock_place),
-        .lock_id(lists$lock_id),
-        .commit_enable(lists$commit_enable),
-        .commit_job(lists$commit_job),
-        .release_enable(lists$release_enable),
-        .release_job(lists$release_job)
+        .inner(lists$inner),
+        .lock(lists$lock),
+        .commit(lists$commit),
+        .releases(lists$releases)
     );
     
     // Update code
@@ -6260,209 +5386,204 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early_done,earl
         meaning$clock = clock;
         visits$clock = clock;
         two = 32'h2;
-        context_index = early_token[(64'h0)+:(5)];
-        owner = token[(64'h0)+:(5)];
-        is_done = meaning$is_done;
+        early_token = early[(64'h1)+:(55)];
+        token = visit[(64'h1)+:(55)];
+        turned = visit[(64'h38)+:(98)];
+        verdict = visit[(64'h9a)+:(20)];
         store$ring = ring;
-        store$early_owner = early_token[(64'h0)+:(5)];
-        store$early_entry = early_token[(64'h13)+:(6)];
-        store$owner = token[(64'h0)+:(5)];
-        store$f_entry = token[(64'h13)+:(6)];
-        count = store$attempt[(64'h8)+:(7)];
+        store$early_token = early_token;
+        store$token = token;
+        attempt = store$held[(64'h0)+:(93)];
+        count = attempt[(64'h8)+:(7)];
         points$owner = token[(64'h0)+:(5)];
-        points$takes = takes;
-        points$taker = taker;
-        points$taken_id = taken_id;
+        points$start = start;
         points$now = now;
-        meaning$early_done = early_done;
-        meaning$early_token = early_token;
-        meaning$early_turned = early_turned;
+        context_index = early_token[(64'h0)+:(5)];
+        busy = contexts[(64'h30)+:(24)];
+        meaning$early = early;
         meaning$verdict = verdict;
         meaning$seeded = seeded;
         meaning$is_busy = busy[context_index];
-        meaning$is_waiter = waiter_valid & (waiter == early_token[(64'h0)+:(5)]);
-        meaning$drains = store$attempt[(64'h0)+:(1)];
-        meaning$is_full = store$is_full;
-        step$attempt = store$attempt;
-        step$is_last = store$is_last;
-        step$edge_was_passed = store$edge_was_passed;
-        step$entry_bit = store$entry_bit;
+        meaning$is_waiter = contexts[(64'h78)+:(1)] & (contexts[(64'h79)+:(5)] == early_token[(64'h0)+:(5)]);
+        meaning$drains = attempt[(64'h0)+:(1)];
+        meaning$is_full = store$held[(64'h5e)+:(1)];
+        is_done = meaning$found[(64'h0)+:(1)];
+        looks = meaning$found[(64'h4)+:(1)];
+        step$held = store$held;
         step$took = turned[(64'h5c)+:(1)];
-        step$is_test = meaning$is_test;
-        step$splits = meaning$splits;
-        step$repeats = meaning$repeats;
-        step$gives_up = meaning$gives_up;
-        step$overflows = meaning$overflows;
-        store$opens = meaning$opens;
-        store$splits = meaning$splits;
-        store$repeats = meaning$repeats;
-        store$is_test = meaning$is_test;
-        store$passes_root = step$passes_root;
+        step$found = meaning$found;
+        store$found = meaning$found;
+        store$step = step$step;
         store$after = step$after;
         visits$early_token = early_token;
-        visits$early_turned = early_turned;
-        visits$walks_on = meaning$walks_on;
-        visits$locates = meaning$locates;
+        visits$early_turned = early[(64'h38)+:(98)];
+        visits$found = meaning$found;
         visits$walk_next = verdict[(64'h5)+:(15)];
         visits$entry = count[(32'h0)+:(6)];
-        asks = meaning$asks;
-        may_ask = meaning$may_ask;
-        bundle = visits$bundle;
-        fails = step$is_over & (~step$succeeds);
-        stops_at_root = meaning$root_duplicate | meaning$retries;
-        sleeps = meaning$looks | meaning$walk_duplicate | meaning$gives_up_root | stops_at_root | step$is_over;
-        keeps = meaning$gives_up_root | meaning$retries | fails;
-        root_enable = meaning$is_root;
-        root = token[(64'h28)+:(15)];
-        if (meaning$retries) begin
-            root = verdict[(64'h5)+:(15)];
-        end
-        asks_to_wait = meaning$gives_up_root | meaning$gives_up;
-        waits = meaning$waits;
-        stops_waiting = meaning$walk_duplicate | meaning$root_duplicate | step$succeeds;
-        overflows = meaning$overflows;
-        duplicate = meaning$walk_duplicate | meaning$root_duplicate;
-        looks = meaning$looks;
-        lists$done = meaning$is_done;
-        lists$token = token;
-        lists$turned = turned;
-        lists$attempt = store$attempt;
+        follow[(64'h0)+:(1)] = meaning$found[(64'h12)+:(1)];
+        follow[(64'h1)+:(1)] = meaning$found[(64'h13)+:(1)];
+        follow[(64'h2)+:(93)] = visits$bundle;
+        aftermath$token = token;
+        aftermath$found = meaning$found;
+        aftermath$step = step$step;
+        aftermath$walk_next = verdict[(64'h5)+:(15)];
+        aftermath$hands_over = lists$commit[(64'h0)+:(1)] | lists$releases[(64'h0)+:(1)];
+        outcome = aftermath$outcome;
+        lists$visit = visit;
+        lists$attempt = attempt;
         lists$after = step$after;
         lists$p = points$p;
         lists$since = points$since;
-        lists$is_root = meaning$is_root;
-        lists$settles = meaning$settles;
-        lists$finds_inner = step$finds_inner;
-        lists$succeeds = step$succeeds;
-        lists$fails = fails;
-        lists$stops_at_root = stops_at_root;
-        entry_enable = lists$entry_enable;
-        entry_place = lists$entry_place;
+        lists$found = meaning$found;
+        lists$step = step$step;
+        lists$fails = aftermath$fails;
+        lists$stops_at_root = aftermath$stops_at_root;
         entry = lists$entry;
-        inner_enable = lists$inner_enable;
-        inner_place = lists$inner_place;
-        inner_id = lists$inner_id;
-        lock_enable = lists$lock_enable;
-        lock_place = lists$lock_place;
-        lock_id = lists$lock_id;
-        commit_enable = lists$commit_enable;
-        commit_job = lists$commit_job;
-        release_enable = lists$release_enable;
-        release_job = lists$release_job;
-        walk_visit = meaning$is_walk;
-        root_visit = meaning$is_root;
-        test = meaning$is_test;
-        revisit = meaning$repeats;
-        gives_up = meaning$gives_up_root | meaning$gives_up;
-        retries = meaning$retries;
-        cavity_triangles = count - two;
+        inner = lists$inner;
+        lock = lists$lock;
+        commit = lists$commit;
+        releases = lists$releases;
+        events[(64'h0)+:(1)] = meaning$found[(64'h1)+:(1)];
+        events[(64'h1)+:(1)] = meaning$found[(64'h2)+:(1)];
+        events[(64'h2)+:(1)] = meaning$found[(64'h3)+:(1)];
+        events[(64'h3)+:(1)] = meaning$found[(64'h5)+:(1)];
+        events[(64'h4)+:(1)] = meaning$found[(64'hd)+:(1)];
+        events[(64'h5)+:(1)] = 1'b0;
+        events[(64'h6)+:(1)] = aftermath$outcome[(64'h8)+:(1)];
+        events[(64'h7)+:(1)] = meaning$found[(64'ha)+:(1)];
+        events[(64'h8)+:(1)] = 1'b0;
+        events[(64'h9)+:(1)] = lists$commit[(64'h0)+:(1)];
+        events[(64'ha)+:(7)] = count - two;
     end
     
 endmodule // incircle_core_logic$engine$insertions$attempts
 
 
-module incircle_core_logic$engine$insertions$attempts$lists(done,token,turned,attempt,after,p,since,is_root,settles,finds_inner,succeeds,fails,stops_at_root,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job);
+module incircle_core_logic$engine$insertions$attempts$aftermath(token,found,step,walk_next,hands_over,outcome,fails,stops_at_root);
     
     // Module arguments
-    input wire  done;
     input wire  [54:0] token;
-    input wire  [97:0] turned;
+    input wire  [19:0] found;
+    input wire  [3:0] step;
+    input wire  [14:0] walk_next;
+    input wire  hands_over;
+    output reg  [28:0] outcome;
+    output reg  fails;
+    output reg  stops_at_root;
+    
+    // Local signals
+    reg  is_failure;
+    reg  is_duplicate;
+    reg  ends_at_root;
+    
+    // Update code
+    always @(*) begin
+        is_failure = step[(64'h0)+:(1)] & (~step[(64'h1)+:(1)]);
+        is_duplicate = found[(64'h10)+:(1)] | found[(64'h11)+:(1)];
+        ends_at_root = found[(64'h11)+:(1)] | found[(64'ha)+:(1)];
+        fails = is_failure;
+        stops_at_root = ends_at_root;
+        outcome[(64'h0)+:(5)] = token[(64'h0)+:(5)];
+        outcome[(64'h5)+:(1)] = found[(64'h4)+:(1)] | found[(64'h10)+:(1)] | found[(64'he)+:(1)] | ends_at_root | step[(64'h0)+:(1)];
+        outcome[(64'h6)+:(1)] = found[(64'he)+:(1)] | found[(64'ha)+:(1)] | is_failure;
+        outcome[(64'h7)+:(1)] = hands_over;
+        outcome[(64'h8)+:(1)] = found[(64'he)+:(1)] | found[(64'hf)+:(1)];
+        outcome[(64'h9)+:(1)] = found[(64'h6)+:(1)];
+        outcome[(64'ha)+:(1)] = is_duplicate | step[(64'h1)+:(1)];
+        outcome[(64'hb)+:(1)] = found[(64'hd)+:(1)];
+        outcome[(64'hc)+:(1)] = is_duplicate;
+        outcome[(64'hd)+:(1)] = found[(64'h2)+:(1)];
+        outcome[(64'he)+:(15)] = token[(64'h28)+:(15)];
+        if (found[(64'ha)+:(1)]) begin
+            outcome[(64'he)+:(15)] = walk_next;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$attempts$aftermath
+
+
+module incircle_core_logic$engine$insertions$attempts$lists(visit,attempt,after,p,since,found,step,fails,stops_at_root,entry,inner,lock,commit,releases);
+    
+    // Module arguments
+    input wire  [173:0] visit;
     input wire  [92:0] attempt;
     input wire  [92:0] after;
     input wire  [14:0] p;
     input wire  [21:0] since;
-    input wire  is_root;
-    input wire  settles;
-    input wire  finds_inner;
-    input wire  succeeds;
+    input wire  [19:0] found;
+    input wire  [3:0] step;
     input wire  fails;
     input wire  stops_at_root;
-    output reg  entry_enable;
-    output reg  [5:0] entry_place;
-    output reg  [52:0] entry;
-    output reg  inner_enable;
-    output reg  [5:0] inner_place;
-    output reg  [14:0] inner_id;
-    output reg  lock_enable;
-    output reg  [6:0] lock_place;
-    output reg  [14:0] lock_id;
-    output reg  commit_enable;
-    output reg  [55:0] commit_job;
-    output reg  release_enable;
-    output reg  [11:0] release_job;
+    output reg  [64:0] entry;
+    output reg  [26:0] inner;
+    output reg  [27:0] lock;
+    output reg  [56:0] commit;
+    output reg  [12:0] releases;
     
     // Local signals
+    reg  [54:0] token;
+    reg  [97:0] turned;
     reg  [6:0] inners;
+    reg  [52:0] boundary;
+    reg  [55:0] ring;
+    reg  [11:0] locks;
     
     // Update code
     always @(*) begin
+        token = visit[(64'h1)+:(55)];
+        turned = visit[(64'h38)+:(98)];
         inners = attempt[(64'hf)+:(7)];
-        entry_enable = settles;
-        entry_place = token[(64'h7)+:(6)];
-        entry[(64'h0)+:(15)] = turned[(64'h1e)+:(15)];
-        entry[(64'hf)+:(15)] = token[(64'h28)+:(15)];
-        entry[(64'h1e)+:(2)] = turned[(64'h5a)+:(2)];
-        entry[(64'h20)+:(15)] = token[(64'h19)+:(15)];
-        entry[(64'h2f)+:(6)] = token[(64'hd)+:(6)];
-        inner_enable = finds_inner;
-        inner_place = inners[(32'h0)+:(6)];
-        inner_id = token[(64'h19)+:(15)];
-        lock_enable = done & turned[(64'h5c)+:(1)];
-        lock_place = attempt[(64'h16)+:(7)];
-        lock_id = token[(64'h28)+:(15)];
-        if (is_root) begin
-            lock_place = 32'h0;
+        boundary[(64'h0)+:(15)] = turned[(64'h1e)+:(15)];
+        boundary[(64'hf)+:(15)] = token[(64'h28)+:(15)];
+        boundary[(64'h1e)+:(2)] = turned[(64'h5a)+:(2)];
+        boundary[(64'h20)+:(15)] = token[(64'h19)+:(15)];
+        boundary[(64'h2f)+:(6)] = token[(64'hd)+:(6)];
+        entry[(64'h0)+:(1)] = found[(64'hc)+:(1)];
+        entry[(64'h1)+:(5)] = token[(64'h0)+:(5)];
+        entry[(64'h6)+:(6)] = token[(64'h7)+:(6)];
+        entry[(64'hc)+:(53)] = boundary;
+        inner[(64'h0)+:(1)] = step[(64'h2)+:(1)];
+        inner[(64'h1)+:(5)] = token[(64'h0)+:(5)];
+        inner[(64'h6)+:(6)] = inners[(32'h0)+:(6)];
+        inner[(64'hc)+:(15)] = token[(64'h19)+:(15)];
+        lock[(64'h0)+:(1)] = found[(64'h0)+:(1)] & turned[(64'h5c)+:(1)];
+        lock[(64'h1)+:(5)] = token[(64'h0)+:(5)];
+        lock[(64'h6)+:(7)] = attempt[(64'h16)+:(7)];
+        lock[(64'hd)+:(15)] = token[(64'h28)+:(15)];
+        if (found[(64'h2)+:(1)]) begin
+            lock[(64'h6)+:(7)] = 32'h0;
         end
-        commit_enable = succeeds;
-        commit_job[(64'h0)+:(5)] = token[(64'h0)+:(5)];
-        commit_job[(64'h5)+:(15)] = p;
-        commit_job[(64'h14)+:(7)] = inners;
-        commit_job[(64'h1b)+:(7)] = after[(64'h16)+:(7)];
-        commit_job[(64'h22)+:(22)] = since;
-        release_enable = fails | stops_at_root;
-        release_job[(64'h0)+:(5)] = token[(64'h0)+:(5)];
-        release_job[(64'h5)+:(7)] = after[(64'h16)+:(7)];
+        ring[(64'h0)+:(5)] = token[(64'h0)+:(5)];
+        ring[(64'h5)+:(15)] = p;
+        ring[(64'h14)+:(7)] = inners;
+        ring[(64'h1b)+:(7)] = after[(64'h16)+:(7)];
+        ring[(64'h22)+:(22)] = since;
+        commit[(64'h0)+:(1)] = step[(64'h1)+:(1)];
+        commit[(64'h1)+:(56)] = ring;
+        locks[(64'h0)+:(5)] = token[(64'h0)+:(5)];
+        locks[(64'h5)+:(7)] = after[(64'h16)+:(7)];
         if (stops_at_root) begin
-            release_job[(64'h5)+:(7)] = 32'h1;
+            locks[(64'h5)+:(7)] = 32'h1;
         end
+        releases[(64'h0)+:(1)] = fails | stops_at_root;
+        releases[(64'h1)+:(12)] = locks;
     end
     
 endmodule // incircle_core_logic$engine$insertions$attempts$lists
 
 
-module incircle_core_logic$engine$insertions$attempts$meaning(clock,early_done,early_token,early_turned,seeded,is_busy,is_waiter,verdict,drains,is_full,is_done,is_walk,is_root,is_test,looks,repeats,waits,walks_on,locates,opens,retries,splits,settles,overflows,gives_up_root,gives_up,walk_duplicate,root_duplicate,asks,may_ask);
+module incircle_core_logic$engine$insertions$attempts$meaning(clock,early,seeded,is_busy,is_waiter,verdict,drains,is_full,found);
     
     // Module arguments
     input wire  clock;
-    input wire  early_done;
-    input wire  [54:0] early_token;
-    input wire  [97:0] early_turned;
+    input wire  [153:0] early;
     input wire  seeded;
     input wire  is_busy;
     input wire  is_waiter;
     input wire  [19:0] verdict;
     input wire  drains;
     input wire  is_full;
-    output reg  is_done;
-    output reg  is_walk;
-    output reg  is_root;
-    output reg  is_test;
-    output reg  looks;
-    output reg  repeats;
-    output reg  waits;
-    output reg  walks_on;
-    output reg  locates;
-    output reg  opens;
-    output reg  retries;
-    output reg  splits;
-    output reg  settles;
-    output reg  overflows;
-    output reg  gives_up_root;
-    output reg  gives_up;
-    output reg  walk_duplicate;
-    output reg  root_duplicate;
-    output reg  asks;
-    output reg  may_ask;
+    output reg  [19:0] found;
     
     // Stub signals
     reg  completed$d;
@@ -6512,6 +5633,8 @@ module incircle_core_logic$engine$insertions$attempts$meaning(clock,early_done,e
     reg  may_ask_anyway$clock;
     
     // Local signals
+    reg  [54:0] token;
+    reg  [97:0] turned;
     reg  walks;
     reg  visits_root;
     reg  tests;
@@ -6632,14 +5755,16 @@ module incircle_core_logic$engine$insertions$attempts$meaning(clock,early_done,e
         test_is_refused$d = test_is_refused$q;
         may_ask_anyway$d = may_ask_anyway$q;
         completed$d = completed$q;
-        walks = early_done & (~early_token[(64'h5)+:(1)]) & (~early_token[(64'h6)+:(1)]);
-        visits_root = early_done & (~early_token[(64'h5)+:(1)]) & early_token[(64'h6)+:(1)];
-        tests = early_done & early_token[(64'h5)+:(1)];
-        foreign = early_turned[(64'h5d)+:(1)];
+        token = early[(64'h1)+:(55)];
+        turned = early[(64'h38)+:(98)];
+        walks = early[(64'h0)+:(1)] & (~token[(64'h5)+:(1)]) & (~token[(64'h6)+:(1)]);
+        visits_root = early[(64'h0)+:(1)] & (~token[(64'h5)+:(1)]) & token[(64'h6)+:(1)];
+        tests = early[(64'h0)+:(1)] & token[(64'h5)+:(1)];
+        foreign = turned[(64'h5d)+:(1)];
         looked$d = walks & (~seeded);
         walked$d = walks & seeded;
-        walk_counts$d = walks & seeded & (~early_turned[(64'h5e)+:(1)]);
-        walk_is_torn$d = walks & seeded & early_turned[(64'h5e)+:(1)];
+        walk_counts$d = walks & seeded & (~turned[(64'h5e)+:(1)]);
+        walk_is_torn$d = walks & seeded & turned[(64'h5e)+:(1)];
         context_is_busy$d = is_busy;
         rooted$d = visits_root;
         root_is_held$d = visits_root & (~foreign);
@@ -6649,34 +5774,34 @@ module incircle_core_logic$engine$insertions$attempts$meaning(clock,early_done,e
         test_counts$d = tests & (~foreign);
         test_is_awaited$d = tests & foreign & is_waiter;
         test_is_refused$d = tests & foreign & (~is_waiter);
-        may_ask_anyway$d = early_done & ((~early_token[(64'h5)+:(1)]) | foreign);
-        completed$d = early_done;
-        is_done = completed$q;
-        is_walk = walked$q;
-        is_root = rooted$q;
-        is_test = tested$q;
-        looks = looked$q;
+        may_ask_anyway$d = early[(64'h0)+:(1)] & ((~token[(64'h5)+:(1)]) | foreign);
+        completed$d = early[(64'h0)+:(1)];
+        found[(64'h0)+:(1)] = completed$q;
+        found[(64'h1)+:(1)] = walked$q;
+        found[(64'h2)+:(1)] = rooted$q;
+        found[(64'h3)+:(1)] = tested$q;
+        found[(64'h4)+:(1)] = looked$q;
         is_located = verdict[(64'h1)+:(1)] & (~verdict[(64'h2)+:(1)]);
         is_corner = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
         looks_again = walk_is_torn$q | (walk_counts$q & is_located & context_is_busy$q);
-        walks_on = walk_counts$q & (~verdict[(64'h1)+:(1)]);
-        walk_duplicate = walk_counts$q & is_corner;
-        locates = walk_counts$q & is_located & (~context_is_busy$q);
-        gives_up_root = root_is_refused$q;
-        opens = root_is_held$q & is_located;
-        root_duplicate = root_is_held$q & is_corner;
-        retries = root_is_held$q & (~verdict[(64'h1)+:(1)]);
+        found[(64'h7)+:(1)] = walk_counts$q & (~verdict[(64'h1)+:(1)]);
+        found[(64'h10)+:(1)] = walk_counts$q & is_corner;
+        found[(64'h8)+:(1)] = walk_counts$q & is_located & (~context_is_busy$q);
+        found[(64'he)+:(1)] = root_is_refused$q;
+        found[(64'h9)+:(1)] = root_is_held$q & is_located;
+        found[(64'h11)+:(1)] = root_is_held$q & is_corner;
+        found[(64'ha)+:(1)] = root_is_held$q & (~verdict[(64'h1)+:(1)]);
         is_live = test_counts$q & (~drains);
         passes = is_live & verdict[(64'h0)+:(1)] & (~is_full);
-        gives_up = test_is_refused$q & (~drains);
-        settles = is_live & (~verdict[(64'h0)+:(1)]);
-        overflows = is_live & verdict[(64'h0)+:(1)] & is_full;
-        splits = passes;
+        found[(64'hf)+:(1)] = test_is_refused$q & (~drains);
+        found[(64'hc)+:(1)] = is_live & (~verdict[(64'h0)+:(1)]);
+        found[(64'hd)+:(1)] = is_live & verdict[(64'h0)+:(1)] & is_full;
+        found[(64'hb)+:(1)] = passes;
         asks_again = root_is_awaited$q | (test_is_awaited$q & (~drains));
-        waits = asks_again;
-        repeats = looks_again | asks_again;
-        asks = walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_located) | passes | asks_again;
-        may_ask = may_ask_anyway$q | (test_counts$q & verdict[(64'h0)+:(1)]);
+        found[(64'h6)+:(1)] = asks_again;
+        found[(64'h5)+:(1)] = looks_again | asks_again;
+        found[(64'h12)+:(1)] = walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_located) | passes | asks_again;
+        found[(64'h13)+:(1)] = may_ask_anyway$q | (test_counts$q & verdict[(64'h0)+:(1)]);
     end
     
 endmodule // incircle_core_logic$engine$insertions$attempts$meaning
@@ -6967,13 +6092,11 @@ module incircle_core_logic$engine$insertions$attempts$meaning$walked(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$attempts$meaning$walked
 
 
-module incircle_core_logic$engine$insertions$attempts$points(clock,takes,taker,taken_id,now,owner,p,since);
+module incircle_core_logic$engine$insertions$attempts$points(clock,start,now,owner,p,since);
     
     // Module arguments
     input wire  clock;
-    input wire  takes;
-    input wire  [4:0] taker;
-    input wire  [14:0] taken_id;
+    input wire  [36:0] start;
     input wire  [21:0] now;
     input wire  [4:0] owner;
     output reg  [14:0] p;
@@ -7055,9 +6178,9 @@ module incircle_core_logic$engine$insertions$attempts$points(clock,takes,taker,t
         taken_at$d = taken_at$q;
         points$clock = clock;
         times$clock = clock;
-        has_taken$d = takes;
-        last_taker$d = taker;
-        last_taken$d = taken_id;
+        has_taken$d = start[(64'h15)+:(1)];
+        last_taker$d = start[(64'h1)+:(5)];
+        last_taken$d = start[(64'h16)+:(15)];
         taken_at$d = now;
         points$write_address = last_taker$q;
         points$write_data = last_taken$q;
@@ -7196,26 +6319,18 @@ module incircle_core_logic$engine$insertions$attempts$points$times(clock,write_a
 endmodule // incircle_core_logic$engine$insertions$attempts$points$times
 
 
-module incircle_core_logic$engine$insertions$attempts$step(attempt,is_last,edge_was_passed,entry_bit,took,is_test,splits,repeats,gives_up,overflows,after,is_over,succeeds,finds_inner,passes_root);
+module incircle_core_logic$engine$insertions$attempts$step(held,took,found,after,step);
     
     // Module arguments
-    input wire  [92:0] attempt;
-    input wire  is_last;
-    input wire  edge_was_passed;
-    input wire  [63:0] entry_bit;
+    input wire  [159:0] held;
     input wire  took;
-    input wire  is_test;
-    input wire  splits;
-    input wire  repeats;
-    input wire  gives_up;
-    input wire  overflows;
+    input wire  [19:0] found;
     output reg  [92:0] after;
-    output reg  is_over;
-    output reg  succeeds;
-    output reg  finds_inner;
-    output reg  passes_root;
+    output reg  [3:0] step;
     
     // Local signals
+    reg  [92:0] attempt;
+    reg  [63:0] entry_bit;
     reg  fails;
     reg  ends_here;
     reg  passes_second;
@@ -7233,30 +6348,32 @@ module incircle_core_logic$engine$insertions$attempts$step(attempt,is_last,edge_
     always @(*) begin
         one = 32'h1;
         second_bit = 32'h2;
+        attempt = held[(64'h0)+:(93)];
+        entry_bit = held[(64'h60)+:(64)];
         outstanding = attempt[(64'h1)+:(7)];
         count = attempt[(64'h8)+:(7)];
         inners = attempt[(64'hf)+:(7)];
         logged = attempt[(64'h16)+:(7)];
         half_open = attempt[(64'h1d)+:(64)];
-        fails = attempt[(64'h0)+:(1)] | gives_up | overflows;
-        ends_here = is_test & is_last & (~splits) & (~repeats);
-        is_over = ends_here;
-        succeeds = ends_here & (~fails);
+        fails = attempt[(64'h0)+:(1)] | found[(64'hf)+:(1)] | found[(64'hd)+:(1)];
+        ends_here = found[(64'h3)+:(1)] & held[(64'h5d)+:(1)] & (~found[(64'hb)+:(1)]) & (~found[(64'h5)+:(1)]);
+        step[(64'h0)+:(1)] = ends_here;
+        step[(64'h1)+:(1)] = ends_here & (~fails);
         root_keeps_an_edge = entry_bit[32'h0] & (~half_open[32'h1]);
-        passes_last_edge = splits & edge_was_passed & (~root_keeps_an_edge);
-        finds_inner = passes_last_edge;
-        passes_second = splits & edge_was_passed & root_keeps_an_edge;
-        passes_root = passes_second;
+        passes_last_edge = found[(64'hb)+:(1)] & held[(64'h5f)+:(1)] & (~root_keeps_an_edge);
+        step[(64'h2)+:(1)] = passes_last_edge;
+        passes_second = found[(64'hb)+:(1)] & held[(64'h5f)+:(1)] & root_keeps_an_edge;
+        step[(64'h3)+:(1)] = passes_second;
         after = attempt;
         after[(64'h0)+:(1)] = fails;
         after[(64'h1)+:(7)] = outstanding - one;
-        if (repeats) begin
+        if (found[(64'h5)+:(1)]) begin
             after[(64'h1)+:(7)] = outstanding;
         end
         if (took) begin
             after[(64'h16)+:(7)] = logged + one;
         end
-        if (splits) begin
+        if (found[(64'hb)+:(1)]) begin
             after[(64'h1)+:(7)] = outstanding + one;
             after[(64'h8)+:(7)] = count + one;
             after[(64'h1d)+:(64)] = half_open | entry_bit;
@@ -7272,25 +6389,16 @@ module incircle_core_logic$engine$insertions$attempts$step(attempt,is_last,edge_
 endmodule // incircle_core_logic$engine$insertions$attempts$step
 
 
-module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_owner,early_entry,owner,f_entry,attempt,is_last,is_full,edge_was_passed,entry_bit,opens,splits,repeats,is_test,passes_root,after);
+module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_token,token,held,found,step,after);
     
     // Module arguments
     input wire  clock;
     input wire  [6:0] ring;
-    input wire  [4:0] early_owner;
-    input wire  [5:0] early_entry;
-    input wire  [4:0] owner;
-    input wire  [5:0] f_entry;
-    output reg  [92:0] attempt;
-    output reg  is_last;
-    output reg  is_full;
-    output reg  edge_was_passed;
-    output reg  [63:0] entry_bit;
-    input wire  opens;
-    input wire  splits;
-    input wire  repeats;
-    input wire  is_test;
-    input wire  passes_root;
+    input wire  [54:0] early_token;
+    input wire  [54:0] token;
+    output reg  [159:0] held;
+    input wire  [19:0] found;
+    input wire  [3:0] step;
     input wire  [92:0] after;
     
     // Constant declarations
@@ -7429,22 +6537,22 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_own
         two = 32'h2;
         three = 32'h3;
         second_entry = 32'h1;
-        attempt = state$q;
-        is_last = flag_bits$q[32'h0];
-        is_full = flag_bits$q[32'h1];
-        edge_was_passed = stored_passed$q;
+        held[(64'h0)+:(93)] = state$q;
+        held[(64'h5d)+:(1)] = flag_bits$q[32'h0];
+        held[(64'h5e)+:(1)] = flag_bits$q[32'h1];
+        held[(64'h5f)+:(1)] = stored_passed$q;
         if (went_round$q) begin
-            edge_was_passed = kept_passed$q;
+            held[(64'h5f)+:(1)] = kept_passed$q;
         end
         outstanding = state$q[(64'h1)+:(7)];
         count = state$q[(64'h8)+:(7)];
         before_full = ring - one;
         becomes_last = outstanding == two;
         becomes_full = flag_bits$q[32'h1];
-        if (repeats) begin
+        if (found[(64'h5)+:(1)]) begin
             becomes_last = flag_bits$q[32'h0];
         end
-        if (splits) begin
+        if (found[(64'hb)+:(1)]) begin
             becomes_last = 1'b0;
             becomes_full = count == before_full;
         end
@@ -7460,7 +6568,7 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_own
         written = after;
         written_flags = flags_after;
         opens_full = ring == three;
-        if (opens) begin
+        if (found[(64'h9)+:(1)]) begin
             written[(64'h0)+:(1)] = 1'b0;
             written[(64'h1)+:(7)] = 32'h3;
             written[(64'h8)+:(7)] = 32'h3;
@@ -7473,28 +6581,28 @@ module incircle_core_logic$engine$insertions$attempts$store(clock,ring,early_own
             end
         end
         written_bits = written;
-        states$write_address = owner;
+        states$write_address = token[(64'h0)+:(5)];
         states$write_data = written_bits;
-        states$write_enable = is_test | opens;
-        states$read_address = early_owner;
-        flags$write_address = owner;
+        states$write_enable = found[(64'h3)+:(1)] | found[(64'h9)+:(1)];
+        states$read_address = early_token[(64'h0)+:(5)];
+        flags$write_address = token[(64'h0)+:(5)];
         flags$write_data = written_flags;
-        flags$write_enable = is_test | opens;
-        flags$read_address = early_owner;
+        flags$write_enable = found[(64'h3)+:(1)] | found[(64'h9)+:(1)];
+        flags$read_address = early_token[(64'h0)+:(5)];
         stored$bits = states$read_data;
-        entry = early_entry;
+        entry = early_token[(64'h13)+:(6)];
         first_bit = 32'h1;
-        wide_entry = ((early_entry) & 64'hffffffffffffffff);
+        wide_entry = ((early_token[(64'h13)+:(6)]) & 64'hffffffffffffffff);
         named_entry$d = first_bit << wide_entry;
-        entry_bit = named_entry$q & all_entries;
+        held[(64'h60)+:(64)] = named_entry$q & all_entries;
         kept_edges = state$q[(64'h1d)+:(64)];
         stored_edges = stored$value[(64'h1d)+:(64)];
-        is_same_entry = early_entry == f_entry;
-        is_second_entry = early_entry == second_entry;
+        is_same_entry = early_token[(64'h13)+:(6)] == token[(64'h13)+:(6)];
+        is_second_entry = early_token[(64'h13)+:(6)] == second_entry;
         stored_passed$d = stored_edges[entry];
-        kept_passed$d = kept_edges[entry] | (splits & is_same_entry) | (passes_root & is_second_entry);
+        kept_passed$d = kept_edges[entry] | (found[(64'hb)+:(1)] & is_same_entry) | (step[(64'h3)+:(1)] & is_second_entry);
         edges_after = after[(64'h1d)+:(64)];
-        goes_round = is_test & (early_owner == owner);
+        goes_round = found[(64'h3)+:(1)] & (early_token[(64'h0)+:(5)] == token[(64'h0)+:(5)]);
         went_round$d = goes_round;
         state$d = stored$value;
         flag_bits$d = flags$read_data;
@@ -7680,14 +6788,13 @@ module incircle_core_logic$engine$insertions$attempts$store$went_round(d,q,clock
 endmodule // incircle_core_logic$engine$insertions$attempts$store$went_round
 
 
-module incircle_core_logic$engine$insertions$attempts$visits(clock,early_token,early_turned,walks_on,locates,walk_next,entry,bundle);
+module incircle_core_logic$engine$insertions$attempts$visits(clock,early_token,early_turned,found,walk_next,entry,bundle);
     
     // Module arguments
     input wire  clock;
     input wire  [54:0] early_token;
     input wire  [97:0] early_turned;
-    input wire  walks_on;
-    input wire  locates;
+    input wire  [19:0] found;
     input wire  [14:0] walk_next;
     input wire  [5:0] entry;
     output reg  [92:0] bundle;
@@ -7752,10 +6859,10 @@ module incircle_core_logic$engine$insertions$attempts$visits(clock,early_token,e
         end
         halves$d = splits;
         bundle = prepared$q;
-        if (locates) begin
+        if (found[(64'h8)+:(1)]) begin
             bundle[(64'h8)+:(1)] = 1'b1;
         end
-        if (walks_on) begin
+        if (found[(64'h7)+:(1)]) begin
             bundle[(64'h2a)+:(15)] = walk_next;
         end
         if (halves$q) begin
@@ -7805,792 +6912,172 @@ module incircle_core_logic$engine$insertions$attempts$visits$prepared(d,q,clock)
 endmodule // incircle_core_logic$engine$insertions$attempts$visits$prepared
 
 
-module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,owner,entry_enable,entry_place,entry,inner_enable,inner_place,inner_id,lock_enable,lock_place,lock_id,commit_enable,commit_job,release_enable,release_job,seeds,solo_inserts,write,ends,job,hint,records,fresh,is_at_work,clear_enable,clear_id,released,released_owner,sweeps);
+module incircle_core_logic$engine$insertions$commits(clock,reset,clears,last_id,entry,inner,lock,commit,releases,seeds,solo_inserts,write,committed,records,fresh,is_at_work,clear,released,sweeps);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
     input wire  [14:0] last_id;
-    input wire  [4:0] owner;
-    input wire  entry_enable;
-    input wire  [5:0] entry_place;
-    input wire  [52:0] entry;
-    input wire  inner_enable;
-    input wire  [5:0] inner_place;
-    input wire  [14:0] inner_id;
-    input wire  lock_enable;
-    input wire  [6:0] lock_place;
-    input wire  [14:0] lock_id;
-    input wire  commit_enable;
-    input wire  [55:0] commit_job;
-    input wire  release_enable;
-    input wire  [11:0] release_job;
+    input wire  [64:0] entry;
+    input wire  [26:0] inner;
+    input wire  [27:0] lock;
+    input wire  [56:0] commit;
+    input wire  [12:0] releases;
     input wire  seeds;
     input wire  solo_inserts;
     output reg  [109:0] write;
-    output reg  ends;
-    output reg  [55:0] job;
-    output reg  [14:0] hint;
+    output reg  [71:0] committed;
     output reg  [14:0] records;
     output reg  [14:0] fresh;
     output reg  is_at_work;
-    output reg  clear_enable;
-    output reg  [14:0] clear_id;
-    output reg  released;
-    output reg  [4:0] released_owner;
+    output reg  [15:0] clear;
+    output reg  [5:0] released;
     output reg  sweeps;
     
     // Stub signals
     reg  rings$clock;
     reg  rings$reset;
-    reg  rings$entry_enable;
-    reg  [4:0] rings$entry_owner;
-    reg  [5:0] rings$entry_place;
-    reg  [52:0] rings$entry;
-    reg  rings$job_enable;
-    reg  [55:0] rings$job;
-    reg  rings$takes;
-    wire  rings$head_valid;
-    wire  [52:0] rings$head;
-    wire  rings$head_is_last;
-    wire  rings$head_shares;
+    reg  [64:0] rings$entry;
+    reg  [56:0] rings$commit;
+    wire  [55:0] rings$head;
     wire  [55:0] rings$head_job;
-    reg  commit$clock;
-    reg  commit$reset;
-    reg  commit$head_valid;
-    reg  [52:0] commit$head;
-    reg  commit$head_is_last;
-    reg  commit$head_shares;
-    reg  [55:0] commit$head_job;
-    wire  commit$takes;
-    reg  commit$inner_enable;
-    reg  [4:0] commit$inner_owner;
-    reg  [5:0] commit$inner_place;
-    reg  [14:0] commit$inner_id;
-    reg  commit$solo_inserts;
-    reg  commit$seeds;
-    reg  commit$clears;
-    wire  [109:0] commit$write;
-    wire  commit$ends;
-    wire  [55:0] commit$job;
-    wire  [14:0] commit$hint;
-    wire  [14:0] commit$fresh;
-    wire  [14:0] commit$records;
-    wire  commit$is_at_work;
-    reg  lock_release$clock;
-    reg  lock_release$reset;
-    reg  [14:0] lock_release$last_id;
-    reg  lock_release$lock_enable;
-    reg  [4:0] lock_release$lock_owner;
-    reg  [6:0] lock_release$lock_place;
-    reg  [14:0] lock_release$lock_id;
-    reg  lock_release$commit_enable;
-    reg  [11:0] lock_release$commit_job;
-    reg  lock_release$failure_enable;
-    reg  [11:0] lock_release$failure_job;
-    wire  lock_release$sweeps;
-    wire  lock_release$clear_enable;
-    wire  [14:0] lock_release$clear_id;
-    wire  lock_release$released;
-    wire  [4:0] lock_release$released_owner;
-    reg  [4:0] list_owner$d;
-    wire  [4:0] list_owner$q;
-    reg  list_owner$clock;
-    reg  lock_comes$d;
-    wire  lock_comes$q;
-    reg  lock_comes$clock;
-    reg  [6:0] lock_at$d;
-    wire  [6:0] lock_at$q;
-    reg  lock_at$clock;
-    reg  [14:0] lock$d;
-    wire  [14:0] lock$q;
-    reg  lock$clock;
+    reg  rings$takes;
+    reg  star$clock;
+    reg  star$reset;
+    reg  [55:0] star$head;
+    reg  [55:0] star$head_job;
+    wire  star$takes;
+    reg  [26:0] star$inner;
+    reg  [14:0] star$fresh;
+    wire  star$takes_fresh;
+    wire  [109:0] star$write;
+    wire  [71:0] star$committed;
+    wire  star$is_at_work;
+    reg  ids$clock;
+    reg  ids$reset;
+    reg  ids$takes;
+    reg  ids$ends;
+    reg  ids$solo_inserts;
+    reg  ids$seeds;
+    reg  ids$clears;
+    wire  [14:0] ids$fresh;
+    wire  [14:0] ids$records;
+    reg  locks$clock;
+    reg  locks$reset;
+    reg  [14:0] locks$last_id;
+    reg  [27:0] locks$lock;
+    reg  [12:0] locks$commit;
+    reg  [12:0] locks$failure;
+    wire  locks$sweeps;
+    wire  [15:0] locks$clear;
+    wire  [5:0] locks$released;
+    reg  [27:0] logged$d;
+    wire  [27:0] logged$q;
+    reg  logged$clock;
+    
+    // Local signals
+    reg  [55:0] job;
+    reg  [11:0] written_locks;
     
     // Sub module instances
     incircle_core_logic$engine$insertions$commits$rings rings(
         .clock(rings$clock),
         .reset(rings$reset),
-        .entry_enable(rings$entry_enable),
-        .entry_owner(rings$entry_owner),
-        .entry_place(rings$entry_place),
         .entry(rings$entry),
-        .job_enable(rings$job_enable),
-        .job(rings$job),
-        .takes(rings$takes),
-        .head_valid(rings$head_valid),
+        .commit(rings$commit),
         .head(rings$head),
-        .head_is_last(rings$head_is_last),
-        .head_shares(rings$head_shares),
-        .head_job(rings$head_job)
+        .head_job(rings$head_job),
+        .takes(rings$takes)
     );
-    incircle_core_logic$engine$insertions$commits$commit commit(
-        .clock(commit$clock),
-        .reset(commit$reset),
-        .head_valid(commit$head_valid),
-        .head(commit$head),
-        .head_is_last(commit$head_is_last),
-        .head_shares(commit$head_shares),
-        .head_job(commit$head_job),
-        .takes(commit$takes),
-        .inner_enable(commit$inner_enable),
-        .inner_owner(commit$inner_owner),
-        .inner_place(commit$inner_place),
-        .inner_id(commit$inner_id),
-        .solo_inserts(commit$solo_inserts),
-        .seeds(commit$seeds),
-        .clears(commit$clears),
-        .write(commit$write),
-        .ends(commit$ends),
-        .job(commit$job),
-        .hint(commit$hint),
-        .fresh(commit$fresh),
-        .records(commit$records),
-        .is_at_work(commit$is_at_work)
+    incircle_core_logic$engine$insertions$commits$star star(
+        .clock(star$clock),
+        .reset(star$reset),
+        .head(star$head),
+        .head_job(star$head_job),
+        .takes(star$takes),
+        .inner(star$inner),
+        .fresh(star$fresh),
+        .takes_fresh(star$takes_fresh),
+        .write(star$write),
+        .committed(star$committed),
+        .is_at_work(star$is_at_work)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release lock_release(
-        .clock(lock_release$clock),
-        .reset(lock_release$reset),
-        .last_id(lock_release$last_id),
-        .lock_enable(lock_release$lock_enable),
-        .lock_owner(lock_release$lock_owner),
-        .lock_place(lock_release$lock_place),
-        .lock_id(lock_release$lock_id),
-        .commit_enable(lock_release$commit_enable),
-        .commit_job(lock_release$commit_job),
-        .failure_enable(lock_release$failure_enable),
-        .failure_job(lock_release$failure_job),
-        .sweeps(lock_release$sweeps),
-        .clear_enable(lock_release$clear_enable),
-        .clear_id(lock_release$clear_id),
-        .released(lock_release$released),
-        .released_owner(lock_release$released_owner)
+    incircle_core_logic$engine$insertions$commits$ids ids(
+        .clock(ids$clock),
+        .reset(ids$reset),
+        .takes(ids$takes),
+        .ends(ids$ends),
+        .solo_inserts(ids$solo_inserts),
+        .seeds(ids$seeds),
+        .clears(ids$clears),
+        .fresh(ids$fresh),
+        .records(ids$records)
     );
-    incircle_core_logic$engine$insertions$commits$list_owner list_owner(
-        .d(list_owner$d),
-        .q(list_owner$q),
-        .clock(list_owner$clock)
+    incircle_core_logic$engine$insertions$commits$locks locks(
+        .clock(locks$clock),
+        .reset(locks$reset),
+        .last_id(locks$last_id),
+        .lock(locks$lock),
+        .commit(locks$commit),
+        .failure(locks$failure),
+        .sweeps(locks$sweeps),
+        .clear(locks$clear),
+        .released(locks$released)
     );
-    incircle_core_logic$engine$insertions$commits$lock_comes lock_comes(
-        .d(lock_comes$d),
-        .q(lock_comes$q),
-        .clock(lock_comes$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$lock_at lock_at(
-        .d(lock_at$d),
-        .q(lock_at$q),
-        .clock(lock_at$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$lock lock(
-        .d(lock$d),
-        .q(lock$q),
-        .clock(lock$clock)
+    incircle_core_logic$engine$insertions$commits$logged logged(
+        .d(logged$d),
+        .q(logged$q),
+        .clock(logged$clock)
     );
     
     // Update code
     always @(*) begin
-        list_owner$clock = clock;
-        list_owner$d = list_owner$q;
-        lock_comes$clock = clock;
-        lock_at$clock = clock;
-        lock$clock = clock;
-        lock_comes$d = lock_comes$q;
-        lock_at$d = lock_at$q;
-        lock$d = lock$q;
+        logged$clock = clock;
+        logged$d = logged$q;
         rings$clock = clock;
-        commit$clock = clock;
-        lock_release$clock = clock;
-        list_owner$d = owner;
-        lock_comes$d = lock_enable;
-        lock_at$d = lock_place;
-        lock$d = lock_id;
+        star$clock = clock;
+        ids$clock = clock;
+        locks$clock = clock;
         rings$reset = reset;
-        commit$reset = reset;
-        lock_release$reset = reset;
-        rings$entry_enable = entry_enable;
-        rings$entry_owner = owner;
-        rings$entry_place = entry_place;
+        star$reset = reset;
+        ids$reset = reset;
+        locks$reset = reset;
         rings$entry = entry;
-        rings$job_enable = commit_enable;
-        rings$job = commit_job;
-        rings$takes = commit$takes;
-        commit$clears = clears;
-        commit$seeds = seeds;
-        commit$solo_inserts = solo_inserts;
-        commit$inner_enable = inner_enable;
-        commit$inner_owner = owner;
-        commit$inner_place = inner_place;
-        commit$inner_id = inner_id;
-        commit$head_valid = rings$head_valid;
-        commit$head = rings$head;
-        commit$head_is_last = rings$head_is_last;
-        commit$head_shares = rings$head_shares;
-        commit$head_job = rings$head_job;
-        write = commit$write;
-        ends = commit$ends;
-        job = commit$job;
-        hint = commit$hint;
-        records = commit$records;
-        fresh = commit$fresh;
-        is_at_work = commit$is_at_work;
-        lock_release$last_id = last_id;
-        lock_release$lock_enable = lock_comes$q;
-        lock_release$lock_owner = list_owner$q;
-        lock_release$lock_place = lock_at$q;
-        lock_release$lock_id = lock$q;
-        lock_release$commit_enable = commit$ends;
-        lock_release$commit_job[(64'h0)+:(5)] = commit$job[(64'h0)+:(5)];
-        lock_release$commit_job[(64'h5)+:(7)] = commit$job[(64'h1b)+:(7)];
-        lock_release$failure_enable = release_enable;
-        lock_release$failure_job = release_job;
-        clear_enable = lock_release$clear_enable;
-        clear_id = lock_release$clear_id;
-        released = lock_release$released;
-        released_owner = lock_release$released_owner;
-        sweeps = lock_release$sweeps;
+        rings$commit = commit;
+        rings$takes = star$takes;
+        star$inner = inner;
+        star$head = rings$head;
+        star$head_job = rings$head_job;
+        star$fresh = ids$fresh;
+        write = star$write;
+        committed = star$committed;
+        is_at_work = star$is_at_work;
+        ids$takes = star$takes_fresh;
+        ids$ends = star$committed[(64'h0)+:(1)];
+        ids$solo_inserts = solo_inserts;
+        ids$seeds = seeds;
+        ids$clears = clears;
+        records = ids$records;
+        fresh = ids$fresh;
+        logged$d = lock;
+        job = star$committed[(64'h1)+:(56)];
+        written_locks[(64'h0)+:(5)] = job[(64'h0)+:(5)];
+        written_locks[(64'h5)+:(7)] = job[(64'h1b)+:(7)];
+        locks$last_id = last_id;
+        locks$lock = logged$q;
+        locks$commit[(64'h0)+:(1)] = star$committed[(64'h0)+:(1)];
+        locks$commit[(64'h1)+:(12)] = written_locks;
+        locks$failure = releases;
+        clear = locks$clear;
+        released = locks$released;
+        sweeps = locks$sweeps;
     end
     
 endmodule // incircle_core_logic$engine$insertions$commits
 
 
-module incircle_core_logic$engine$insertions$commits$commit(clock,reset,head_valid,head,head_is_last,head_shares,head_job,takes,inner_enable,inner_owner,inner_place,inner_id,solo_inserts,seeds,clears,write,ends,job,hint,fresh,records,is_at_work);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  reset;
-    input wire  head_valid;
-    input wire  [52:0] head;
-    input wire  head_is_last;
-    input wire  head_shares;
-    input wire  [55:0] head_job;
-    output reg  takes;
-    input wire  inner_enable;
-    input wire  [4:0] inner_owner;
-    input wire  [5:0] inner_place;
-    input wire  [14:0] inner_id;
-    input wire  solo_inserts;
-    input wire  seeds;
-    input wire  clears;
-    output reg  [109:0] write;
-    output reg  ends;
-    output reg  [55:0] job;
-    output reg  [14:0] hint;
-    output reg  [14:0] fresh;
-    output reg  [14:0] records;
-    output reg  is_at_work;
-    
-    // Enums
-    localparam CommitState$Idle = 0;
-    localparam CommitState$Record = 1;
-    localparam CommitState$Link = 2;
-    localparam CommitState$Close = 3;
-    
-    // Stub signals
-    reg  [1:0] state$d;
-    wire  [1:0] state$q;
-    reg  state$clock;
-    reg  wants$d;
-    wire  wants$q;
-    reg  wants$clock;
-    reg  [55:0] ring$d;
-    wire  [55:0] ring$q;
-    reg  ring$clock;
-    reg  [52:0] first$d;
-    wire  [52:0] first$q;
-    reg  first$clock;
-    reg  [52:0] current$d;
-    wire  [52:0] current$q;
-    reg  current$clock;
-    reg  [14:0] current_id$d;
-    wire  [14:0] current_id$q;
-    reg  current_id$clock;
-    reg  current_is_last$d;
-    wire  current_is_last$q;
-    reg  current_is_last$clock;
-    reg  needs_link$d;
-    wire  needs_link$q;
-    reg  needs_link$clock;
-    reg  opens$d;
-    wire  opens$q;
-    reg  opens$clock;
-    reg  [14:0] before_id$d;
-    wire  [14:0] before_id$q;
-    reg  before_id$clock;
-    reg  [14:0] second_a$d;
-    wire  [14:0] second_a$q;
-    reg  second_a$clock;
-    reg  [14:0] second_id$d;
-    wire  [14:0] second_id$q;
-    reg  second_id$clock;
-    reg  closes$d;
-    wire  closes$q;
-    reg  closes$clock;
-    reg  [14:0] link_u$d;
-    wire  [14:0] link_u$q;
-    reg  link_u$clock;
-    reg  [1:0] link_slot$d;
-    wire  [1:0] link_slot$q;
-    reg  link_slot$clock;
-    reg  [109:0] request$d;
-    wire  [109:0] request$q;
-    reg  request$clock;
-    reg  [52:0] star_id$head;
-    reg  star_id$head_shares;
-    reg  [52:0] star_id$first;
-    reg  star_id$current_is_last;
-    reg  [14:0] star_id$inner_id;
-    reg  star_id$inner_is_used_up;
-    reg  [14:0] star_id$fresh;
-    wire  [52:0] star_id$ahead;
-    wire  [14:0] star_id$id;
-    wire  star_id$is_inner;
-    wire  star_id$is_fresh;
-    reg  fresh_ids$clock;
-    reg  fresh_ids$reset;
-    reg  fresh_ids$takes;
-    reg  fresh_ids$ends;
-    reg  fresh_ids$solo_inserts;
-    reg  fresh_ids$seeds;
-    reg  fresh_ids$clears;
-    wire  [14:0] fresh_ids$fresh;
-    wire  [14:0] fresh_ids$records;
-    reg  inner_list$clock;
-    reg  inner_list$enable;
-    reg  [4:0] inner_list$owner;
-    reg  [5:0] inner_list$place;
-    reg  [14:0] inner_list$id;
-    reg  inner_list$restarts;
-    reg  [4:0] inner_list$reader;
-    reg  [6:0] inner_list$inners;
-    reg  inner_list$steps;
-    wire  inner_list$is_used_up;
-    wire  inner_list$is_awaited;
-    wire  [14:0] inner_list$inner_id;
-    reg  [14:0] record$id;
-    reg  [14:0] record$v0;
-    reg  [14:0] record$v1;
-    reg  [14:0] record$v2;
-    reg  [14:0] record$n0;
-    reg  [14:0] record$n1;
-    reg  [14:0] record$n2;
-    wire  [109:0] record$write;
-    reg  [14:0] link$id;
-    reg  [1:0] link$slot;
-    reg  [14:0] link$value;
-    wire  [109:0] link$write;
-    
-    // Local signals
-    reg  is_record;
-    reg  is_close;
-    reg  awaits_ring;
-    reg  waits;
-    reg  loads;
-    reg  advances;
-    
-    // Sub module instances
-    incircle_core_logic$engine$insertions$commits$commit$state state(
-        .d(state$d),
-        .q(state$q),
-        .clock(state$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$wants wants(
-        .d(wants$d),
-        .q(wants$q),
-        .clock(wants$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$ring ring(
-        .d(ring$d),
-        .q(ring$q),
-        .clock(ring$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$first first(
-        .d(first$d),
-        .q(first$q),
-        .clock(first$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$current current(
-        .d(current$d),
-        .q(current$q),
-        .clock(current$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$current_id current_id(
-        .d(current_id$d),
-        .q(current_id$q),
-        .clock(current_id$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$current_is_last current_is_last(
-        .d(current_is_last$d),
-        .q(current_is_last$q),
-        .clock(current_is_last$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$needs_link needs_link(
-        .d(needs_link$d),
-        .q(needs_link$q),
-        .clock(needs_link$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$opens opens(
-        .d(opens$d),
-        .q(opens$q),
-        .clock(opens$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$before_id before_id(
-        .d(before_id$d),
-        .q(before_id$q),
-        .clock(before_id$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$second_a second_a(
-        .d(second_a$d),
-        .q(second_a$q),
-        .clock(second_a$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$second_id second_id(
-        .d(second_id$d),
-        .q(second_id$q),
-        .clock(second_id$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$closes closes(
-        .d(closes$d),
-        .q(closes$q),
-        .clock(closes$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$link_u link_u(
-        .d(link_u$d),
-        .q(link_u$q),
-        .clock(link_u$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$link_slot link_slot(
-        .d(link_slot$d),
-        .q(link_slot$q),
-        .clock(link_slot$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$request request(
-        .d(request$d),
-        .q(request$q),
-        .clock(request$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$star_id star_id(
-        .head(star_id$head),
-        .head_shares(star_id$head_shares),
-        .first(star_id$first),
-        .current_is_last(star_id$current_is_last),
-        .inner_id(star_id$inner_id),
-        .inner_is_used_up(star_id$inner_is_used_up),
-        .fresh(star_id$fresh),
-        .ahead(star_id$ahead),
-        .id(star_id$id),
-        .is_inner(star_id$is_inner),
-        .is_fresh(star_id$is_fresh)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$fresh_ids fresh_ids(
-        .clock(fresh_ids$clock),
-        .reset(fresh_ids$reset),
-        .takes(fresh_ids$takes),
-        .ends(fresh_ids$ends),
-        .solo_inserts(fresh_ids$solo_inserts),
-        .seeds(fresh_ids$seeds),
-        .clears(fresh_ids$clears),
-        .fresh(fresh_ids$fresh),
-        .records(fresh_ids$records)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list inner_list(
-        .clock(inner_list$clock),
-        .enable(inner_list$enable),
-        .owner(inner_list$owner),
-        .place(inner_list$place),
-        .id(inner_list$id),
-        .restarts(inner_list$restarts),
-        .reader(inner_list$reader),
-        .inners(inner_list$inners),
-        .steps(inner_list$steps),
-        .is_used_up(inner_list$is_used_up),
-        .is_awaited(inner_list$is_awaited),
-        .inner_id(inner_list$inner_id)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$record record(
-        .id(record$id),
-        .v0(record$v0),
-        .v1(record$v1),
-        .v2(record$v2),
-        .n0(record$n0),
-        .n1(record$n1),
-        .n2(record$n2),
-        .write(record$write)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$link link(
-        .id(link$id),
-        .slot(link$slot),
-        .value(link$value),
-        .write(link$write)
-    );
-    
-    // Update code
-    always @(*) begin
-        state$clock = clock;
-        wants$clock = clock;
-        ring$clock = clock;
-        first$clock = clock;
-        current$clock = clock;
-        current_id$clock = clock;
-        current_is_last$clock = clock;
-        needs_link$clock = clock;
-        opens$clock = clock;
-        state$d = state$q;
-        wants$d = wants$q;
-        ring$d = ring$q;
-        first$d = first$q;
-        current$d = current$q;
-        current_id$d = current_id$q;
-        current_is_last$d = current_is_last$q;
-        needs_link$d = needs_link$q;
-        opens$d = opens$q;
-        before_id$clock = clock;
-        second_a$clock = clock;
-        second_id$clock = clock;
-        closes$clock = clock;
-        link_u$clock = clock;
-        link_slot$clock = clock;
-        request$clock = clock;
-        before_id$d = before_id$q;
-        second_a$d = second_a$q;
-        second_id$d = second_id$q;
-        closes$d = closes$q;
-        link_u$d = link_u$q;
-        link_slot$d = link_slot$q;
-        request$d = request$q;
-        fresh_ids$clock = clock;
-        inner_list$clock = clock;
-        is_record = state$q == CommitState$Record;
-        is_close = state$q == CommitState$Close;
-        awaits_ring = (state$q == CommitState$Idle) | is_close;
-        write = request$q;
-        ends = is_close;
-        job = ring$q;
-        hint = first$q[(64'h20)+:(15)];
-        fresh = fresh_ids$fresh;
-        records = fresh_ids$records;
-        is_at_work = state$q != CommitState$Idle;
-        inner_list$enable = inner_enable;
-        inner_list$owner = inner_owner;
-        inner_list$place = inner_place;
-        inner_list$id = inner_id;
-        inner_list$reader = head_job[(64'h0)+:(5)];
-        inner_list$inners = head_job[(64'h14)+:(7)];
-        star_id$head = head;
-        star_id$head_shares = head_shares;
-        star_id$first = first$q;
-        star_id$current_is_last = current_is_last$q;
-        star_id$inner_id = inner_list$inner_id;
-        star_id$inner_is_used_up = inner_list$is_used_up;
-        star_id$fresh = fresh_ids$fresh;
-        waits = head_shares & inner_list$is_awaited;
-        takes = wants$q & (~waits);
-        loads = awaits_ring & head_valid;
-        advances = is_record & (current_is_last$q | (head_valid & (~waits)));
-        inner_list$restarts = loads;
-        inner_list$steps = advances & star_id$is_inner;
-        fresh_ids$reset = reset;
-        fresh_ids$takes = advances & star_id$is_fresh;
-        fresh_ids$ends = is_close;
-        fresh_ids$solo_inserts = solo_inserts;
-        fresh_ids$seeds = seeds;
-        fresh_ids$clears = clears;
-        record$id = current_id$q;
-        record$v0 = ring$q[(64'h5)+:(15)];
-        record$v1 = current$q[(64'h0)+:(15)];
-        record$v2 = star_id$ahead[(64'h0)+:(15)];
-        record$n0 = current$q[(64'hf)+:(15)];
-        record$n1 = star_id$id;
-        record$n2 = before_id$q;
-        if (is_close) begin
-            record$v2 = second_a$q;
-            record$n1 = second_id$q;
-        end
-        link$id = link_u$q;
-        link$slot = link_slot$q;
-        link$value = before_id$q;
-        request$d = record$write;
-        request$d[(64'h0)+:(1)] = is_close | (advances & (~opens$q));
-        if (advances) begin
-            if (opens$q) begin
-                second_a$d = star_id$ahead[(64'h0)+:(15)];
-                second_id$d = star_id$id;
-            end
-            link_u$d = current$q[(64'hf)+:(15)];
-            link_slot$d = current$q[(64'h1e)+:(2)];
-            opens$d = 1'b0;
-            closes$d = current_is_last$q;
-            before_id$d = current_id$q;
-            current$d = star_id$ahead;
-            current_id$d = star_id$id;
-            current_is_last$d = (~current_is_last$q) & head_is_last;
-            needs_link$d = star_id$is_inner | star_id$is_fresh;
-        end
-        if (loads) begin
-            ring$d = head_job;
-            first$d = head;
-            current$d = head;
-            current_id$d = head[(64'h20)+:(15)];
-            current_is_last$d = 1'b0;
-            opens$d = 1'b1;
-            needs_link$d = 1'b0;
-        end
-        case (state$q)
-            CommitState$Record:
-                begin
-                    if (advances) begin
-                        wants$d = current_is_last$q | (~head_is_last);
-                        if (current_is_last$q) begin
-                            state$d = CommitState$Close;
-                        end
-                        if (needs_link$q) begin
-                            state$d = CommitState$Link;
-                            wants$d = 1'b0;
-                        end
-                    end
-                end
-            CommitState$Link:
-                begin
-                    request$d = link$write;
-                    state$d = CommitState$Record;
-                    wants$d = closes$q | (~current_is_last$q);
-                    if (closes$q) begin
-                        state$d = CommitState$Close;
-                    end
-                end
-            default:
-                begin
-                    state$d = CommitState$Idle;
-                    wants$d = 1'b1;
-                    if (loads) begin
-                        state$d = CommitState$Record;
-                    end
-                end
-        endcase
-        if (reset) begin
-            state$d = CommitState$Idle;
-            wants$d = 1'b1;
-            request$d[(64'h0)+:(1)] = 1'b0;
-        end
-    end
-    
-endmodule // incircle_core_logic$engine$insertions$commits$commit
-
-
-module incircle_core_logic$engine$insertions$commits$commit$before_id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$before_id
-
-
-module incircle_core_logic$engine$insertions$commits$commit$closes(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$closes
-
-
-module incircle_core_logic$engine$insertions$commits$commit$current(d,q,clock);
-    
-    // Module arguments
-    input wire  [52:0] d;
-    output reg  [52:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 53'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$current
-
-
-module incircle_core_logic$engine$insertions$commits$commit$current_id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$current_id
-
-
-module incircle_core_logic$engine$insertions$commits$commit$current_is_last(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$current_is_last
-
-
-module incircle_core_logic$engine$insertions$commits$commit$first(d,q,clock);
-    
-    // Module arguments
-    input wire  [52:0] d;
-    output reg  [52:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 53'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$first
-
-
-module incircle_core_logic$engine$insertions$commits$commit$fresh_ids(clock,reset,takes,ends,solo_inserts,seeds,clears,fresh,records);
+module incircle_core_logic$engine$insertions$commits$ids(clock,reset,takes,ends,solo_inserts,seeds,clears,fresh,records);
     
     // Module arguments
     input wire  clock;
@@ -8629,27 +7116,27 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids(clock,rese
     reg  [14:0] seed_records;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$commits$commit$fresh_ids$taken taken(
+    incircle_core_logic$engine$insertions$commits$ids$taken taken(
         .d(taken$d),
         .q(taken$q),
         .clock(taken$clock)
     );
-    incircle_core_logic$engine$insertions$commits$commit$fresh_ids$written written(
+    incircle_core_logic$engine$insertions$commits$ids$written written(
         .d(written$d),
         .q(written$q),
         .clock(written$clock)
     );
-    incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended ended(
+    incircle_core_logic$engine$insertions$commits$ids$ended ended(
         .d(ended$d),
         .q(ended$q),
         .clock(ended$clock)
     );
-    incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended_before_1 ended_before_1(
+    incircle_core_logic$engine$insertions$commits$ids$ended_before_1 ended_before_1(
         .d(ended_before_1$d),
         .q(ended_before_1$q),
         .clock(ended_before_1$clock)
     );
-    incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended_before_2 ended_before_2(
+    incircle_core_logic$engine$insertions$commits$ids$ended_before_2 ended_before_2(
         .d(ended_before_2$d),
         .q(ended_before_2$q),
         .clock(ended_before_2$clock)
@@ -8705,10 +7192,10 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids(clock,rese
         end
     end
     
-endmodule // incircle_core_logic$engine$insertions$commits$commit$fresh_ids
+endmodule // incircle_core_logic$engine$insertions$commits$ids
 
 
-module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$ids$ended(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -8724,10 +7211,10 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended(d,q,
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended
+endmodule // incircle_core_logic$engine$insertions$commits$ids$ended
 
 
-module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended_before_1(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$ids$ended_before_1(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -8743,10 +7230,10 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended_befo
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended_before_1
+endmodule // incircle_core_logic$engine$insertions$commits$ids$ended_before_1
 
 
-module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended_before_2(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$ids$ended_before_2(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -8762,10 +7249,10 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended_befo
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$commit$fresh_ids$ended_before_2
+endmodule // incircle_core_logic$engine$insertions$commits$ids$ended_before_2
 
 
-module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$taken(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$ids$taken(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -8781,10 +7268,10 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$taken(d,q,
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$commit$fresh_ids$taken
+endmodule // incircle_core_logic$engine$insertions$commits$ids$taken
 
 
-module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$written(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$ids$written(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -8800,1019 +7287,37 @@ module incircle_core_logic$engine$insertions$commits$commit$fresh_ids$written(d,
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$commit$fresh_ids$written
+endmodule // incircle_core_logic$engine$insertions$commits$ids$written
 
 
-module incircle_core_logic$engine$insertions$commits$commit$inner_list(clock,enable,owner,place,id,restarts,reader,inners,steps,is_used_up,is_awaited,inner_id);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  enable;
-    input wire  [4:0] owner;
-    input wire  [5:0] place;
-    input wire  [14:0] id;
-    input wire  restarts;
-    input wire  [4:0] reader;
-    input wire  [6:0] inners;
-    input wire  steps;
-    output reg  is_used_up;
-    output reg  is_awaited;
-    output reg  [14:0] inner_id;
-    
-    // Stub signals
-    reg  memory$clock;
-    reg  [10:0] memory$write_address;
-    reg  [14:0] memory$write_data;
-    reg  memory$write_enable;
-    reg  [10:0] memory$read_address;
-    wire  [14:0] memory$read_data;
-    reg  written$d;
-    wire  written$q;
-    reg  written$clock;
-    reg  [4:0] written_owner$d;
-    wire  [4:0] written_owner$q;
-    reg  written_owner$clock;
-    reg  [5:0] written_place$d;
-    wire  [5:0] written_place$q;
-    reg  written_place$clock;
-    reg  [14:0] written_id$d;
-    wire  [14:0] written_id$q;
-    reg  written_id$clock;
-    reg  [4:0] list_owner$d;
-    wire  [4:0] list_owner$q;
-    reg  list_owner$clock;
-    reg  [6:0] list_inners$d;
-    wire  [6:0] list_inners$q;
-    reg  list_inners$clock;
-    reg  [6:0] index$d;
-    wire  [6:0] index$q;
-    reg  index$clock;
-    reg  one_is_left$d;
-    wire  one_is_left$q;
-    reg  one_is_left$clock;
-    reg  used_up$d;
-    wire  used_up$q;
-    reg  used_up$clock;
-    reg  awaited$d;
-    wire  awaited$q;
-    reg  awaited$clock;
-    reg  stood_1$d;
-    wire  stood_1$q;
-    reg  stood_1$clock;
-    reg  stood_2$d;
-    wire  stood_2$q;
-    reg  stood_2$clock;
-    reg  [14:0] arrival$d;
-    wire  [14:0] arrival$q;
-    reg  arrival$clock;
-    reg  [4:0] write_at$owner;
-    reg  [5:0] write_at$place;
-    wire  [10:0] write_at$address;
-    reg  [4:0] read_at$owner;
-    reg  [5:0] read_at$place;
-    wire  [10:0] read_at$address;
-    
-    // Local signals
-    reg  [6:0] first_place;
-    reg  [6:0] one;
-    reg  [6:0] after_index;
-    
-    // Sub module instances
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$memory memory(
-        .clock(memory$clock),
-        .write_address(memory$write_address),
-        .write_data(memory$write_data),
-        .write_enable(memory$write_enable),
-        .read_address(memory$read_address),
-        .read_data(memory$read_data)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$written written(
-        .d(written$d),
-        .q(written$q),
-        .clock(written$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$written_owner written_owner(
-        .d(written_owner$d),
-        .q(written_owner$q),
-        .clock(written_owner$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$written_place written_place(
-        .d(written_place$d),
-        .q(written_place$q),
-        .clock(written_place$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$written_id written_id(
-        .d(written_id$d),
-        .q(written_id$q),
-        .clock(written_id$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$list_owner list_owner(
-        .d(list_owner$d),
-        .q(list_owner$q),
-        .clock(list_owner$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$list_inners list_inners(
-        .d(list_inners$d),
-        .q(list_inners$q),
-        .clock(list_inners$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$index index(
-        .d(index$d),
-        .q(index$q),
-        .clock(index$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$one_is_left one_is_left(
-        .d(one_is_left$d),
-        .q(one_is_left$q),
-        .clock(one_is_left$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$used_up used_up(
-        .d(used_up$d),
-        .q(used_up$q),
-        .clock(used_up$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$awaited awaited(
-        .d(awaited$d),
-        .q(awaited$q),
-        .clock(awaited$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$stood_1 stood_1(
-        .d(stood_1$d),
-        .q(stood_1$q),
-        .clock(stood_1$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$stood_2 stood_2(
-        .d(stood_2$d),
-        .q(stood_2$q),
-        .clock(stood_2$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$arrival arrival(
-        .d(arrival$d),
-        .q(arrival$q),
-        .clock(arrival$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$write_at write_at(
-        .owner(write_at$owner),
-        .place(write_at$place),
-        .address(write_at$address)
-    );
-    incircle_core_logic$engine$insertions$commits$commit$inner_list$read_at read_at(
-        .owner(read_at$owner),
-        .place(read_at$place),
-        .address(read_at$address)
-    );
-    
-    // Update code
-    always @(*) begin
-        written$clock = clock;
-        written_owner$clock = clock;
-        written_place$clock = clock;
-        written_id$clock = clock;
-        list_owner$clock = clock;
-        list_inners$clock = clock;
-        written$d = written$q;
-        written_owner$d = written_owner$q;
-        written_place$d = written_place$q;
-        written_id$d = written_id$q;
-        list_owner$d = list_owner$q;
-        list_inners$d = list_inners$q;
-        index$clock = clock;
-        one_is_left$clock = clock;
-        used_up$clock = clock;
-        awaited$clock = clock;
-        stood_1$clock = clock;
-        stood_2$clock = clock;
-        arrival$clock = clock;
-        index$d = index$q;
-        one_is_left$d = one_is_left$q;
-        used_up$d = used_up$q;
-        awaited$d = awaited$q;
-        stood_1$d = stood_1$q;
-        stood_2$d = stood_2$q;
-        arrival$d = arrival$q;
-        memory$clock = clock;
-        one = 32'h1;
-        first_place = 32'h0;
-        written$d = enable;
-        written_owner$d = owner;
-        written_place$d = place;
-        written_id$d = id;
-        write_at$owner = written_owner$q;
-        write_at$place = written_place$q;
-        memory$write_address = write_at$address;
-        memory$write_data = written_id$q;
-        memory$write_enable = written$q;
-        read_at$owner = list_owner$q;
-        read_at$place = index$q[(32'h0)+:(6)];
-        memory$read_address = read_at$address;
-        arrival$d = memory$read_data;
-        inner_id = arrival$q;
-        is_used_up = used_up$q;
-        is_awaited = awaited$q;
-        after_index = index$q + one;
-        one_is_left$d = after_index == list_inners$q;
-        stood_1$d = 1'b1;
-        stood_2$d = stood_1$q;
-        awaited$d = awaited$q & (~stood_2$q);
-        if (steps) begin
-            index$d = after_index;
-            used_up$d = one_is_left$q;
-            awaited$d = ~one_is_left$q;
-        end
-        if (restarts) begin
-            index$d = first_place;
-            list_owner$d = reader;
-            list_inners$d = inners;
-            used_up$d = inners == first_place;
-            awaited$d = inners != first_place;
-        end
-        if (steps | restarts) begin
-            stood_1$d = 1'b0;
-            stood_2$d = 1'b0;
-        end
-    end
-    
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$arrival(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$arrival
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$awaited(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$awaited
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$index(d,q,clock);
-    
-    // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$index
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$list_inners(d,q,clock);
-    
-    // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$list_inners
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$list_owner(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$list_owner
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$memory(clock,write_address,write_data,write_enable,read_address,read_data);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  [10:0] write_address;
-    input wire  [14:0] write_data;
-    input wire  write_enable;
-    input wire  [10:0] read_address;
-    output reg  [14:0] read_data;
-    
-    // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[10:9]};
-    wire unused_read_address = &{1'b0, read_address[10:9]};
-    `ifdef INCIRCLE_ECP5
-    wire [13:0] write_pins = {{1{1'b0}}, write_address[8:0], 4'b0011};
-    wire [13:0] read_pins = {{1{1'b0}}, read_address[8:0], 4'b0011};
-    wire [17:0] nothing = 18'b0;
-    wire [17:0] all_taken = {{3{1'b0}}, write_data};
-    wire [17:0] all_given;
-    wire [14:0] word = all_given[14:0];
-    genvar slice;
-    generate for (slice = 0; slice < 1; slice = slice + 1) begin : slices
-    wire [17:0] taken = all_taken[slice*18 +: 18];
-    wire [17:0] given;
-    assign all_given[slice*18 +: 18] = given[17:0];
-    DP16KD #(
-        .DATA_WIDTH_A(18), .DATA_WIDTH_B(18), .REGMODE_A("OUTREG"), .REGMODE_B("OUTREG"),
-        .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .RESETMODE("SYNC"), .GSR("AUTO"),
-        .CSDECODE_A("0b000"), .CSDECODE_B("0b000")
-    ) block_ram (
-    .CLKA(clock), .CEA(1'b1), .OCEA(1'b1), .WEA(write_enable), .RSTA(1'b0),
-        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
-        .ADA0(write_pins[0]), .ADA1(write_pins[1]), .ADA2(write_pins[2]), .ADA3(write_pins[3]), .ADA4(write_pins[4]), .ADA5(write_pins[5]), .ADA6(write_pins[6]), .ADA7(write_pins[7]),
-        .ADA8(write_pins[8]), .ADA9(write_pins[9]), .ADA10(write_pins[10]), .ADA11(write_pins[11]), .ADA12(write_pins[12]), .ADA13(write_pins[13]),
-        .DIA0(taken[0]), .DIA1(taken[1]), .DIA2(taken[2]), .DIA3(taken[3]), .DIA4(taken[4]), .DIA5(taken[5]), .DIA6(taken[6]), .DIA7(taken[7]),
-        .DIA8(taken[8]), .DIA9(taken[9]), .DIA10(taken[10]), .DIA11(taken[11]), .DIA12(taken[12]), .DIA13(taken[13]), .DIA14(taken[14]), .DIA15(taken[15]),
-        .DIA16(taken[16]), .DIA17(taken[17]),
-        .DOA0(), .DOA1(), .DOA2(), .DOA3(), .DOA4(), .DOA5(), .DOA6(), .DOA7(),
-        .DOA8(), .DOA9(), .DOA10(), .DOA11(), .DOA12(), .DOA13(), .DOA14(), .DOA15(),
-        .DOA16(), .DOA17(),
-    .CLKB(clock), .CEB(1'b1), .OCEB(1'b1), .WEB(1'b0), .RSTB(1'b0),
-        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
-        .ADB0(read_pins[0]), .ADB1(read_pins[1]), .ADB2(read_pins[2]), .ADB3(read_pins[3]), .ADB4(read_pins[4]), .ADB5(read_pins[5]), .ADB6(read_pins[6]), .ADB7(read_pins[7]),
-        .ADB8(read_pins[8]), .ADB9(read_pins[9]), .ADB10(read_pins[10]), .ADB11(read_pins[11]), .ADB12(read_pins[12]), .ADB13(read_pins[13]),
-        .DIB0(nothing[0]), .DIB1(nothing[1]), .DIB2(nothing[2]), .DIB3(nothing[3]), .DIB4(nothing[4]), .DIB5(nothing[5]), .DIB6(nothing[6]), .DIB7(nothing[7]),
-        .DIB8(nothing[8]), .DIB9(nothing[9]), .DIB10(nothing[10]), .DIB11(nothing[11]), .DIB12(nothing[12]), .DIB13(nothing[13]), .DIB14(nothing[14]), .DIB15(nothing[15]),
-        .DIB16(nothing[16]), .DIB17(nothing[17]),
-        .DOB0(given[0]), .DOB1(given[1]), .DOB2(given[2]), .DOB3(given[3]), .DOB4(given[4]), .DOB5(given[5]), .DOB6(given[6]), .DOB7(given[7]),
-        .DOB8(given[8]), .DOB9(given[9]), .DOB10(given[10]), .DOB11(given[11]), .DOB12(given[12]), .DOB13(given[13]), .DOB14(given[14]), .DOB15(given[15]),
-        .DOB16(given[16]), .DOB17(given[17])
-    );
-    end endgenerate
-    always @(*) read_data = word;
-    `else
-    (* ram_style = "block", no_rw_check *)
-    reg [14:0] memory [0:511];
-    reg [14:0] word;
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[8:0]] <= write_data;
-        word <= memory[read_address[8:0]];
-        read_data <= word;
-    end
-    `endif
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$memory
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$one_is_left(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$one_is_left
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$read_at(owner,place,address);
-    
-    // Module arguments
-    input wire  [4:0] owner;
-    input wire  [5:0] place;
-    output reg  [10:0] address;
-    
-    // Constant declarations
-    localparam  place_bits = 11'b101;
-    
-    // Local signals
-    reg  [10:0] wide_owner;
-    reg  [10:0] wide_place;
-    reg  [10:0] base;
-    
-    // Update code
-    always @(*) begin
-        wide_owner = ((owner) & 11'h7ff);
-        wide_place = ((place) & 11'h7ff);
-        base = wide_owner << place_bits;
-        address = base | wide_place;
-    end
-    
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$read_at
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$stood_1(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$stood_1
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$stood_2(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$stood_2
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$used_up(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$used_up
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$write_at(owner,place,address);
-    
-    // Module arguments
-    input wire  [4:0] owner;
-    input wire  [5:0] place;
-    output reg  [10:0] address;
-    
-    // Constant declarations
-    localparam  place_bits = 11'b101;
-    
-    // Local signals
-    reg  [10:0] wide_owner;
-    reg  [10:0] wide_place;
-    reg  [10:0] base;
-    
-    // Update code
-    always @(*) begin
-        wide_owner = ((owner) & 11'h7ff);
-        wide_place = ((place) & 11'h7ff);
-        base = wide_owner << place_bits;
-        address = base | wide_place;
-    end
-    
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$write_at
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$written(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$written
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$written_id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$written_id
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$written_owner(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$written_owner
-
-
-module incircle_core_logic$engine$insertions$commits$commit$inner_list$written_place(d,q,clock);
-    
-    // Module arguments
-    input wire  [5:0] d;
-    output reg  [5:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 6'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$inner_list$written_place
-
-
-module incircle_core_logic$engine$insertions$commits$commit$link(id,slot,value,write);
-    
-    // Module arguments
-    input wire  [14:0] id;
-    input wire  [1:0] slot;
-    input wire  [14:0] value;
-    output reg  [109:0] write;
-    
-    // Local signals
-    reg  [1:0] slot0;
-    reg  [1:0] slot1;
-    reg  [1:0] slot2;
-    
-    // Update code
-    always @(*) begin
-        slot0 = 32'h0;
-        slot1 = 32'h1;
-        slot2 = 32'h2;
-        write[(64'h0)+:(1)] = 1'b1;
-        write[(64'h1)+:(15)] = id;
-        write[(64'h10)+:(1)] = 1'b0;
-        write[(64'h11)+:(1)] = slot == slot0;
-        write[(64'h12)+:(1)] = slot == slot1;
-        write[(64'h13)+:(1)] = slot == slot2;
-        write[(64'h14)+:(15)] = 32'h0;
-        write[(64'h23)+:(15)] = 32'h0;
-        write[(64'h32)+:(15)] = 32'h0;
-        write[(64'h41)+:(15)] = value;
-        write[(64'h50)+:(15)] = value;
-        write[(64'h5f)+:(15)] = value;
-    end
-    
-endmodule // incircle_core_logic$engine$insertions$commits$commit$link
-
-
-module incircle_core_logic$engine$insertions$commits$commit$link_slot(d,q,clock);
-    
-    // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 2'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$link_slot
-
-
-module incircle_core_logic$engine$insertions$commits$commit$link_u(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$link_u
-
-
-module incircle_core_logic$engine$insertions$commits$commit$needs_link(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$needs_link
-
-
-module incircle_core_logic$engine$insertions$commits$commit$opens(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$opens
-
-
-module incircle_core_logic$engine$insertions$commits$commit$record(id,v0,v1,v2,n0,n1,n2,write);
-    
-    // Module arguments
-    input wire  [14:0] id;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
-    input wire  [14:0] n0;
-    input wire  [14:0] n1;
-    input wire  [14:0] n2;
-    output reg  [109:0] write;
-    
-    // Update code
-    always @(*) begin
-        write[(64'h0)+:(1)] = 1'b1;
-        write[(64'h1)+:(15)] = id;
-        write[(64'h10)+:(1)] = 1'b1;
-        write[(64'h11)+:(1)] = 1'b1;
-        write[(64'h12)+:(1)] = 1'b1;
-        write[(64'h13)+:(1)] = 1'b1;
-        write[(64'h14)+:(15)] = v0;
-        write[(64'h23)+:(15)] = v1;
-        write[(64'h32)+:(15)] = v2;
-        write[(64'h41)+:(15)] = n0;
-        write[(64'h50)+:(15)] = n1;
-        write[(64'h5f)+:(15)] = n2;
-    end
-    
-endmodule // incircle_core_logic$engine$insertions$commits$commit$record
-
-
-module incircle_core_logic$engine$insertions$commits$commit$request(d,q,clock);
-    
-    // Module arguments
-    input wire  [109:0] d;
-    output reg  [109:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 110'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$request
-
-
-module incircle_core_logic$engine$insertions$commits$commit$ring(d,q,clock);
-    
-    // Module arguments
-    input wire  [55:0] d;
-    output reg  [55:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 56'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$ring
-
-
-module incircle_core_logic$engine$insertions$commits$commit$second_a(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$second_a
-
-
-module incircle_core_logic$engine$insertions$commits$commit$second_id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$second_id
-
-
-module incircle_core_logic$engine$insertions$commits$commit$star_id(head,head_shares,first,current_is_last,inner_id,inner_is_used_up,fresh,ahead,id,is_inner,is_fresh);
-    
-    // Module arguments
-    input wire  [52:0] head;
-    input wire  head_shares;
-    input wire  [52:0] first;
-    input wire  current_is_last;
-    input wire  [14:0] inner_id;
-    input wire  inner_is_used_up;
-    input wire  [14:0] fresh;
-    output reg  [52:0] ahead;
-    output reg  [14:0] id;
-    output reg  is_inner;
-    output reg  is_fresh;
-    
-    // Local signals
-    reg  shares;
-    
-    // Update code
-    always @(*) begin
-        shares = head_shares & (~current_is_last);
-        is_inner = shares & (~inner_is_used_up);
-        is_fresh = shares & inner_is_used_up;
-        ahead = head;
-        id = head[(64'h20)+:(15)];
-        if (shares) begin
-            id = inner_id;
-            if (inner_is_used_up) begin
-                id = fresh;
-            end
-        end
-        if (current_is_last) begin
-            ahead = first;
-            id = first[(64'h20)+:(15)];
-        end
-    end
-    
-endmodule // incircle_core_logic$engine$insertions$commits$commit$star_id
-
-
-module incircle_core_logic$engine$insertions$commits$commit$state(d,q,clock);
-    
-    // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
-    input wire  clock;
-    
-    // Enums
-    localparam CommitState$Idle = 0;
-    localparam CommitState$Record = 1;
-    localparam CommitState$Link = 2;
-    localparam CommitState$Close = 3;
-    
-    // Update code (custom)
-    initial begin
-       q = 64'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$state
-
-
-module incircle_core_logic$engine$insertions$commits$commit$wants(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$commit$wants
-
-
-module incircle_core_logic$engine$insertions$commits$list_owner(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$list_owner
-
-
-module incircle_core_logic$engine$insertions$commits$lock(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$lock
-
-
-module incircle_core_logic$engine$insertions$commits$lock_at(d,q,clock);
-    
-    // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$lock_at
-
-
-module incircle_core_logic$engine$insertions$commits$lock_comes(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$lock_comes
-
-
-module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,last_id,lock_enable,lock_owner,lock_place,lock_id,commit_enable,commit_job,failure_enable,failure_job,sweeps,clear_enable,clear_id,released,released_owner);
+module incircle_core_logic$engine$insertions$commits$locks(clock,reset,last_id,lock,commit,failure,sweeps,clear,released);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  [14:0] last_id;
-    input wire  lock_enable;
-    input wire  [4:0] lock_owner;
-    input wire  [6:0] lock_place;
-    input wire  [14:0] lock_id;
-    input wire  commit_enable;
-    input wire  [11:0] commit_job;
-    input wire  failure_enable;
-    input wire  [11:0] failure_job;
+    input wire  [27:0] lock;
+    input wire  [12:0] commit;
+    input wire  [12:0] failure;
     output reg  sweeps;
-    output reg  clear_enable;
-    output reg  [14:0] clear_id;
-    output reg  released;
-    output reg  [4:0] released_owner;
+    output reg  [15:0] clear;
+    output reg  [5:0] released;
     
     // Stub signals
     reg  commits$clock;
     reg  commits$reset;
     reg  commits$enable;
     reg  [11:0] commits$job;
-    reg  commits$takes;
     wire  commits$waits;
     wire  [11:0] commits$head;
+    reg  commits$takes;
     reg  failures$clock;
     reg  failures$reset;
     reg  failures$enable;
     reg  [11:0] failures$job;
-    reg  failures$takes;
     wire  failures$waits;
     wire  [11:0] failures$head;
+    reg  failures$takes;
     reg  [11:0] upcoming$bits;
     wire  [11:0] upcoming$value;
     reg  log$clock;
@@ -9880,6 +7385,8 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
     reg  sweeping$clock;
     
     // Local signals
+    reg  [11:0] commit_job;
+    reg  [11:0] failure_job;
     reg  [11:0] commit_bits;
     reg  [11:0] failure_bits;
     reg  takes;
@@ -9895,29 +7402,29 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
     reg  [14:0] before_last;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$commits$lock_release$commits commits(
+    incircle_core_logic$engine$insertions$commits$locks$commits commits(
         .clock(commits$clock),
         .reset(commits$reset),
         .enable(commits$enable),
         .job(commits$job),
-        .takes(commits$takes),
         .waits(commits$waits),
-        .head(commits$head)
+        .head(commits$head),
+        .takes(commits$takes)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$failures failures(
+    incircle_core_logic$engine$insertions$commits$locks$failures failures(
         .clock(failures$clock),
         .reset(failures$reset),
         .enable(failures$enable),
         .job(failures$job),
-        .takes(failures$takes),
         .waits(failures$waits),
-        .head(failures$head)
+        .head(failures$head),
+        .takes(failures$takes)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$upcoming upcoming(
+    incircle_core_logic$engine$insertions$commits$locks$upcoming upcoming(
         .bits(upcoming$bits),
         .value(upcoming$value)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$log log(
+    incircle_core_logic$engine$insertions$commits$locks$log log(
         .clock(log$clock),
         .write_address(log$write_address),
         .write_data(log$write_data),
@@ -9925,97 +7432,97 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
         .read_address(log$read_address),
         .read_data(log$read_data)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$write_at write_at(
+    incircle_core_logic$engine$insertions$commits$locks$write_at write_at(
         .owner(write_at$owner),
         .place(write_at$place),
         .address(write_at$address)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$read_at read_at(
+    incircle_core_logic$engine$insertions$commits$locks$read_at read_at(
         .owner(read_at$owner),
         .place(read_at$place),
         .address(read_at$address)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$works works(
+    incircle_core_logic$engine$insertions$commits$locks$works works(
         .d(works$d),
         .q(works$q),
         .clock(works$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$at_work at_work(
+    incircle_core_logic$engine$insertions$commits$locks$at_work at_work(
         .d(at_work$d),
         .q(at_work$q),
         .clock(at_work$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$place place(
+    incircle_core_logic$engine$insertions$commits$locks$place place(
         .d(place$d),
         .q(place$q),
         .clock(place$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$one_is_left one_is_left(
+    incircle_core_logic$engine$insertions$commits$locks$one_is_left one_is_left(
         .d(one_is_left$d),
         .q(one_is_left$q),
         .clock(one_is_left$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$two_are_left two_are_left(
+    incircle_core_logic$engine$insertions$commits$locks$two_are_left two_are_left(
         .d(two_are_left$d),
         .q(two_are_left$q),
         .clock(two_are_left$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$left left(
+    incircle_core_logic$engine$insertions$commits$locks$left left(
         .d(left$d),
         .q(left$q),
         .clock(left$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$array_valid array_valid(
+    incircle_core_logic$engine$insertions$commits$locks$array_valid array_valid(
         .d(array_valid$d),
         .q(array_valid$q),
         .clock(array_valid$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$array_is_last array_is_last(
+    incircle_core_logic$engine$insertions$commits$locks$array_is_last array_is_last(
         .d(array_is_last$d),
         .q(array_is_last$q),
         .clock(array_is_last$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$array_owner array_owner(
+    incircle_core_logic$engine$insertions$commits$locks$array_owner array_owner(
         .d(array_owner$d),
         .q(array_owner$q),
         .clock(array_owner$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$output_valid output_valid(
+    incircle_core_logic$engine$insertions$commits$locks$output_valid output_valid(
         .d(output_valid$d),
         .q(output_valid$q),
         .clock(output_valid$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$output_is_last output_is_last(
+    incircle_core_logic$engine$insertions$commits$locks$output_is_last output_is_last(
         .d(output_is_last$d),
         .q(output_is_last$q),
         .clock(output_is_last$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$output_owner output_owner(
+    incircle_core_logic$engine$insertions$commits$locks$output_owner output_owner(
         .d(output_owner$d),
         .q(output_owner$q),
         .clock(output_owner$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$clears clears(
+    incircle_core_logic$engine$insertions$commits$locks$clears clears(
         .d(clears$d),
         .q(clears$q),
         .clock(clears$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$cleared cleared(
+    incircle_core_logic$engine$insertions$commits$locks$cleared cleared(
         .d(cleared$d),
         .q(cleared$q),
         .clock(cleared$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$is_last is_last(
+    incircle_core_logic$engine$insertions$commits$locks$is_last is_last(
         .d(is_last$d),
         .q(is_last$q),
         .clock(is_last$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$owner owner(
+    incircle_core_logic$engine$insertions$commits$locks$owner owner(
         .d(owner$d),
         .q(owner$q),
         .clock(owner$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$sweeping sweeping(
+    incircle_core_logic$engine$insertions$commits$locks$sweeping sweeping(
         .d(sweeping$d),
         .q(sweeping$q),
         .clock(sweeping$clock)
@@ -10065,29 +7572,31 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
         first_place = 32'h0;
         before_first = 32'h7fff;
         sweeps = sweeping$q;
-        clear_enable = clears$q;
-        clear_id = cleared$q;
-        released = is_last$q;
-        released_owner = owner$q;
-        write_at$owner = lock_owner;
-        write_at$place = lock_place;
+        clear[(64'h0)+:(1)] = clears$q;
+        clear[(64'h1)+:(15)] = cleared$q;
+        released[(64'h0)+:(1)] = is_last$q;
+        released[(64'h1)+:(5)] = owner$q;
+        write_at$owner = lock[(64'h1)+:(5)];
+        write_at$place = lock[(64'h6)+:(7)];
         log$write_address = write_at$address;
-        log$write_data = lock_id;
-        log$write_enable = lock_enable;
+        log$write_data = lock[(64'hd)+:(15)];
+        log$write_enable = lock[(64'h0)+:(1)];
         read_at$owner = at_work$q[(64'h0)+:(5)];
         read_at$place = place$q;
         log$read_address = read_at$address;
         after_place = place$q + one_place;
         fetches_last = works$q & one_is_left$q;
         takes = (~works$q) | fetches_last;
+        commit_job = commit[(64'h1)+:(12)];
         commit_bits = commit_job;
         commits$reset = reset;
-        commits$enable = commit_enable;
+        commits$enable = commit[(64'h0)+:(1)];
         commits$job = commit_bits;
         commits$takes = takes;
+        failure_job = failure[(64'h1)+:(12)];
         failure_bits = failure_job;
         failures$reset = reset;
-        failures$enable = failure_enable;
+        failures$enable = failure[(64'h0)+:(1)];
         failures$job = failure_bits;
         failures$takes = takes & (~commits$waits);
         upcoming$bits = failures$head;
@@ -10137,10 +7646,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release(clock,reset,la
         end
     end
     
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release
+endmodule // incircle_core_logic$engine$insertions$commits$locks
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$array_is_last(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$array_is_last(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10156,10 +7665,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$array_is_last(
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$array_is_last
+endmodule // incircle_core_logic$engine$insertions$commits$locks$array_is_last
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$array_owner(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$array_owner(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -10175,10 +7684,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$array_owner(d,
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$array_owner
+endmodule // incircle_core_logic$engine$insertions$commits$locks$array_owner
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$array_valid(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$array_valid(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10194,10 +7703,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$array_valid(d,
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$array_valid
+endmodule // incircle_core_logic$engine$insertions$commits$locks$array_valid
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$at_work(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$at_work(d,q,clock);
     
     // Module arguments
     input wire  [11:0] d;
@@ -10213,10 +7722,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$at_work(d,q,cl
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$at_work
+endmodule // incircle_core_logic$engine$insertions$commits$locks$at_work
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$cleared(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$cleared(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -10232,10 +7741,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$cleared(d,q,cl
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$cleared
+endmodule // incircle_core_logic$engine$insertions$commits$locks$cleared
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$clears(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$clears(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10251,19 +7760,19 @@ module incircle_core_logic$engine$insertions$commits$lock_release$clears(d,q,clo
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$clears
+endmodule // incircle_core_logic$engine$insertions$commits$locks$clears
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits(clock,reset,enable,job,takes,waits,head);
+module incircle_core_logic$engine$insertions$commits$locks$commits(clock,reset,enable,job,waits,head,takes);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  enable;
     input wire  [11:0] job;
-    input wire  takes;
     output reg  waits;
     output reg  [11:0] head;
+    input wire  takes;
     
     // Constant declarations
     localparam  one = 5'b1;
@@ -10299,17 +7808,17 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits(clock,
     reg  more_wait;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$arrived arrived(
+    incircle_core_logic$engine$insertions$commits$locks$commits$arrived arrived(
         .d(arrived$d),
         .q(arrived$q),
         .clock(arrived$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$arrival arrival(
+    incircle_core_logic$engine$insertions$commits$locks$commits$arrival arrival(
         .d(arrival$d),
         .q(arrival$q),
         .clock(arrival$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$jobs jobs(
+    incircle_core_logic$engine$insertions$commits$locks$commits$jobs jobs(
         .clock(jobs$clock),
         .write_address(jobs$write_address),
         .write_data(jobs$write_data),
@@ -10317,17 +7826,17 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits(clock,
         .read_address(jobs$read_address),
         .read_data(jobs$read_data)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$holds_jobs holds_jobs(
+    incircle_core_logic$engine$insertions$commits$locks$commits$holds_jobs holds_jobs(
         .d(holds_jobs$d),
         .q(holds_jobs$q),
         .clock(holds_jobs$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$newest newest(
+    incircle_core_logic$engine$insertions$commits$locks$commits$newest newest(
         .d(newest$d),
         .q(newest$q),
         .clock(newest$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$commits$oldest oldest(
+    incircle_core_logic$engine$insertions$commits$locks$commits$oldest oldest(
         .d(oldest$d),
         .q(oldest$q),
         .clock(oldest$clock)
@@ -10378,10 +7887,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits(clock,
         end
     end
     
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits
+endmodule // incircle_core_logic$engine$insertions$commits$locks$commits
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$arrival(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$commits$arrival(d,q,clock);
     
     // Module arguments
     input wire  [11:0] d;
@@ -10397,10 +7906,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits$arriva
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$arrival
+endmodule // incircle_core_logic$engine$insertions$commits$locks$commits$arrival
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$arrived(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$commits$arrived(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10416,10 +7925,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits$arrive
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$arrived
+endmodule // incircle_core_logic$engine$insertions$commits$locks$commits$arrived
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$holds_jobs(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$commits$holds_jobs(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10435,10 +7944,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits$holds_
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$holds_jobs
+endmodule // incircle_core_logic$engine$insertions$commits$locks$commits$holds_jobs
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$jobs(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$commits$locks$commits$jobs(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -10458,10 +7967,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits$jobs(c
         if (write_enable) memory[write_address[3:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$jobs
+endmodule // incircle_core_logic$engine$insertions$commits$locks$commits$jobs
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$newest(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$commits$newest(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -10477,10 +7986,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits$newest
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$newest
+endmodule // incircle_core_logic$engine$insertions$commits$locks$commits$newest
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$commits$oldest(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$commits$oldest(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -10496,19 +8005,19 @@ module incircle_core_logic$engine$insertions$commits$lock_release$commits$oldest
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$commits$oldest
+endmodule // incircle_core_logic$engine$insertions$commits$locks$commits$oldest
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures(clock,reset,enable,job,takes,waits,head);
+module incircle_core_logic$engine$insertions$commits$locks$failures(clock,reset,enable,job,waits,head,takes);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  enable;
     input wire  [11:0] job;
-    input wire  takes;
     output reg  waits;
     output reg  [11:0] head;
+    input wire  takes;
     
     // Constant declarations
     localparam  one = 5'b1;
@@ -10544,17 +8053,17 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures(clock
     reg  more_wait;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$arrived arrived(
+    incircle_core_logic$engine$insertions$commits$locks$failures$arrived arrived(
         .d(arrived$d),
         .q(arrived$q),
         .clock(arrived$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$arrival arrival(
+    incircle_core_logic$engine$insertions$commits$locks$failures$arrival arrival(
         .d(arrival$d),
         .q(arrival$q),
         .clock(arrival$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$jobs jobs(
+    incircle_core_logic$engine$insertions$commits$locks$failures$jobs jobs(
         .clock(jobs$clock),
         .write_address(jobs$write_address),
         .write_data(jobs$write_data),
@@ -10562,17 +8071,17 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures(clock
         .read_address(jobs$read_address),
         .read_data(jobs$read_data)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$holds_jobs holds_jobs(
+    incircle_core_logic$engine$insertions$commits$locks$failures$holds_jobs holds_jobs(
         .d(holds_jobs$d),
         .q(holds_jobs$q),
         .clock(holds_jobs$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$newest newest(
+    incircle_core_logic$engine$insertions$commits$locks$failures$newest newest(
         .d(newest$d),
         .q(newest$q),
         .clock(newest$clock)
     );
-    incircle_core_logic$engine$insertions$commits$lock_release$failures$oldest oldest(
+    incircle_core_logic$engine$insertions$commits$locks$failures$oldest oldest(
         .d(oldest$d),
         .q(oldest$q),
         .clock(oldest$clock)
@@ -10623,10 +8132,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures(clock
         end
     end
     
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures
+endmodule // incircle_core_logic$engine$insertions$commits$locks$failures
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$arrival(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$failures$arrival(d,q,clock);
     
     // Module arguments
     input wire  [11:0] d;
@@ -10642,10 +8151,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures$arriv
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$arrival
+endmodule // incircle_core_logic$engine$insertions$commits$locks$failures$arrival
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$arrived(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$failures$arrived(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10661,10 +8170,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures$arriv
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$arrived
+endmodule // incircle_core_logic$engine$insertions$commits$locks$failures$arrived
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$holds_jobs(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$failures$holds_jobs(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10680,10 +8189,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures$holds
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$holds_jobs
+endmodule // incircle_core_logic$engine$insertions$commits$locks$failures$holds_jobs
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$jobs(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$commits$locks$failures$jobs(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -10703,10 +8212,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures$jobs(
         if (write_enable) memory[write_address[3:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$jobs
+endmodule // incircle_core_logic$engine$insertions$commits$locks$failures$jobs
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$newest(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$failures$newest(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -10722,10 +8231,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures$newes
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$newest
+endmodule // incircle_core_logic$engine$insertions$commits$locks$failures$newest
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$failures$oldest(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$failures$oldest(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -10741,10 +8250,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$failures$oldes
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$failures$oldest
+endmodule // incircle_core_logic$engine$insertions$commits$locks$failures$oldest
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$is_last(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$is_last(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10760,10 +8269,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$is_last(d,q,cl
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$is_last
+endmodule // incircle_core_logic$engine$insertions$commits$locks$is_last
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$left(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$left(d,q,clock);
     
     // Module arguments
     input wire  [6:0] d;
@@ -10779,10 +8288,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$left(d,q,clock
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$left
+endmodule // incircle_core_logic$engine$insertions$commits$locks$left
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$log(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$commits$locks$log(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -10845,10 +8354,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$log(clock,writ
         read_data <= word;
     end
     `endif
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$log
+endmodule // incircle_core_logic$engine$insertions$commits$locks$log
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$one_is_left(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$one_is_left(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10864,10 +8373,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$one_is_left(d,
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$one_is_left
+endmodule // incircle_core_logic$engine$insertions$commits$locks$one_is_left
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$output_is_last(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$output_is_last(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10883,10 +8392,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$output_is_last
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$output_is_last
+endmodule // incircle_core_logic$engine$insertions$commits$locks$output_is_last
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$output_owner(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$output_owner(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -10902,10 +8411,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$output_owner(d
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$output_owner
+endmodule // incircle_core_logic$engine$insertions$commits$locks$output_owner
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$output_valid(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$output_valid(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -10921,10 +8430,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$output_valid(d
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$output_valid
+endmodule // incircle_core_logic$engine$insertions$commits$locks$output_valid
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$owner(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$owner(d,q,clock);
     
     // Module arguments
     input wire  [4:0] d;
@@ -10940,10 +8449,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$owner(d,q,cloc
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$owner
+endmodule // incircle_core_logic$engine$insertions$commits$locks$owner
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$place(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$place(d,q,clock);
     
     // Module arguments
     input wire  [6:0] d;
@@ -10959,10 +8468,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$place(d,q,cloc
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$place
+endmodule // incircle_core_logic$engine$insertions$commits$locks$place
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$read_at(owner,place,address);
+module incircle_core_logic$engine$insertions$commits$locks$read_at(owner,place,address);
     
     // Module arguments
     input wire  [4:0] owner;
@@ -10985,10 +8494,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$read_at(owner,
         address = base | wide_place;
     end
     
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$read_at
+endmodule // incircle_core_logic$engine$insertions$commits$locks$read_at
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$sweeping(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$sweeping(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -11004,10 +8513,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$sweeping(d,q,c
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$sweeping
+endmodule // incircle_core_logic$engine$insertions$commits$locks$sweeping
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$two_are_left(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$two_are_left(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -11023,10 +8532,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$two_are_left(d
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$two_are_left
+endmodule // incircle_core_logic$engine$insertions$commits$locks$two_are_left
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$upcoming(bits,value);
+module incircle_core_logic$engine$insertions$commits$locks$upcoming(bits,value);
     
     // Module arguments
     input wire  [11:0] bits;
@@ -11034,10 +8543,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$upcoming(bits,
     
     // Update code (custom)
     always @(*) value = bits;
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$upcoming
+endmodule // incircle_core_logic$engine$insertions$commits$locks$upcoming
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$works(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$locks$works(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -11053,10 +8562,10 @@ module incircle_core_logic$engine$insertions$commits$lock_release$works(d,q,cloc
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$works
+endmodule // incircle_core_logic$engine$insertions$commits$locks$works
 
 
-module incircle_core_logic$engine$insertions$commits$lock_release$write_at(owner,place,address);
+module incircle_core_logic$engine$insertions$commits$locks$write_at(owner,place,address);
     
     // Module arguments
     input wire  [4:0] owner;
@@ -11079,42 +8588,51 @@ module incircle_core_logic$engine$insertions$commits$lock_release$write_at(owner
         address = base | wide_place;
     end
     
-endmodule // incircle_core_logic$engine$insertions$commits$lock_release$write_at
+endmodule // incircle_core_logic$engine$insertions$commits$locks$write_at
 
 
-module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_enable,entry_owner,entry_place,entry,job_enable,job,takes,head_valid,head,head_is_last,head_shares,head_job);
+module incircle_core_logic$engine$insertions$commits$logged(d,q,clock);
+    
+    // Module arguments
+    input wire  [27:0] d;
+    output reg  [27:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 28'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$logged
+
+
+module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry,commit,head,head_job,takes);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
-    input wire  entry_enable;
-    input wire  [4:0] entry_owner;
-    input wire  [5:0] entry_place;
-    input wire  [52:0] entry;
-    input wire  job_enable;
-    input wire  [55:0] job;
-    input wire  takes;
-    output reg  head_valid;
-    output reg  [52:0] head;
-    output reg  head_is_last;
-    output reg  head_shares;
+    input wire  [64:0] entry;
+    input wire  [56:0] commit;
+    output reg  [55:0] head;
     output reg  [55:0] head_job;
+    input wire  takes;
     
     // Stub signals
     reg  rings$clock;
     reg  rings$reset;
     reg  rings$enable;
     reg  [55:0] rings$job;
-    reg  rings$takes;
     wire  rings$waits;
     wire  [55:0] rings$head;
+    reg  rings$takes;
     reg  [55:0] oldest$bits;
     wire  [55:0] oldest$value;
     reg  list$clock;
-    reg  list$enable;
-    reg  [4:0] list$owner;
-    reg  [5:0] list$place;
-    reg  [52:0] list$entry;
+    reg  [64:0] list$entry;
     reg  [4:0] list$reader;
     reg  [23:0] list$reader_bit;
     reg  [5:0] list$read_place;
@@ -11187,6 +8705,7 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
     reg  first_f$clock;
     
     // Local signals
+    reg  [55:0] job;
     reg  [55:0] job_bits;
     reg  moves;
     reg  ring_is_through;
@@ -11204,9 +8723,9 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         .reset(rings$reset),
         .enable(rings$enable),
         .job(rings$job),
-        .takes(rings$takes),
         .waits(rings$waits),
-        .head(rings$head)
+        .head(rings$head),
+        .takes(rings$takes)
     );
     incircle_core_logic$engine$insertions$commits$rings$oldest oldest(
         .bits(oldest$bits),
@@ -11214,9 +8733,6 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
     );
     incircle_core_logic$engine$insertions$commits$rings$list list(
         .clock(list$clock),
-        .enable(list$enable),
-        .owner(list$owner),
-        .place(list$place),
         .entry(list$entry),
         .reader(list$reader),
         .reader_bit(list$reader_bit),
@@ -11379,15 +8895,12 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         rings$clock = clock;
         list$clock = clock;
         first_place = 32'h0;
-        head_valid = entry_valid$q;
-        head = last_entry$q;
-        head_is_last = entry_is_last$q;
-        head_shares = entry_shares$q;
+        head[(64'h0)+:(1)] = entry_valid$q;
+        head[(64'h1)+:(53)] = last_entry$q;
+        head[(64'h36)+:(1)] = entry_is_last$q;
+        head[(64'h37)+:(1)] = entry_shares$q;
         head_job = output_ring$q;
         moves = (~entry_valid$q) | takes;
-        list$enable = entry_enable;
-        list$owner = entry_owner;
-        list$place = entry_place;
         list$entry = entry;
         list$reader = ring$q[(64'h0)+:(5)];
         list$reader_bit = ring_bit$q;
@@ -11395,9 +8908,10 @@ module incircle_core_logic$engine$insertions$commits$rings(clock,reset,entry_ena
         list$moves = moves;
         ring_is_through = (~pointer_valid$q) | array_is_last$q;
         pointer_counts = pointer_valid$q & (~array_is_last$q);
+        job = commit[(64'h1)+:(56)];
         job_bits = job;
         rings$reset = reset;
-        rings$enable = job_enable;
+        rings$enable = commit[(64'h0)+:(1)];
         rings$job = job_bits;
         rings$takes = moves & ring_is_through;
         oldest$bits = rings$head;
@@ -11678,14 +9192,11 @@ module incircle_core_logic$engine$insertions$commits$rings$last_entry(d,q,clock)
 endmodule // incircle_core_logic$engine$insertions$commits$rings$last_entry
 
 
-module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,owner,place,entry,reader,reader_bit,read_place,moves,after,is_last,read);
+module incircle_core_logic$engine$insertions$commits$rings$list(clock,entry,reader,reader_bit,read_place,moves,after,is_last,read);
     
     // Module arguments
     input wire  clock;
-    input wire  enable;
-    input wire  [4:0] owner;
-    input wire  [5:0] place;
-    input wire  [52:0] entry;
+    input wire  [64:0] entry;
     input wire  [4:0] reader;
     input wire  [23:0] reader_bit;
     input wire  [5:0] read_place;
@@ -11695,18 +9206,9 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
     output reg  [52:0] read;
     
     // Stub signals
-    reg  written$d;
-    wire  written$q;
+    reg  [64:0] written$d;
+    wire  [64:0] written$q;
     reg  written$clock;
-    reg  [4:0] written_owner$d;
-    wire  [4:0] written_owner$q;
-    reg  written_owner$clock;
-    reg  [5:0] written_place$d;
-    wire  [5:0] written_place$q;
-    reg  written_place$clock;
-    reg  [52:0] written_entry$d;
-    wire  [52:0] written_entry$q;
-    reg  written_entry$clock;
     reg  followers$clock;
     reg  [4:0] followers$write_bank;
     reg  [5:0] followers$write_address;
@@ -11732,6 +9234,7 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
     wire  [52:0] read_entry$value;
     
     // Local signals
+    reg  [52:0] written_entry;
     reg  [52:0] entry_bits;
     reg  [5:0] first_place;
     reg  [6:0] wide_after;
@@ -11744,21 +9247,6 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
         .d(written$d),
         .q(written$q),
         .clock(written$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$rings$list$written_owner written_owner(
-        .d(written_owner$d),
-        .q(written_owner$q),
-        .clock(written_owner$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$rings$list$written_place written_place(
-        .d(written_place$d),
-        .q(written_place$q),
-        .clock(written_place$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$rings$list$written_entry written_entry(
-        .d(written_entry$d),
-        .q(written_entry$q),
-        .clock(written_entry$clock)
     );
     incircle_core_logic$engine$insertions$commits$rings$list$followers followers(
         .clock(followers$clock),
@@ -11797,37 +9285,29 @@ module incircle_core_logic$engine$insertions$commits$rings$list(clock,enable,own
     // Update code
     always @(*) begin
         written$clock = clock;
-        written_owner$clock = clock;
-        written_place$clock = clock;
-        written_entry$clock = clock;
         written$d = written$q;
-        written_owner$d = written_owner$q;
-        written_place$d = written_place$q;
-        written_entry$d = written_entry$q;
         followers$clock = clock;
         edges$clock = clock;
         first_place = 32'h0;
-        written$d = enable;
-        written_owner$d = owner;
-        written_place$d = place;
-        written_entry$d = entry;
-        write_at$owner = written_owner$q;
-        write_at$place = written_place$q;
-        entry_bits = written_entry$q;
+        written$d = entry;
+        written_entry = written$q[(64'hc)+:(53)];
+        write_at$owner = written$q[(64'h1)+:(5)];
+        write_at$place = written$q[(64'h6)+:(6)];
+        entry_bits = written_entry;
         one = 32'h1;
-        wide_after = ((written_entry$q[(64'h2f)+:(6)]) & 7'h7f);
+        wide_after = ((written_entry[(64'h2f)+:(6)]) & 7'h7f);
         raised_after = wide_after << one;
         last_bit = 32'h0;
-        if (written_entry$q[(64'h2f)+:(6)] == first_place) begin
+        if (written_entry[(64'h2f)+:(6)] == first_place) begin
             last_bit = 32'h1;
         end
-        followers$write_bank = written_owner$q;
-        followers$write_address = written_place$q;
+        followers$write_bank = written$q[(64'h1)+:(5)];
+        followers$write_address = written$q[(64'h6)+:(6)];
         followers$write_data = raised_after | last_bit;
-        followers$write_enable = written$q;
+        followers$write_enable = written$q[(64'h0)+:(1)];
         edges$write_address = write_at$address;
         edges$write_data = entry_bits;
-        edges$write_enable = written$q;
+        edges$write_enable = written$q[(64'h0)+:(1)];
         read_at$owner = reader;
         read_at$place = read_place;
         followers$read_banks = reader_bit;
@@ -12097,13 +9577,13 @@ endmodule // incircle_core_logic$engine$insertions$commits$rings$list$write_at
 module incircle_core_logic$engine$insertions$commits$rings$list$written(d,q,clock);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
+    input wire  [64:0] d;
+    output reg  [64:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 1'h0;
+       q = 65'h0;
     end
     
     always @(posedge clock) begin
@@ -12111,63 +9591,6 @@ module incircle_core_logic$engine$insertions$commits$rings$list$written(d,q,cloc
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$rings$list$written
-
-
-module incircle_core_logic$engine$insertions$commits$rings$list$written_entry(d,q,clock);
-    
-    // Module arguments
-    input wire  [52:0] d;
-    output reg  [52:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 53'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$rings$list$written_entry
-
-
-module incircle_core_logic$engine$insertions$commits$rings$list$written_owner(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$rings$list$written_owner
-
-
-module incircle_core_logic$engine$insertions$commits$rings$list$written_place(d,q,clock);
-    
-    // Module arguments
-    input wire  [5:0] d;
-    output reg  [5:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 6'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$rings$list$written_place
 
 
 module incircle_core_logic$engine$insertions$commits$rings$oldest(bits,value);
@@ -12352,16 +9775,16 @@ module incircle_core_logic$engine$insertions$commits$rings$ring_bit(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$commits$rings$ring_bit
 
 
-module incircle_core_logic$engine$insertions$commits$rings$rings(clock,reset,enable,job,takes,waits,head);
+module incircle_core_logic$engine$insertions$commits$rings$rings(clock,reset,enable,job,waits,head,takes);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  enable;
     input wire  [55:0] job;
-    input wire  takes;
     output reg  waits;
     output reg  [55:0] head;
+    input wire  takes;
     
     // Constant declarations
     localparam  one = 5'b1;
@@ -12597,7 +10020,1377 @@ module incircle_core_logic$engine$insertions$commits$rings$rings$oldest(d,q,cloc
 endmodule // incircle_core_logic$engine$insertions$commits$rings$rings$oldest
 
 
-module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,deal,arrived,came,seeded,has_no_start,seeds,owner,sleeps,keeps,hands_over,asks_to_wait,waits,stops_waiting,overflows,duplicate,root_enable,root,is_done,may_ask,commit_ends,commit_owner,hint,released,released_owner,solo_is_at_work,solo_ends,starts,starter,u,takes,taken_id,position_enable,position_owner,busy,waiter_valid,waiter,solo_starts,solo_owner,solo_p,takes_token,is_quiet,stuck);
+module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_job,takes,inner,fresh,takes_fresh,write,committed,is_at_work);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  [55:0] head;
+    input wire  [55:0] head_job;
+    output reg  takes;
+    input wire  [26:0] inner;
+    input wire  [14:0] fresh;
+    output reg  takes_fresh;
+    output reg  [109:0] write;
+    output reg  [71:0] committed;
+    output reg  is_at_work;
+    
+    // Stub signals
+    reg  [55:0] ring$d;
+    wire  [55:0] ring$q;
+    reg  ring$clock;
+    reg  [52:0] first$d;
+    wire  [52:0] first$q;
+    reg  first$clock;
+    reg  [52:0] current$d;
+    wire  [52:0] current$q;
+    reg  current$clock;
+    reg  [14:0] current_id$d;
+    wire  [14:0] current_id$q;
+    reg  current_id$clock;
+    reg  [14:0] before_id$d;
+    wire  [14:0] before_id$q;
+    reg  before_id$clock;
+    reg  [14:0] second_a$d;
+    wire  [14:0] second_a$q;
+    reg  second_a$clock;
+    reg  [14:0] second_id$d;
+    wire  [14:0] second_id$q;
+    reg  second_id$clock;
+    reg  [14:0] link_u$d;
+    wire  [14:0] link_u$q;
+    reg  link_u$clock;
+    reg  [1:0] link_slot$d;
+    wire  [1:0] link_slot$q;
+    reg  link_slot$clock;
+    reg  [109:0] request$d;
+    wire  [109:0] request$q;
+    reg  request$clock;
+    reg  steps$clock;
+    reg  steps$reset;
+    reg  [55:0] steps$head;
+    reg  steps$awaits_id;
+    reg  steps$changes_id;
+    wire  steps$takes;
+    wire  steps$loads;
+    wire  steps$advances;
+    wire  steps$opens;
+    wire  steps$is_last;
+    wire  steps$is_link;
+    wire  steps$is_close;
+    wire  steps$is_at_work;
+    reg  [55:0] star_id$head;
+    reg  [52:0] star_id$first;
+    reg  star_id$current_is_last;
+    reg  [14:0] star_id$inner_id;
+    reg  star_id$inner_is_used_up;
+    reg  [14:0] star_id$fresh;
+    wire  [52:0] star_id$ahead;
+    wire  [14:0] star_id$id;
+    wire  star_id$is_inner;
+    wire  star_id$is_fresh;
+    reg  inner_list$clock;
+    reg  [26:0] inner_list$inner;
+    reg  inner_list$restarts;
+    reg  [4:0] inner_list$reader;
+    reg  [6:0] inner_list$inners;
+    reg  inner_list$steps;
+    wire  inner_list$is_used_up;
+    wire  inner_list$is_awaited;
+    wire  [14:0] inner_list$inner_id;
+    reg  [14:0] record$id;
+    reg  [14:0] record$v0;
+    reg  [14:0] record$v1;
+    reg  [14:0] record$v2;
+    reg  [14:0] record$n0;
+    reg  [14:0] record$n1;
+    reg  [14:0] record$n2;
+    wire  [109:0] record$write;
+    reg  [14:0] link$id;
+    reg  [1:0] link$slot;
+    reg  [14:0] link$value;
+    wire  [109:0] link$write;
+    
+    // Local signals
+    reg  [52:0] entry;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$commits$star$ring ring(
+        .d(ring$d),
+        .q(ring$q),
+        .clock(ring$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$first first(
+        .d(first$d),
+        .q(first$q),
+        .clock(first$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$current current(
+        .d(current$d),
+        .q(current$q),
+        .clock(current$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$current_id current_id(
+        .d(current_id$d),
+        .q(current_id$q),
+        .clock(current_id$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$before_id before_id(
+        .d(before_id$d),
+        .q(before_id$q),
+        .clock(before_id$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$second_a second_a(
+        .d(second_a$d),
+        .q(second_a$q),
+        .clock(second_a$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$second_id second_id(
+        .d(second_id$d),
+        .q(second_id$q),
+        .clock(second_id$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$link_u link_u(
+        .d(link_u$d),
+        .q(link_u$q),
+        .clock(link_u$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$link_slot link_slot(
+        .d(link_slot$d),
+        .q(link_slot$q),
+        .clock(link_slot$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$request request(
+        .d(request$d),
+        .q(request$q),
+        .clock(request$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps steps(
+        .clock(steps$clock),
+        .reset(steps$reset),
+        .head(steps$head),
+        .awaits_id(steps$awaits_id),
+        .changes_id(steps$changes_id),
+        .takes(steps$takes),
+        .loads(steps$loads),
+        .advances(steps$advances),
+        .opens(steps$opens),
+        .is_last(steps$is_last),
+        .is_link(steps$is_link),
+        .is_close(steps$is_close),
+        .is_at_work(steps$is_at_work)
+    );
+    incircle_core_logic$engine$insertions$commits$star$star_id star_id(
+        .head(star_id$head),
+        .first(star_id$first),
+        .current_is_last(star_id$current_is_last),
+        .inner_id(star_id$inner_id),
+        .inner_is_used_up(star_id$inner_is_used_up),
+        .fresh(star_id$fresh),
+        .ahead(star_id$ahead),
+        .id(star_id$id),
+        .is_inner(star_id$is_inner),
+        .is_fresh(star_id$is_fresh)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list inner_list(
+        .clock(inner_list$clock),
+        .inner(inner_list$inner),
+        .restarts(inner_list$restarts),
+        .reader(inner_list$reader),
+        .inners(inner_list$inners),
+        .steps(inner_list$steps),
+        .is_used_up(inner_list$is_used_up),
+        .is_awaited(inner_list$is_awaited),
+        .inner_id(inner_list$inner_id)
+    );
+    incircle_core_logic$engine$insertions$commits$star$record record(
+        .id(record$id),
+        .v0(record$v0),
+        .v1(record$v1),
+        .v2(record$v2),
+        .n0(record$n0),
+        .n1(record$n1),
+        .n2(record$n2),
+        .write(record$write)
+    );
+    incircle_core_logic$engine$insertions$commits$star$link link(
+        .id(link$id),
+        .slot(link$slot),
+        .value(link$value),
+        .write(link$write)
+    );
+    
+    // Update code
+    always @(*) begin
+        ring$clock = clock;
+        first$clock = clock;
+        current$clock = clock;
+        current_id$clock = clock;
+        before_id$clock = clock;
+        second_a$clock = clock;
+        second_id$clock = clock;
+        ring$d = ring$q;
+        first$d = first$q;
+        current$d = current$q;
+        current_id$d = current_id$q;
+        before_id$d = before_id$q;
+        second_a$d = second_a$q;
+        second_id$d = second_id$q;
+        link_u$clock = clock;
+        link_slot$clock = clock;
+        request$clock = clock;
+        link_u$d = link_u$q;
+        link_slot$d = link_slot$q;
+        request$d = request$q;
+        steps$clock = clock;
+        inner_list$clock = clock;
+        entry = head[(64'h1)+:(53)];
+        write = request$q;
+        committed[(64'h0)+:(1)] = steps$is_close;
+        committed[(64'h1)+:(56)] = ring$q;
+        committed[(64'h39)+:(15)] = first$q[(64'h20)+:(15)];
+        is_at_work = steps$is_at_work;
+        steps$reset = reset;
+        steps$head = head;
+        steps$awaits_id = inner_list$is_awaited;
+        steps$changes_id = star_id$is_inner | star_id$is_fresh;
+        takes = steps$takes;
+        takes_fresh = steps$advances & star_id$is_fresh;
+        inner_list$inner = inner;
+        inner_list$reader = head_job[(64'h0)+:(5)];
+        inner_list$inners = head_job[(64'h14)+:(7)];
+        inner_list$restarts = steps$loads;
+        inner_list$steps = steps$advances & star_id$is_inner;
+        star_id$head = head;
+        star_id$first = first$q;
+        star_id$current_is_last = steps$is_last;
+        star_id$inner_id = inner_list$inner_id;
+        star_id$inner_is_used_up = inner_list$is_used_up;
+        star_id$fresh = fresh;
+        record$id = current_id$q;
+        record$v0 = ring$q[(64'h5)+:(15)];
+        record$v1 = current$q[(64'h0)+:(15)];
+        record$v2 = star_id$ahead[(64'h0)+:(15)];
+        record$n0 = current$q[(64'hf)+:(15)];
+        record$n1 = star_id$id;
+        record$n2 = before_id$q;
+        if (steps$is_close) begin
+            record$v2 = second_a$q;
+            record$n1 = second_id$q;
+        end
+        link$id = link_u$q;
+        link$slot = link_slot$q;
+        link$value = before_id$q;
+        request$d = record$write;
+        request$d[(64'h0)+:(1)] = steps$is_close | (steps$advances & (~steps$opens));
+        if (steps$is_link) begin
+            request$d = link$write;
+        end
+        if (steps$advances) begin
+            if (steps$opens) begin
+                second_a$d = star_id$ahead[(64'h0)+:(15)];
+                second_id$d = star_id$id;
+            end
+            link_u$d = current$q[(64'hf)+:(15)];
+            link_slot$d = current$q[(64'h1e)+:(2)];
+            before_id$d = current_id$q;
+            current$d = star_id$ahead;
+            current_id$d = star_id$id;
+        end
+        if (steps$loads) begin
+            ring$d = head_job;
+            first$d = entry;
+            current$d = entry;
+            current_id$d = entry[(64'h20)+:(15)];
+        end
+        if (reset) begin
+            request$d[(64'h0)+:(1)] = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$commits$star
+
+
+module incircle_core_logic$engine$insertions$commits$star$before_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$before_id
+
+
+module incircle_core_logic$engine$insertions$commits$star$current(d,q,clock);
+    
+    // Module arguments
+    input wire  [52:0] d;
+    output reg  [52:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 53'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$current
+
+
+module incircle_core_logic$engine$insertions$commits$star$current_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$current_id
+
+
+module incircle_core_logic$engine$insertions$commits$star$first(d,q,clock);
+    
+    // Module arguments
+    input wire  [52:0] d;
+    output reg  [52:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 53'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$first
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list(clock,inner,restarts,reader,inners,steps,is_used_up,is_awaited,inner_id);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [26:0] inner;
+    input wire  restarts;
+    input wire  [4:0] reader;
+    input wire  [6:0] inners;
+    input wire  steps;
+    output reg  is_used_up;
+    output reg  is_awaited;
+    output reg  [14:0] inner_id;
+    
+    // Stub signals
+    reg  memory$clock;
+    reg  [10:0] memory$write_address;
+    reg  [14:0] memory$write_data;
+    reg  memory$write_enable;
+    reg  [10:0] memory$read_address;
+    wire  [14:0] memory$read_data;
+    reg  [26:0] written$d;
+    wire  [26:0] written$q;
+    reg  written$clock;
+    reg  [4:0] list_owner$d;
+    wire  [4:0] list_owner$q;
+    reg  list_owner$clock;
+    reg  [6:0] list_inners$d;
+    wire  [6:0] list_inners$q;
+    reg  list_inners$clock;
+    reg  [6:0] index$d;
+    wire  [6:0] index$q;
+    reg  index$clock;
+    reg  one_is_left$d;
+    wire  one_is_left$q;
+    reg  one_is_left$clock;
+    reg  used_up$d;
+    wire  used_up$q;
+    reg  used_up$clock;
+    reg  awaited$d;
+    wire  awaited$q;
+    reg  awaited$clock;
+    reg  stood_1$d;
+    wire  stood_1$q;
+    reg  stood_1$clock;
+    reg  stood_2$d;
+    wire  stood_2$q;
+    reg  stood_2$clock;
+    reg  [14:0] arrival$d;
+    wire  [14:0] arrival$q;
+    reg  arrival$clock;
+    reg  [4:0] write_at$owner;
+    reg  [5:0] write_at$place;
+    wire  [10:0] write_at$address;
+    reg  [4:0] read_at$owner;
+    reg  [5:0] read_at$place;
+    wire  [10:0] read_at$address;
+    
+    // Local signals
+    reg  [6:0] first_place;
+    reg  [6:0] one;
+    reg  [6:0] after_index;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$commits$star$inner_list$memory memory(
+        .clock(memory$clock),
+        .write_address(memory$write_address),
+        .write_data(memory$write_data),
+        .write_enable(memory$write_enable),
+        .read_address(memory$read_address),
+        .read_data(memory$read_data)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$written written(
+        .d(written$d),
+        .q(written$q),
+        .clock(written$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$list_owner list_owner(
+        .d(list_owner$d),
+        .q(list_owner$q),
+        .clock(list_owner$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$list_inners list_inners(
+        .d(list_inners$d),
+        .q(list_inners$q),
+        .clock(list_inners$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$index index(
+        .d(index$d),
+        .q(index$q),
+        .clock(index$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$one_is_left one_is_left(
+        .d(one_is_left$d),
+        .q(one_is_left$q),
+        .clock(one_is_left$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$used_up used_up(
+        .d(used_up$d),
+        .q(used_up$q),
+        .clock(used_up$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$awaited awaited(
+        .d(awaited$d),
+        .q(awaited$q),
+        .clock(awaited$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$stood_1 stood_1(
+        .d(stood_1$d),
+        .q(stood_1$q),
+        .clock(stood_1$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$stood_2 stood_2(
+        .d(stood_2$d),
+        .q(stood_2$q),
+        .clock(stood_2$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$arrival arrival(
+        .d(arrival$d),
+        .q(arrival$q),
+        .clock(arrival$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$write_at write_at(
+        .owner(write_at$owner),
+        .place(write_at$place),
+        .address(write_at$address)
+    );
+    incircle_core_logic$engine$insertions$commits$star$inner_list$read_at read_at(
+        .owner(read_at$owner),
+        .place(read_at$place),
+        .address(read_at$address)
+    );
+    
+    // Update code
+    always @(*) begin
+        written$clock = clock;
+        list_owner$clock = clock;
+        list_inners$clock = clock;
+        written$d = written$q;
+        list_owner$d = list_owner$q;
+        list_inners$d = list_inners$q;
+        index$clock = clock;
+        one_is_left$clock = clock;
+        used_up$clock = clock;
+        awaited$clock = clock;
+        stood_1$clock = clock;
+        stood_2$clock = clock;
+        arrival$clock = clock;
+        index$d = index$q;
+        one_is_left$d = one_is_left$q;
+        used_up$d = used_up$q;
+        awaited$d = awaited$q;
+        stood_1$d = stood_1$q;
+        stood_2$d = stood_2$q;
+        arrival$d = arrival$q;
+        memory$clock = clock;
+        one = 32'h1;
+        first_place = 32'h0;
+        written$d = inner;
+        write_at$owner = written$q[(64'h1)+:(5)];
+        write_at$place = written$q[(64'h6)+:(6)];
+        memory$write_address = write_at$address;
+        memory$write_data = written$q[(64'hc)+:(15)];
+        memory$write_enable = written$q[(64'h0)+:(1)];
+        read_at$owner = list_owner$q;
+        read_at$place = index$q[(32'h0)+:(6)];
+        memory$read_address = read_at$address;
+        arrival$d = memory$read_data;
+        inner_id = arrival$q;
+        is_used_up = used_up$q;
+        is_awaited = awaited$q;
+        after_index = index$q + one;
+        one_is_left$d = after_index == list_inners$q;
+        stood_1$d = 1'b1;
+        stood_2$d = stood_1$q;
+        awaited$d = awaited$q & (~stood_2$q);
+        if (steps) begin
+            index$d = after_index;
+            used_up$d = one_is_left$q;
+            awaited$d = ~one_is_left$q;
+        end
+        if (restarts) begin
+            index$d = first_place;
+            list_owner$d = reader;
+            list_inners$d = inners;
+            used_up$d = inners == first_place;
+            awaited$d = inners != first_place;
+        end
+        if (steps | restarts) begin
+            stood_1$d = 1'b0;
+            stood_2$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$arrival(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$arrival
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$awaited(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$awaited
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$index(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$index
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$list_inners(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$list_inners
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$list_owner(d,q,clock);
+    
+    // Module arguments
+    input wire  [4:0] d;
+    output reg  [4:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 5'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$list_owner
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$memory(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [10:0] write_address;
+    input wire  [14:0] write_data;
+    input wire  write_enable;
+    input wire  [10:0] read_address;
+    output reg  [14:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[10:9]};
+    wire unused_read_address = &{1'b0, read_address[10:9]};
+    `ifdef INCIRCLE_ECP5
+    wire [13:0] write_pins = {{1{1'b0}}, write_address[8:0], 4'b0011};
+    wire [13:0] read_pins = {{1{1'b0}}, read_address[8:0], 4'b0011};
+    wire [17:0] nothing = 18'b0;
+    wire [17:0] all_taken = {{3{1'b0}}, write_data};
+    wire [17:0] all_given;
+    wire [14:0] word = all_given[14:0];
+    genvar slice;
+    generate for (slice = 0; slice < 1; slice = slice + 1) begin : slices
+    wire [17:0] taken = all_taken[slice*18 +: 18];
+    wire [17:0] given;
+    assign all_given[slice*18 +: 18] = given[17:0];
+    DP16KD #(
+        .DATA_WIDTH_A(18), .DATA_WIDTH_B(18), .REGMODE_A("OUTREG"), .REGMODE_B("OUTREG"),
+        .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .RESETMODE("SYNC"), .GSR("AUTO"),
+        .CSDECODE_A("0b000"), .CSDECODE_B("0b000")
+    ) block_ram (
+    .CLKA(clock), .CEA(1'b1), .OCEA(1'b1), .WEA(write_enable), .RSTA(1'b0),
+        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
+        .ADA0(write_pins[0]), .ADA1(write_pins[1]), .ADA2(write_pins[2]), .ADA3(write_pins[3]), .ADA4(write_pins[4]), .ADA5(write_pins[5]), .ADA6(write_pins[6]), .ADA7(write_pins[7]),
+        .ADA8(write_pins[8]), .ADA9(write_pins[9]), .ADA10(write_pins[10]), .ADA11(write_pins[11]), .ADA12(write_pins[12]), .ADA13(write_pins[13]),
+        .DIA0(taken[0]), .DIA1(taken[1]), .DIA2(taken[2]), .DIA3(taken[3]), .DIA4(taken[4]), .DIA5(taken[5]), .DIA6(taken[6]), .DIA7(taken[7]),
+        .DIA8(taken[8]), .DIA9(taken[9]), .DIA10(taken[10]), .DIA11(taken[11]), .DIA12(taken[12]), .DIA13(taken[13]), .DIA14(taken[14]), .DIA15(taken[15]),
+        .DIA16(taken[16]), .DIA17(taken[17]),
+        .DOA0(), .DOA1(), .DOA2(), .DOA3(), .DOA4(), .DOA5(), .DOA6(), .DOA7(),
+        .DOA8(), .DOA9(), .DOA10(), .DOA11(), .DOA12(), .DOA13(), .DOA14(), .DOA15(),
+        .DOA16(), .DOA17(),
+    .CLKB(clock), .CEB(1'b1), .OCEB(1'b1), .WEB(1'b0), .RSTB(1'b0),
+        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
+        .ADB0(read_pins[0]), .ADB1(read_pins[1]), .ADB2(read_pins[2]), .ADB3(read_pins[3]), .ADB4(read_pins[4]), .ADB5(read_pins[5]), .ADB6(read_pins[6]), .ADB7(read_pins[7]),
+        .ADB8(read_pins[8]), .ADB9(read_pins[9]), .ADB10(read_pins[10]), .ADB11(read_pins[11]), .ADB12(read_pins[12]), .ADB13(read_pins[13]),
+        .DIB0(nothing[0]), .DIB1(nothing[1]), .DIB2(nothing[2]), .DIB3(nothing[3]), .DIB4(nothing[4]), .DIB5(nothing[5]), .DIB6(nothing[6]), .DIB7(nothing[7]),
+        .DIB8(nothing[8]), .DIB9(nothing[9]), .DIB10(nothing[10]), .DIB11(nothing[11]), .DIB12(nothing[12]), .DIB13(nothing[13]), .DIB14(nothing[14]), .DIB15(nothing[15]),
+        .DIB16(nothing[16]), .DIB17(nothing[17]),
+        .DOB0(given[0]), .DOB1(given[1]), .DOB2(given[2]), .DOB3(given[3]), .DOB4(given[4]), .DOB5(given[5]), .DOB6(given[6]), .DOB7(given[7]),
+        .DOB8(given[8]), .DOB9(given[9]), .DOB10(given[10]), .DOB11(given[11]), .DOB12(given[12]), .DOB13(given[13]), .DOB14(given[14]), .DOB15(given[15]),
+        .DOB16(given[16]), .DOB17(given[17])
+    );
+    end endgenerate
+    always @(*) read_data = word;
+    `else
+    (* ram_style = "block", no_rw_check *)
+    reg [14:0] memory [0:511];
+    reg [14:0] word;
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[8:0]] <= write_data;
+        word <= memory[read_address[8:0]];
+        read_data <= word;
+    end
+    `endif
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$memory
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$one_is_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$one_is_left
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$read_at(owner,place,address);
+    
+    // Module arguments
+    input wire  [4:0] owner;
+    input wire  [5:0] place;
+    output reg  [10:0] address;
+    
+    // Constant declarations
+    localparam  place_bits = 11'b101;
+    
+    // Local signals
+    reg  [10:0] wide_owner;
+    reg  [10:0] wide_place;
+    reg  [10:0] base;
+    
+    // Update code
+    always @(*) begin
+        wide_owner = ((owner) & 11'h7ff);
+        wide_place = ((place) & 11'h7ff);
+        base = wide_owner << place_bits;
+        address = base | wide_place;
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$read_at
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$stood_1(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$stood_1
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$stood_2(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$stood_2
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$used_up(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$used_up
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$write_at(owner,place,address);
+    
+    // Module arguments
+    input wire  [4:0] owner;
+    input wire  [5:0] place;
+    output reg  [10:0] address;
+    
+    // Constant declarations
+    localparam  place_bits = 11'b101;
+    
+    // Local signals
+    reg  [10:0] wide_owner;
+    reg  [10:0] wide_place;
+    reg  [10:0] base;
+    
+    // Update code
+    always @(*) begin
+        wide_owner = ((owner) & 11'h7ff);
+        wide_place = ((place) & 11'h7ff);
+        base = wide_owner << place_bits;
+        address = base | wide_place;
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$write_at
+
+
+module incircle_core_logic$engine$insertions$commits$star$inner_list$written(d,q,clock);
+    
+    // Module arguments
+    input wire  [26:0] d;
+    output reg  [26:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 27'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$inner_list$written
+
+
+module incircle_core_logic$engine$insertions$commits$star$link(id,slot,value,write);
+    
+    // Module arguments
+    input wire  [14:0] id;
+    input wire  [1:0] slot;
+    input wire  [14:0] value;
+    output reg  [109:0] write;
+    
+    // Local signals
+    reg  [1:0] slot0;
+    reg  [1:0] slot1;
+    reg  [1:0] slot2;
+    
+    // Update code
+    always @(*) begin
+        slot0 = 32'h0;
+        slot1 = 32'h1;
+        slot2 = 32'h2;
+        write[(64'h0)+:(1)] = 1'b1;
+        write[(64'h1)+:(15)] = id;
+        write[(64'h10)+:(1)] = 1'b0;
+        write[(64'h11)+:(1)] = slot == slot0;
+        write[(64'h12)+:(1)] = slot == slot1;
+        write[(64'h13)+:(1)] = slot == slot2;
+        write[(64'h14)+:(15)] = 32'h0;
+        write[(64'h23)+:(15)] = 32'h0;
+        write[(64'h32)+:(15)] = 32'h0;
+        write[(64'h41)+:(15)] = value;
+        write[(64'h50)+:(15)] = value;
+        write[(64'h5f)+:(15)] = value;
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$commits$star$link
+
+
+module incircle_core_logic$engine$insertions$commits$star$link_slot(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$link_slot
+
+
+module incircle_core_logic$engine$insertions$commits$star$link_u(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$link_u
+
+
+module incircle_core_logic$engine$insertions$commits$star$record(id,v0,v1,v2,n0,n1,n2,write);
+    
+    // Module arguments
+    input wire  [14:0] id;
+    input wire  [14:0] v0;
+    input wire  [14:0] v1;
+    input wire  [14:0] v2;
+    input wire  [14:0] n0;
+    input wire  [14:0] n1;
+    input wire  [14:0] n2;
+    output reg  [109:0] write;
+    
+    // Update code
+    always @(*) begin
+        write[(64'h0)+:(1)] = 1'b1;
+        write[(64'h1)+:(15)] = id;
+        write[(64'h10)+:(1)] = 1'b1;
+        write[(64'h11)+:(1)] = 1'b1;
+        write[(64'h12)+:(1)] = 1'b1;
+        write[(64'h13)+:(1)] = 1'b1;
+        write[(64'h14)+:(15)] = v0;
+        write[(64'h23)+:(15)] = v1;
+        write[(64'h32)+:(15)] = v2;
+        write[(64'h41)+:(15)] = n0;
+        write[(64'h50)+:(15)] = n1;
+        write[(64'h5f)+:(15)] = n2;
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$commits$star$record
+
+
+module incircle_core_logic$engine$insertions$commits$star$request(d,q,clock);
+    
+    // Module arguments
+    input wire  [109:0] d;
+    output reg  [109:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 110'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$request
+
+
+module incircle_core_logic$engine$insertions$commits$star$ring(d,q,clock);
+    
+    // Module arguments
+    input wire  [55:0] d;
+    output reg  [55:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 56'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$ring
+
+
+module incircle_core_logic$engine$insertions$commits$star$second_a(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$second_a
+
+
+module incircle_core_logic$engine$insertions$commits$star$second_id(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$second_id
+
+
+module incircle_core_logic$engine$insertions$commits$star$star_id(head,first,current_is_last,inner_id,inner_is_used_up,fresh,ahead,id,is_inner,is_fresh);
+    
+    // Module arguments
+    input wire  [55:0] head;
+    input wire  [52:0] first;
+    input wire  current_is_last;
+    input wire  [14:0] inner_id;
+    input wire  inner_is_used_up;
+    input wire  [14:0] fresh;
+    output reg  [52:0] ahead;
+    output reg  [14:0] id;
+    output reg  is_inner;
+    output reg  is_fresh;
+    
+    // Local signals
+    reg  [52:0] entry;
+    reg  shares;
+    
+    // Update code
+    always @(*) begin
+        entry = head[(64'h1)+:(53)];
+        shares = head[(64'h37)+:(1)] & (~current_is_last);
+        is_inner = shares & (~inner_is_used_up);
+        is_fresh = shares & inner_is_used_up;
+        ahead = entry;
+        id = entry[(64'h20)+:(15)];
+        if (shares) begin
+            id = inner_id;
+            if (inner_is_used_up) begin
+                id = fresh;
+            end
+        end
+        if (current_is_last) begin
+            ahead = first;
+            id = first[(64'h20)+:(15)];
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$commits$star$star_id
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps(clock,reset,head,awaits_id,changes_id,takes,loads,advances,opens,is_last,is_link,is_close,is_at_work);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  [55:0] head;
+    input wire  awaits_id;
+    input wire  changes_id;
+    output reg  takes;
+    output reg  loads;
+    output reg  advances;
+    output reg  opens;
+    output reg  is_last;
+    output reg  is_link;
+    output reg  is_close;
+    output reg  is_at_work;
+    
+    // Enums
+    localparam CommitState$Idle = 0;
+    localparam CommitState$Record = 1;
+    localparam CommitState$Link = 2;
+    localparam CommitState$Close = 3;
+    
+    // Stub signals
+    reg  [1:0] state$d;
+    wire  [1:0] state$q;
+    reg  state$clock;
+    reg  wants$d;
+    wire  wants$q;
+    reg  wants$clock;
+    reg  current_is_last$d;
+    wire  current_is_last$q;
+    reg  current_is_last$clock;
+    reg  needs_link$d;
+    wire  needs_link$q;
+    reg  needs_link$clock;
+    reg  current_opens$d;
+    wire  current_opens$q;
+    reg  current_opens$clock;
+    reg  closes$d;
+    wire  closes$q;
+    reg  closes$clock;
+    
+    // Local signals
+    reg  closing;
+    reg  waits;
+    reg  begins;
+    reg  goes_on;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$commits$star$steps$state state(
+        .d(state$d),
+        .q(state$q),
+        .clock(state$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps$wants wants(
+        .d(wants$d),
+        .q(wants$q),
+        .clock(wants$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps$current_is_last current_is_last(
+        .d(current_is_last$d),
+        .q(current_is_last$q),
+        .clock(current_is_last$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps$needs_link needs_link(
+        .d(needs_link$d),
+        .q(needs_link$q),
+        .clock(needs_link$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps$current_opens current_opens(
+        .d(current_opens$d),
+        .q(current_opens$q),
+        .clock(current_opens$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps$closes closes(
+        .d(closes$d),
+        .q(closes$q),
+        .clock(closes$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        state$clock = clock;
+        wants$clock = clock;
+        current_is_last$clock = clock;
+        needs_link$clock = clock;
+        current_opens$clock = clock;
+        closes$clock = clock;
+        state$d = state$q;
+        wants$d = wants$q;
+        current_is_last$d = current_is_last$q;
+        needs_link$d = needs_link$q;
+        current_opens$d = current_opens$q;
+        closes$d = closes$q;
+        closing = state$q == CommitState$Close;
+        waits = head[(64'h37)+:(1)] & awaits_id;
+        begins = ((state$q == CommitState$Idle) | closing) & head[(64'h0)+:(1)];
+        goes_on = (state$q == CommitState$Record) & (current_is_last$q | (head[(64'h0)+:(1)] & (~waits)));
+        takes = wants$q & (~waits);
+        loads = begins;
+        advances = goes_on;
+        opens = current_opens$q;
+        is_last = current_is_last$q;
+        is_link = state$q == CommitState$Link;
+        is_close = closing;
+        is_at_work = state$q != CommitState$Idle;
+        if (goes_on) begin
+            current_opens$d = 1'b0;
+            closes$d = current_is_last$q;
+            current_is_last$d = (~current_is_last$q) & head[(64'h36)+:(1)];
+            needs_link$d = changes_id;
+        end
+        if (begins) begin
+            current_is_last$d = 1'b0;
+            current_opens$d = 1'b1;
+            needs_link$d = 1'b0;
+        end
+        case (state$q)
+            CommitState$Record:
+                begin
+                    if (goes_on) begin
+                        wants$d = current_is_last$q | (~head[(64'h36)+:(1)]);
+                        if (current_is_last$q) begin
+                            state$d = CommitState$Close;
+                        end
+                        if (needs_link$q) begin
+                            state$d = CommitState$Link;
+                            wants$d = 1'b0;
+                        end
+                    end
+                end
+            CommitState$Link:
+                begin
+                    state$d = CommitState$Record;
+                    wants$d = closes$q | (~current_is_last$q);
+                    if (closes$q) begin
+                        state$d = CommitState$Close;
+                    end
+                end
+            default:
+                begin
+                    state$d = CommitState$Idle;
+                    wants$d = 1'b1;
+                    if (begins) begin
+                        state$d = CommitState$Record;
+                    end
+                end
+        endcase
+        if (reset) begin
+            state$d = CommitState$Idle;
+            wants$d = 1'b1;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$closes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$closes
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$current_is_last(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$current_is_last
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$current_opens(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$current_opens
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$needs_link(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$needs_link
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$state(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam CommitState$Idle = 0;
+    localparam CommitState$Record = 1;
+    localparam CommitState$Link = 2;
+    localparam CommitState$Close = 3;
+    
+    // Update code (custom)
+    initial begin
+       q = 64'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$state
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$wants(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$wants
+
+
+module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,deal,arrived,came,seed,is_done,outcome,may_ask,committed,released,solo,start,fetched,contexts,solo_start,takes_token,is_quiet,stuck);
     
     // Module arguments
     input wire  clock;
@@ -12608,80 +11401,25 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     input wire  [12:0] deal;
     input wire  [14:0] arrived;
     input wire  came;
-    input wire  seeded;
-    input wire  has_no_start;
-    input wire  seeds;
-    input wire  [4:0] owner;
-    input wire  sleeps;
-    input wire  keeps;
-    input wire  hands_over;
-    input wire  asks_to_wait;
-    input wire  waits;
-    input wire  stops_waiting;
-    input wire  overflows;
-    input wire  duplicate;
-    input wire  root_enable;
-    input wire  [14:0] root;
+    input wire  [2:0] seed;
     input wire  is_done;
+    input wire  [28:0] outcome;
     input wire  may_ask;
-    input wire  commit_ends;
-    input wire  [4:0] commit_owner;
-    input wire  [14:0] hint;
-    input wire  released;
-    input wire  [4:0] released_owner;
-    input wire  solo_is_at_work;
-    input wire  solo_ends;
-    output reg  starts;
-    output reg  [4:0] starter;
-    output reg  [14:0] u;
-    output reg  takes;
-    output reg  [14:0] taken_id;
-    output reg  position_enable;
-    output reg  [4:0] position_owner;
-    output reg  [23:0] busy;
-    output reg  waiter_valid;
-    output reg  [4:0] waiter;
-    output reg  solo_starts;
-    output reg  [4:0] solo_owner;
-    output reg  [14:0] solo_p;
+    input wire  [71:0] committed;
+    input wire  [5:0] released;
+    input wire  [4:0] solo;
+    output reg  [36:0] start;
+    output reg  [5:0] fetched;
+    output reg  [133:0] contexts;
+    output reg  [35:0] solo_start;
     output reg  takes_token;
     output reg  is_quiet;
     output reg  stuck;
     
     // Stub signals
-    reg  [4:0] found_owner$d;
-    wire  [4:0] found_owner$q;
-    reg  found_owner$clock;
-    reg  found_sleeps$d;
-    wire  found_sleeps$q;
-    reg  found_sleeps$clock;
-    reg  found_keeps$d;
-    wire  found_keeps$q;
-    reg  found_keeps$clock;
-    reg  found_hands_over$d;
-    wire  found_hands_over$q;
-    reg  found_hands_over$clock;
-    reg  found_asks$d;
-    wire  found_asks$q;
-    reg  found_asks$clock;
-    reg  found_waits$d;
-    wire  found_waits$q;
-    reg  found_waits$clock;
-    reg  found_stops$d;
-    wire  found_stops$q;
-    reg  found_stops$clock;
-    reg  found_overflows$d;
-    wire  found_overflows$q;
-    reg  found_overflows$clock;
-    reg  found_duplicate$d;
-    wire  found_duplicate$q;
-    reg  found_duplicate$clock;
-    reg  found_root_enable$d;
-    wire  found_root_enable$q;
-    reg  found_root_enable$clock;
-    reg  [14:0] found_root$d;
-    wire  [14:0] found_root$q;
-    reg  found_root$clock;
+    reg  [28:0] found$d;
+    wire  [28:0] found$q;
+    reg  found$clock;
     reg  taken1$d;
     wire  taken1$q;
     reg  taken1$clock;
@@ -12698,66 +11436,28 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     reg  flags$reset;
     reg  flags$clears;
     reg  [23:0] flags$all;
-    reg  [4:0] flags$owner;
-    reg  flags$sleeps;
-    reg  flags$keeps;
-    reg  flags$hands_over;
-    reg  flags$asks_to_wait;
-    reg  flags$waits;
-    reg  flags$stops_waiting;
-    reg  flags$overflows;
-    reg  flags$starts;
-    reg  [4:0] flags$starter;
-    reg  flags$released;
-    reg  [4:0] flags$released_owner;
-    reg  flags$commit_ends;
-    reg  [4:0] flags$commit_owner;
+    reg  [28:0] flags$outcome;
+    reg  [36:0] flags$start;
+    reg  [5:0] flags$released;
+    reg  [71:0] flags$committed;
     reg  flags$solo_ends;
-    wire  [23:0] flags$asleep;
-    wire  [23:0] flags$keeping;
-    wire  [23:0] flags$busy;
-    wire  [23:0] flags$began;
-    wire  [23:0] flags$hinted;
-    wire  flags$waiter_valid;
-    wire  [4:0] flags$waiter;
-    wire  flags$is_urgent;
-    wire  flags$solo_valid;
-    wire  [4:0] flags$solo_owner;
-    wire  flags$all_rest;
+    wire  [133:0] flags$contexts;
     wire  flags$takes_token;
-    reg  start$clock;
-    reg  start$reset;
-    reg  start$clears;
-    reg  [12:0] start$deal;
-    reg  [14:0] start$arrived;
-    reg  start$came;
-    reg  start$seeded;
-    reg  [23:0] start$asleep;
-    reg  [23:0] start$keeping;
-    reg  [23:0] start$busy;
-    reg  [23:0] start$began;
-    reg  [23:0] start$hinted;
-    reg  start$solo_valid;
-    reg  start$is_urgent;
-    reg  [4:0] start$waiter;
-    reg  [4:0] start$solo_owner;
-    reg  start$solo_is_at_work;
-    reg  start$all_rest;
-    reg  start$is_done;
-    reg  start$is_blocked;
-    reg  start$root_enable;
-    reg  [4:0] start$root_owner;
-    reg  [14:0] start$root;
-    reg  start$hint_enable;
-    reg  [4:0] start$hint_owner;
-    reg  [14:0] start$hint;
-    wire  start$starts;
-    wire  [4:0] start$owner;
-    wire  [14:0] start$u;
-    wire  start$takes;
-    wire  [14:0] start$taken_id;
-    wire  start$solo_starts;
-    wire  [14:0] start$solo_p;
+    reg  starter$clock;
+    reg  starter$reset;
+    reg  starter$clears;
+    reg  [12:0] starter$deal;
+    reg  [14:0] starter$arrived;
+    reg  starter$came;
+    reg  starter$seeded;
+    reg  [133:0] starter$contexts;
+    reg  starter$solo_is_at_work;
+    reg  starter$is_done;
+    reg  starter$is_blocked;
+    reg  [28:0] starter$outcome;
+    reg  [71:0] starter$committed;
+    wire  [36:0] starter$start;
+    wire  [35:0] starter$solo_start;
     reg  progress$clock;
     reg  progress$reset;
     reg  progress$clears;
@@ -12778,60 +11478,10 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     wire  watchdog$stuck;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$dispatcher$found_owner found_owner(
-        .d(found_owner$d),
-        .q(found_owner$q),
-        .clock(found_owner$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$found_sleeps found_sleeps(
-        .d(found_sleeps$d),
-        .q(found_sleeps$q),
-        .clock(found_sleeps$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$found_keeps found_keeps(
-        .d(found_keeps$d),
-        .q(found_keeps$q),
-        .clock(found_keeps$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$found_hands_over found_hands_over(
-        .d(found_hands_over$d),
-        .q(found_hands_over$q),
-        .clock(found_hands_over$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$found_asks found_asks(
-        .d(found_asks$d),
-        .q(found_asks$q),
-        .clock(found_asks$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$found_waits found_waits(
-        .d(found_waits$d),
-        .q(found_waits$q),
-        .clock(found_waits$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$found_stops found_stops(
-        .d(found_stops$d),
-        .q(found_stops$q),
-        .clock(found_stops$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$found_overflows found_overflows(
-        .d(found_overflows$d),
-        .q(found_overflows$q),
-        .clock(found_overflows$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$found_duplicate found_duplicate(
-        .d(found_duplicate$d),
-        .q(found_duplicate$q),
-        .clock(found_duplicate$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$found_root_enable found_root_enable(
-        .d(found_root_enable$d),
-        .q(found_root_enable$q),
-        .clock(found_root_enable$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$found_root found_root(
-        .d(found_root$d),
-        .q(found_root$q),
-        .clock(found_root$clock)
+    incircle_core_logic$engine$insertions$dispatcher$found found(
+        .d(found$d),
+        .q(found$q),
+        .clock(found$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$taken1 taken1(
         .d(taken1$d),
@@ -12858,68 +11508,30 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
         .reset(flags$reset),
         .clears(flags$clears),
         .all(flags$all),
-        .owner(flags$owner),
-        .sleeps(flags$sleeps),
-        .keeps(flags$keeps),
-        .hands_over(flags$hands_over),
-        .asks_to_wait(flags$asks_to_wait),
-        .waits(flags$waits),
-        .stops_waiting(flags$stops_waiting),
-        .overflows(flags$overflows),
-        .starts(flags$starts),
-        .starter(flags$starter),
+        .outcome(flags$outcome),
+        .start(flags$start),
         .released(flags$released),
-        .released_owner(flags$released_owner),
-        .commit_ends(flags$commit_ends),
-        .commit_owner(flags$commit_owner),
+        .committed(flags$committed),
         .solo_ends(flags$solo_ends),
-        .asleep(flags$asleep),
-        .keeping(flags$keeping),
-        .busy(flags$busy),
-        .began(flags$began),
-        .hinted(flags$hinted),
-        .waiter_valid(flags$waiter_valid),
-        .waiter(flags$waiter),
-        .is_urgent(flags$is_urgent),
-        .solo_valid(flags$solo_valid),
-        .solo_owner(flags$solo_owner),
-        .all_rest(flags$all_rest),
+        .contexts(flags$contexts),
         .takes_token(flags$takes_token)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start start(
-        .clock(start$clock),
-        .reset(start$reset),
-        .clears(start$clears),
-        .deal(start$deal),
-        .arrived(start$arrived),
-        .came(start$came),
-        .seeded(start$seeded),
-        .asleep(start$asleep),
-        .keeping(start$keeping),
-        .busy(start$busy),
-        .began(start$began),
-        .hinted(start$hinted),
-        .solo_valid(start$solo_valid),
-        .is_urgent(start$is_urgent),
-        .waiter(start$waiter),
-        .solo_owner(start$solo_owner),
-        .solo_is_at_work(start$solo_is_at_work),
-        .all_rest(start$all_rest),
-        .is_done(start$is_done),
-        .is_blocked(start$is_blocked),
-        .root_enable(start$root_enable),
-        .root_owner(start$root_owner),
-        .root(start$root),
-        .hint_enable(start$hint_enable),
-        .hint_owner(start$hint_owner),
-        .hint(start$hint),
-        .starts(start$starts),
-        .owner(start$owner),
-        .u(start$u),
-        .takes(start$takes),
-        .taken_id(start$taken_id),
-        .solo_starts(start$solo_starts),
-        .solo_p(start$solo_p)
+    incircle_core_logic$engine$insertions$dispatcher$starter starter(
+        .clock(starter$clock),
+        .reset(starter$reset),
+        .clears(starter$clears),
+        .deal(starter$deal),
+        .arrived(starter$arrived),
+        .came(starter$came),
+        .seeded(starter$seeded),
+        .contexts(starter$contexts),
+        .solo_is_at_work(starter$solo_is_at_work),
+        .is_done(starter$is_done),
+        .is_blocked(starter$is_blocked),
+        .outcome(starter$outcome),
+        .committed(starter$committed),
+        .start(starter$start),
+        .solo_start(starter$solo_start)
     );
     incircle_core_logic$engine$insertions$dispatcher$progress progress(
         .clock(progress$clock),
@@ -12946,122 +11558,71 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
     
     // Update code
     always @(*) begin
-        found_owner$clock = clock;
-        found_sleeps$clock = clock;
-        found_keeps$clock = clock;
-        found_hands_over$clock = clock;
-        found_asks$clock = clock;
-        found_waits$clock = clock;
-        found_owner$d = found_owner$q;
-        found_sleeps$d = found_sleeps$q;
-        found_keeps$d = found_keeps$q;
-        found_hands_over$d = found_hands_over$q;
-        found_asks$d = found_asks$q;
-        found_waits$d = found_waits$q;
-        found_stops$clock = clock;
-        found_overflows$clock = clock;
-        found_duplicate$clock = clock;
-        found_root_enable$clock = clock;
-        found_root$clock = clock;
-        found_stops$d = found_stops$q;
-        found_overflows$d = found_overflows$q;
-        found_duplicate$d = found_duplicate$q;
-        found_root_enable$d = found_root_enable$q;
-        found_root$d = found_root$q;
+        found$clock = clock;
         taken1$clock = clock;
         taken2$clock = clock;
         taker1$clock = clock;
         taker2$clock = clock;
+        found$d = found$q;
         taken1$d = taken1$q;
         taken2$d = taken2$q;
         taker1$d = taker1$q;
         taker2$d = taker2$q;
         flags$clock = clock;
-        start$clock = clock;
+        starter$clock = clock;
         progress$clock = clock;
         watchdog$clock = clock;
-        found_owner$d = owner;
-        found_sleeps$d = sleeps & (~reset);
-        found_keeps$d = keeps & (~reset);
-        found_hands_over$d = hands_over & (~reset);
-        found_asks$d = asks_to_wait & (~reset);
-        found_waits$d = waits & (~reset);
-        found_stops$d = stops_waiting & (~reset);
-        found_overflows$d = overflows & (~reset);
-        found_duplicate$d = duplicate & (~reset);
-        found_root_enable$d = root_enable;
-        found_root$d = root;
         flags$reset = reset;
-        start$reset = reset;
+        starter$reset = reset;
         progress$reset = reset;
         watchdog$reset = reset;
         flags$clears = clears;
-        start$clears = clears;
+        starter$clears = clears;
         progress$clears = clears;
+        found$d = outcome;
+        if (reset) begin
+            found$d[(64'h5)+:(1)] = 1'b0;
+            found$d[(64'h6)+:(1)] = 1'b0;
+            found$d[(64'h7)+:(1)] = 1'b0;
+            found$d[(64'h8)+:(1)] = 1'b0;
+            found$d[(64'h9)+:(1)] = 1'b0;
+            found$d[(64'ha)+:(1)] = 1'b0;
+            found$d[(64'hb)+:(1)] = 1'b0;
+            found$d[(64'hc)+:(1)] = 1'b0;
+        end
         flags$all = all;
-        flags$owner = found_owner$q;
-        flags$sleeps = found_sleeps$q;
-        flags$keeps = found_keeps$q;
-        flags$hands_over = found_hands_over$q;
-        flags$asks_to_wait = found_asks$q;
-        flags$waits = found_waits$q;
-        flags$stops_waiting = found_stops$q;
-        flags$overflows = found_overflows$q;
-        flags$starts = start$starts;
-        flags$starter = start$owner;
+        flags$outcome = found$q;
+        flags$start = starter$start;
         flags$released = released;
-        flags$released_owner = released_owner;
-        flags$commit_ends = commit_ends;
-        flags$commit_owner = commit_owner;
-        flags$solo_ends = solo_ends;
-        busy = flags$busy;
-        waiter_valid = flags$waiter_valid;
-        waiter = flags$waiter;
-        solo_owner = flags$solo_owner;
+        flags$committed = committed;
+        flags$solo_ends = solo[(64'h1)+:(1)];
+        contexts = flags$contexts;
         takes_token = flags$takes_token;
-        start$deal = deal;
-        start$arrived = arrived;
-        start$came = came;
-        start$seeded = seeded;
-        start$asleep = flags$asleep;
-        start$keeping = flags$keeping;
-        start$busy = flags$busy;
-        start$began = flags$began;
-        start$hinted = flags$hinted;
-        start$is_urgent = flags$is_urgent;
-        start$waiter = flags$waiter;
-        start$solo_valid = flags$solo_valid;
-        start$solo_owner = flags$solo_owner;
-        start$solo_is_at_work = solo_is_at_work;
-        start$all_rest = flags$all_rest;
-        start$is_done = is_done;
-        start$is_blocked = may_ask;
-        start$root_enable = found_root_enable$q;
-        start$root_owner = found_owner$q;
-        start$root = found_root$q;
-        start$hint_enable = commit_ends;
-        start$hint_owner = commit_owner;
-        start$hint = hint;
-        starts = start$starts;
-        starter = start$owner;
-        u = start$u;
-        takes = start$takes;
-        taken_id = start$taken_id;
-        taken1$d = start$takes & (~reset);
+        starter$deal = deal;
+        starter$arrived = arrived;
+        starter$came = came;
+        starter$seeded = seed[(64'h0)+:(1)];
+        starter$contexts = flags$contexts;
+        starter$solo_is_at_work = solo[(64'h0)+:(1)];
+        starter$is_done = is_done;
+        starter$is_blocked = may_ask;
+        starter$outcome = found$q;
+        starter$committed = committed;
+        start = starter$start;
+        solo_start = starter$solo_start;
+        taken1$d = starter$start[(64'h15)+:(1)] & (~reset);
         taken2$d = taken1$q & (~reset);
-        taker1$d = start$owner;
+        taker1$d = starter$start[(64'h1)+:(5)];
         taker2$d = taker1$q;
-        position_enable = taken2$q;
-        position_owner = taker2$q;
-        solo_starts = start$solo_starts;
-        solo_p = start$solo_p;
+        fetched[(64'h0)+:(1)] = taken2$q;
+        fetched[(64'h1)+:(5)] = taker2$q;
         progress$arrived = arrived;
-        progress$seeds = seeds;
-        progress$commit_ends = commit_ends;
-        progress$solo_ends = solo_ends;
-        progress$duplicate = found_duplicate$q;
-        progress$has_no_start = has_no_start;
-        progress$all_rest = flags$all_rest;
+        progress$seeds = seed[(64'h2)+:(1)];
+        progress$commit_ends = committed[(64'h0)+:(1)];
+        progress$solo_ends = solo[(64'h1)+:(1)];
+        progress$duplicate = found$q[(64'hc)+:(1)];
+        progress$has_no_start = seed[(64'h1)+:(1)];
+        progress$all_rest = flags$contexts[(64'h85)+:(1)];
         is_quiet = progress$is_quiet;
         watchdog$patience = patience;
         watchdog$finishes = progress$finishes;
@@ -13072,77 +11633,33 @@ module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,p
 endmodule // incircle_core_logic$engine$insertions$dispatcher
 
 
-module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears,all,owner,sleeps,keeps,hands_over,asks_to_wait,waits,stops_waiting,overflows,starts,starter,released,released_owner,commit_ends,commit_owner,solo_ends,asleep,keeping,busy,began,hinted,waiter_valid,waiter,is_urgent,solo_valid,solo_owner,all_rest,takes_token);
+module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears,all,outcome,start,released,committed,solo_ends,contexts,takes_token);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  clears;
     input wire  [23:0] all;
-    input wire  [4:0] owner;
-    input wire  sleeps;
-    input wire  keeps;
-    input wire  hands_over;
-    input wire  asks_to_wait;
-    input wire  waits;
-    input wire  stops_waiting;
-    input wire  overflows;
-    input wire  starts;
-    input wire  [4:0] starter;
-    input wire  released;
-    input wire  [4:0] released_owner;
-    input wire  commit_ends;
-    input wire  [4:0] commit_owner;
+    input wire  [28:0] outcome;
+    input wire  [36:0] start;
+    input wire  [5:0] released;
+    input wire  [71:0] committed;
     input wire  solo_ends;
-    output reg  [23:0] asleep;
-    output reg  [23:0] keeping;
-    output reg  [23:0] busy;
-    output reg  [23:0] began;
-    output reg  [23:0] hinted;
-    output reg  waiter_valid;
-    output reg  [4:0] waiter;
-    output reg  is_urgent;
-    output reg  solo_valid;
-    output reg  [4:0] solo_owner;
-    output reg  all_rest;
+    output reg  [133:0] contexts;
     output reg  takes_token;
     
     // Stub signals
-    reg  [23:0] sleeping$d;
-    wire  [23:0] sleeping$q;
-    reg  sleeping$clock;
-    reg  [23:0] trying$d;
-    wire  [23:0] trying$q;
-    reg  trying$clock;
-    reg  [23:0] due$d;
-    wire  [23:0] due$q;
-    reg  due$clock;
-    reg  [23:0] had_point$d;
-    wire  [23:0] had_point$q;
-    reg  had_point$clock;
-    reg  [23:0] had_commit$d;
-    wire  [23:0] had_commit$q;
-    reg  had_commit$clock;
-    reg  token_is_held$d;
-    wire  token_is_held$q;
-    reg  token_is_held$clock;
-    reg  [4:0] token_holder$d;
-    wire  [4:0] token_holder$q;
-    reg  token_holder$clock;
+    reg  [133:0] state$d;
+    wire  [133:0] state$q;
+    reg  state$clock;
     reg  [3:0] waited$d;
     wire  [3:0] waited$q;
     reg  waited$clock;
-    reg  wants_alone$d;
-    wire  wants_alone$q;
-    reg  wants_alone$clock;
-    reg  [4:0] alone$d;
-    wire  [4:0] alone$q;
-    reg  alone$clock;
-    reg  rests$d;
-    wire  rests$q;
-    reg  rests$clock;
     
     // Local signals
+    reg  [55:0] job;
+    reg  [23:0] sleeping;
+    reg  [23:0] due;
     reg  [23:0] owner_bit;
     reg  [23:0] starter_bit;
     reg  [23:0] released_bit;
@@ -13158,7 +11675,7 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
     reg  [23:0] becomes_due;
     reg  [23:0] starting;
     reg  [23:0] freed;
-    reg  [23:0] committed;
+    reg  [23:0] had_commit;
     reg  [23:0] alone_ended;
     reg  takes;
     reg  is_holder;
@@ -13168,105 +11685,36 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
     reg  [23:0] none;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$dispatcher$flags$sleeping sleeping(
-        .d(sleeping$d),
-        .q(sleeping$q),
-        .clock(sleeping$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$flags$trying trying(
-        .d(trying$d),
-        .q(trying$q),
-        .clock(trying$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$flags$due due(
-        .d(due$d),
-        .q(due$q),
-        .clock(due$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$flags$had_point had_point(
-        .d(had_point$d),
-        .q(had_point$q),
-        .clock(had_point$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$flags$had_commit had_commit(
-        .d(had_commit$d),
-        .q(had_commit$q),
-        .clock(had_commit$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$flags$token_is_held token_is_held(
-        .d(token_is_held$d),
-        .q(token_is_held$q),
-        .clock(token_is_held$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$flags$token_holder token_holder(
-        .d(token_holder$d),
-        .q(token_holder$q),
-        .clock(token_holder$clock)
+    incircle_core_logic$engine$insertions$dispatcher$flags$state state(
+        .d(state$d),
+        .q(state$q),
+        .clock(state$clock)
     );
     incircle_core_logic$engine$insertions$dispatcher$flags$waited waited(
         .d(waited$d),
         .q(waited$q),
         .clock(waited$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$flags$wants_alone wants_alone(
-        .d(wants_alone$d),
-        .q(wants_alone$q),
-        .clock(wants_alone$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$flags$alone alone(
-        .d(alone$d),
-        .q(alone$q),
-        .clock(alone$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$flags$rests rests(
-        .d(rests$d),
-        .q(rests$q),
-        .clock(rests$clock)
-    );
     
     // Update code
     always @(*) begin
-        sleeping$clock = clock;
-        trying$clock = clock;
-        due$clock = clock;
-        had_point$clock = clock;
-        had_commit$clock = clock;
-        sleeping$d = sleeping$q;
-        trying$d = trying$q;
-        due$d = due$q;
-        had_point$d = had_point$q;
-        had_commit$d = had_commit$q;
-        token_is_held$clock = clock;
-        token_holder$clock = clock;
+        state$clock = clock;
         waited$clock = clock;
-        wants_alone$clock = clock;
-        alone$clock = clock;
-        rests$clock = clock;
-        token_is_held$d = token_is_held$q;
-        token_holder$d = token_holder$q;
+        state$d = state$q;
         waited$d = waited$q;
-        wants_alone$d = wants_alone$q;
-        alone$d = alone$q;
-        rests$d = rests$q;
         one = 32'h1;
         none = 32'h0;
         one_wait = 32'h1;
-        asleep = sleeping$q;
-        keeping = trying$q;
-        busy = due$q;
-        began = had_point$q;
-        hinted = had_commit$q;
-        waiter_valid = token_is_held$q;
-        waiter = token_holder$q;
-        solo_valid = wants_alone$q;
-        solo_owner = alone$q;
-        all_rest = rests$q;
-        rests$d = (sleeping$q == all) & (due$q == none) & (~starts);
-        wide_owner = ((owner) & 24'hffffff);
-        wide_starter = ((starter) & 24'hffffff);
-        wide_released = ((released_owner) & 24'hffffff);
-        wide_commit = ((commit_owner) & 24'hffffff);
-        wide_solo = ((alone$q) & 24'hffffff);
+        contexts = state$q;
+        sleeping = state$q[(64'h0)+:(24)];
+        due = state$q[(64'h30)+:(24)];
+        job = committed[(64'h1)+:(56)];
+        state$d[(64'h85)+:(1)] = (sleeping == all) & (due == none) & (~start[(64'h0)+:(1)]);
+        wide_owner = ((outcome[(64'h0)+:(5)]) & 24'hffffff);
+        wide_starter = ((start[(64'h1)+:(5)]) & 24'hffffff);
+        wide_released = ((released[(64'h1)+:(5)]) & 24'hffffff);
+        wide_commit = ((job[(64'h0)+:(5)]) & 24'hffffff);
+        wide_solo = ((state$q[(64'h80)+:(5)]) & 24'hffffff);
         owner_bit = one << wide_owner;
         starter_bit = one << wide_starter;
         released_bit = one << wide_released;
@@ -13277,243 +11725,91 @@ module incircle_core_logic$engine$insertions$dispatcher$flags(clock,reset,clears
         becomes_due = 32'h0;
         starting = 32'h0;
         freed = 32'h0;
-        committed = 32'h0;
+        had_commit = 32'h0;
         alone_ended = 32'h0;
-        if (sleeps) begin
+        if (outcome[(64'h5)+:(1)]) begin
             falls_asleep = owner_bit & all;
         end
-        if (keeps) begin
+        if (outcome[(64'h6)+:(1)]) begin
             tries = owner_bit & all;
         end
-        if (hands_over) begin
+        if (outcome[(64'h7)+:(1)]) begin
             becomes_due = owner_bit & all;
         end
-        if (starts) begin
+        if (start[(64'h0)+:(1)]) begin
             starting = starter_bit & all;
         end
-        if (released) begin
+        if (released[(64'h0)+:(1)]) begin
             freed = released_bit;
         end
-        if (commit_ends) begin
-            committed = commit_bit & all;
+        if (committed[(64'h0)+:(1)]) begin
+            had_commit = commit_bit & all;
         end
         if (solo_ends) begin
             alone_ended = solo_bit;
         end
-        sleeping$d = (sleeping$q | falls_asleep) & (~starting);
-        trying$d = (trying$q | tries) & (~(starting | alone_ended));
-        due$d = (due$q | becomes_due) & (~freed);
-        had_point$d = had_point$q | starting;
-        had_commit$d = had_commit$q | committed;
-        takes = asks_to_wait & (~token_is_held$q);
+        state$d[(64'h0)+:(24)] = (sleeping | falls_asleep) & (~starting);
+        state$d[(64'h18)+:(24)] = (state$q[(64'h18)+:(24)] | tries) & (~(starting | alone_ended));
+        state$d[(64'h30)+:(24)] = (due | becomes_due) & (~freed);
+        state$d[(64'h48)+:(24)] = state$q[(64'h48)+:(24)] | starting;
+        state$d[(64'h60)+:(24)] = state$q[(64'h60)+:(24)] | had_commit;
+        takes = outcome[(64'h8)+:(1)] & (~state$q[(64'h78)+:(1)]);
         takes_token = takes;
-        is_holder = (stops_waiting & (token_holder$q == owner)) | (solo_ends & (token_holder$q == alone$q));
+        is_holder = (outcome[(64'ha)+:(1)] & (state$q[(64'h79)+:(5)] == outcome[(64'h0)+:(5)])) | (solo_ends & (state$q[(64'h79)+:(5)] == state$q[(64'h80)+:(5)]));
         if (takes) begin
-            token_is_held$d = 1'b1;
-            token_holder$d = owner;
+            state$d[(64'h78)+:(1)] = 1'b1;
+            state$d[(64'h79)+:(5)] = outcome[(64'h0)+:(5)];
         end
         has_waited_long = waited$q[32'h3];
-        is_urgent = token_is_held$q & has_waited_long;
-        if (waits & (~has_waited_long)) begin
+        contexts[(64'h7e)+:(1)] = state$q[(64'h78)+:(1)] & has_waited_long;
+        if (outcome[(64'h9)+:(1)] & (~has_waited_long)) begin
             waited$d = waited$q + one_wait;
         end
         if (takes) begin
             waited$d = 32'h0;
         end
         if (is_holder) begin
-            token_is_held$d = 1'b0;
+            state$d[(64'h78)+:(1)] = 1'b0;
         end
-        if (overflows & (~wants_alone$q)) begin
-            wants_alone$d = 1'b1;
-            alone$d = owner;
+        if (outcome[(64'hb)+:(1)] & (~state$q[(64'h7f)+:(1)])) begin
+            state$d[(64'h7f)+:(1)] = 1'b1;
+            state$d[(64'h80)+:(5)] = outcome[(64'h0)+:(5)];
         end
         if (solo_ends) begin
-            wants_alone$d = 1'b0;
+            state$d[(64'h7f)+:(1)] = 1'b0;
         end
         if (reset | clears) begin
-            sleeping$d = all;
-            trying$d = 32'h0;
-            due$d = 32'h0;
-            had_point$d = 32'h0;
-            had_commit$d = 32'h0;
-            token_is_held$d = 1'b0;
-            wants_alone$d = 1'b0;
-            rests$d = 1'b0;
+            state$d[(64'h0)+:(24)] = all;
+            state$d[(64'h18)+:(24)] = 32'h0;
+            state$d[(64'h30)+:(24)] = 32'h0;
+            state$d[(64'h48)+:(24)] = 32'h0;
+            state$d[(64'h60)+:(24)] = 32'h0;
+            state$d[(64'h78)+:(1)] = 1'b0;
+            state$d[(64'h7f)+:(1)] = 1'b0;
+            state$d[(64'h85)+:(1)] = 1'b0;
         end
     end
     
 endmodule // incircle_core_logic$engine$insertions$dispatcher$flags
 
 
-module incircle_core_logic$engine$insertions$dispatcher$flags$alone(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$flags$state(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
+    input wire  [133:0] d;
+    output reg  [133:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 5'h0;
+       q = 134'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$alone
-
-
-module incircle_core_logic$engine$insertions$dispatcher$flags$due(d,q,clock);
-    
-    // Module arguments
-    input wire  [23:0] d;
-    output reg  [23:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 24'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$due
-
-
-module incircle_core_logic$engine$insertions$dispatcher$flags$had_commit(d,q,clock);
-    
-    // Module arguments
-    input wire  [23:0] d;
-    output reg  [23:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 24'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$had_commit
-
-
-module incircle_core_logic$engine$insertions$dispatcher$flags$had_point(d,q,clock);
-    
-    // Module arguments
-    input wire  [23:0] d;
-    output reg  [23:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 24'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$had_point
-
-
-module incircle_core_logic$engine$insertions$dispatcher$flags$rests(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$rests
-
-
-module incircle_core_logic$engine$insertions$dispatcher$flags$sleeping(d,q,clock);
-    
-    // Module arguments
-    input wire  [23:0] d;
-    output reg  [23:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 24'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$sleeping
-
-
-module incircle_core_logic$engine$insertions$dispatcher$flags$token_holder(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$token_holder
-
-
-module incircle_core_logic$engine$insertions$dispatcher$flags$token_is_held(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$token_is_held
-
-
-module incircle_core_logic$engine$insertions$dispatcher$flags$trying(d,q,clock);
-    
-    // Module arguments
-    input wire  [23:0] d;
-    output reg  [23:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 24'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$trying
+endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$state
 
 
 module incircle_core_logic$engine$insertions$dispatcher$flags$waited(d,q,clock);
@@ -13535,232 +11831,23 @@ module incircle_core_logic$engine$insertions$dispatcher$flags$waited(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$waited
 
 
-module incircle_core_logic$engine$insertions$dispatcher$flags$wants_alone(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$found(d,q,clock);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
+    input wire  [28:0] d;
+    output reg  [28:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 1'h0;
+       q = 29'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$flags$wants_alone
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_asks(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_asks
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_duplicate(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_duplicate
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_hands_over(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_hands_over
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_keeps(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_keeps
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_overflows(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_overflows
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_owner(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_owner
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_root(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_root
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_root_enable(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_root_enable
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_sleeps(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_sleeps
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_stops(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_stops
-
-
-module incircle_core_logic$engine$insertions$dispatcher$found_waits(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$found_waits
+endmodule // incircle_core_logic$engine$insertions$dispatcher$found
 
 
 module incircle_core_logic$engine$insertions$dispatcher$progress(clock,reset,clears,arrived,seeds,commit_ends,solo_ends,duplicate,has_no_start,all_rest,is_quiet,finishes);
@@ -13904,7 +11991,7 @@ module incircle_core_logic$engine$insertions$dispatcher$progress$more(d,q,clock)
 endmodule // incircle_core_logic$engine$insertions$dispatcher$progress$more
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears,deal,arrived,came,seeded,asleep,keeping,busy,began,hinted,solo_valid,is_urgent,waiter,solo_owner,solo_is_at_work,all_rest,is_done,is_blocked,root_enable,root_owner,root,hint_enable,hint_owner,hint,starts,owner,u,takes,taken_id,solo_starts,solo_p);
+module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clears,deal,arrived,came,seeded,contexts,solo_is_at_work,is_done,is_blocked,outcome,committed,start,solo_start);
     
     // Module arguments
     input wire  clock;
@@ -13914,88 +12001,31 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     input wire  [14:0] arrived;
     input wire  came;
     input wire  seeded;
-    input wire  [23:0] asleep;
-    input wire  [23:0] keeping;
-    input wire  [23:0] busy;
-    input wire  [23:0] began;
-    input wire  [23:0] hinted;
-    input wire  solo_valid;
-    input wire  is_urgent;
-    input wire  [4:0] waiter;
-    input wire  [4:0] solo_owner;
+    input wire  [133:0] contexts;
     input wire  solo_is_at_work;
-    input wire  all_rest;
     input wire  is_done;
     input wire  is_blocked;
-    input wire  root_enable;
-    input wire  [4:0] root_owner;
-    input wire  [14:0] root;
-    input wire  hint_enable;
-    input wire  [4:0] hint_owner;
-    input wire  [14:0] hint;
-    output reg  starts;
-    output reg  [4:0] owner;
-    output reg  [14:0] u;
-    output reg  takes;
-    output reg  [14:0] taken_id;
-    output reg  solo_starts;
-    output reg  [14:0] solo_p;
+    input wire  [28:0] outcome;
+    input wire  [71:0] committed;
+    output reg  [36:0] start;
+    output reg  [35:0] solo_start;
     
     // Stub signals
-    reg  [4:0] turn$d;
-    wire  [4:0] turn$q;
-    reg  turn$clock;
-    reg  [6:0] third$d;
-    wire  [6:0] third$q;
-    reg  third$clock;
-    reg  [1:0] round$d;
-    wire  [1:0] round$q;
-    reg  round$clock;
-    reg  is_planned$d;
-    wire  is_planned$q;
-    reg  is_planned$clock;
-    reg  [4:0] passed$d;
-    wire  [4:0] passed$q;
+    reg  [27:0] passed$d;
+    wire  [27:0] passed$q;
     reg  passed$clock;
-    reg  [14:0] passed_id$d;
-    wire  [14:0] passed_id$q;
-    reg  passed_id$clock;
     reg  [14:0] passed_point$d;
     wire  [14:0] passed_point$q;
     reg  passed_point$clock;
-    reg  passed_is_seed$d;
-    wire  passed_is_seed$q;
-    reg  passed_is_seed$clock;
-    reg  [6:0] passed_dealt$d;
-    wire  [6:0] passed_dealt$q;
-    reg  passed_dealt$clock;
-    reg  [4:0] candidate$d;
-    wire  [4:0] candidate$q;
+    reg  [66:0] candidate$d;
+    wire  [66:0] candidate$q;
     reg  candidate$clock;
-    reg  [14:0] candidate_id$d;
-    wire  [14:0] candidate_id$q;
-    reg  candidate_id$clock;
-    reg  candidate_is_dealt$d;
-    wire  candidate_is_dealt$q;
-    reg  candidate_is_dealt$clock;
-    reg  [14:0] candidate_plan$d;
-    wire  [14:0] candidate_plan$q;
-    reg  candidate_plan$clock;
-    reg  [14:0] candidate_point$d;
-    wire  [14:0] candidate_point$q;
-    reg  candidate_point$clock;
     reg  wants_again$d;
     wire  wants_again$q;
     reg  wants_again$clock;
     reg  wants_new$d;
     wire  wants_new$q;
     reg  wants_new$clock;
-    reg  [14:0] from$d;
-    wire  [14:0] from$q;
-    reg  from$clock;
-    reg  is_alone$d;
-    wire  is_alone$q;
-    reg  is_alone$clock;
     reg  all_work$d;
     wire  all_work$q;
     reg  all_work$clock;
@@ -14017,143 +12047,77 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
     reg  hints$write_enable;
     reg  [4:0] hints$read_address;
     wire  [14:0] hints$read_data;
+    reg  pointer$clock;
+    reg  pointer$restarts;
+    reg  [4:0] pointer$contexts;
+    reg  pointer$moves;
+    wire  [11:0] pointer$pointer;
+    wire  pointer$is_planned;
+    wire  pointer$rests_over;
     reg  plans$clock;
     reg  [12:0] plans$deal;
-    reg  [4:0] plans$turn;
-    reg  [6:0] plans$third;
+    reg  [11:0] plans$pointer;
     reg  plans$is_planned;
     wire  [15:0] plans$due;
     wire  [6:0] plans$first_dealt;
-    reg  [4:0] plans$taker;
-    reg  [14:0] plans$taken;
-    reg  plans$took_seed;
-    reg  [6:0] plans$taken_dealt;
-    wire  plans$taken_is_dealt;
-    wire  [14:0] plans$after_taken;
-    wire  [14:0] plans$first_record;
-    reg  plans$takes;
-    reg  [4:0] plans$owner;
-    reg  [14:0] plans$planned;
+    reg  [27:0] plans$passed;
+    wire  [30:0] plans$following;
+    reg  [20:0] plans$write;
+    reg  [133:0] check$contexts;
+    reg  [27:0] check$passed;
+    reg  [14:0] check$arrived;
+    reg  check$seeded;
+    reg  check$is_planned;
+    reg  check$rests_over;
+    reg  check$all_work;
+    reg  check$may_be_starting;
+    wire  check$wants_again;
+    wire  check$wants_new;
+    wire  check$tries_again;
+    wire  check$is_hinted;
     
     // Local signals
-    reg  [4:0] contexts;
-    reg  [4:0] index;
-    reg  is_asleep;
-    reg  tries_again;
-    reg  is_rested;
-    reg  may_try;
-    reg  may_work;
-    reg  is_there;
-    reg  is_barred;
+    reg  [55:0] job;
+    reg  [4:0] contexts_at_work;
     reg  wants;
     reg  lacks_port;
     reg  begins;
     reg  moves;
     reg  is_taken;
-    reg  [4:0] after_turn;
     reg  [4:0] one_turn;
-    reg  [6:0] three;
-    reg  [4:0] first_context;
-    reg  [1:0] one_round;
-    reg  [1:0] resting_round;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$dispatcher$start$turn turn(
-        .d(turn$d),
-        .q(turn$q),
-        .clock(turn$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$third third(
-        .d(third$d),
-        .q(third$q),
-        .clock(third$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$round round(
-        .d(round$d),
-        .q(round$q),
-        .clock(round$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$is_planned is_planned(
-        .d(is_planned$d),
-        .q(is_planned$q),
-        .clock(is_planned$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$passed passed(
+    incircle_core_logic$engine$insertions$dispatcher$starter$passed passed(
         .d(passed$d),
         .q(passed$q),
         .clock(passed$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$passed_id passed_id(
-        .d(passed_id$d),
-        .q(passed_id$q),
-        .clock(passed_id$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$passed_point passed_point(
+    incircle_core_logic$engine$insertions$dispatcher$starter$passed_point passed_point(
         .d(passed_point$d),
         .q(passed_point$q),
         .clock(passed_point$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$passed_is_seed passed_is_seed(
-        .d(passed_is_seed$d),
-        .q(passed_is_seed$q),
-        .clock(passed_is_seed$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$passed_dealt passed_dealt(
-        .d(passed_dealt$d),
-        .q(passed_dealt$q),
-        .clock(passed_dealt$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$candidate candidate(
+    incircle_core_logic$engine$insertions$dispatcher$starter$candidate candidate(
         .d(candidate$d),
         .q(candidate$q),
         .clock(candidate$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$candidate_id candidate_id(
-        .d(candidate_id$d),
-        .q(candidate_id$q),
-        .clock(candidate_id$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$candidate_is_dealt candidate_is_dealt(
-        .d(candidate_is_dealt$d),
-        .q(candidate_is_dealt$q),
-        .clock(candidate_is_dealt$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$candidate_plan candidate_plan(
-        .d(candidate_plan$d),
-        .q(candidate_plan$q),
-        .clock(candidate_plan$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$candidate_point candidate_point(
-        .d(candidate_point$d),
-        .q(candidate_point$q),
-        .clock(candidate_point$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$wants_again wants_again(
+    incircle_core_logic$engine$insertions$dispatcher$starter$wants_again wants_again(
         .d(wants_again$d),
         .q(wants_again$q),
         .clock(wants_again$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$wants_new wants_new(
+    incircle_core_logic$engine$insertions$dispatcher$starter$wants_new wants_new(
         .d(wants_new$d),
         .q(wants_new$q),
         .clock(wants_new$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$from from(
-        .d(from$d),
-        .q(from$q),
-        .clock(from$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$is_alone is_alone(
-        .d(is_alone$d),
-        .q(is_alone$q),
-        .clock(is_alone$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$start$all_work all_work(
+    incircle_core_logic$engine$insertions$dispatcher$starter$all_work all_work(
         .d(all_work$d),
         .q(all_work$q),
         .clock(all_work$clock)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$points points(
+    incircle_core_logic$engine$insertions$dispatcher$starter$points points(
         .clock(points$clock),
         .write_address(points$write_address),
         .write_data(points$write_data),
@@ -14161,7 +12125,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .read_address(points$read_address),
         .read_data(points$read_data)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$roots roots(
+    incircle_core_logic$engine$insertions$dispatcher$starter$roots roots(
         .clock(roots$clock),
         .write_address(roots$write_address),
         .write_data(roots$write_data),
@@ -14169,7 +12133,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .read_address(roots$read_address),
         .read_data(roots$read_data)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$hints hints(
+    incircle_core_logic$engine$insertions$dispatcher$starter$hints hints(
         .clock(hints$clock),
         .write_address(hints$write_address),
         .write_data(hints$write_data),
@@ -14177,176 +12141,148 @@ module incircle_core_logic$engine$insertions$dispatcher$start(clock,reset,clears
         .read_address(hints$read_address),
         .read_data(hints$read_data)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$plans plans(
+    incircle_core_logic$engine$insertions$dispatcher$starter$pointer pointer(
+        .clock(pointer$clock),
+        .restarts(pointer$restarts),
+        .contexts(pointer$contexts),
+        .moves(pointer$moves),
+        .pointer(pointer$pointer),
+        .is_planned(pointer$is_planned),
+        .rests_over(pointer$rests_over)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$starter$plans plans(
         .clock(plans$clock),
         .deal(plans$deal),
-        .turn(plans$turn),
-        .third(plans$third),
+        .pointer(plans$pointer),
         .is_planned(plans$is_planned),
         .due(plans$due),
         .first_dealt(plans$first_dealt),
-        .taker(plans$taker),
-        .taken(plans$taken),
-        .took_seed(plans$took_seed),
-        .taken_dealt(plans$taken_dealt),
-        .taken_is_dealt(plans$taken_is_dealt),
-        .after_taken(plans$after_taken),
-        .first_record(plans$first_record),
-        .takes(plans$takes),
-        .owner(plans$owner),
-        .planned(plans$planned)
+        .passed(plans$passed),
+        .following(plans$following),
+        .write(plans$write)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$starter$check check(
+        .contexts(check$contexts),
+        .passed(check$passed),
+        .arrived(check$arrived),
+        .seeded(check$seeded),
+        .is_planned(check$is_planned),
+        .rests_over(check$rests_over),
+        .all_work(check$all_work),
+        .may_be_starting(check$may_be_starting),
+        .wants_again(check$wants_again),
+        .wants_new(check$wants_new),
+        .tries_again(check$tries_again),
+        .is_hinted(check$is_hinted)
     );
     
     // Update code
     always @(*) begin
-        turn$clock = clock;
-        third$clock = clock;
-        round$clock = clock;
-        is_planned$clock = clock;
         passed$clock = clock;
-        passed_id$clock = clock;
         passed_point$clock = clock;
         candidate$clock = clock;
-        candidate_id$clock = clock;
-        turn$d = turn$q;
-        third$d = third$q;
-        round$d = round$q;
-        is_planned$d = is_planned$q;
-        passed$d = passed$q;
-        passed_id$d = passed_id$q;
-        passed_point$d = passed_point$q;
-        candidate$d = candidate$q;
-        candidate_id$d = candidate_id$q;
-        candidate_plan$clock = clock;
-        candidate_point$clock = clock;
         wants_again$clock = clock;
         wants_new$clock = clock;
-        from$clock = clock;
-        is_alone$clock = clock;
         all_work$clock = clock;
-        candidate_plan$d = candidate_plan$q;
-        candidate_point$d = candidate_point$q;
+        passed$d = passed$q;
+        passed_point$d = passed_point$q;
+        candidate$d = candidate$q;
         wants_again$d = wants_again$q;
         wants_new$d = wants_new$q;
-        from$d = from$q;
-        is_alone$d = is_alone$q;
         all_work$d = all_work$q;
-        passed_is_seed$clock = clock;
-        passed_dealt$clock = clock;
-        candidate_is_dealt$clock = clock;
-        passed_is_seed$d = passed_is_seed$q;
-        passed_dealt$d = passed_dealt$q;
-        candidate_is_dealt$d = candidate_is_dealt$q;
         points$clock = clock;
+        pointer$clock = clock;
         plans$clock = clock;
         roots$clock = clock;
         hints$clock = clock;
         one_turn = 32'h1;
-        three = 32'h3;
-        one_round = 32'h1;
-        resting_round = 32'h0;
-        first_context = 32'h0;
-        contexts = deal[(64'h0)+:(5)];
-        points$read_address = turn$q;
-        plans$turn = turn$q;
-        plans$third = third$q;
-        plans$is_planned = is_planned$q;
-        plans$taken = passed_id$q;
-        plans$taker = passed$q;
-        plans$took_seed = passed_is_seed$q;
-        plans$taken_dealt = passed_dealt$q;
+        contexts_at_work = deal[(64'h0)+:(5)];
+        points$read_address = pointer$pointer[(64'h0)+:(5)];
+        plans$pointer = pointer$pointer;
+        plans$is_planned = pointer$is_planned;
+        plans$passed = passed$q;
         plans$deal = deal;
-        index = passed$q;
-        is_barred = solo_valid | ((wants_again$q | wants_new$q) & (contexts == one_turn));
-        is_asleep = asleep[index] & (~is_barred);
-        tries_again = keeping[index];
-        is_rested = (~busy[index]) & (round$q == resting_round);
-        may_try = (~is_urgent) | (passed$q == waiter);
-        may_work = all_work$q;
-        if (passed$q == first_context) begin
-            may_work = seeded | (~began[32'h0]);
-        end
-        is_there = is_planned$q & (passed_id$q < arrived);
-        roots$read_address = passed$q;
-        hints$read_address = passed$q;
-        wants = (wants_again$q | wants_new$q) & (~solo_valid);
+        pointer$restarts = reset | clears;
+        pointer$contexts = contexts_at_work;
+        check$contexts = contexts;
+        check$passed = passed$q;
+        check$arrived = arrived;
+        check$seeded = seeded;
+        check$is_planned = pointer$is_planned;
+        check$rests_over = pointer$rests_over;
+        check$all_work = all_work$q;
+        check$may_be_starting = (wants_again$q | wants_new$q) & (contexts_at_work == one_turn);
+        roots$read_address = passed$q[(64'h0)+:(5)];
+        hints$read_address = passed$q[(64'h0)+:(5)];
+        wants = (wants_again$q | wants_new$q) & (~contexts[(64'h7f)+:(1)]);
         lacks_port = wants_new$q & came;
         moves = ~(wants & (is_done | lacks_port));
+        pointer$moves = moves;
         begins = wants & (~is_blocked) & (~lacks_port);
         is_taken = wants_new$q & begins;
-        starts = begins;
-        takes = is_taken;
-        owner = candidate$q;
-        taken_id = candidate_id$q;
-        u = from$q;
-        solo_p = candidate_point$q;
-        solo_starts = solo_valid & all_rest & (~solo_is_at_work) & is_alone$q;
-        points$write_address = candidate$q;
-        points$write_data = candidate_id$q;
+        start[(64'h0)+:(1)] = begins;
+        start[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
+        start[(64'h6)+:(15)] = candidate$q[(64'h33)+:(15)];
+        start[(64'h15)+:(1)] = is_taken;
+        start[(64'h16)+:(15)] = candidate$q[(64'h5)+:(15)];
+        solo_start[(64'h0)+:(1)] = contexts[(64'h7f)+:(1)] & contexts[(64'h85)+:(1)] & (~solo_is_at_work) & candidate$q[(64'h42)+:(1)];
+        solo_start[(64'h1)+:(5)] = contexts[(64'h80)+:(5)];
+        solo_start[(64'h6)+:(15)] = candidate$q[(64'h24)+:(15)];
+        solo_start[(64'h15)+:(15)] = candidate$q[(64'h33)+:(15)];
+        points$write_address = candidate$q[(64'h0)+:(5)];
+        points$write_data = candidate$q[(64'h5)+:(15)];
         points$write_enable = is_taken;
-        plans$takes = is_taken;
-        plans$owner = candidate$q;
-        plans$planned = candidate_plan$q;
-        roots$write_address = root_owner;
-        roots$write_data = root;
-        roots$write_enable = root_enable;
-        hints$write_address = hint_owner;
-        hints$write_data = hint;
-        hints$write_enable = hint_enable;
-        if (is_taken & candidate_is_dealt$q) begin
+        plans$write[(64'h0)+:(1)] = is_taken;
+        plans$write[(64'h1)+:(5)] = candidate$q[(64'h0)+:(5)];
+        plans$write[(64'h6)+:(15)] = candidate$q[(64'h15)+:(15)];
+        roots$write_address = outcome[(64'h0)+:(5)];
+        roots$write_data = outcome[(64'he)+:(15)];
+        roots$write_enable = outcome[(64'hd)+:(1)];
+        job = committed[(64'h1)+:(56)];
+        hints$write_address = job[(64'h0)+:(5)];
+        hints$write_data = committed[(64'h39)+:(15)];
+        hints$write_enable = committed[(64'h0)+:(1)];
+        if (is_taken & candidate$q[(64'h14)+:(1)]) begin
             all_work$d = 1'b1;
         end
-        after_turn = turn$q + one_turn;
         if (begins) begin
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
         end
         if (moves) begin
-            candidate$d = passed$q;
-            candidate_id$d = passed_id$q;
-            candidate_is_dealt$d = plans$taken_is_dealt;
-            candidate_plan$d = plans$after_taken;
-            candidate_point$d = passed_point$q;
-            wants_again$d = is_asleep & tries_again & is_rested & may_try;
-            wants_new$d = is_asleep & (~tries_again) & is_there & may_work;
-            is_alone$d = passed$q == solo_owner;
-            from$d = plans$first_record;
-            if (hinted[index]) begin
-                from$d = hints$read_data;
+            candidate$d[(64'h0)+:(5)] = passed$q[(64'h0)+:(5)];
+            candidate$d[(64'h5)+:(15)] = passed$q[(64'h5)+:(15)];
+            candidate$d[(64'h14)+:(1)] = plans$following[(64'h0)+:(1)];
+            candidate$d[(64'h15)+:(15)] = plans$following[(64'h1)+:(15)];
+            candidate$d[(64'h24)+:(15)] = passed_point$q;
+            wants_again$d = check$wants_again;
+            wants_new$d = check$wants_new;
+            candidate$d[(64'h42)+:(1)] = passed$q[(64'h0)+:(5)] == contexts[(64'h80)+:(5)];
+            candidate$d[(64'h33)+:(15)] = plans$following[(64'h10)+:(15)];
+            if (check$is_hinted) begin
+                candidate$d[(64'h33)+:(15)] = hints$read_data;
             end
-            if (tries_again) begin
-                from$d = roots$read_data;
+            if (check$tries_again) begin
+                candidate$d[(64'h33)+:(15)] = roots$read_data;
             end
-            passed$d = turn$q;
-            passed_id$d = plans$due[(64'h0)+:(15)];
+            passed$d[(64'h0)+:(5)] = pointer$pointer[(64'h0)+:(5)];
+            passed$d[(64'h5)+:(15)] = plans$due[(64'h0)+:(15)];
+            passed$d[(64'h14)+:(1)] = plans$due[(64'hf)+:(1)];
+            passed$d[(64'h15)+:(7)] = plans$first_dealt;
             passed_point$d = points$read_data;
-            passed_is_seed$d = plans$due[(64'hf)+:(1)];
-            passed_dealt$d = plans$first_dealt;
-            turn$d = after_turn;
-            third$d = third$q + three;
-            if (after_turn == contexts) begin
-                turn$d = 32'h0;
-                third$d = 32'h2;
-                is_planned$d = 1'b1;
-                round$d = round$q + one_round;
-            end
         end
         if (reset | clears) begin
-            turn$d = 32'h0;
-            third$d = 32'h2;
-            round$d = 32'h0;
-            is_planned$d = 1'b0;
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
-            is_alone$d = 1'b0;
+            candidate$d[(64'h42)+:(1)] = 1'b0;
             all_work$d = deal[(64'h5)+:(1)] & (~reset);
         end
     end
     
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$all_work(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$all_work(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -14362,124 +12298,89 @@ module incircle_core_logic$engine$insertions$dispatcher$start$all_work(d,q,clock
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$all_work
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$all_work
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$candidate(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$candidate(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
+    input wire  [66:0] d;
+    output reg  [66:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 5'h0;
+       q = 67'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$candidate
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$candidate_id(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$check(contexts,passed,arrived,seeded,is_planned,rests_over,all_work,may_be_starting,wants_again,wants_new,tries_again,is_hinted);
     
     // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
+    input wire  [133:0] contexts;
+    input wire  [27:0] passed;
+    input wire  [14:0] arrived;
+    input wire  seeded;
+    input wire  is_planned;
+    input wire  rests_over;
+    input wire  all_work;
+    input wire  may_be_starting;
+    output reg  wants_again;
+    output reg  wants_new;
+    output reg  tries_again;
+    output reg  is_hinted;
     
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
+    // Local signals
+    reg  [4:0] index;
+    reg  [23:0] asleep;
+    reg  [23:0] keeping;
+    reg  [23:0] busy;
+    reg  [23:0] began;
+    reg  [23:0] hinted;
+    reg  is_asleep;
+    reg  keeps;
+    reg  is_rested;
+    reg  may_try;
+    reg  may_work;
+    reg  is_there;
+    reg  is_barred;
+    reg  [4:0] first_context;
+    
+    // Update code
+    always @(*) begin
+        first_context = 32'h0;
+        index = passed[(64'h0)+:(5)];
+        asleep = contexts[(64'h0)+:(24)];
+        keeping = contexts[(64'h18)+:(24)];
+        busy = contexts[(64'h30)+:(24)];
+        began = contexts[(64'h48)+:(24)];
+        hinted = contexts[(64'h60)+:(24)];
+        is_barred = contexts[(64'h7f)+:(1)] | may_be_starting;
+        is_asleep = asleep[index] & (~is_barred);
+        keeps = keeping[index];
+        is_rested = (~busy[index]) & rests_over;
+        may_try = (~contexts[(64'h7e)+:(1)]) | (passed[(64'h0)+:(5)] == contexts[(64'h79)+:(5)]);
+        wants_again = is_asleep & keeps & is_rested & may_try;
+        may_work = all_work;
+        if (passed[(64'h0)+:(5)] == first_context) begin
+            may_work = seeded | (~began[32'h0]);
+        end
+        is_there = is_planned & (passed[(64'h5)+:(15)] < arrived);
+        wants_new = is_asleep & (~keeps) & is_there & may_work;
+        tries_again = keeps;
+        is_hinted = hinted[index];
     end
     
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_id
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$check
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$candidate_is_dealt(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_is_dealt
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$candidate_plan(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_plan
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$candidate_point(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$candidate_point
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$from(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$from
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$hints(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$dispatcher$starter$hints(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -14499,86 +12400,29 @@ module incircle_core_logic$engine$insertions$dispatcher$start$hints(clock,write_
         if (write_enable) memory[write_address[3:0]] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$hints
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$hints
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$is_alone(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$passed(d,q,clock);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
+    input wire  [27:0] d;
+    output reg  [27:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 1'h0;
+       q = 28'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$is_alone
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$passed
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$is_planned(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$is_planned
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$passed(d,q,clock);
-    
-    // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$passed_dealt(d,q,clock);
-    
-    // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_dealt
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$passed_id(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$passed_point(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -14594,81 +12438,29 @@ module incircle_core_logic$engine$insertions$dispatcher$start$passed_id(d,q,cloc
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_id
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$passed_point
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$passed_is_seed(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_is_seed
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$passed_point(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$passed_point
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,turn,third,is_planned,due,first_dealt,taker,taken,took_seed,taken_dealt,taken_is_dealt,after_taken,first_record,takes,owner,planned);
+module incircle_core_logic$engine$insertions$dispatcher$starter$plans(clock,deal,pointer,is_planned,due,first_dealt,passed,following,write);
     
     // Module arguments
     input wire  clock;
     input wire  [12:0] deal;
-    input wire  [4:0] turn;
-    input wire  [6:0] third;
+    input wire  [11:0] pointer;
     input wire  is_planned;
     output reg  [15:0] due;
     output reg  [6:0] first_dealt;
-    input wire  [4:0] taker;
-    input wire  [14:0] taken;
-    input wire  took_seed;
-    input wire  [6:0] taken_dealt;
-    output reg  taken_is_dealt;
-    output reg  [14:0] after_taken;
-    output reg  [14:0] first_record;
-    input wire  takes;
-    input wire  [4:0] owner;
-    input wire  [14:0] planned;
+    input wire  [27:0] passed;
+    output reg  [30:0] following;
+    input wire  [20:0] write;
     
     // Stub signals
-    reg  [12:0] following$deal;
-    reg  [4:0] following$turn;
-    reg  [6:0] following$third;
-    wire  [15:0] following$first;
-    wire  [6:0] following$first_dealt;
-    reg  [4:0] following$taker;
-    reg  [14:0] following$taken;
-    reg  following$took_seed;
-    reg  [6:0] following$taken_dealt;
-    wire  following$taken_is_dealt;
-    wire  [14:0] following$after_taken;
-    wire  [14:0] following$first_record;
+    reg  [12:0] points$deal;
+    reg  [11:0] points$pointer;
+    wire  [15:0] points$first;
+    wire  [6:0] points$first_dealt;
+    reg  [27:0] points$passed;
+    wire  [30:0] points$following;
     reg  plans$clock;
     reg  [4:0] plans$write_address;
     reg  [15:0] plans$write_data;
@@ -14683,21 +12475,15 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
     reg  [15:0] written_bits;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$dispatcher$start$plans$following following(
-        .deal(following$deal),
-        .turn(following$turn),
-        .third(following$third),
-        .first(following$first),
-        .first_dealt(following$first_dealt),
-        .taker(following$taker),
-        .taken(following$taken),
-        .took_seed(following$took_seed),
-        .taken_dealt(following$taken_dealt),
-        .taken_is_dealt(following$taken_is_dealt),
-        .after_taken(following$after_taken),
-        .first_record(following$first_record)
+    incircle_core_logic$engine$insertions$dispatcher$starter$plans$points points(
+        .deal(points$deal),
+        .pointer(points$pointer),
+        .first(points$first),
+        .first_dealt(points$first_dealt),
+        .passed(points$passed),
+        .following(points$following)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$plans$plans plans(
+    incircle_core_logic$engine$insertions$dispatcher$starter$plans$plans plans(
         .clock(plans$clock),
         .write_address(plans$write_address),
         .write_data(plans$write_data),
@@ -14705,7 +12491,7 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
         .read_address(plans$read_address),
         .read_data(plans$read_data)
     );
-    incircle_core_logic$engine$insertions$dispatcher$start$plans$plan plan(
+    incircle_core_logic$engine$insertions$dispatcher$starter$plans$plan plan(
         .bits(plan$bits),
         .value(plan$value)
     );
@@ -14713,53 +12499,76 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans(clock,deal,t
     // Update code
     always @(*) begin
         plans$clock = clock;
-        following$deal = deal;
-        following$turn = turn;
-        following$third = third;
-        following$taker = taker;
-        following$taken = taken;
-        following$took_seed = took_seed;
-        following$taken_dealt = taken_dealt;
-        first_dealt = following$first_dealt;
-        taken_is_dealt = following$taken_is_dealt;
-        after_taken = following$after_taken;
-        first_record = following$first_record;
-        plans$read_address = turn;
+        points$deal = deal;
+        points$pointer = pointer;
+        points$passed = passed;
+        first_dealt = points$first_dealt;
+        following = points$following;
+        plans$read_address = pointer[(64'h0)+:(5)];
         plan$bits = plans$read_data;
-        plans$write_address = turn;
-        due = following$first;
-        written = following$first;
+        plans$write_address = pointer[(64'h0)+:(5)];
+        due = points$first;
+        written = points$first;
         if (is_planned) begin
-            plans$write_address = owner;
+            plans$write_address = write[(64'h1)+:(5)];
             due = plan$value;
-            written[(64'h0)+:(15)] = planned;
+            written[(64'h0)+:(15)] = write[(64'h6)+:(15)];
             written[(64'hf)+:(1)] = 1'b0;
         end
         written_bits = written;
         plans$write_data = written_bits;
-        plans$write_enable = takes | (~is_planned);
+        plans$write_enable = write[(64'h0)+:(1)] | (~is_planned);
     end
     
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$plans
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(deal,turn,third,first,first_dealt,taker,taken,took_seed,taken_dealt,taken_is_dealt,after_taken,first_record);
+module incircle_core_logic$engine$insertions$dispatcher$starter$plans$plan(bits,value);
+    
+    // Module arguments
+    input wire  [15:0] bits;
+    output reg  [15:0] value;
+    
+    // Update code (custom)
+    always @(*) value = bits;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$plans$plan
+
+
+module incircle_core_logic$engine$insertions$dispatcher$starter$plans$plans(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [15:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [15:0] read_data;
+    
+    // Update code (custom)
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [15:0] memory [0:15];
+    wire [15:0] word = memory[read_address[3:0]];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address[3:0]] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$plans$plans
+
+
+module incircle_core_logic$engine$insertions$dispatcher$starter$plans$points(deal,pointer,first,first_dealt,passed,following);
     
     // Module arguments
     input wire  [12:0] deal;
-    input wire  [4:0] turn;
-    input wire  [6:0] third;
+    input wire  [11:0] pointer;
     output reg  [15:0] first;
     output reg  [6:0] first_dealt;
-    input wire  [4:0] taker;
-    input wire  [14:0] taken;
-    input wire  took_seed;
-    input wire  [6:0] taken_dealt;
-    output reg  taken_is_dealt;
-    output reg  [14:0] after_taken;
-    output reg  [14:0] first_record;
+    input wire  [27:0] passed;
+    output reg  [30:0] following;
     
     // Local signals
+    reg  [14:0] taken;
     reg  is_batch;
     reg  is_early;
     reg  is_dealt;
@@ -14782,120 +12591,162 @@ module incircle_core_logic$engine$insertions$dispatcher$start$plans$following(de
         one = 32'h1;
         two = 32'h2;
         is_batch = deal[(64'h5)+:(1)];
-        wide_turn = ((turn) & 15'h7fff);
-        wide_taker = ((taker) & 15'h7fff);
-        narrow_turn = ((turn) & 7'h7f);
+        taken = passed[(64'h5)+:(15)];
+        wide_turn = ((pointer[(64'h0)+:(5)]) & 15'h7fff);
+        wide_taker = ((passed[(64'h0)+:(5)]) & 15'h7fff);
+        narrow_turn = ((pointer[(64'h0)+:(5)]) & 7'h7f);
         dealt_from = deal[(64'h6)+:(7)];
         first_dealt = dealt_from + narrow_turn;
         rounds = taken[(32'h4)+:(11)];
         is_dealt = |rounds;
-        taken_is_dealt = is_dealt;
+        following[(64'h0)+:(1)] = is_dealt;
         is_early = (~is_dealt) & (~is_batch);
         from = taken;
         step = ((deal[(64'h0)+:(5)]) & 15'h7fff);
         if (is_early) begin
             step = one;
         end
-        if (took_seed) begin
-            from = ((taken_dealt) & 15'h7fff);
+        if (passed[(64'h14)+:(1)]) begin
+            from = ((passed[(64'h15)+:(7)]) & 15'h7fff);
             step = 32'h0;
         end
-        after_taken = from + step;
-        first_record = 32'h0;
+        following[(64'h1)+:(15)] = from + step;
+        following[(64'h10)+:(15)] = 32'h0;
         if (is_batch) begin
-            first_record = wide_taker << two;
+            following[(64'h10)+:(15)] = wide_taker << two;
         end
         first[(64'h0)+:(15)] = wide_turn + first_round;
-        if (is_batch | (turn == first_context)) begin
-            first[(64'h0)+:(15)] = ((third) & 15'h7fff);
+        if (is_batch | (pointer[(64'h0)+:(5)] == first_context)) begin
+            first[(64'h0)+:(15)] = ((pointer[(64'h5)+:(7)]) & 15'h7fff);
         end
         first[(64'hf)+:(1)] = is_batch;
     end
     
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans$following
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$plans$points
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$plans$plan(bits,value);
-    
-    // Module arguments
-    input wire  [15:0] bits;
-    output reg  [15:0] value;
-    
-    // Update code (custom)
-    always @(*) value = bits;
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans$plan
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$plans$plans(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$dispatcher$starter$pointer(clock,restarts,contexts,moves,pointer,is_planned,rests_over);
     
     // Module arguments
     input wire  clock;
-    input wire  [4:0] write_address;
-    input wire  [15:0] write_data;
-    input wire  write_enable;
-    input wire  [4:0] read_address;
-    output reg  [15:0] read_data;
+    input wire  restarts;
+    input wire  [4:0] contexts;
+    input wire  moves;
+    output reg  [11:0] pointer;
+    output reg  is_planned;
+    output reg  rests_over;
     
-    // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[4:4]};
-    wire unused_read_address = &{1'b0, read_address[4:4]};
-    (* ram_style = "distributed" *)
-    reg [15:0] memory [0:15];
-    wire [15:0] word = memory[read_address[3:0]];
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[3:0]] <= write_data;
+    // Stub signals
+    reg  [11:0] place$d;
+    wire  [11:0] place$q;
+    reg  place$clock;
+    reg  [1:0] round$d;
+    wire  [1:0] round$q;
+    reg  round$clock;
+    reg  planned$d;
+    wire  planned$q;
+    reg  planned$clock;
+    
+    // Local signals
+    reg  [4:0] after_turn;
+    reg  [4:0] one_turn;
+    reg  [6:0] three;
+    reg  [1:0] one_round;
+    reg  [1:0] resting_round;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$dispatcher$starter$pointer$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$starter$pointer$round round(
+        .d(round$d),
+        .q(round$q),
+        .clock(round$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$starter$pointer$planned planned(
+        .d(planned$d),
+        .q(planned$q),
+        .clock(planned$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        place$clock = clock;
+        round$clock = clock;
+        planned$clock = clock;
+        place$d = place$q;
+        round$d = round$q;
+        planned$d = planned$q;
+        one_turn = 32'h1;
+        three = 32'h3;
+        one_round = 32'h1;
+        resting_round = 32'h0;
+        pointer = place$q;
+        is_planned = planned$q;
+        rests_over = round$q == resting_round;
+        after_turn = place$q[(64'h0)+:(5)] + one_turn;
+        if (moves) begin
+            place$d[(64'h0)+:(5)] = after_turn;
+            place$d[(64'h5)+:(7)] = place$q[(64'h5)+:(7)] + three;
+            if (after_turn == contexts) begin
+                place$d[(64'h0)+:(5)] = 32'h0;
+                place$d[(64'h5)+:(7)] = 32'h2;
+                planned$d = 1'b1;
+                round$d = round$q + one_round;
+            end
+        end
+        if (restarts) begin
+            place$d[(64'h0)+:(5)] = 32'h0;
+            place$d[(64'h5)+:(7)] = 32'h2;
+            round$d = 32'h0;
+            planned$d = 1'b0;
+        end
     end
-    always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$plans$plans
+    
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$points(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$place(d,q,clock);
     
     // Module arguments
+    input wire  [11:0] d;
+    output reg  [11:0] q;
     input wire  clock;
-    input wire  [4:0] write_address;
-    input wire  [14:0] write_data;
-    input wire  write_enable;
-    input wire  [4:0] read_address;
-    output reg  [14:0] read_data;
     
     // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[4:4]};
-    wire unused_read_address = &{1'b0, read_address[4:4]};
-    (* ram_style = "distributed" *)
-    reg [14:0] memory [0:15];
-    wire [14:0] word = memory[read_address[3:0]];
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[3:0]] <= write_data;
+    initial begin
+       q = 12'h0;
     end
-    always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$points
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer$place
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$roots(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$planned(d,q,clock);
     
     // Module arguments
+    input wire  d;
+    output reg  q;
     input wire  clock;
-    input wire  [4:0] write_address;
-    input wire  [14:0] write_data;
-    input wire  write_enable;
-    input wire  [4:0] read_address;
-    output reg  [14:0] read_data;
     
     // Update code (custom)
-    wire unused_write_address = &{1'b0, write_address[4:4]};
-    wire unused_read_address = &{1'b0, read_address[4:4]};
-    (* ram_style = "distributed" *)
-    reg [14:0] memory [0:15];
-    wire [14:0] word = memory[read_address[3:0]];
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address[3:0]] <= write_data;
+    initial begin
+       q = 1'h0;
     end
-    always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$roots
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer$planned
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$round(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$round(d,q,clock);
     
     // Module arguments
     input wire  [1:0] d;
@@ -14911,67 +12762,56 @@ module incircle_core_logic$engine$insertions$dispatcher$start$round(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$round
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer$round
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$third(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$points(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
     input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [14:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [14:0] read_data;
     
     // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [14:0] memory [0:15];
+    wire [14:0] word = memory[read_address[3:0]];
     always @(posedge clock) begin
-       q <= d;
+        if (write_enable) memory[write_address[3:0]] <= write_data;
     end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$third
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$points
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$turn(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$roots(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
     input wire  clock;
+    input wire  [4:0] write_address;
+    input wire  [14:0] write_data;
+    input wire  write_enable;
+    input wire  [4:0] read_address;
+    output reg  [14:0] read_data;
     
     // Update code (custom)
-    initial begin
-       q = 5'h0;
-    end
-    
+    wire unused_write_address = &{1'b0, write_address[4:4]};
+    wire unused_read_address = &{1'b0, read_address[4:4]};
+    (* ram_style = "distributed" *)
+    reg [14:0] memory [0:15];
+    wire [14:0] word = memory[read_address[3:0]];
     always @(posedge clock) begin
-       q <= d;
+        if (write_enable) memory[write_address[3:0]] <= write_data;
     end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$turn
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$roots
 
 
-module incircle_core_logic$engine$insertions$dispatcher$start$wants_again(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$wants_again
-
-
-module incircle_core_logic$engine$insertions$dispatcher$start$wants_new(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$wants_again(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -14987,7 +12827,26 @@ module incircle_core_logic$engine$insertions$dispatcher$start$wants_new(d,q,cloc
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$start$wants_new
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$wants_again
+
+
+module incircle_core_logic$engine$insertions$dispatcher$starter$wants_new(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$wants_new
 
 
 module incircle_core_logic$engine$insertions$dispatcher$taken1(d,q,clock);
@@ -15223,53 +13082,32 @@ module incircle_core_logic$engine$insertions$dispatcher$watchdog$rests(d,q,clock
 endmodule // incircle_core_logic$engine$insertions$dispatcher$watchdog$rests
 
 
-module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,records,position_owner,position,position_enable,is_issuing,done,token,turned,verdict,early_done,early_token,early_turned,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,write,enables,vertex_id,vertex_position,vertex_enable,fetch_id,fetched,clear_id,clear_enable);
+module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,position,is_issuing,visit,early,read,read_out,write,enables,arrival,fetch_id,fetched,clear);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  [14:0] infinite;
-    input wire  push;
-    input wire  [92:0] bundle;
     input wire  [14:0] records;
-    input wire  [4:0] position_owner;
-    input wire  [31:0] position;
-    input wire  position_enable;
+    input wire  [93:0] push;
+    input wire  [37:0] position;
     output reg  is_issuing;
-    output reg  done;
-    output reg  [54:0] token;
-    output reg  [97:0] turned;
-    output reg  [19:0] verdict;
-    output reg  early_done;
-    output reg  [54:0] early_token;
-    output reg  [97:0] early_turned;
-    input wire  read;
-    input wire  [14:0] read_id;
-    output reg  read_done;
-    output reg  [14:0] v0;
-    output reg  [14:0] v1;
-    output reg  [14:0] v2;
-    output reg  [14:0] n0;
-    output reg  [14:0] n1;
-    output reg  [14:0] n2;
-    output reg  was_set;
+    output reg  [173:0] visit;
+    output reg  [153:0] early;
+    input wire  [15:0] read;
+    output reg  [91:0] read_out;
     input wire  [109:0] write;
     input wire  [33:0] enables;
-    input wire  [14:0] vertex_id;
-    input wire  [31:0] vertex_position;
-    input wire  vertex_enable;
+    input wire  [47:0] arrival;
     input wire  [14:0] fetch_id;
     output reg  [31:0] fetched;
-    input wire  [14:0] clear_id;
-    input wire  clear_enable;
+    input wire  [15:0] clear;
     
     // Stub signals
     reg  issue$clock;
     reg  issue$reset;
-    reg  issue$push;
-    reg  [92:0] issue$bundle;
-    reg  issue$read;
-    reg  [14:0] issue$read_id;
+    reg  [93:0] issue$push;
+    reg  [15:0] issue$read;
     wire  issue$token_valid;
     wire  [54:0] issue$token;
     wire  [14:0] issue$vertices_id;
@@ -15283,53 +13121,31 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
     reg  [14:0] triangles$links_id;
     reg  triangles$read_locks;
     reg  [4:0] triangles$owner;
-    wire  [14:0] triangles$v0;
-    wire  [14:0] triangles$v1;
-    wire  [14:0] triangles$v2;
-    wire  [14:0] triangles$n0;
-    wire  [14:0] triangles$n1;
-    wire  [14:0] triangles$n2;
+    wire  [90:0] triangles$record;
     wire  triangles$took;
     wire  triangles$foreign;
-    wire  triangles$was_set;
-    reg  [14:0] triangles$clear_id;
-    reg  triangles$clear_enable;
+    reg  [15:0] triangles$clear;
     reg  vertices$clock;
-    reg  [14:0] vertices$write_id;
-    reg  [31:0] vertices$write_position;
-    reg  vertices$write_enable;
+    reg  [47:0] vertices$write;
     reg  [14:0] vertices$id0;
     reg  [14:0] vertices$id1;
     reg  [14:0] vertices$id2;
-    wire  [31:0] vertices$position0;
-    wire  [31:0] vertices$position1;
-    wire  [31:0] vertices$position2;
+    wire  [95:0] vertices$corners;
     reg  [14:0] vertices$fetch_id;
     wire  [31:0] vertices$fetched;
     reg  reader$clock;
     reg  [14:0] reader$infinite;
     reg  [54:0] reader$token;
-    reg  [14:0] reader$v0;
-    reg  [14:0] reader$v1;
-    reg  [14:0] reader$v2;
-    reg  [14:0] reader$n0;
-    reg  [14:0] reader$n1;
-    reg  [14:0] reader$n2;
+    reg  [90:0] reader$record;
+    reg  reader$again;
     reg  reader$took;
     reg  reader$foreign;
-    reg  reader$again;
-    reg  [31:0] reader$position0;
-    reg  [31:0] reader$position1;
-    reg  [31:0] reader$position2;
+    reg  [95:0] reader$stored_corners;
     wire  [97:0] reader$turned;
     wire  [54:0] reader$token_at_record;
-    wire  [31:0] reader$r0;
-    wire  [31:0] reader$r1;
-    wire  [31:0] reader$r2;
+    wire  [95:0] reader$corners;
     reg  judge$clock;
-    reg  [31:0] judge$r0;
-    reg  [31:0] judge$r1;
-    reg  [31:0] judge$r2;
+    reg  [95:0] judge$corners;
     reg  [31:0] judge$p;
     reg  [97:0] judge$turned;
     wire  [19:0] judge$verdict;
@@ -15367,8 +13183,8 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
     reg  [31:0] point$d;
     wire  [31:0] point$q;
     reg  point$clock;
-    reg  [15:0] valid$d;
-    wire  [15:0] valid$q;
+    reg  [14:0] valid$d;
+    wire  [14:0] valid$q;
     reg  valid$clock;
     reg  read_valid1$d;
     wire  read_valid1$q;
@@ -15376,32 +13192,24 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
     reg  read_valid2$d;
     wire  read_valid2$q;
     reg  read_valid2$clock;
-    reg  [54:0] token_register$d;
-    wire  [54:0] token_register$q;
-    reg  token_register$clock;
-    reg  [97:0] turned_register$d;
-    wire  [97:0] turned_register$q;
-    reg  turned_register$clock;
-    reg  [19:0] verdict_register$d;
-    wire  [19:0] verdict_register$q;
-    reg  verdict_register$clock;
+    reg  [173:0] completes$d;
+    wire  [173:0] completes$q;
+    reg  completes$clock;
     
     // Local signals
     reg  is_written;
     reg  is_torn;
     reg  [54:0] token_bits;
     reg  [97:0] turned_bits;
-    reg  [15:0] shifted;
-    reg  [15:0] one;
+    reg  [14:0] shifted;
+    reg  [14:0] one;
     
     // Sub module instances
     incircle_core_logic$engine$pipeline$issue issue(
         .clock(issue$clock),
         .reset(issue$reset),
         .push(issue$push),
-        .bundle(issue$bundle),
         .read(issue$read),
-        .read_id(issue$read_id),
         .token_valid(issue$token_valid),
         .token(issue$token),
         .vertices_id(issue$vertices_id),
@@ -15417,29 +13225,18 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         .links_id(triangles$links_id),
         .read_locks(triangles$read_locks),
         .owner(triangles$owner),
-        .v0(triangles$v0),
-        .v1(triangles$v1),
-        .v2(triangles$v2),
-        .n0(triangles$n0),
-        .n1(triangles$n1),
-        .n2(triangles$n2),
+        .record(triangles$record),
         .took(triangles$took),
         .foreign(triangles$foreign),
-        .was_set(triangles$was_set),
-        .clear_id(triangles$clear_id),
-        .clear_enable(triangles$clear_enable)
+        .clear(triangles$clear)
     );
     incircle_core_logic$engine$pipeline$vertices vertices(
         .clock(vertices$clock),
-        .write_id(vertices$write_id),
-        .write_position(vertices$write_position),
-        .write_enable(vertices$write_enable),
+        .write(vertices$write),
         .id0(vertices$id0),
         .id1(vertices$id1),
         .id2(vertices$id2),
-        .position0(vertices$position0),
-        .position1(vertices$position1),
-        .position2(vertices$position2),
+        .corners(vertices$corners),
         .fetch_id(vertices$fetch_id),
         .fetched(vertices$fetched)
     );
@@ -15447,29 +13244,18 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         .clock(reader$clock),
         .infinite(reader$infinite),
         .token(reader$token),
-        .v0(reader$v0),
-        .v1(reader$v1),
-        .v2(reader$v2),
-        .n0(reader$n0),
-        .n1(reader$n1),
-        .n2(reader$n2),
+        .record(reader$record),
+        .again(reader$again),
         .took(reader$took),
         .foreign(reader$foreign),
-        .again(reader$again),
-        .position0(reader$position0),
-        .position1(reader$position1),
-        .position2(reader$position2),
+        .stored_corners(reader$stored_corners),
         .turned(reader$turned),
         .token_at_record(reader$token_at_record),
-        .r0(reader$r0),
-        .r1(reader$r1),
-        .r2(reader$r2)
+        .corners(reader$corners)
     );
     incircle_core_logic$engine$pipeline$judge judge(
         .clock(judge$clock),
-        .r0(judge$r0),
-        .r1(judge$r1),
-        .r2(judge$r2),
+        .corners(judge$corners),
         .p(judge$p),
         .turned(judge$turned),
         .verdict(judge$verdict)
@@ -15545,20 +13331,10 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         .q(read_valid2$q),
         .clock(read_valid2$clock)
     );
-    incircle_core_logic$engine$pipeline$token_register token_register(
-        .d(token_register$d),
-        .q(token_register$q),
-        .clock(token_register$clock)
-    );
-    incircle_core_logic$engine$pipeline$turned_register turned_register(
-        .d(turned_register$d),
-        .q(turned_register$q),
-        .clock(turned_register$clock)
-    );
-    incircle_core_logic$engine$pipeline$verdict_register verdict_register(
-        .d(verdict_register$d),
-        .q(verdict_register$q),
-        .clock(verdict_register$clock)
+    incircle_core_logic$engine$pipeline$completes completes(
+        .d(completes$d),
+        .q(completes$q),
+        .clock(completes$clock)
     );
     
     // Update code
@@ -15571,10 +13347,6 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         valid$clock = clock;
         read_valid1$clock = clock;
         read_valid2$clock = clock;
-        judged$clock = clock;
-        token_register$clock = clock;
-        turned_register$clock = clock;
-        verdict_register$clock = clock;
         again1$d = again1$q;
         again2$d = again2$q;
         owner3$d = owner3$q;
@@ -15583,10 +13355,10 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         valid$d = valid$q;
         read_valid1$d = read_valid1$q;
         read_valid2$d = read_valid2$q;
+        judged$clock = clock;
+        completes$clock = clock;
         judged$d = judged$q;
-        token_register$d = token_register$q;
-        turned_register$d = turned_register$q;
-        verdict_register$d = verdict_register$q;
+        completes$d = completes$q;
         issue$clock = clock;
         triangles$clock = clock;
         vertices$clock = clock;
@@ -15599,9 +13371,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         reader$infinite = infinite;
         issue$reset = reset;
         issue$push = push;
-        issue$bundle = bundle;
         issue$read = read;
-        issue$read_id = read_id;
         is_issuing = issue$token_valid;
         is_written = issue$token[(64'h28)+:(15)] < records;
         is_torn = write[(64'h0)+:(1)] & (write[(64'h1)+:(15)] == issue$token[(64'h28)+:(15)]);
@@ -15614,49 +13384,31 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         triangles$owner = issue$token[(64'h0)+:(5)];
         triangles$write = write;
         triangles$enables = enables;
-        triangles$clear_id = clear_id;
-        triangles$clear_enable = clear_enable;
+        triangles$clear = clear;
         reader$token = issue$token;
-        reader$v0 = triangles$v0;
-        reader$v1 = triangles$v1;
-        reader$v2 = triangles$v2;
-        reader$n0 = triangles$n0;
-        reader$n1 = triangles$n1;
-        reader$n2 = triangles$n2;
+        reader$record = triangles$record;
         reader$took = triangles$took;
         reader$foreign = triangles$foreign;
         reader$again = again2$q;
-        v0 = triangles$v0;
-        v1 = triangles$v1;
-        v2 = triangles$v2;
-        n0 = triangles$n0;
-        n1 = triangles$n1;
-        n2 = triangles$n2;
-        was_set = triangles$was_set;
         read_valid1$d = issue$read_valid;
         read_valid2$d = read_valid1$q;
-        read_done = read_valid2$q;
-        vertices$id0 = triangles$v0;
-        vertices$id1 = triangles$v1;
-        vertices$id2 = triangles$v2;
-        vertices$write_id = vertex_id;
-        vertices$write_position = vertex_position;
-        vertices$write_enable = vertex_enable;
-        reader$position0 = vertices$position0;
-        reader$position1 = vertices$position1;
-        reader$position2 = vertices$position2;
+        read_out[(64'h0)+:(1)] = read_valid2$q;
+        read_out[(64'h1)+:(91)] = triangles$record;
+        vertices$id0 = triangles$record[(64'h0)+:(15)];
+        vertices$id1 = triangles$record[(64'hf)+:(15)];
+        vertices$id2 = triangles$record[(64'h1e)+:(15)];
+        vertices$write = arrival;
+        reader$stored_corners = vertices$corners;
         vertices$fetch_id = fetch_id;
         fetched = vertices$fetched;
         owner3$d = reader$token_at_record[(64'h0)+:(5)];
         owner4$d = owner3$q;
-        positions$write_address = position_owner;
-        positions$write_data = position;
-        positions$write_enable = position_enable;
+        positions$write_address = position[(64'h1)+:(5)];
+        positions$write_data = position[(64'h6)+:(32)];
+        positions$write_enable = position[(64'h0)+:(1)];
         positions$read_address = owner4$q;
         point$d = positions$read_data;
-        judge$r0 = reader$r0;
-        judge$r1 = reader$r1;
-        judge$r2 = reader$r2;
+        judge$corners = reader$corners;
         judge$p = point$q;
         token_bits = reader$token_at_record;
         token_delay$data_in = token_bits;
@@ -15666,21 +13418,19 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,push,bundle,reco
         delayed_turned$bits = turned_delay$data_out;
         judged$d = delayed_turned$value;
         judge$turned = judged$q;
-        token_register$d = delayed_token$value;
-        turned_register$d = judged$q;
-        verdict_register$d = judge$verdict;
-        early_done = valid$q[32'he];
-        early_token = delayed_token$value;
-        early_turned = judged$q;
-        token = token_register$q;
-        turned = turned_register$q;
-        verdict = verdict_register$q;
+        early[(64'h0)+:(1)] = valid$q[32'he];
+        early[(64'h1)+:(55)] = delayed_token$value;
+        early[(64'h38)+:(98)] = judged$q;
+        completes$d[(64'h0)+:(1)] = valid$q[32'he] & (~reset);
+        completes$d[(64'h1)+:(55)] = delayed_token$value;
+        completes$d[(64'h38)+:(98)] = judged$q;
+        completes$d[(64'h9a)+:(20)] = judge$verdict;
+        visit = completes$q;
         shifted = valid$q << one;
         valid$d = shifted;
         if (issue$token_valid) begin
             valid$d = shifted | one;
         end
-        done = valid$q[32'hf];
         if (reset) begin
             valid$d = 32'h0;
             read_valid1$d = 1'b0;
@@ -15729,6 +13479,25 @@ module incircle_core_logic$engine$pipeline$again2(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$again2
 
 
+module incircle_core_logic$engine$pipeline$completes(d,q,clock);
+    
+    // Module arguments
+    input wire  [173:0] d;
+    output reg  [173:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 174'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$completes
+
+
 module incircle_core_logic$engine$pipeline$delayed_token(bits,value);
     
     // Module arguments
@@ -15751,15 +13520,13 @@ module incircle_core_logic$engine$pipeline$delayed_turned(bits,value);
 endmodule // incircle_core_logic$engine$pipeline$delayed_turned
 
 
-module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,read_id,token_valid,token,vertices_id,links_id,read_valid);
+module incircle_core_logic$engine$pipeline$issue(clock,reset,push,read,token_valid,token,vertices_id,links_id,read_valid);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
-    input wire  push;
-    input wire  [92:0] bundle;
-    input wire  read;
-    input wire  [14:0] read_id;
+    input wire  [93:0] push;
+    input wire  [15:0] read;
     output reg  token_valid;
     output reg  [54:0] token;
     output reg  [14:0] vertices_id;
@@ -15799,6 +13566,7 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
     reg  third_is_due$clock;
     
     // Local signals
+    reg  [92:0] pushed;
     reg  [92:0] bundle_bits;
     reg  [14:0] record;
     reg  [14:0] no_record;
@@ -15874,8 +13642,9 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
         third_is_due$d = third_is_due$q;
         queue$clock = clock;
         queue$reset = reset;
-        queue$push = push;
-        bundle_bits = bundle;
+        queue$push = push[(64'h0)+:(1)];
+        pushed = push[(64'h1)+:(93)];
+        bundle_bits = pushed;
         queue$push_data = bundle_bits;
         head$bits = queue$data;
         token = issued$q;
@@ -15890,7 +13659,7 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
         second_is_due$d = queue$valid & second_follows;
         third_is_due$d = queue$valid & third_follows;
         issued_valid$d = queue$valid;
-        issued_read$d = read;
+        issued_read$d = read[(64'h0)+:(1)];
         issued$d[(64'h0)+:(5)] = head$value[(64'h2)+:(5)];
         issued$d[(64'h5)+:(1)] = head$value[(64'h7)+:(1)];
         issued$d[(64'h6)+:(1)] = head$value[(64'h8)+:(1)];
@@ -15909,8 +13678,8 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,bundle,read,re
             issued$d[(64'hd)+:(6)] = 32'h0;
             record = head$value[(64'h4e)+:(15)];
         end
-        if (read) begin
-            record = read_id;
+        if (read[(64'h0)+:(1)]) begin
+            record = read[(64'h1)+:(15)];
         end
         issued$d[(64'h28)+:(15)] = record;
         vertices_copy$d = record;
@@ -16038,11 +13807,16 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     
     // Stub signals
     reg  ring$clock;
+    reg  ring$reset;
     reg  [10:0] ring$write_address;
     reg  [92:0] ring$write_data;
     reg  ring$write_enable;
     reg  [10:0] ring$read_address;
-    wire  [92:0] ring$read_data;
+    reg  ring$fetches;
+    reg  [3:0] ring$place;
+    wire  ring$fetched;
+    wire  [3:0] ring$fetched_place;
+    wire  [92:0] ring$fetched_data;
     reg  new_bank$clock;
     reg  [3:0] new_bank$write_address;
     reg  [92:0] new_bank$write_data;
@@ -16088,18 +13862,6 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     reg  [3:0] after_first$d;
     wire  [3:0] after_first$q;
     reg  after_first$clock;
-    reg  fetch_in_array$d;
-    wire  fetch_in_array$q;
-    reg  fetch_in_array$clock;
-    reg  fetch_in_output$d;
-    wire  fetch_in_output$q;
-    reg  fetch_in_output$clock;
-    reg  [3:0] place_in_array$d;
-    wire  [3:0] place_in_array$q;
-    reg  place_in_array$clock;
-    reg  [3:0] place_in_output$d;
-    wire  [3:0] place_in_output$q;
-    reg  place_in_output$clock;
     
     // Local signals
     reg  [92:0] kept_data;
@@ -16118,11 +13880,16 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     // Sub module instances
     incircle_core_logic$engine$pipeline$issue$queue$ring ring(
         .clock(ring$clock),
+        .reset(ring$reset),
         .write_address(ring$write_address),
         .write_data(ring$write_data),
         .write_enable(ring$write_enable),
         .read_address(ring$read_address),
-        .read_data(ring$read_data)
+        .fetches(ring$fetches),
+        .place(ring$place),
+        .fetched(ring$fetched),
+        .fetched_place(ring$fetched_place),
+        .fetched_data(ring$fetched_data)
     );
     incircle_core_logic$engine$pipeline$issue$queue$new_bank new_bank(
         .clock(new_bank$clock),
@@ -16193,26 +13960,6 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         .q(after_first$q),
         .clock(after_first$clock)
     );
-    incircle_core_logic$engine$pipeline$issue$queue$fetch_in_array fetch_in_array(
-        .d(fetch_in_array$d),
-        .q(fetch_in_array$q),
-        .clock(fetch_in_array$clock)
-    );
-    incircle_core_logic$engine$pipeline$issue$queue$fetch_in_output fetch_in_output(
-        .d(fetch_in_output$d),
-        .q(fetch_in_output$q),
-        .clock(fetch_in_output$clock)
-    );
-    incircle_core_logic$engine$pipeline$issue$queue$place_in_array place_in_array(
-        .d(place_in_array$d),
-        .q(place_in_array$q),
-        .clock(place_in_array$clock)
-    );
-    incircle_core_logic$engine$pipeline$issue$queue$place_in_output place_in_output(
-        .d(place_in_output$d),
-        .q(place_in_output$q),
-        .clock(place_in_output$clock)
-    );
     
     // Update code
     always @(*) begin
@@ -16234,14 +13981,6 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         newest$d = newest$q;
         fetched$d = fetched$q;
         after_first$d = after_first$q;
-        fetch_in_array$clock = clock;
-        fetch_in_output$clock = clock;
-        place_in_array$clock = clock;
-        place_in_output$clock = clock;
-        fetch_in_array$d = fetch_in_array$q;
-        fetch_in_output$d = fetch_in_output$q;
-        place_in_array$d = place_in_array$q;
-        place_in_output$d = place_in_output$q;
         ring$clock = clock;
         new_bank$clock = clock;
         fetched_bank$clock = clock;
@@ -16283,13 +14022,12 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         ring$write_data = push_data;
         ring$write_enable = spills;
         ring$read_address = fetched$q;
-        fetch_in_array$d = fetches;
-        fetch_in_output$d = fetch_in_array$q;
-        place_in_array$d = place;
-        place_in_output$d = place_in_array$q;
-        fetched_bank$write_address = place_in_output$q;
-        fetched_bank$write_data = ring$read_data;
-        fetched_bank$write_enable = fetch_in_output$q;
+        ring$reset = reset;
+        ring$fetches = fetches;
+        ring$place = place;
+        fetched_bank$write_address = ring$fetched_place;
+        fetched_bank$write_data = ring$fetched_data;
+        fetched_bank$write_enable = ring$fetched;
         new_bank$write_address = place;
         new_bank$write_data = push_data;
         new_bank$write_enable = enters;
@@ -16330,8 +14068,6 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
             newest$d = nothing;
             fetched$d = nothing;
             after_first$d = first_place;
-            fetch_in_array$d = 1'b0;
-            fetch_in_output$d = 1'b0;
         end
         passes$d = ~holds_first$d;
     end
@@ -16356,44 +14092,6 @@ module incircle_core_logic$engine$pipeline$issue$queue$after_first(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$pipeline$issue$queue$after_first
-
-
-module incircle_core_logic$engine$pipeline$issue$queue$fetch_in_array(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$fetch_in_array
-
-
-module incircle_core_logic$engine$pipeline$issue$queue$fetch_in_output(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$fetch_in_output
 
 
 module incircle_core_logic$engine$pipeline$issue$queue$fetched(d,q,clock);
@@ -16571,45 +14269,141 @@ module incircle_core_logic$engine$pipeline$issue$queue$passes(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$issue$queue$passes
 
 
-module incircle_core_logic$engine$pipeline$issue$queue$place_in_array(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,reset,write_address,write_data,write_enable,read_address,fetches,place,fetched,fetched_place,fetched_data);
     
     // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
+    input wire  clock;
+    input wire  reset;
+    input wire  [10:0] write_address;
+    input wire  [92:0] write_data;
+    input wire  write_enable;
+    input wire  [10:0] read_address;
+    input wire  fetches;
+    input wire  [3:0] place;
+    output reg  fetched;
+    output reg  [3:0] fetched_place;
+    output reg  [92:0] fetched_data;
+    
+    // Stub signals
+    reg  memory$clock;
+    reg  [10:0] memory$write_address;
+    reg  [92:0] memory$write_data;
+    reg  memory$write_enable;
+    reg  [10:0] memory$read_address;
+    wire  [92:0] memory$read_data;
+    reg  in_array$d;
+    wire  in_array$q;
+    reg  in_array$clock;
+    reg  in_output$d;
+    wire  in_output$q;
+    reg  in_output$clock;
+    reg  [3:0] place_in_array$d;
+    wire  [3:0] place_in_array$q;
+    reg  place_in_array$clock;
+    reg  [3:0] place_in_output$d;
+    wire  [3:0] place_in_output$q;
+    reg  place_in_output$clock;
+    
+    // Sub module instances
+    incircle_core_logic$engine$pipeline$issue$queue$ring$memory memory(
+        .clock(memory$clock),
+        .write_address(memory$write_address),
+        .write_data(memory$write_data),
+        .write_enable(memory$write_enable),
+        .read_address(memory$read_address),
+        .read_data(memory$read_data)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$ring$in_array in_array(
+        .d(in_array$d),
+        .q(in_array$q),
+        .clock(in_array$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$ring$in_output in_output(
+        .d(in_output$d),
+        .q(in_output$q),
+        .clock(in_output$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_array place_in_array(
+        .d(place_in_array$d),
+        .q(place_in_array$q),
+        .clock(place_in_array$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_output place_in_output(
+        .d(place_in_output$d),
+        .q(place_in_output$q),
+        .clock(place_in_output$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        in_array$clock = clock;
+        in_output$clock = clock;
+        place_in_array$clock = clock;
+        place_in_output$clock = clock;
+        in_array$d = in_array$q;
+        in_output$d = in_output$q;
+        place_in_array$d = place_in_array$q;
+        place_in_output$d = place_in_output$q;
+        memory$clock = clock;
+        memory$write_address = write_address;
+        memory$write_data = write_data;
+        memory$write_enable = write_enable;
+        memory$read_address = read_address;
+        in_array$d = fetches;
+        in_output$d = in_array$q;
+        place_in_array$d = place;
+        place_in_output$d = place_in_array$q;
+        fetched = in_output$q;
+        fetched_place = place_in_output$q;
+        fetched_data = memory$read_data;
+        if (reset) begin
+            in_array$d = 1'b0;
+            in_output$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring
+
+
+module incircle_core_logic$engine$pipeline$issue$queue$ring$in_array(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 4'h0;
+       q = 1'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$place_in_array
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$in_array
 
 
-module incircle_core_logic$engine$pipeline$issue$queue$place_in_output(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$queue$ring$in_output(d,q,clock);
     
     // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
+    input wire  d;
+    output reg  q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 4'h0;
+       q = 1'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$place_in_output
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$in_output
 
 
-module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$issue$queue$ring$memory(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -16672,7 +14466,45 @@ module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,write_address,
         read_data <= word;
     end
     `endif
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$memory
+
+
+module incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_array(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_array
+
+
+module incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_output(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_output
 
 
 module incircle_core_logic$engine$pipeline$issue$queue$was_fetched(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -16772,181 +14604,57 @@ module incircle_core_logic$engine$pipeline$issue$vertices_copy(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$issue$vertices_copy
 
 
-module incircle_core_logic$engine$pipeline$judge(clock,r0,r1,r2,p,turned,verdict);
+module incircle_core_logic$engine$pipeline$judge(clock,corners,p,turned,verdict);
     
     // Module arguments
     input wire  clock;
-    input wire  [31:0] r0;
-    input wire  [31:0] r1;
-    input wire  [31:0] r2;
+    input wire  [95:0] corners;
     input wire  [31:0] p;
     input wire  [97:0] turned;
     output reg  [19:0] verdict;
     
     // Stub signals
     reg  predicates$clock;
-    reg  [31:0] predicates$r0;
-    reg  [31:0] predicates$r1;
-    reg  [31:0] predicates$r2;
+    reg  [95:0] predicates$corners;
     reg  [31:0] predicates$p;
-    wire  predicates$e0_negative;
-    wire  predicates$e1_negative;
-    wire  predicates$e2_negative;
-    wire  predicates$e0_zero;
-    wire  predicates$e1_zero;
-    wire  predicates$e2_zero;
-    wire  predicates$e1_below_e0;
-    wire  predicates$e2_below_e0;
-    wire  predicates$e2_below_e1;
-    wire  predicates$incircle_positive;
-    wire  predicates$incircle_zero;
-    wire  predicates$p_before_r0;
-    wire  predicates$p_before_r1;
-    wire  predicates$p_before_r2;
-    wire  predicates$p_equals_r0;
-    wire  predicates$p_equals_r1;
-    wire  predicates$p_equals_r2;
-    wire  predicates$r0_before_r1;
-    wire  predicates$r0_before_r2;
-    wire  predicates$r1_before_r2;
+    wire  [19:0] predicates$signs;
     reg  [97:0] verdict_logic$turned;
-    reg  verdict_logic$e0_negative;
-    reg  verdict_logic$e1_negative;
-    reg  verdict_logic$e2_negative;
-    reg  verdict_logic$e0_zero;
-    reg  verdict_logic$e1_zero;
-    reg  verdict_logic$e2_zero;
-    reg  verdict_logic$e1_below_e0;
-    reg  verdict_logic$e2_below_e0;
-    reg  verdict_logic$e2_below_e1;
-    reg  verdict_logic$incircle_positive;
-    reg  verdict_logic$incircle_zero;
-    reg  verdict_logic$p_before_r0;
-    reg  verdict_logic$p_before_r1;
-    reg  verdict_logic$p_before_r2;
-    reg  verdict_logic$p_equals_r0;
-    reg  verdict_logic$p_equals_r1;
-    reg  verdict_logic$p_equals_r2;
-    reg  verdict_logic$r0_before_r1;
-    reg  verdict_logic$r0_before_r2;
-    reg  verdict_logic$r1_before_r2;
+    reg  [19:0] verdict_logic$signs;
     wire  [19:0] verdict_logic$verdict;
     
     // Sub module instances
     incircle_core_logic$engine$pipeline$judge$predicates predicates(
         .clock(predicates$clock),
-        .r0(predicates$r0),
-        .r1(predicates$r1),
-        .r2(predicates$r2),
+        .corners(predicates$corners),
         .p(predicates$p),
-        .e0_negative(predicates$e0_negative),
-        .e1_negative(predicates$e1_negative),
-        .e2_negative(predicates$e2_negative),
-        .e0_zero(predicates$e0_zero),
-        .e1_zero(predicates$e1_zero),
-        .e2_zero(predicates$e2_zero),
-        .e1_below_e0(predicates$e1_below_e0),
-        .e2_below_e0(predicates$e2_below_e0),
-        .e2_below_e1(predicates$e2_below_e1),
-        .incircle_positive(predicates$incircle_positive),
-        .incircle_zero(predicates$incircle_zero),
-        .p_before_r0(predicates$p_before_r0),
-        .p_before_r1(predicates$p_before_r1),
-        .p_before_r2(predicates$p_before_r2),
-        .p_equals_r0(predicates$p_equals_r0),
-        .p_equals_r1(predicates$p_equals_r1),
-        .p_equals_r2(predicates$p_equals_r2),
-        .r0_before_r1(predicates$r0_before_r1),
-        .r0_before_r2(predicates$r0_before_r2),
-        .r1_before_r2(predicates$r1_before_r2)
+        .signs(predicates$signs)
     );
     incircle_core_logic$engine$pipeline$judge$verdict_logic verdict_logic(
         .turned(verdict_logic$turned),
-        .e0_negative(verdict_logic$e0_negative),
-        .e1_negative(verdict_logic$e1_negative),
-        .e2_negative(verdict_logic$e2_negative),
-        .e0_zero(verdict_logic$e0_zero),
-        .e1_zero(verdict_logic$e1_zero),
-        .e2_zero(verdict_logic$e2_zero),
-        .e1_below_e0(verdict_logic$e1_below_e0),
-        .e2_below_e0(verdict_logic$e2_below_e0),
-        .e2_below_e1(verdict_logic$e2_below_e1),
-        .incircle_positive(verdict_logic$incircle_positive),
-        .incircle_zero(verdict_logic$incircle_zero),
-        .p_before_r0(verdict_logic$p_before_r0),
-        .p_before_r1(verdict_logic$p_before_r1),
-        .p_before_r2(verdict_logic$p_before_r2),
-        .p_equals_r0(verdict_logic$p_equals_r0),
-        .p_equals_r1(verdict_logic$p_equals_r1),
-        .p_equals_r2(verdict_logic$p_equals_r2),
-        .r0_before_r1(verdict_logic$r0_before_r1),
-        .r0_before_r2(verdict_logic$r0_before_r2),
-        .r1_before_r2(verdict_logic$r1_before_r2),
+        .signs(verdict_logic$signs),
         .verdict(verdict_logic$verdict)
     );
     
     // Update code
     always @(*) begin
         predicates$clock = clock;
-        predicates$r0 = r0;
-        predicates$r1 = r1;
-        predicates$r2 = r2;
+        predicates$corners = corners;
         predicates$p = p;
         verdict_logic$turned = turned;
-        verdict_logic$e0_negative = predicates$e0_negative;
-        verdict_logic$e1_negative = predicates$e1_negative;
-        verdict_logic$e2_negative = predicates$e2_negative;
-        verdict_logic$e0_zero = predicates$e0_zero;
-        verdict_logic$e1_zero = predicates$e1_zero;
-        verdict_logic$e2_zero = predicates$e2_zero;
-        verdict_logic$e1_below_e0 = predicates$e1_below_e0;
-        verdict_logic$e2_below_e0 = predicates$e2_below_e0;
-        verdict_logic$e2_below_e1 = predicates$e2_below_e1;
-        verdict_logic$incircle_positive = predicates$incircle_positive;
-        verdict_logic$incircle_zero = predicates$incircle_zero;
-        verdict_logic$p_before_r0 = predicates$p_before_r0;
-        verdict_logic$p_before_r1 = predicates$p_before_r1;
-        verdict_logic$p_before_r2 = predicates$p_before_r2;
-        verdict_logic$p_equals_r0 = predicates$p_equals_r0;
-        verdict_logic$p_equals_r1 = predicates$p_equals_r1;
-        verdict_logic$p_equals_r2 = predicates$p_equals_r2;
-        verdict_logic$r0_before_r1 = predicates$r0_before_r1;
-        verdict_logic$r0_before_r2 = predicates$r0_before_r2;
-        verdict_logic$r1_before_r2 = predicates$r1_before_r2;
+        verdict_logic$signs = predicates$signs;
         verdict = verdict_logic$verdict;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$judge
 
 
-module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1,incircle_positive,incircle_zero,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2,r1_before_r2);
+module incircle_core_logic$engine$pipeline$judge$predicates(clock,corners,p,signs);
     
     // Module arguments
     input wire  clock;
-    input wire  [31:0] r0;
-    input wire  [31:0] r1;
-    input wire  [31:0] r2;
+    input wire  [95:0] corners;
     input wire  [31:0] p;
-    output reg  e0_negative;
-    output reg  e1_negative;
-    output reg  e2_negative;
-    output reg  e0_zero;
-    output reg  e1_zero;
-    output reg  e2_zero;
-    output reg  e1_below_e0;
-    output reg  e2_below_e0;
-    output reg  e2_below_e1;
-    output reg  incircle_positive;
-    output reg  incircle_zero;
-    output reg  p_before_r0;
-    output reg  p_before_r1;
-    output reg  p_before_r2;
-    output reg  p_equals_r0;
-    output reg  p_equals_r1;
-    output reg  p_equals_r2;
-    output reg  r0_before_r1;
-    output reg  r0_before_r2;
-    output reg  r1_before_r2;
+    output reg  [19:0] signs;
     
     // Constant declarations
     localparam  sign = 68'h80000000000000000;
@@ -17012,29 +14720,11 @@ module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_
     reg  [35:0] edges$e0;
     reg  [35:0] edges$e1;
     reg  [35:0] edges$e2;
-    wire  edges$e0_negative;
-    wire  edges$e1_negative;
-    wire  edges$e2_negative;
-    wire  edges$e0_zero;
-    wire  edges$e1_zero;
-    wire  edges$e2_zero;
-    wire  edges$e1_below_e0;
-    wire  edges$e2_below_e0;
-    wire  edges$e2_below_e1;
+    wire  [8:0] edges$flags;
     reg  order$clock;
-    reg  [31:0] order$r0;
-    reg  [31:0] order$r1;
-    reg  [31:0] order$r2;
+    reg  [95:0] order$corners;
     reg  [31:0] order$p;
-    wire  order$p_before_r0;
-    wire  order$p_before_r1;
-    wire  order$p_before_r2;
-    wire  order$p_equals_r0;
-    wire  order$p_equals_r1;
-    wire  order$p_equals_r2;
-    wire  order$r0_before_r1;
-    wire  order$r0_before_r2;
-    wire  order$r1_before_r2;
+    wire  [8:0] order$flags;
     reg  point_by_apex$clock;
     reg  [35:0] point_by_apex$a;
     reg  [35:0] point_by_apex$b;
@@ -17138,31 +14828,13 @@ module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_
         .e0(edges$e0),
         .e1(edges$e1),
         .e2(edges$e2),
-        .e0_negative(edges$e0_negative),
-        .e1_negative(edges$e1_negative),
-        .e2_negative(edges$e2_negative),
-        .e0_zero(edges$e0_zero),
-        .e1_zero(edges$e1_zero),
-        .e2_zero(edges$e2_zero),
-        .e1_below_e0(edges$e1_below_e0),
-        .e2_below_e0(edges$e2_below_e0),
-        .e2_below_e1(edges$e2_below_e1)
+        .flags(edges$flags)
     );
     incircle_core_logic$engine$pipeline$judge$predicates$order order(
         .clock(order$clock),
-        .r0(order$r0),
-        .r1(order$r1),
-        .r2(order$r2),
+        .corners(order$corners),
         .p(order$p),
-        .p_before_r0(order$p_before_r0),
-        .p_before_r1(order$p_before_r1),
-        .p_before_r2(order$p_before_r2),
-        .p_equals_r0(order$p_equals_r0),
-        .p_equals_r1(order$p_equals_r1),
-        .p_equals_r2(order$p_equals_r2),
-        .r0_before_r1(order$r0_before_r1),
-        .r0_before_r2(order$r0_before_r2),
-        .r1_before_r2(order$r1_before_r2)
+        .flags(order$flags)
     );
     incircle_core_logic$engine$pipeline$judge$predicates$point_by_apex point_by_apex(
         .clock(point_by_apex$clock),
@@ -17202,15 +14874,15 @@ module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_
         positive$clock = clock;
         zero$clock = clock;
         p_to_r0$from = p;
-        p_to_r0$to = r0;
+        p_to_r0$to = corners[(64'h0)+:(32)];
         p_to_r1$from = p;
-        p_to_r1$to = r1;
+        p_to_r1$to = corners[(64'h20)+:(32)];
         p_to_r2$from = p;
-        p_to_r2$to = r2;
-        r0_to_r1$from = r0;
-        r0_to_r1$to = r1;
-        r0_to_r2$from = r0;
-        r0_to_r2$to = r2;
+        p_to_r2$to = corners[(64'h40)+:(32)];
+        r0_to_r1$from = corners[(64'h0)+:(32)];
+        r0_to_r1$to = corners[(64'h20)+:(32)];
+        r0_to_r2$from = corners[(64'h0)+:(32)];
+        r0_to_r2$to = corners[(64'h40)+:(32)];
         cross_0$a_x = p_to_r1$x;
         cross_0$a_y = p_to_r1$y;
         cross_0$b_x = p_to_r2$x;
@@ -17246,30 +14918,12 @@ module incircle_core_logic$engine$pipeline$judge$predicates(clock,r0,r1,r2,p,e0_
         biased_second = apex_by_point$product ^ sign;
         positive$d = biased_second < biased_first;
         zero$d = point_by_apex$product == apex_by_point$product;
-        incircle_positive = positive$q;
-        incircle_zero = zero$q;
-        order$r0 = r0;
-        order$r1 = r1;
-        order$r2 = r2;
+        signs[(64'h12)+:(1)] = positive$q;
+        signs[(64'h13)+:(1)] = zero$q;
+        order$corners = corners;
         order$p = p;
-        e0_negative = edges$e0_negative;
-        e1_negative = edges$e1_negative;
-        e2_negative = edges$e2_negative;
-        e0_zero = edges$e0_zero;
-        e1_zero = edges$e1_zero;
-        e2_zero = edges$e2_zero;
-        e1_below_e0 = edges$e1_below_e0;
-        e2_below_e0 = edges$e2_below_e0;
-        e2_below_e1 = edges$e2_below_e1;
-        p_before_r0 = order$p_before_r0;
-        p_before_r1 = order$p_before_r1;
-        p_before_r2 = order$p_before_r2;
-        p_equals_r0 = order$p_equals_r0;
-        p_equals_r1 = order$p_equals_r1;
-        p_equals_r2 = order$p_equals_r2;
-        r0_before_r1 = order$r0_before_r1;
-        r0_before_r2 = order$r0_before_r2;
-        r1_before_r2 = order$r1_before_r2;
+        signs[(64'h0)+:(9)] = edges$flags;
+        signs[(64'h9)+:(9)] = order$flags;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates
@@ -18796,22 +16450,14 @@ module incircle_core_logic$engine$pipeline$judge$predicates$dot_point$y_by_y(clo
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates$dot_point$y_by_y
 
 
-module incircle_core_logic$engine$pipeline$judge$predicates$edges(clock,e0,e1,e2,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1);
+module incircle_core_logic$engine$pipeline$judge$predicates$edges(clock,e0,e1,e2,flags);
     
     // Module arguments
     input wire  clock;
     input wire  [35:0] e0;
     input wire  [35:0] e1;
     input wire  [35:0] e2;
-    output reg  e0_negative;
-    output reg  e1_negative;
-    output reg  e2_negative;
-    output reg  e0_zero;
-    output reg  e1_zero;
-    output reg  e2_zero;
-    output reg  e1_below_e0;
-    output reg  e2_below_e0;
-    output reg  e2_below_e1;
+    output reg  [8:0] flags;
     
     // Constant declarations
     localparam  zero = 33'h0;
@@ -19031,15 +16677,15 @@ module incircle_core_logic$engine$pipeline$judge$predicates$edges(clock,e0,e1,e2
         else begin
             delay_2_below_1$flag_in = low_2_below_1$q;
         end
-        e0_negative = delay_negative_0$flag_out;
-        e1_negative = delay_negative_1$flag_out;
-        e2_negative = delay_negative_2$flag_out;
-        e0_zero = delay_zero_0$flag_out;
-        e1_zero = delay_zero_1$flag_out;
-        e2_zero = delay_zero_2$flag_out;
-        e1_below_e0 = delay_1_below_0$flag_out;
-        e2_below_e0 = delay_2_below_0$flag_out;
-        e2_below_e1 = delay_2_below_1$flag_out;
+        flags[(64'h0)+:(1)] = delay_negative_0$flag_out;
+        flags[(64'h1)+:(1)] = delay_negative_1$flag_out;
+        flags[(64'h2)+:(1)] = delay_negative_2$flag_out;
+        flags[(64'h3)+:(1)] = delay_zero_0$flag_out;
+        flags[(64'h4)+:(1)] = delay_zero_1$flag_out;
+        flags[(64'h5)+:(1)] = delay_zero_2$flag_out;
+        flags[(64'h6)+:(1)] = delay_1_below_0$flag_out;
+        flags[(64'h7)+:(1)] = delay_2_below_0$flag_out;
+        flags[(64'h8)+:(1)] = delay_2_below_1$flag_out;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates$edges
@@ -19333,23 +16979,13 @@ module incircle_core_logic$engine$pipeline$judge$predicates$edges$zero_2(d,q,clo
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates$edges$zero_2
 
 
-module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,r0,r1,r2,p,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2,r1_before_r2);
+module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,corners,p,flags);
     
     // Module arguments
     input wire  clock;
-    input wire  [31:0] r0;
-    input wire  [31:0] r1;
-    input wire  [31:0] r2;
+    input wire  [95:0] corners;
     input wire  [31:0] p;
-    output reg  p_before_r0;
-    output reg  p_before_r1;
-    output reg  p_before_r2;
-    output reg  p_equals_r0;
-    output reg  p_equals_r1;
-    output reg  p_equals_r2;
-    output reg  r0_before_r1;
-    output reg  r0_before_r2;
-    output reg  r1_before_r2;
+    output reg  [8:0] flags;
     
     // Stub signals
     reg  [31:0] key_r0$point;
@@ -19462,28 +17098,28 @@ module incircle_core_logic$engine$pipeline$judge$predicates$order(clock,r0,r1,r2
         delay_r0_before_r1$clock = clock;
         delay_r0_before_r2$clock = clock;
         delay_r1_before_r2$clock = clock;
-        key_r0$point = r0;
-        key_r1$point = r1;
-        key_r2$point = r2;
+        key_r0$point = corners[(64'h0)+:(32)];
+        key_r1$point = corners[(64'h20)+:(32)];
+        key_r2$point = corners[(64'h40)+:(32)];
         key_p$point = p;
         delay_before_r0$flag_in = key_p$key < key_r0$key;
         delay_before_r1$flag_in = key_p$key < key_r1$key;
         delay_before_r2$flag_in = key_p$key < key_r2$key;
-        delay_equals_r0$flag_in = p == r0;
-        delay_equals_r1$flag_in = p == r1;
-        delay_equals_r2$flag_in = p == r2;
+        delay_equals_r0$flag_in = p == corners[(64'h0)+:(32)];
+        delay_equals_r1$flag_in = p == corners[(64'h20)+:(32)];
+        delay_equals_r2$flag_in = p == corners[(64'h40)+:(32)];
         delay_r0_before_r1$flag_in = key_r0$key < key_r1$key;
         delay_r0_before_r2$flag_in = key_r0$key < key_r2$key;
         delay_r1_before_r2$flag_in = key_r1$key < key_r2$key;
-        p_before_r0 = delay_before_r0$flag_out;
-        p_before_r1 = delay_before_r1$flag_out;
-        p_before_r2 = delay_before_r2$flag_out;
-        p_equals_r0 = delay_equals_r0$flag_out;
-        p_equals_r1 = delay_equals_r1$flag_out;
-        p_equals_r2 = delay_equals_r2$flag_out;
-        r0_before_r1 = delay_r0_before_r1$flag_out;
-        r0_before_r2 = delay_r0_before_r2$flag_out;
-        r1_before_r2 = delay_r1_before_r2$flag_out;
+        flags[(64'h0)+:(1)] = delay_before_r0$flag_out;
+        flags[(64'h1)+:(1)] = delay_before_r1$flag_out;
+        flags[(64'h2)+:(1)] = delay_before_r2$flag_out;
+        flags[(64'h3)+:(1)] = delay_equals_r0$flag_out;
+        flags[(64'h4)+:(1)] = delay_equals_r1$flag_out;
+        flags[(64'h5)+:(1)] = delay_equals_r2$flag_out;
+        flags[(64'h6)+:(1)] = delay_r0_before_r1$flag_out;
+        flags[(64'h7)+:(1)] = delay_r0_before_r2$flag_out;
+        flags[(64'h8)+:(1)] = delay_r1_before_r2$flag_out;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates$order
@@ -20382,33 +18018,16 @@ module incircle_core_logic$engine$pipeline$judge$predicates$zero(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$judge$predicates$zero
 
 
-module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,e0_negative,e1_negative,e2_negative,e0_zero,e1_zero,e2_zero,e1_below_e0,e2_below_e0,e2_below_e1,incircle_positive,incircle_zero,p_before_r0,p_before_r1,p_before_r2,p_equals_r0,p_equals_r1,p_equals_r2,r0_before_r1,r0_before_r2,r1_before_r2,verdict);
+module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,signs,verdict);
     
     // Module arguments
     input wire  [97:0] turned;
-    input wire  e0_negative;
-    input wire  e1_negative;
-    input wire  e2_negative;
-    input wire  e0_zero;
-    input wire  e1_zero;
-    input wire  e2_zero;
-    input wire  e1_below_e0;
-    input wire  e2_below_e0;
-    input wire  e2_below_e1;
-    input wire  incircle_positive;
-    input wire  incircle_zero;
-    input wire  p_before_r0;
-    input wire  p_before_r1;
-    input wire  p_before_r2;
-    input wire  p_equals_r0;
-    input wire  p_equals_r1;
-    input wire  p_equals_r2;
-    input wire  r0_before_r1;
-    input wire  r0_before_r2;
-    input wire  r1_before_r2;
+    input wire  [19:0] signs;
     output reg  [19:0] verdict;
     
     // Local signals
+    reg  [8:0] edges;
+    reg  [8:0] order;
     reg  is_ghost;
     reg  [1:0] second_slot;
     reg  [1:0] third_slot;
@@ -20426,6 +18045,8 @@ module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,e0_negativ
     
     // Update code
     always @(*) begin
+        edges = signs[(64'h0)+:(9)];
+        order = signs[(64'h9)+:(9)];
         is_ghost = turned[(64'h5f)+:(1)] | turned[(64'h60)+:(1)] | turned[(64'h61)+:(1)];
         second_slot = 32'h1;
         third_slot = 32'h2;
@@ -20441,35 +18062,35 @@ module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,e0_negativ
             infinite1 = turned[(64'h61)+:(1)];
             infinite2 = turned[(64'h5f)+:(1)];
         end
-        is_beyond = (~e0_negative) & (~e0_zero);
-        is_on_hull_line = e0_zero;
-        is_between = p_before_r1 ^ p_before_r2;
+        is_beyond = (~edges[(64'h0)+:(1)]) & (~edges[(64'h3)+:(1)]);
+        is_on_hull_line = edges[(64'h3)+:(1)];
+        is_between = order[(64'h1)+:(1)] ^ order[(64'h2)+:(1)];
         if (infinite1) begin
-            is_beyond = (~e1_negative) & (~e1_zero);
-            is_on_hull_line = e1_zero;
-            is_between = p_before_r2 ^ p_before_r0;
+            is_beyond = (~edges[(64'h1)+:(1)]) & (~edges[(64'h4)+:(1)]);
+            is_on_hull_line = edges[(64'h4)+:(1)];
+            is_between = order[(64'h2)+:(1)] ^ order[(64'h0)+:(1)];
         end
         if (infinite2) begin
-            is_beyond = (~e2_negative) & (~e2_zero);
-            is_on_hull_line = e2_zero;
-            is_between = p_before_r0 ^ p_before_r1;
+            is_beyond = (~edges[(64'h2)+:(1)]) & (~edges[(64'h5)+:(1)]);
+            is_on_hull_line = edges[(64'h5)+:(1)];
+            is_between = order[(64'h0)+:(1)] ^ order[(64'h1)+:(1)];
         end
-        takes_tie = (p_before_r1 & p_before_r2) | (r0_before_r1 & r0_before_r2);
+        takes_tie = (order[(64'h1)+:(1)] & order[(64'h2)+:(1)]) | (order[(64'h6)+:(1)] & order[(64'h7)+:(1)]);
         if (is_second) begin
-            takes_tie = (p_before_r2 & p_before_r0) | (r1_before_r2 & (~r0_before_r1));
+            takes_tie = (order[(64'h2)+:(1)] & order[(64'h0)+:(1)]) | (order[(64'h8)+:(1)] & (~order[(64'h6)+:(1)]));
         end
         if (is_third) begin
-            takes_tie = (p_before_r0 & p_before_r1) | ((~r0_before_r2) & (~r1_before_r2));
+            takes_tie = (order[(64'h0)+:(1)] & order[(64'h1)+:(1)]) | ((~order[(64'h7)+:(1)]) & (~order[(64'h8)+:(1)]));
         end
         if (is_ghost) begin
             verdict[(64'h0)+:(1)] = is_beyond | (is_on_hull_line & is_between);
         end
         else begin
-            verdict[(64'h0)+:(1)] = incircle_positive | (incircle_zero & takes_tie);
+            verdict[(64'h0)+:(1)] = signs[(64'h12)+:(1)] | (signs[(64'h13)+:(1)] & takes_tie);
         end
-        is_outside_some_side = e0_negative | e1_negative | e2_negative;
-        leaves_by_side2 = (e1_below_e0 & e2_below_e1) | ((~e1_below_e0) & e2_below_e0);
-        leaves_by_side1 = e1_below_e0 & (~e2_below_e1);
+        is_outside_some_side = edges[(64'h0)+:(1)] | edges[(64'h1)+:(1)] | edges[(64'h2)+:(1)];
+        leaves_by_side2 = (edges[(64'h6)+:(1)] & edges[(64'h8)+:(1)]) | ((~edges[(64'h6)+:(1)]) & edges[(64'h7)+:(1)]);
+        leaves_by_side1 = edges[(64'h6)+:(1)] & (~edges[(64'h8)+:(1)]);
         verdict[(64'h5)+:(15)] = turned[(64'h2d)+:(15)];
         if (is_ghost) begin
             verdict[(64'h1)+:(1)] = is_beyond;
@@ -20483,7 +18104,7 @@ module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,e0_negativ
         end
         else begin
             verdict[(64'h1)+:(1)] = ~is_outside_some_side;
-            verdict[(64'h2)+:(1)] = p_equals_r0 | p_equals_r1 | p_equals_r2;
+            verdict[(64'h2)+:(1)] = order[(64'h3)+:(1)] | order[(64'h4)+:(1)] | order[(64'h5)+:(1)];
             if (leaves_by_side1) begin
                 verdict[(64'h5)+:(15)] = turned[(64'h3c)+:(15)];
             end
@@ -20491,8 +18112,8 @@ module incircle_core_logic$engine$pipeline$judge$verdict_logic(turned,e0_negativ
                 verdict[(64'h5)+:(15)] = turned[(64'h4b)+:(15)];
             end
         end
-        verdict[(64'h4)+:(1)] = e2_zero;
-        verdict[(64'h3)+:(1)] = (~e2_negative) & (~e2_zero);
+        verdict[(64'h4)+:(1)] = edges[(64'h5)+:(1)];
+        verdict[(64'h3)+:(1)] = (~edges[(64'h2)+:(1)]) & (~edges[(64'h5)+:(1)]);
     end
     
 endmodule // incircle_core_logic$engine$pipeline$judge$verdict_logic
@@ -20635,29 +18256,20 @@ module incircle_core_logic$engine$pipeline$read_valid2(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$read_valid2
 
 
-module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,n0,n1,n2,took,foreign,again,position0,position1,position2,turned,token_at_record,r0,r1,r2);
+module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,record,again,took,foreign,stored_corners,turned,token_at_record,corners);
     
     // Module arguments
     input wire  clock;
     input wire  [14:0] infinite;
     input wire  [54:0] token;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
-    input wire  [14:0] n0;
-    input wire  [14:0] n1;
-    input wire  [14:0] n2;
+    input wire  [90:0] record;
+    input wire  again;
     input wire  took;
     input wire  foreign;
-    input wire  again;
-    input wire  [31:0] position0;
-    input wire  [31:0] position1;
-    input wire  [31:0] position2;
+    input wire  [95:0] stored_corners;
     output reg  [97:0] turned;
     output reg  [54:0] token_at_record;
-    output reg  [31:0] r0;
-    output reg  [31:0] r1;
-    output reg  [31:0] r2;
+    output reg  [95:0] corners;
     
     // Stub signals
     reg  [54:0] token1$d;
@@ -20678,15 +18290,9 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
     reg  [97:0] rotated$d;
     wire  [97:0] rotated$q;
     reg  rotated$clock;
-    reg  [31:0] corner0$d;
-    wire  [31:0] corner0$q;
-    reg  corner0$clock;
-    reg  [31:0] corner1$d;
-    wire  [31:0] corner1$q;
-    reg  corner1$clock;
-    reg  [31:0] corner2$d;
-    wire  [31:0] corner2$q;
-    reg  corner2$clock;
+    reg  [95:0] kept_corners$d;
+    wire  [95:0] kept_corners$q;
+    reg  kept_corners$clock;
     
     // Local signals
     reg  [1:0] first_slot;
@@ -20724,20 +18330,10 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
         .q(rotated$q),
         .clock(rotated$clock)
     );
-    incircle_core_logic$engine$pipeline$reader$corner0 corner0(
-        .d(corner0$d),
-        .q(corner0$q),
-        .clock(corner0$clock)
-    );
-    incircle_core_logic$engine$pipeline$reader$corner1 corner1(
-        .d(corner1$d),
-        .q(corner1$q),
-        .clock(corner1$clock)
-    );
-    incircle_core_logic$engine$pipeline$reader$corner2 corner2(
-        .d(corner2$d),
-        .q(corner2$q),
-        .clock(corner2$clock)
+    incircle_core_logic$engine$pipeline$reader$kept_corners kept_corners(
+        .d(kept_corners$d),
+        .q(kept_corners$q),
+        .clock(kept_corners$clock)
     );
     
     // Update code
@@ -20748,18 +18344,14 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
         stored$clock = clock;
         found$clock = clock;
         rotated$clock = clock;
-        corner0$clock = clock;
-        corner1$clock = clock;
-        corner2$clock = clock;
+        kept_corners$clock = clock;
         token1$d = token1$q;
         token2$d = token2$q;
         token3$d = token3$q;
         stored$d = stored$q;
         found$d = found$q;
         rotated$d = rotated$q;
-        corner0$d = corner0$q;
-        corner1$d = corner1$q;
-        corner2$d = corner2$q;
+        kept_corners$d = kept_corners$q;
         first_slot = 32'h0;
         second_slot = 32'h1;
         third_slot = 32'h2;
@@ -20767,12 +18359,12 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
         token2$d = token1$q;
         token_at_record = token2$q;
         token3$d = token2$q;
-        stored$d[(64'h0)+:(15)] = v0;
-        stored$d[(64'hf)+:(15)] = v1;
-        stored$d[(64'h1e)+:(15)] = v2;
-        stored$d[(64'h2d)+:(15)] = n0;
-        stored$d[(64'h3c)+:(15)] = n1;
-        stored$d[(64'h4b)+:(15)] = n2;
+        stored$d[(64'h0)+:(15)] = record[(64'h0)+:(15)];
+        stored$d[(64'hf)+:(15)] = record[(64'hf)+:(15)];
+        stored$d[(64'h1e)+:(15)] = record[(64'h1e)+:(15)];
+        stored$d[(64'h2d)+:(15)] = record[(64'h2d)+:(15)];
+        stored$d[(64'h3c)+:(15)] = record[(64'h3c)+:(15)];
+        stored$d[(64'h4b)+:(15)] = record[(64'h4b)+:(15)];
         stored$d[(64'h5e)+:(1)] = again;
         found$d = stored$q;
         found$d[(64'h5c)+:(1)] = took;
@@ -20811,72 +18403,11 @@ module incircle_core_logic$engine$pipeline$reader(clock,infinite,token,v0,v1,v2,
             rotated$d[(64'h61)+:(1)] = found$q[(64'h60)+:(1)];
         end
         turned = rotated$q;
-        corner0$d = position0;
-        corner1$d = position1;
-        corner2$d = position2;
-        r0 = corner0$q;
-        r1 = corner1$q;
-        r2 = corner2$q;
+        kept_corners$d = stored_corners;
+        corners = kept_corners$q;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$reader
-
-
-module incircle_core_logic$engine$pipeline$reader$corner0(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$reader$corner0
-
-
-module incircle_core_logic$engine$pipeline$reader$corner1(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$reader$corner1
-
-
-module incircle_core_logic$engine$pipeline$reader$corner2(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$reader$corner2
 
 
 module incircle_core_logic$engine$pipeline$reader$found(d,q,clock);
@@ -20896,6 +18427,25 @@ module incircle_core_logic$engine$pipeline$reader$found(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$pipeline$reader$found
+
+
+module incircle_core_logic$engine$pipeline$reader$kept_corners(d,q,clock);
+    
+    // Module arguments
+    input wire  [95:0] d;
+    output reg  [95:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 96'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$reader$kept_corners
 
 
 module incircle_core_logic$engine$pipeline$reader$rotated(d,q,clock);
@@ -21148,26 +18698,7 @@ module incircle_core_logic$engine$pipeline$token_delay$ring(clock,write_address,
 endmodule // incircle_core_logic$engine$pipeline$token_delay$ring
 
 
-module incircle_core_logic$engine$pipeline$token_register(d,q,clock);
-    
-    // Module arguments
-    input wire  [54:0] d;
-    output reg  [54:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 55'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$token_register
-
-
-module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id,vertices_id,links_id,read_locks,owner,v0,v1,v2,n0,n1,n2,took,foreign,was_set,clear_id,clear_enable);
+module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id,vertices_id,links_id,read_locks,owner,record,took,foreign,clear);
     
     // Module arguments
     input wire  clock;
@@ -21178,17 +18709,10 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id
     input wire  [14:0] links_id;
     input wire  read_locks;
     input wire  [4:0] owner;
-    output reg  [14:0] v0;
-    output reg  [14:0] v1;
-    output reg  [14:0] v2;
-    output reg  [14:0] n0;
-    output reg  [14:0] n1;
-    output reg  [14:0] n2;
+    output reg  [90:0] record;
     output reg  took;
     output reg  foreign;
-    output reg  was_set;
-    input wire  [14:0] clear_id;
-    input wire  clear_enable;
+    input wire  [15:0] clear;
     
     // Stub signals
     reg  vertices$0$clock;
@@ -21234,8 +18758,7 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id
     wire  locks$took;
     wire  locks$foreign;
     wire  locks$was_set;
-    reg  [14:0] locks$clear_id;
-    reg  locks$clear_enable;
+    reg  [15:0] locks$clear;
     
     // Sub module instances
     incircle_core_logic$engine$pipeline$triangles$vertices$0 vertices$0(
@@ -21294,8 +18817,7 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id
         .took(locks$took),
         .foreign(locks$foreign),
         .was_set(locks$was_set),
-        .clear_id(locks$clear_id),
-        .clear_enable(locks$clear_enable)
+        .clear(locks$clear)
     );
     
     // Update code
@@ -21330,21 +18852,20 @@ module incircle_core_logic$engine$pipeline$triangles(clock,write,enables,read_id
         links$0$write_enable = enables[(64'h1)+:(1)];
         links$1$write_enable = enables[(64'h2)+:(1)];
         links$2$write_enable = enables[(64'h3)+:(1)];
-        v0 = vertices$0$read_data;
-        v1 = vertices$1$read_data;
-        v2 = vertices$2$read_data;
-        n0 = links$0$read_data;
-        n1 = links$1$read_data;
-        n2 = links$2$read_data;
+        record[(64'h0)+:(15)] = vertices$0$read_data;
+        record[(64'hf)+:(15)] = vertices$1$read_data;
+        record[(64'h1e)+:(15)] = vertices$2$read_data;
+        record[(64'h2d)+:(15)] = links$0$read_data;
+        record[(64'h3c)+:(15)] = links$1$read_data;
+        record[(64'h4b)+:(15)] = links$2$read_data;
+        record[(64'h5a)+:(1)] = locks$was_set;
         locks$clock = clock;
         locks$id = read_id;
         locks$takes = read_locks;
         locks$owner = owner;
-        locks$clear_id = clear_id;
-        locks$clear_enable = clear_enable;
+        locks$clear = clear;
         took = locks$took;
         foreign = locks$foreign;
-        was_set = locks$was_set;
     end
     
 endmodule // incircle_core_logic$engine$pipeline$triangles
@@ -21551,7 +19072,7 @@ module incircle_core_logic$engine$pipeline$triangles$links$2(clock,write_address
 endmodule // incircle_core_logic$engine$pipeline$triangles$links$2
 
 
-module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,took,foreign,was_set,clear_id,clear_enable);
+module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,took,foreign,was_set,clear);
     
     // Module arguments
     input wire  clock;
@@ -21561,8 +19082,7 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
     output reg  took;
     output reg  foreign;
     output reg  was_set;
-    input wire  [14:0] clear_id;
-    input wire  clear_enable;
+    input wire  [15:0] clear;
     
     // Constant declarations
     localparam  kept_id_bits = 15'b11111111111111;
@@ -21876,13 +19396,13 @@ module incircle_core_logic$engine$pipeline$triangles$locks(clock,id,owner,takes,
         locks$clock = clock;
         owners$clock = clock;
         lock = id & kept_id_bits;
-        cleared = clear_id & kept_id_bits;
+        cleared = clear[(64'h1)+:(15)] & kept_id_bits;
         visitor = owner & kept_owner_bits;
-        meets_clear = clear_enable & (lock == cleared);
+        meets_clear = clear[(64'h0)+:(1)] & (lock == cleared);
         locks$test_address = lock;
         locks$test_set = takes & (~meets_clear);
         locks$clear_address = cleared;
-        locks$clear_enable = clear_enable;
+        locks$clear_enable = clear[(64'h0)+:(1)];
         owners$read_address = lock;
         id1$d = lock;
         owner1$d = visitor;
@@ -22918,35 +20438,16 @@ module incircle_core_logic$engine$pipeline$turned_delay$ring(clock,write_address
 endmodule // incircle_core_logic$engine$pipeline$turned_delay$ring
 
 
-module incircle_core_logic$engine$pipeline$turned_register(d,q,clock);
-    
-    // Module arguments
-    input wire  [97:0] d;
-    output reg  [97:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 98'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$turned_register
-
-
 module incircle_core_logic$engine$pipeline$valid(d,q,clock);
     
     // Module arguments
-    input wire  [15:0] d;
-    output reg  [15:0] q;
+    input wire  [14:0] d;
+    output reg  [14:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 16'h0;
+       q = 15'h0;
     end
     
     always @(posedge clock) begin
@@ -22956,38 +20457,15 @@ module incircle_core_logic$engine$pipeline$valid(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$valid
 
 
-module incircle_core_logic$engine$pipeline$verdict_register(d,q,clock);
-    
-    // Module arguments
-    input wire  [19:0] d;
-    output reg  [19:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 20'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$verdict_register
-
-
-module incircle_core_logic$engine$pipeline$vertices(clock,write_id,write_position,write_enable,id0,id1,id2,position0,position1,position2,fetch_id,fetched);
+module incircle_core_logic$engine$pipeline$vertices(clock,write,id0,id1,id2,corners,fetch_id,fetched);
     
     // Module arguments
     input wire  clock;
-    input wire  [14:0] write_id;
-    input wire  [31:0] write_position;
-    input wire  write_enable;
+    input wire  [47:0] write;
     input wire  [14:0] id0;
     input wire  [14:0] id1;
     input wire  [14:0] id2;
-    output reg  [31:0] position0;
-    output reg  [31:0] position1;
-    output reg  [31:0] position2;
+    output reg  [95:0] corners;
     input wire  [14:0] fetch_id;
     output reg  [31:0] fetched;
     
@@ -23043,25 +20521,25 @@ module incircle_core_logic$engine$pipeline$vertices(clock,write_id,write_positio
     always @(*) begin
         first_copy$clock = clock;
         first_copy$read_address = id0;
-        first_copy$write_data = write_position;
-        first_copy$write_enable = write_enable;
+        first_copy$write_data = write[(64'h10)+:(32)];
+        first_copy$write_enable = write[(64'h0)+:(1)];
         first_copy$shared_address = fetch_id;
-        if (write_enable) begin
-            first_copy$shared_address = write_id;
+        if (write[(64'h0)+:(1)]) begin
+            first_copy$shared_address = write[(64'h1)+:(15)];
         end
         copies$0$clock = clock;
-        copies$0$write_address = write_id;
-        copies$0$write_data = write_position;
-        copies$0$write_enable = write_enable;
+        copies$0$write_address = write[(64'h1)+:(15)];
+        copies$0$write_data = write[(64'h10)+:(32)];
+        copies$0$write_enable = write[(64'h0)+:(1)];
         copies$1$clock = clock;
-        copies$1$write_address = write_id;
-        copies$1$write_data = write_position;
-        copies$1$write_enable = write_enable;
+        copies$1$write_address = write[(64'h1)+:(15)];
+        copies$1$write_data = write[(64'h10)+:(32)];
+        copies$1$write_enable = write[(64'h0)+:(1)];
         copies$0$read_address = id1;
         copies$1$read_address = id2;
-        position0 = first_copy$read_data;
-        position1 = copies$0$read_data;
-        position2 = copies$1$read_data;
+        corners[(64'h0)+:(32)] = first_copy$read_data;
+        corners[(64'h20)+:(32)] = copies$0$read_data;
+        corners[(64'h40)+:(32)] = copies$1$read_data;
         fetched = first_copy$shared_data;
     end
     
@@ -23277,22 +20755,16 @@ module incircle_core_logic$engine$pipeline$vertices$first_copy(clock,read_addres
 endmodule // incircle_core_logic$engine$pipeline$vertices$first_copy
 
 
-module incircle_core_logic$engine$push_port(clock,reset,asks,may_ask,follows,starts,starter,u,is_alone,solo_asks,solo,push,bundle);
+module incircle_core_logic$engine$push_port(clock,reset,follow,start,is_alone,solo,push);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
-    input wire  asks;
-    input wire  may_ask;
-    input wire  [92:0] follows;
-    input wire  starts;
-    input wire  [4:0] starter;
-    input wire  [14:0] u;
+    input wire  [94:0] follow;
+    input wire  [36:0] start;
     input wire  is_alone;
-    input wire  solo_asks;
-    input wire  [92:0] solo;
-    output reg  push;
-    output reg  [92:0] bundle;
+    input wire  [93:0] solo;
+    output reg  [93:0] push;
     
     // Stub signals
     reg  pushes$d;
@@ -23320,20 +20792,20 @@ module incircle_core_logic$engine$push_port(clock,reset,asks,may_ask,follows,sta
         pushed$clock = clock;
         pushes$d = pushes$q;
         pushed$d = pushed$q;
-        push = pushes$q;
-        bundle = pushed$q;
-        pushes$d = asks | starts | solo_asks;
-        pushed$d = follows;
-        if (~may_ask) begin
+        push[(64'h0)+:(1)] = pushes$q;
+        push[(64'h1)+:(93)] = pushed$q;
+        pushes$d = follow[(64'h0)+:(1)] | start[(64'h0)+:(1)] | solo[(64'h0)+:(1)];
+        pushed$d = follow[(64'h2)+:(93)];
+        if (~follow[(64'h1)+:(1)]) begin
             pushed$d[(64'h0)+:(1)] = 1'b0;
             pushed$d[(64'h1)+:(1)] = 1'b0;
-            pushed$d[(64'h2)+:(5)] = starter;
+            pushed$d[(64'h2)+:(5)] = start[(64'h1)+:(5)];
             pushed$d[(64'h7)+:(1)] = 1'b0;
             pushed$d[(64'h8)+:(1)] = 1'b0;
-            pushed$d[(64'h2a)+:(15)] = u;
+            pushed$d[(64'h2a)+:(15)] = start[(64'h6)+:(15)];
         end
         if (is_alone) begin
-            pushed$d = solo;
+            pushed$d = solo[(64'h1)+:(93)];
         end
         if (reset) begin
             pushes$d = 1'b0;
@@ -23381,7 +20853,7 @@ module incircle_core_logic$engine$push_port$pushes(d,q,clock);
 endmodule // incircle_core_logic$engine$push_port$pushes
 
 
-module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,deal,came,came_id,arrived,looks,verdict,seeded,start_is_open,collinear,has_no_start,seeds,write);
+module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,deal,arrival,arrived,looks,verdict,progress,start_is_open,collinear,write);
     
     // Module arguments
     input wire  clock;
@@ -23389,16 +20861,13 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,deal,came,c
     input wire  clears;
     input wire  [14:0] infinite;
     input wire  [12:0] deal;
-    input wire  came;
-    input wire  [14:0] came_id;
+    input wire  [47:0] arrival;
     input wire  [14:0] arrived;
     input wire  looks;
     input wire  [19:0] verdict;
-    output reg  seeded;
+    output reg  [2:0] progress;
     output reg  start_is_open;
     output reg  collinear;
-    output reg  has_no_start;
-    output reg  seeds;
     output reg  [109:0] write;
     
     // Stub signals
@@ -23541,12 +21010,12 @@ module incircle_core_logic$engine$seeder(clock,reset,clears,infinite,deal,came,c
         four_records = 32'h4;
         is_writing = step$q != look_step;
         is_last = step$q == last_step;
-        seeded = is_seeded$q;
+        progress[(64'h0)+:(1)] = is_seeded$q;
         collinear = is_collinear$q;
-        seeds = is_last;
+        progress[(64'h2)+:(1)] = is_last;
         start_is_open = has_triple$q & (~is_seeded$q) & (~is_collinear$q);
-        has_no_start = ((~has_triple$q) | is_collinear$q) & (~is_writing);
-        prepares = came & (came_id == vertex$q);
+        progress[(64'h1)+:(1)] = ((~has_triple$q) | is_collinear$q) & (~is_writing);
+        prepares = arrival[(64'h0)+:(1)] & (arrival[(64'h1)+:(15)] == vertex$q);
         writes$step = step$q;
         writes$first_vertex = vertex$q;
         writes$first_record = record$q;
@@ -23937,45 +21406,19 @@ module incircle_core_logic$engine$seeder$writes$record(id,v0,v1,v2,n0,n1,n2,writ
 endmodule // incircle_core_logic$engine$seeder$writes$record
 
 
-module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,done,token,turned,verdict,push,bundle,write,tests,flips,ends,inserts,is_at_work);
+module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,write,progress);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
-    input wire  starts;
-    input wire  [4:0] owner;
-    input wire  [14:0] p;
-    input wire  [14:0] start;
+    input wire  [35:0] start;
     input wire  [14:0] records;
-    input wire  done;
-    input wire  [54:0] token;
-    input wire  [97:0] turned;
-    input wire  [19:0] verdict;
-    output reg  push;
-    output reg  [92:0] bundle;
+    input wire  [173:0] visit;
+    output reg  [93:0] push;
     output reg  [109:0] write;
-    output reg  tests;
-    output reg  flips;
-    output reg  ends;
-    output reg  inserts;
-    output reg  is_at_work;
-    
-    // Enums
-    localparam SoloState$Idle = 0;
-    localparam SoloState$Locate = 1;
-    localparam SoloState$Split = 2;
-    localparam SoloState$Mend = 3;
-    localparam SoloState$Fetch = 4;
-    localparam SoloState$Test = 5;
-    localparam SoloState$Flip = 6;
+    output reg  [4:0] progress;
     
     // Stub signals
-    reg  [2:0] state$d;
-    wire  [2:0] state$q;
-    reg  state$clock;
-    reg  [1:0] step$d;
-    wire  [1:0] step$q;
-    reg  step$clock;
     reg  awaits$d;
     wire  awaits$q;
     reg  awaits$clock;
@@ -23991,29 +21434,6 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
     reg  [97:0] root$d;
     wire  [97:0] root$q;
     reg  root$clock;
-    reg  star$clock;
-    reg  star$reset;
-    reg  [4:0] star$owner;
-    reg  star$is_locate;
-    reg  star$is_split;
-    reg  star$is_mend;
-    reg  star$is_fetch;
-    reg  star$is_test;
-    reg  star$is_flip;
-    reg  [1:0] star$step;
-    reg  [14:0] star$p;
-    reg  [14:0] star$records;
-    reg  [14:0] star$root_id;
-    reg  [97:0] star$root;
-    reg  star$done;
-    reg  [54:0] star$token;
-    reg  [97:0] star$turned;
-    reg  star$conflict;
-    wire  [92:0] star$bundle;
-    wire  star$tests;
-    wire  star$flips;
-    wire  star$is_round;
-    wire  [109:0] star$write;
     reg  works$d;
     wire  works$q;
     reg  works$clock;
@@ -24026,32 +21446,38 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
     reg  inserted$d;
     wire  inserted$q;
     reg  inserted$clock;
+    reg  steps$clock;
+    reg  steps$reset;
+    reg  steps$starts;
+    reg  steps$done;
+    reg  [19:0] steps$verdict;
+    reg  steps$is_round;
+    wire  [5:0] steps$phase;
+    wire  steps$is_idle;
+    wire  [1:0] steps$step;
+    wire  steps$inserts;
+    wire  steps$ends;
+    reg  star$clock;
+    reg  star$reset;
+    reg  [5:0] star$phase;
+    reg  [1:0] star$step;
+    reg  [4:0] star$owner;
+    reg  [14:0] star$p;
+    reg  [14:0] star$records;
+    reg  [14:0] star$root_id;
+    reg  [97:0] star$root;
+    reg  [173:0] star$visit;
+    wire  [92:0] star$bundle;
+    wire  star$tests;
+    wire  star$flips;
+    wire  star$is_round;
+    wire  [109:0] star$write;
     
     // Local signals
-    reg  is_locate;
-    reg  is_mend;
-    reg  is_fetch;
-    reg  is_test;
+    reg  [19:0] verdict;
     reg  is_visiting;
-    reg  is_last_step;
-    reg  is_duplicate;
-    reg  rests;
-    reg  inserts_now;
-    reg  ends_now;
-    reg  [1:0] third_step;
-    reg  [1:0] one;
     
     // Sub module instances
-    incircle_core_logic$engine$solo$state state(
-        .d(state$d),
-        .q(state$q),
-        .clock(state$clock)
-    );
-    incircle_core_logic$engine$solo$step step(
-        .d(step$d),
-        .q(step$q),
-        .clock(step$clock)
-    );
     incircle_core_logic$engine$solo$awaits awaits(
         .d(awaits$d),
         .q(awaits$q),
@@ -24077,31 +21503,6 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         .q(root$q),
         .clock(root$clock)
     );
-    incircle_core_logic$engine$solo$star star(
-        .clock(star$clock),
-        .reset(star$reset),
-        .owner(star$owner),
-        .is_locate(star$is_locate),
-        .is_split(star$is_split),
-        .is_mend(star$is_mend),
-        .is_fetch(star$is_fetch),
-        .is_test(star$is_test),
-        .is_flip(star$is_flip),
-        .step(star$step),
-        .p(star$p),
-        .records(star$records),
-        .root_id(star$root_id),
-        .root(star$root),
-        .done(star$done),
-        .token(star$token),
-        .turned(star$turned),
-        .conflict(star$conflict),
-        .bundle(star$bundle),
-        .tests(star$tests),
-        .flips(star$flips),
-        .is_round(star$is_round),
-        .write(star$write)
-    );
     incircle_core_logic$engine$solo$works works(
         .d(works$d),
         .q(works$q),
@@ -24122,11 +21523,39 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         .q(inserted$q),
         .clock(inserted$clock)
     );
+    incircle_core_logic$engine$solo$steps steps(
+        .clock(steps$clock),
+        .reset(steps$reset),
+        .starts(steps$starts),
+        .done(steps$done),
+        .verdict(steps$verdict),
+        .is_round(steps$is_round),
+        .phase(steps$phase),
+        .is_idle(steps$is_idle),
+        .step(steps$step),
+        .inserts(steps$inserts),
+        .ends(steps$ends)
+    );
+    incircle_core_logic$engine$solo$star star(
+        .clock(star$clock),
+        .reset(star$reset),
+        .phase(star$phase),
+        .step(star$step),
+        .owner(star$owner),
+        .p(star$p),
+        .records(star$records),
+        .root_id(star$root_id),
+        .root(star$root),
+        .visit(star$visit),
+        .bundle(star$bundle),
+        .tests(star$tests),
+        .flips(star$flips),
+        .is_round(star$is_round),
+        .write(star$write)
+    );
     
     // Update code
     always @(*) begin
-        state$clock = clock;
-        step$clock = clock;
         awaits$clock = clock;
         at_work_for$clock = clock;
         vertex$clock = clock;
@@ -24136,8 +21565,6 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         asks$clock = clock;
         ended$clock = clock;
         inserted$clock = clock;
-        state$d = state$q;
-        step$d = step$q;
         awaits$d = awaits$q;
         at_work_for$d = at_work_for$q;
         vertex$d = vertex$q;
@@ -24147,126 +21574,47 @@ module incircle_core_logic$engine$solo(clock,reset,starts,owner,p,start,records,
         asks$d = asks$q;
         ended$d = ended$q;
         inserted$d = inserted$q;
+        steps$clock = clock;
         star$clock = clock;
-        one = 32'h1;
-        third_step = 32'h2;
-        is_locate = state$q == SoloState$Locate;
-        is_mend = state$q == SoloState$Mend;
-        is_fetch = state$q == SoloState$Fetch;
-        is_test = state$q == SoloState$Test;
-        is_last_step = step$q == third_step;
-        works$d = (state$q != SoloState$Idle) & (~reset);
-        is_at_work = works$q;
+        verdict = visit[(64'h9a)+:(20)];
+        steps$reset = reset;
+        steps$starts = start[(64'h0)+:(1)];
+        steps$done = visit[(64'h0)+:(1)];
+        steps$verdict = verdict;
+        steps$is_round = star$is_round;
+        works$d = (~steps$is_idle) & (~reset);
         star$reset = reset;
         star$owner = at_work_for$q;
-        star$is_locate = is_locate;
-        star$is_split = state$q == SoloState$Split;
-        star$is_mend = is_mend;
-        star$is_fetch = is_fetch;
-        star$is_test = is_test;
-        star$is_flip = state$q == SoloState$Flip;
-        star$step = step$q;
+        star$phase = steps$phase;
+        star$step = steps$step;
         star$p = vertex$q;
         star$records = records;
         star$root_id = root_id$q;
         star$root = root$q;
-        star$done = done;
-        star$token = token;
-        star$turned = turned;
-        star$conflict = verdict[(64'h0)+:(1)];
-        bundle = star$bundle;
+        star$visit = visit;
         write = star$write;
-        is_visiting = is_locate | is_mend | is_fetch | is_test;
+        is_visiting = steps$phase[(64'h0)+:(1)] | steps$phase[(64'h2)+:(1)] | steps$phase[(64'h3)+:(1)] | steps$phase[(64'h4)+:(1)];
         asks$d = is_visiting & (~awaits$q) & (~reset);
-        push = asks$q;
-        awaits$d = is_visiting & (~done);
-        tests = star$tests;
-        flips = star$flips;
-        rests = is_test & done & (~verdict[(64'h0)+:(1)]);
-        inserts_now = rests & star$is_round;
-        inserted$d = inserts_now & (~reset);
-        inserts = inserted$q;
-        is_duplicate = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
-        ends_now = inserts_now | (is_locate & done & is_duplicate);
-        ended$d = ends_now & (~reset);
-        ends = ended$q;
-        case (state$q)
-            SoloState$Idle:
-                begin
-                    if (starts) begin
-                        at_work_for$d = owner;
-                        vertex$d = p;
-                        root_id$d = start;
-                        state$d = SoloState$Locate;
-                    end
-                end
-            SoloState$Locate:
-                begin
-                    step$d = 32'h0;
-                    if (done) begin
-                        root$d = turned;
-                        if (verdict[(64'h1)+:(1)]) begin
-                            state$d = SoloState$Split;
-                        end
-                        else begin
-                            root_id$d = verdict[(64'h5)+:(15)];
-                        end
-                        if (is_duplicate) begin
-                            state$d = SoloState$Idle;
-                        end
-                    end
-                end
-            SoloState$Split:
-                begin
-                    step$d = step$q + one;
-                    if (is_last_step) begin
-                        step$d = 32'h0;
-                        state$d = SoloState$Mend;
-                    end
-                end
-            SoloState$Mend:
-                begin
-                    if (done) begin
-                        step$d = 32'h1;
-                        if (step$q == one) begin
-                            state$d = SoloState$Fetch;
-                        end
-                    end
-                end
-            SoloState$Fetch:
-                begin
-                    if (done) begin
-                        state$d = SoloState$Test;
-                    end
-                end
-            SoloState$Test:
-                begin
-                    step$d = 32'h0;
-                    if (done) begin
-                        state$d = SoloState$Flip;
-                    end
-                    if (rests) begin
-                        state$d = SoloState$Fetch;
-                    end
-                    if (inserts_now) begin
-                        state$d = SoloState$Idle;
-                    end
-                end
-            SoloState$Flip:
-                begin
-                    step$d = step$q + one;
-                    if (is_last_step) begin
-                        state$d = SoloState$Test;
-                    end
-                end
-            default:
-                begin
-                    state$d = SoloState$Idle;
-                end
-        endcase
-        if (reset) begin
-            state$d = SoloState$Idle;
-            awaits$d = 1'b0;
+        awaits$d = is_visiting & (~visit[(64'h0)+:(1)]) & (~reset);
+        push[(64'h0)+:(1)] = asks$q;
+        push[(64'h1)+:(93)] = star$bundle;
+        inserted$d = steps$inserts & (~reset);
+        ended$d = steps$ends & (~reset);
+        progress[(64'h0)+:(1)] = works$q;
+        progress[(64'h3)+:(1)] = star$tests;
+        progress[(64'h4)+:(1)] = star$flips;
+        progress[(64'h2)+:(1)] = inserted$q;
+        progress[(64'h1)+:(1)] = ended$q;
+        if (steps$is_idle & start[(64'h0)+:(1)]) begin
+            at_work_for$d = start[(64'h1)+:(5)];
+            vertex$d = start[(64'h6)+:(15)];
+            root_id$d = start[(64'h15)+:(15)];
+        end
+        if (steps$phase[(64'h0)+:(1)] & visit[(64'h0)+:(1)]) begin
+            root$d = visit[(64'h38)+:(98)];
+            if (~verdict[(64'h1)+:(1)]) begin
+                root_id$d = verdict[(64'h5)+:(15)];
+            end
         end
     end
     
@@ -24406,27 +21754,19 @@ module incircle_core_logic$engine$solo$root_id(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$root_id
 
 
-module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split,is_mend,is_fetch,is_test,is_flip,step,p,records,root_id,root,done,token,turned,conflict,bundle,tests,flips,is_round,write);
+module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,records,root_id,root,visit,bundle,tests,flips,is_round,write);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
-    input wire  [4:0] owner;
-    input wire  is_locate;
-    input wire  is_split;
-    input wire  is_mend;
-    input wire  is_fetch;
-    input wire  is_test;
-    input wire  is_flip;
+    input wire  [5:0] phase;
     input wire  [1:0] step;
+    input wire  [4:0] owner;
     input wire  [14:0] p;
     input wire  [14:0] records;
     input wire  [14:0] root_id;
     input wire  [97:0] root;
-    input wire  done;
-    input wire  [54:0] token;
-    input wire  [97:0] turned;
-    input wire  conflict;
+    input wire  [173:0] visit;
     output reg  [92:0] bundle;
     output reg  tests;
     output reg  flips;
@@ -24434,45 +21774,12 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
     output reg  [109:0] write;
     
     // Stub signals
-    reg  locates$d;
-    wire  locates$q;
-    reg  locates$clock;
-    reg  splits$d;
-    wire  splits$q;
-    reg  splits$clock;
-    reg  mends$d;
-    wire  mends$q;
-    reg  mends$clock;
-    reg  fetches$d;
-    wire  fetches$q;
-    reg  fetches$clock;
-    reg  is_testing$d;
-    wire  is_testing$q;
-    reg  is_testing$clock;
-    reg  is_flipping$d;
-    wire  is_flipping$q;
-    reg  is_flipping$clock;
-    reg  split1$d;
-    wire  split1$q;
-    reg  split1$clock;
-    reg  split2$d;
-    wire  split2$q;
-    reg  split2$clock;
-    reg  split3$d;
-    wire  split3$q;
-    reg  split3$clock;
-    reg  flip1$d;
-    wire  flip1$q;
-    reg  flip1$clock;
-    reg  flip2$d;
-    wire  flip2$q;
-    reg  flip2$clock;
-    reg  mend1$d;
-    wire  mend1$q;
-    reg  mend1$clock;
-    reg  mend2$d;
-    wire  mend2$q;
-    reg  mend2$clock;
+    reg  [5:0] done_phase$d;
+    wire  [5:0] done_phase$q;
+    reg  done_phase$clock;
+    reg  [6:0] turn$d;
+    wire  [6:0] turn$q;
+    reg  turn$clock;
     reg  ends_flip$d;
     wire  ends_flip$q;
     reg  ends_flip$clock;
@@ -24488,36 +21795,12 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
     reg  is_conflict$d;
     wire  is_conflict$q;
     reg  is_conflict$clock;
-    reg  [14:0] id$d;
-    wire  [14:0] id$q;
-    reg  id$clock;
-    reg  [14:0] a$d;
-    wire  [14:0] a$q;
-    reg  a$clock;
-    reg  [14:0] b$d;
-    wire  [14:0] b$q;
-    reg  b$clock;
-    reg  [14:0] outer$d;
-    wire  [14:0] outer$q;
-    reg  outer$clock;
-    reg  [14:0] after$d;
-    wire  [14:0] after$q;
-    reg  after$clock;
-    reg  [14:0] preceding$d;
-    wire  [14:0] preceding$q;
-    reg  preceding$clock;
-    reg  [14:0] back$d;
-    wire  [14:0] back$q;
-    reg  back$clock;
-    reg  [14:0] apex$d;
-    wire  [14:0] apex$q;
-    reg  apex$clock;
-    reg  [14:0] apex_after_a$d;
-    wire  [14:0] apex_after_a$q;
-    reg  apex_after_a$clock;
-    reg  [14:0] apex_before_b$d;
-    wire  [14:0] apex_before_b$q;
-    reg  apex_before_b$clock;
+    reg  [104:0] triangle$d;
+    wire  [104:0] triangle$q;
+    reg  triangle$clock;
+    reg  [44:0] beyond$d;
+    wire  [44:0] beyond$q;
+    reg  beyond$clock;
     reg  [109:0] request$d;
     wire  [109:0] request$q;
     reg  request$clock;
@@ -24527,44 +21810,29 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
     reg  [14:0] third$d;
     wire  [14:0] third$q;
     reg  third$clock;
-    reg  [4:0] visit$owner;
-    reg  visit$is_locate;
-    reg  visit$is_mend;
-    reg  visit$is_second;
-    reg  visit$is_fetch;
-    reg  [14:0] visit$root_id;
-    reg  [97:0] visit$root;
-    reg  [14:0] visit$id;
-    reg  [14:0] visit$outer;
-    reg  [14:0] visit$back;
-    wire  [92:0] visit$bundle;
-    reg  writes$split1;
-    reg  writes$split2;
-    reg  writes$split3;
-    reg  writes$flip1;
-    reg  writes$flip2;
-    reg  writes$mend1;
-    reg  writes$mend2;
+    reg  [4:0] visits$owner;
+    reg  [5:0] visits$phase;
+    reg  visits$is_second;
+    reg  [14:0] visits$root_id;
+    reg  [97:0] visits$root;
+    reg  [104:0] visits$triangle;
+    wire  [92:0] visits$bundle;
+    reg  [6:0] writes$turn;
     reg  writes$is_test;
     reg  [14:0] writes$p;
     reg  [14:0] writes$second;
     reg  [14:0] writes$third;
     reg  [14:0] writes$root_id;
     reg  [97:0] writes$root;
-    reg  [14:0] writes$id;
-    reg  [14:0] writes$a;
-    reg  [14:0] writes$b;
-    reg  [14:0] writes$outer;
-    reg  [14:0] writes$after;
-    reg  [14:0] writes$preceding;
-    reg  [14:0] writes$apex;
-    reg  [14:0] writes$apex_after_a;
-    reg  [14:0] writes$apex_before_b;
+    reg  [104:0] writes$triangle;
+    reg  [44:0] writes$beyond;
     reg  [14:0] writes$visited;
     reg  [1:0] writes$slot;
     wire  [109:0] writes$write;
     
     // Local signals
+    reg  [54:0] token;
+    reg  [19:0] verdict;
     reg  rests;
     reg  is_flipped;
     reg  [1:0] one;
@@ -24576,70 +21844,15 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
     reg  [14:0] one_more;
     
     // Sub module instances
-    incircle_core_logic$engine$solo$star$locates locates(
-        .d(locates$d),
-        .q(locates$q),
-        .clock(locates$clock)
+    incircle_core_logic$engine$solo$star$done_phase done_phase(
+        .d(done_phase$d),
+        .q(done_phase$q),
+        .clock(done_phase$clock)
     );
-    incircle_core_logic$engine$solo$star$splits splits(
-        .d(splits$d),
-        .q(splits$q),
-        .clock(splits$clock)
-    );
-    incircle_core_logic$engine$solo$star$mends mends(
-        .d(mends$d),
-        .q(mends$q),
-        .clock(mends$clock)
-    );
-    incircle_core_logic$engine$solo$star$fetches fetches(
-        .d(fetches$d),
-        .q(fetches$q),
-        .clock(fetches$clock)
-    );
-    incircle_core_logic$engine$solo$star$is_testing is_testing(
-        .d(is_testing$d),
-        .q(is_testing$q),
-        .clock(is_testing$clock)
-    );
-    incircle_core_logic$engine$solo$star$is_flipping is_flipping(
-        .d(is_flipping$d),
-        .q(is_flipping$q),
-        .clock(is_flipping$clock)
-    );
-    incircle_core_logic$engine$solo$star$split1 split1(
-        .d(split1$d),
-        .q(split1$q),
-        .clock(split1$clock)
-    );
-    incircle_core_logic$engine$solo$star$split2 split2(
-        .d(split2$d),
-        .q(split2$q),
-        .clock(split2$clock)
-    );
-    incircle_core_logic$engine$solo$star$split3 split3(
-        .d(split3$d),
-        .q(split3$q),
-        .clock(split3$clock)
-    );
-    incircle_core_logic$engine$solo$star$flip1 flip1(
-        .d(flip1$d),
-        .q(flip1$q),
-        .clock(flip1$clock)
-    );
-    incircle_core_logic$engine$solo$star$flip2 flip2(
-        .d(flip2$d),
-        .q(flip2$q),
-        .clock(flip2$clock)
-    );
-    incircle_core_logic$engine$solo$star$mend1 mend1(
-        .d(mend1$d),
-        .q(mend1$q),
-        .clock(mend1$clock)
-    );
-    incircle_core_logic$engine$solo$star$mend2 mend2(
-        .d(mend2$d),
-        .q(mend2$q),
-        .clock(mend2$clock)
+    incircle_core_logic$engine$solo$star$turn turn(
+        .d(turn$d),
+        .q(turn$q),
+        .clock(turn$clock)
     );
     incircle_core_logic$engine$solo$star$ends_flip ends_flip(
         .d(ends_flip$d),
@@ -24666,55 +21879,15 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
         .q(is_conflict$q),
         .clock(is_conflict$clock)
     );
-    incircle_core_logic$engine$solo$star$id id(
-        .d(id$d),
-        .q(id$q),
-        .clock(id$clock)
+    incircle_core_logic$engine$solo$star$triangle triangle(
+        .d(triangle$d),
+        .q(triangle$q),
+        .clock(triangle$clock)
     );
-    incircle_core_logic$engine$solo$star$a a(
-        .d(a$d),
-        .q(a$q),
-        .clock(a$clock)
-    );
-    incircle_core_logic$engine$solo$star$b b(
-        .d(b$d),
-        .q(b$q),
-        .clock(b$clock)
-    );
-    incircle_core_logic$engine$solo$star$outer outer(
-        .d(outer$d),
-        .q(outer$q),
-        .clock(outer$clock)
-    );
-    incircle_core_logic$engine$solo$star$after after(
-        .d(after$d),
-        .q(after$q),
-        .clock(after$clock)
-    );
-    incircle_core_logic$engine$solo$star$preceding preceding(
-        .d(preceding$d),
-        .q(preceding$q),
-        .clock(preceding$clock)
-    );
-    incircle_core_logic$engine$solo$star$back back(
-        .d(back$d),
-        .q(back$q),
-        .clock(back$clock)
-    );
-    incircle_core_logic$engine$solo$star$apex apex(
-        .d(apex$d),
-        .q(apex$q),
-        .clock(apex$clock)
-    );
-    incircle_core_logic$engine$solo$star$apex_after_a apex_after_a(
-        .d(apex_after_a$d),
-        .q(apex_after_a$q),
-        .clock(apex_after_a$clock)
-    );
-    incircle_core_logic$engine$solo$star$apex_before_b apex_before_b(
-        .d(apex_before_b$d),
-        .q(apex_before_b$q),
-        .clock(apex_before_b$clock)
+    incircle_core_logic$engine$solo$star$beyond beyond(
+        .d(beyond$d),
+        .q(beyond$q),
+        .clock(beyond$clock)
     );
     incircle_core_logic$engine$solo$star$request request(
         .d(request$d),
@@ -24731,42 +21904,25 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
         .q(third$q),
         .clock(third$clock)
     );
-    incircle_core_logic$engine$solo$star$visit visit(
-        .owner(visit$owner),
-        .is_locate(visit$is_locate),
-        .is_mend(visit$is_mend),
-        .is_second(visit$is_second),
-        .is_fetch(visit$is_fetch),
-        .root_id(visit$root_id),
-        .root(visit$root),
-        .id(visit$id),
-        .outer(visit$outer),
-        .back(visit$back),
-        .bundle(visit$bundle)
+    incircle_core_logic$engine$solo$star$visits visits(
+        .owner(visits$owner),
+        .phase(visits$phase),
+        .is_second(visits$is_second),
+        .root_id(visits$root_id),
+        .root(visits$root),
+        .triangle(visits$triangle),
+        .bundle(visits$bundle)
     );
     incircle_core_logic$engine$solo$star$writes writes(
-        .split1(writes$split1),
-        .split2(writes$split2),
-        .split3(writes$split3),
-        .flip1(writes$flip1),
-        .flip2(writes$flip2),
-        .mend1(writes$mend1),
-        .mend2(writes$mend2),
+        .turn(writes$turn),
         .is_test(writes$is_test),
         .p(writes$p),
         .second(writes$second),
         .third(writes$third),
         .root_id(writes$root_id),
         .root(writes$root),
-        .id(writes$id),
-        .a(writes$a),
-        .b(writes$b),
-        .outer(writes$outer),
-        .after(writes$after),
-        .preceding(writes$preceding),
-        .apex(writes$apex),
-        .apex_after_a(writes$apex_after_a),
-        .apex_before_b(writes$apex_before_b),
+        .triangle(writes$triangle),
+        .beyond(writes$beyond),
         .visited(writes$visited),
         .slot(writes$slot),
         .write(writes$write)
@@ -24774,162 +21930,104 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
     
     // Update code
     always @(*) begin
-        id$clock = clock;
-        a$clock = clock;
-        b$clock = clock;
-        outer$clock = clock;
-        after$clock = clock;
-        preceding$clock = clock;
-        back$clock = clock;
-        id$d = id$q;
-        a$d = a$q;
-        b$d = b$q;
-        outer$d = outer$q;
-        after$d = after$q;
-        preceding$d = preceding$q;
-        back$d = back$q;
-        apex$clock = clock;
-        apex_after_a$clock = clock;
-        apex_before_b$clock = clock;
-        request$clock = clock;
-        is_last$clock = clock;
-        third$clock = clock;
-        apex$d = apex$q;
-        apex_after_a$d = apex_after_a$q;
-        apex_before_b$d = apex_before_b$q;
-        request$d = request$q;
-        is_last$d = is_last$q;
-        third$d = third$q;
-        locates$clock = clock;
-        splits$clock = clock;
-        mends$clock = clock;
-        fetches$clock = clock;
-        is_testing$clock = clock;
-        is_flipping$clock = clock;
+        done_phase$clock = clock;
+        turn$clock = clock;
         ends_flip$clock = clock;
-        locates$d = locates$q;
-        splits$d = splits$q;
-        mends$d = mends$q;
-        fetches$d = fetches$q;
-        is_testing$d = is_testing$q;
-        is_flipping$d = is_flipping$q;
-        ends_flip$d = ends_flip$q;
-        split1$clock = clock;
-        split2$clock = clock;
-        split3$clock = clock;
-        flip1$clock = clock;
-        flip2$clock = clock;
-        mend1$clock = clock;
-        mend2$clock = clock;
-        split1$d = split1$q;
-        split2$d = split2$q;
-        split3$d = split3$q;
-        flip1$d = flip1$q;
-        flip2$d = flip2$q;
-        mend1$d = mend1$q;
-        mend2$d = mend2$q;
         comes$clock = clock;
         visited$clock = clock;
         found$clock = clock;
         is_conflict$clock = clock;
+        done_phase$d = done_phase$q;
+        turn$d = turn$q;
+        ends_flip$d = ends_flip$q;
         comes$d = comes$q;
         visited$d = visited$q;
         found$d = found$q;
         is_conflict$d = is_conflict$q;
+        triangle$clock = clock;
+        beyond$clock = clock;
+        request$clock = clock;
+        is_last$clock = clock;
+        third$clock = clock;
+        triangle$d = triangle$q;
+        beyond$d = beyond$q;
+        request$d = request$q;
+        is_last$d = is_last$q;
+        third$d = third$q;
         first_write = 32'h0;
         one = 32'h1;
         last_write = 32'h2;
-        is_last_write = step == last_write;
         one_more = 32'h1;
-        is_last$d = b$q == root[(64'hf)+:(15)];
+        token = visit[(64'h1)+:(55)];
+        verdict = visit[(64'h9a)+:(20)];
+        is_last$d = triangle$q[(64'h1e)+:(15)] == root[(64'hf)+:(15)];
         third$d = records + one_more;
         is_round = is_last$q;
         write = request$q;
-        locates$d = is_locate & (~reset);
-        splits$d = is_split & (~reset);
-        mends$d = is_mend & (~reset);
-        fetches$d = is_fetch & (~reset);
-        is_testing$d = is_test & (~reset);
-        is_flipping$d = is_flip & (~reset);
         is_first = step == first_write;
         is_second = step == one;
-        split1$d = is_split & is_first;
-        split2$d = is_split & is_second;
-        split3$d = is_split & is_last_write;
-        flip1$d = is_flip & is_first;
-        flip2$d = is_flip & is_second;
-        mend1$d = is_mend & is_first;
-        mend2$d = is_mend & is_second;
-        ends_flip$d = is_flip & is_last_write & (~reset);
-        comes$d = done;
+        is_last_write = step == last_write;
+        done_phase$d = phase;
+        turn$d[(64'h0)+:(1)] = phase[(64'h1)+:(1)] & is_first;
+        turn$d[(64'h1)+:(1)] = phase[(64'h1)+:(1)] & is_second;
+        turn$d[(64'h2)+:(1)] = phase[(64'h1)+:(1)] & is_last_write;
+        turn$d[(64'h3)+:(1)] = phase[(64'h5)+:(1)] & is_first;
+        turn$d[(64'h4)+:(1)] = phase[(64'h5)+:(1)] & is_second;
+        turn$d[(64'h5)+:(1)] = phase[(64'h2)+:(1)] & is_first;
+        turn$d[(64'h6)+:(1)] = phase[(64'h2)+:(1)] & is_second;
+        ends_flip$d = phase[(64'h5)+:(1)] & is_last_write & (~reset);
+        comes$d = visit[(64'h0)+:(1)];
         visited$d = token[(64'h28)+:(15)];
-        found$d = turned;
-        is_conflict$d = conflict;
-        tests = is_testing$q & comes$q;
+        found$d = visit[(64'h38)+:(98)];
+        is_conflict$d = verdict[(64'h0)+:(1)];
+        tests = done_phase$q[(64'h4)+:(1)] & comes$q;
         flips = ends_flip$q;
-        visit$owner = owner;
-        visit$is_locate = locates$q;
-        visit$is_mend = mends$q;
-        visit$is_second = mend2$q;
-        visit$is_fetch = fetches$q;
-        visit$root_id = root_id;
-        visit$root = root;
-        visit$id = id$q;
-        visit$outer = outer$q;
-        visit$back = back$q;
-        bundle = visit$bundle;
-        writes$split1 = split1$q;
-        writes$split2 = split2$q;
-        writes$split3 = split3$q;
-        writes$flip1 = flip1$q;
-        writes$flip2 = flip2$q;
-        writes$mend1 = mend1$q;
-        writes$mend2 = mend2$q;
-        writes$is_test = is_testing$q;
+        visits$owner = owner;
+        visits$phase = done_phase$q;
+        visits$is_second = turn$q[(64'h6)+:(1)];
+        visits$root_id = root_id;
+        visits$root = root;
+        visits$triangle = triangle$q;
+        bundle = visits$bundle;
+        writes$turn = turn$q;
+        writes$is_test = done_phase$q[(64'h4)+:(1)];
         writes$p = p;
         writes$second = records;
         writes$third = third$q;
         writes$root_id = root_id;
         writes$root = root;
-        writes$id = id$q;
-        writes$a = a$q;
-        writes$b = b$q;
-        writes$outer = outer$q;
-        writes$after = after$q;
-        writes$preceding = preceding$q;
-        writes$apex = apex$q;
-        writes$apex_after_a = apex_after_a$q;
-        writes$apex_before_b = apex_before_b$q;
+        writes$triangle = triangle$q;
+        writes$beyond = beyond$q;
         writes$visited = visited$q;
         writes$slot = found$q[(64'h5a)+:(2)];
-        rests = is_testing$q & comes$q & (~is_conflict$q);
-        is_flipped = back$q != id$q;
+        rests = done_phase$q[(64'h4)+:(1)] & comes$q & (~is_conflict$q);
+        is_flipped = triangle$q[(64'h3c)+:(15)] != triangle$q[(64'h0)+:(15)];
         request$d = writes$write;
-        request$d[(64'h0)+:(1)] = splits$q | is_flipping$q | (mends$q & comes$q) | (rests & is_flipped);
-        if (mends$q) begin
-            id$d = root_id;
+        request$d[(64'h0)+:(1)] = done_phase$q[(64'h1)+:(1)] | done_phase$q[(64'h5)+:(1)] | (done_phase$q[(64'h2)+:(1)] & comes$q) | (rests & is_flipped);
+        if (done_phase$q[(64'h2)+:(1)]) begin
+            triangle$d[(64'h0)+:(15)] = root_id;
         end
-        if (fetches$q & comes$q) begin
-            a$d = found$q[(64'hf)+:(15)];
-            b$d = found$q[(64'h1e)+:(15)];
-            outer$d = found$q[(64'h2d)+:(15)];
-            after$d = found$q[(64'h3c)+:(15)];
-            preceding$d = found$q[(64'h4b)+:(15)];
-            back$d = id$q;
+        if (done_phase$q[(64'h3)+:(1)] & comes$q) begin
+            triangle$d[(64'hf)+:(15)] = found$q[(64'hf)+:(15)];
+            triangle$d[(64'h1e)+:(15)] = found$q[(64'h1e)+:(15)];
+            triangle$d[(64'h2d)+:(15)] = found$q[(64'h2d)+:(15)];
+            triangle$d[(64'h4b)+:(15)] = found$q[(64'h3c)+:(15)];
+            triangle$d[(64'h5a)+:(15)] = found$q[(64'h4b)+:(15)];
+            triangle$d[(64'h3c)+:(15)] = triangle$q[(64'h0)+:(15)];
         end
-        if (is_testing$q & comes$q) begin
-            apex$d = found$q[(64'h0)+:(15)];
-            apex_after_a$d = found$q[(64'h3c)+:(15)];
-            apex_before_b$d = found$q[(64'h4b)+:(15)];
+        if (done_phase$q[(64'h4)+:(1)] & comes$q) begin
+            beyond$d[(64'h0)+:(15)] = found$q[(64'h0)+:(15)];
+            beyond$d[(64'hf)+:(15)] = found$q[(64'h3c)+:(15)];
+            beyond$d[(64'h1e)+:(15)] = found$q[(64'h4b)+:(15)];
         end
         if (rests) begin
-            id$d = after$q;
+            triangle$d[(64'h0)+:(15)] = triangle$q[(64'h4b)+:(15)];
         end
         if (ends_flip$q) begin
-            b$d = apex$q;
-            after$d = outer$q;
-            back$d = outer$q;
-            outer$d = apex_after_a$q;
+            triangle$d[(64'h1e)+:(15)] = beyond$q[(64'h0)+:(15)];
+            triangle$d[(64'h4b)+:(15)] = triangle$q[(64'h2d)+:(15)];
+            triangle$d[(64'h3c)+:(15)] = triangle$q[(64'h2d)+:(15)];
+            triangle$d[(64'h2d)+:(15)] = beyond$q[(64'hf)+:(15)];
         end
         if (reset) begin
             request$d[(64'h0)+:(1)] = 1'b0;
@@ -24939,137 +22037,23 @@ module incircle_core_logic$engine$solo$star(clock,reset,owner,is_locate,is_split
 endmodule // incircle_core_logic$engine$solo$star
 
 
-module incircle_core_logic$engine$solo$star$a(d,q,clock);
+module incircle_core_logic$engine$solo$star$beyond(d,q,clock);
     
     // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
+    input wire  [44:0] d;
+    output reg  [44:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 15'h0;
+       q = 45'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$solo$star$a
-
-
-module incircle_core_logic$engine$solo$star$after(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$after
-
-
-module incircle_core_logic$engine$solo$star$apex(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$apex
-
-
-module incircle_core_logic$engine$solo$star$apex_after_a(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$apex_after_a
-
-
-module incircle_core_logic$engine$solo$star$apex_before_b(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$apex_before_b
-
-
-module incircle_core_logic$engine$solo$star$b(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$b
-
-
-module incircle_core_logic$engine$solo$star$back(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$back
+endmodule // incircle_core_logic$engine$solo$star$beyond
 
 
 module incircle_core_logic$engine$solo$star$comes(d,q,clock);
@@ -25091,6 +22075,25 @@ module incircle_core_logic$engine$solo$star$comes(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$star$comes
 
 
+module incircle_core_logic$engine$solo$star$done_phase(d,q,clock);
+    
+    // Module arguments
+    input wire  [5:0] d;
+    output reg  [5:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 6'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$done_phase
+
+
 module incircle_core_logic$engine$solo$star$ends_flip(d,q,clock);
     
     // Module arguments
@@ -25108,63 +22111,6 @@ module incircle_core_logic$engine$solo$star$ends_flip(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$solo$star$ends_flip
-
-
-module incircle_core_logic$engine$solo$star$fetches(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$fetches
-
-
-module incircle_core_logic$engine$solo$star$flip1(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$flip1
-
-
-module incircle_core_logic$engine$solo$star$flip2(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$flip2
 
 
 module incircle_core_logic$engine$solo$star$found(d,q,clock);
@@ -25186,25 +22132,6 @@ module incircle_core_logic$engine$solo$star$found(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$star$found
 
 
-module incircle_core_logic$engine$solo$star$id(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$id
-
-
 module incircle_core_logic$engine$solo$star$is_conflict(d,q,clock);
     
     // Module arguments
@@ -25222,25 +22149,6 @@ module incircle_core_logic$engine$solo$star$is_conflict(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$solo$star$is_conflict
-
-
-module incircle_core_logic$engine$solo$star$is_flipping(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$is_flipping
 
 
 module incircle_core_logic$engine$solo$star$is_last(d,q,clock);
@@ -25262,139 +22170,6 @@ module incircle_core_logic$engine$solo$star$is_last(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$star$is_last
 
 
-module incircle_core_logic$engine$solo$star$is_testing(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$is_testing
-
-
-module incircle_core_logic$engine$solo$star$locates(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$locates
-
-
-module incircle_core_logic$engine$solo$star$mend1(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$mend1
-
-
-module incircle_core_logic$engine$solo$star$mend2(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$mend2
-
-
-module incircle_core_logic$engine$solo$star$mends(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$mends
-
-
-module incircle_core_logic$engine$solo$star$outer(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$outer
-
-
-module incircle_core_logic$engine$solo$star$preceding(d,q,clock);
-    
-    // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 15'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$preceding
-
-
 module incircle_core_logic$engine$solo$star$request(d,q,clock);
     
     // Module arguments
@@ -25412,82 +22187,6 @@ module incircle_core_logic$engine$solo$star$request(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$solo$star$request
-
-
-module incircle_core_logic$engine$solo$star$split1(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$split1
-
-
-module incircle_core_logic$engine$solo$star$split2(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$split2
-
-
-module incircle_core_logic$engine$solo$star$split3(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$split3
-
-
-module incircle_core_logic$engine$solo$star$splits(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$star$splits
 
 
 module incircle_core_logic$engine$solo$star$third(d,q,clock);
@@ -25509,54 +22208,42 @@ module incircle_core_logic$engine$solo$star$third(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$star$third
 
 
-module incircle_core_logic$engine$solo$star$visit(owner,is_locate,is_mend,is_second,is_fetch,root_id,root,id,outer,back,bundle);
+module incircle_core_logic$engine$solo$star$triangle(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] owner;
-    input wire  is_locate;
-    input wire  is_mend;
-    input wire  is_second;
-    input wire  is_fetch;
-    input wire  [14:0] root_id;
-    input wire  [97:0] root;
-    input wire  [14:0] id;
-    input wire  [14:0] outer;
-    input wire  [14:0] back;
-    output reg  [92:0] bundle;
+    input wire  [104:0] d;
+    output reg  [104:0] q;
+    input wire  clock;
     
-    // Update code
-    always @(*) begin
-        bundle[(64'h0)+:(1)] = 1'b0;
-        bundle[(64'h1)+:(1)] = 1'b0;
-        bundle[(64'h2)+:(5)] = owner;
-        bundle[(64'h7)+:(1)] = (~is_fetch) & (~is_locate);
-        bundle[(64'h8)+:(1)] = 1'b0;
-        bundle[(64'h9)+:(6)] = 32'h0;
-        bundle[(64'hf)+:(6)] = 32'h0;
-        bundle[(64'h15)+:(6)] = 32'h0;
-        bundle[(64'h1b)+:(15)] = back;
-        bundle[(64'h2a)+:(15)] = outer;
-        bundle[(64'h39)+:(6)] = 32'h0;
-        bundle[(64'h3f)+:(15)] = 32'h0;
-        bundle[(64'h4e)+:(15)] = 32'h0;
-        if (is_fetch) begin
-            bundle[(64'h1b)+:(15)] = 32'h0;
-            bundle[(64'h2a)+:(15)] = id;
-        end
-        if (is_locate) begin
-            bundle[(64'h1b)+:(15)] = 32'h0;
-            bundle[(64'h2a)+:(15)] = root_id;
-        end
-        if (is_mend) begin
-            bundle[(64'h1b)+:(15)] = root_id;
-            bundle[(64'h2a)+:(15)] = root[(64'h3c)+:(15)];
-            if (is_second) begin
-                bundle[(64'h2a)+:(15)] = root[(64'h4b)+:(15)];
-            end
-        end
+    // Update code (custom)
+    initial begin
+       q = 105'h0;
     end
     
-endmodule // incircle_core_logic$engine$solo$star$visit
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$triangle
+
+
+module incircle_core_logic$engine$solo$star$turn(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$star$turn
 
 
 module incircle_core_logic$engine$solo$star$visited(d,q,clock);
@@ -25578,31 +22265,64 @@ module incircle_core_logic$engine$solo$star$visited(d,q,clock);
 endmodule // incircle_core_logic$engine$solo$star$visited
 
 
-module incircle_core_logic$engine$solo$star$writes(split1,split2,split3,flip1,flip2,mend1,mend2,is_test,p,second,third,root_id,root,id,a,b,outer,after,preceding,apex,apex_after_a,apex_before_b,visited,slot,write);
+module incircle_core_logic$engine$solo$star$visits(owner,phase,is_second,root_id,root,triangle,bundle);
     
     // Module arguments
-    input wire  split1;
-    input wire  split2;
-    input wire  split3;
-    input wire  flip1;
-    input wire  flip2;
-    input wire  mend1;
-    input wire  mend2;
+    input wire  [4:0] owner;
+    input wire  [5:0] phase;
+    input wire  is_second;
+    input wire  [14:0] root_id;
+    input wire  [97:0] root;
+    input wire  [104:0] triangle;
+    output reg  [92:0] bundle;
+    
+    // Update code
+    always @(*) begin
+        bundle[(64'h0)+:(1)] = 1'b0;
+        bundle[(64'h1)+:(1)] = 1'b0;
+        bundle[(64'h2)+:(5)] = owner;
+        bundle[(64'h7)+:(1)] = (~phase[(64'h3)+:(1)]) & (~phase[(64'h0)+:(1)]);
+        bundle[(64'h8)+:(1)] = 1'b0;
+        bundle[(64'h9)+:(6)] = 32'h0;
+        bundle[(64'hf)+:(6)] = 32'h0;
+        bundle[(64'h15)+:(6)] = 32'h0;
+        bundle[(64'h1b)+:(15)] = triangle[(64'h3c)+:(15)];
+        bundle[(64'h2a)+:(15)] = triangle[(64'h2d)+:(15)];
+        bundle[(64'h39)+:(6)] = 32'h0;
+        bundle[(64'h3f)+:(15)] = 32'h0;
+        bundle[(64'h4e)+:(15)] = 32'h0;
+        if (phase[(64'h3)+:(1)]) begin
+            bundle[(64'h1b)+:(15)] = 32'h0;
+            bundle[(64'h2a)+:(15)] = triangle[(64'h0)+:(15)];
+        end
+        if (phase[(64'h0)+:(1)]) begin
+            bundle[(64'h1b)+:(15)] = 32'h0;
+            bundle[(64'h2a)+:(15)] = root_id;
+        end
+        if (phase[(64'h2)+:(1)]) begin
+            bundle[(64'h1b)+:(15)] = root_id;
+            bundle[(64'h2a)+:(15)] = root[(64'h3c)+:(15)];
+            if (is_second) begin
+                bundle[(64'h2a)+:(15)] = root[(64'h4b)+:(15)];
+            end
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$solo$star$visits
+
+
+module incircle_core_logic$engine$solo$star$writes(turn,is_test,p,second,third,root_id,root,triangle,beyond,visited,slot,write);
+    
+    // Module arguments
+    input wire  [6:0] turn;
     input wire  is_test;
     input wire  [14:0] p;
     input wire  [14:0] second;
     input wire  [14:0] third;
     input wire  [14:0] root_id;
     input wire  [97:0] root;
-    input wire  [14:0] id;
-    input wire  [14:0] a;
-    input wire  [14:0] b;
-    input wire  [14:0] outer;
-    input wire  [14:0] after;
-    input wire  [14:0] preceding;
-    input wire  [14:0] apex;
-    input wire  [14:0] apex_after_a;
-    input wire  [14:0] apex_before_b;
+    input wire  [104:0] triangle;
+    input wire  [44:0] beyond;
     input wire  [14:0] visited;
     input wire  [1:0] slot;
     output reg  [109:0] write;
@@ -25648,7 +22368,7 @@ module incircle_core_logic$engine$solo$star$writes(split1,split2,split3,flip1,fl
         record$n0 = root[(64'h4b)+:(15)];
         record$n1 = root_id;
         record$n2 = second;
-        if (split1) begin
+        if (turn[(64'h0)+:(1)]) begin
             record$id = root_id;
             record$v1 = root[(64'hf)+:(15)];
             record$v2 = root[(64'h1e)+:(15)];
@@ -25656,7 +22376,7 @@ module incircle_core_logic$engine$solo$star$writes(split1,split2,split3,flip1,fl
             record$n1 = second;
             record$n2 = third;
         end
-        if (split2) begin
+        if (turn[(64'h1)+:(1)]) begin
             record$id = second;
             record$v1 = root[(64'h1e)+:(15)];
             record$v2 = root[(64'h0)+:(15)];
@@ -25664,42 +22384,42 @@ module incircle_core_logic$engine$solo$star$writes(split1,split2,split3,flip1,fl
             record$n1 = third;
             record$n2 = root_id;
         end
-        if (flip1) begin
-            record$id = id;
-            record$v1 = a;
-            record$v2 = apex;
-            record$n0 = apex_after_a;
-            record$n1 = outer;
-            record$n2 = preceding;
+        if (turn[(64'h3)+:(1)]) begin
+            record$id = triangle[(64'h0)+:(15)];
+            record$v1 = triangle[(64'hf)+:(15)];
+            record$v2 = beyond[(64'h0)+:(15)];
+            record$n0 = beyond[(64'hf)+:(15)];
+            record$n1 = triangle[(64'h2d)+:(15)];
+            record$n2 = triangle[(64'h5a)+:(15)];
         end
-        if (flip2) begin
-            record$id = outer;
-            record$v1 = apex;
-            record$v2 = b;
-            record$n0 = apex_before_b;
-            record$n1 = after;
-            record$n2 = id;
+        if (turn[(64'h4)+:(1)]) begin
+            record$id = triangle[(64'h2d)+:(15)];
+            record$v1 = beyond[(64'h0)+:(15)];
+            record$v2 = triangle[(64'h1e)+:(15)];
+            record$n0 = beyond[(64'h1e)+:(15)];
+            record$n1 = triangle[(64'h4b)+:(15)];
+            record$n2 = triangle[(64'h0)+:(15)];
         end
-        link$id = after;
+        link$id = triangle[(64'h4b)+:(15)];
         link$slot = 32'h2;
-        link$value = outer;
+        link$value = triangle[(64'h2d)+:(15)];
         if (is_test) begin
             link$id = visited;
             link$slot = slot;
-            link$value = id;
+            link$value = triangle[(64'h0)+:(15)];
         end
-        if (mend1) begin
+        if (turn[(64'h5)+:(1)]) begin
             link$id = visited;
             link$slot = slot;
             link$value = second;
         end
-        if (mend2) begin
+        if (turn[(64'h6)+:(1)]) begin
             link$id = visited;
             link$slot = slot;
             link$value = third;
         end
         write = link$write;
-        if (split1 | split2 | split3 | flip1 | flip2) begin
+        if (turn[(64'h0)+:(1)] | turn[(64'h1)+:(1)] | turn[(64'h2)+:(1)] | turn[(64'h3)+:(1)] | turn[(64'h4)+:(1)]) begin
             write = record$write;
         end
     end
@@ -25773,7 +22493,174 @@ module incircle_core_logic$engine$solo$star$writes$record(id,v0,v1,v2,n0,n1,n2,w
 endmodule // incircle_core_logic$engine$solo$star$writes$record
 
 
-module incircle_core_logic$engine$solo$state(d,q,clock);
+module incircle_core_logic$engine$solo$steps(clock,reset,starts,done,verdict,is_round,phase,is_idle,step,inserts,ends);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  starts;
+    input wire  done;
+    input wire  [19:0] verdict;
+    input wire  is_round;
+    output reg  [5:0] phase;
+    output reg  is_idle;
+    output reg  [1:0] step;
+    output reg  inserts;
+    output reg  ends;
+    
+    // Enums
+    localparam SoloState$Idle = 0;
+    localparam SoloState$Locate = 1;
+    localparam SoloState$Split = 2;
+    localparam SoloState$Mend = 3;
+    localparam SoloState$Fetch = 4;
+    localparam SoloState$Test = 5;
+    localparam SoloState$Flip = 6;
+    
+    // Stub signals
+    reg  [2:0] state$d;
+    wire  [2:0] state$q;
+    reg  state$clock;
+    reg  [1:0] place$d;
+    wire  [1:0] place$q;
+    reg  place$clock;
+    
+    // Local signals
+    reg  rests;
+    reg  inserts_now;
+    reg  is_locate;
+    reg  is_test;
+    reg  is_duplicate;
+    reg  is_last_step;
+    reg  [1:0] third_step;
+    reg  [1:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$engine$solo$steps$state state(
+        .d(state$d),
+        .q(state$q),
+        .clock(state$clock)
+    );
+    incircle_core_logic$engine$solo$steps$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        state$clock = clock;
+        place$clock = clock;
+        state$d = state$q;
+        place$d = place$q;
+        one = 32'h1;
+        third_step = 32'h2;
+        is_locate = state$q == SoloState$Locate;
+        is_test = state$q == SoloState$Test;
+        is_last_step = place$q == third_step;
+        phase[(64'h0)+:(1)] = is_locate;
+        phase[(64'h1)+:(1)] = state$q == SoloState$Split;
+        phase[(64'h2)+:(1)] = state$q == SoloState$Mend;
+        phase[(64'h3)+:(1)] = state$q == SoloState$Fetch;
+        phase[(64'h4)+:(1)] = is_test;
+        phase[(64'h5)+:(1)] = state$q == SoloState$Flip;
+        is_idle = state$q == SoloState$Idle;
+        step = place$q;
+        is_duplicate = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
+        rests = is_test & done & (~verdict[(64'h0)+:(1)]);
+        inserts_now = rests & is_round;
+        inserts = inserts_now;
+        ends = inserts_now | (is_locate & done & is_duplicate);
+        case (state$q)
+            SoloState$Locate:
+                begin
+                    place$d = 32'h0;
+                    if (done & verdict[(64'h1)+:(1)]) begin
+                        state$d = SoloState$Split;
+                    end
+                    if (done & is_duplicate) begin
+                        state$d = SoloState$Idle;
+                    end
+                end
+            SoloState$Split:
+                begin
+                    place$d = place$q + one;
+                    if (is_last_step) begin
+                        place$d = 32'h0;
+                        state$d = SoloState$Mend;
+                    end
+                end
+            SoloState$Mend:
+                begin
+                    if (done) begin
+                        place$d = 32'h1;
+                        if (place$q == one) begin
+                            state$d = SoloState$Fetch;
+                        end
+                    end
+                end
+            SoloState$Fetch:
+                begin
+                    if (done) begin
+                        state$d = SoloState$Test;
+                    end
+                end
+            SoloState$Test:
+                begin
+                    place$d = 32'h0;
+                    if (done) begin
+                        state$d = SoloState$Flip;
+                    end
+                    if (rests) begin
+                        state$d = SoloState$Fetch;
+                    end
+                    if (inserts_now) begin
+                        state$d = SoloState$Idle;
+                    end
+                end
+            SoloState$Flip:
+                begin
+                    place$d = place$q + one;
+                    if (is_last_step) begin
+                        state$d = SoloState$Test;
+                    end
+                end
+            default:
+                begin
+                    state$d = SoloState$Idle;
+                    if (starts) begin
+                        state$d = SoloState$Locate;
+                    end
+                end
+        endcase
+        if (reset) begin
+            state$d = SoloState$Idle;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$solo$steps
+
+
+module incircle_core_logic$engine$solo$steps$place(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$steps$place
+
+
+module incircle_core_logic$engine$solo$steps$state(d,q,clock);
     
     // Module arguments
     input wire  [2:0] d;
@@ -25798,26 +22685,7 @@ module incircle_core_logic$engine$solo$state(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$solo$state
-
-
-module incircle_core_logic$engine$solo$step(d,q,clock);
-    
-    // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 2'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$step
+endmodule // incircle_core_logic$engine$solo$steps$state
 
 
 module incircle_core_logic$engine$solo$vertex(d,q,clock);
@@ -26580,58 +23448,41 @@ module incircle_core_logic$latencies$sweep_bucket(d,q,clock);
 endmodule // incircle_core_logic$latencies$sweep_bucket
 
 
-module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,header,length,is_empty,word,is_read,is_packed,index,index_ahead,chooses,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,response_valid,response_ready,response_data,response_both,response_last,is_idle,ends,is_taken);
+module incircle_core_logic$responder(clock,reset,answers,sweeps,request,head,word,index,index_ahead,chooses,read,read_id,read_done,record,response$valid,response$ready,response$data,response$both,response$last,progress);
     
     // Module arguments
     input wire  clock;
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [31:0] first;
-    input wire  [31:0] count;
-    input wire  [31:0] header;
-    input wire  [31:0] length;
-    input wire  is_empty;
+    input wire  [71:0] request;
+    input wire  [66:0] head;
     input wire  [31:0] word;
-    input wire  is_read;
-    input wire  is_packed;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
     output reg  chooses;
     output reg  read;
     output reg  [14:0] read_id;
     input wire  read_done;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
-    input wire  [14:0] n0;
-    input wire  [14:0] n1;
-    input wire  [14:0] n2;
-    input wire  was_set;
-    output reg  response_valid;
-    input wire  response_ready;
-    output reg  [63:0] response_data;
-    output reg  response_both;
-    output reg  response_last;
-    output reg  is_idle;
-    output reg  ends;
-    output reg  is_taken;
+    input wire  [90:0] record;
+    output reg  response$valid;
+    input wire  response$ready;
+    output reg  [63:0] response$data;
+    output reg  response$both;
+    output reg  response$last;
+    output reg  [2:0] progress;
     
     // Enums
     localparam AnswerState$Idle = 0;
     localparam AnswerState$Prepare = 1;
     localparam AnswerState$Header = 2;
-    localparam AnswerState$Choose = 3;
-    localparam AnswerState$Payload = 4;
-    localparam AnswerState$Records = 5;
+    localparam AnswerState$Words = 3;
+    localparam AnswerState$Records = 4;
     
     // Stub signals
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [6:0] following$d;
-    wire  [6:0] following$q;
-    reg  following$clock;
     reg  waited$d;
     wire  waited$q;
     reg  waited$clock;
@@ -26641,15 +23492,19 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,head
     reg  [65:0] offered$d;
     wire  [65:0] offered$q;
     reg  offered$clock;
-    reg  [31:0] left$d;
-    wire  [31:0] left$q;
-    reg  left$clock;
-    reg  is_last$d;
-    wire  is_last$q;
-    reg  is_last$clock;
-    reg  [6:0] loaded$d;
-    wire  [6:0] loaded$q;
-    reg  loaded$clock;
+    reg  words$clock;
+    reg  words$reset;
+    reg  words$prepares;
+    reg  words$starts;
+    reg  [31:0] words$length;
+    reg  words$runs;
+    wire  [6:0] words$index;
+    wire  [6:0] words$index_ahead;
+    wire  words$chooses;
+    reg  [31:0] words$word;
+    wire  words$valid;
+    wire  [65:0] words$beat;
+    reg  words$takes;
     reg  records$clock;
     reg  records$reset;
     reg  records$starts;
@@ -26660,13 +23515,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,head
     wire  records$read;
     wire  [14:0] records$read_id;
     reg  records$read_done;
-    reg  [14:0] records$v0;
-    reg  [14:0] records$v1;
-    reg  [14:0] records$v2;
-    reg  [14:0] records$n0;
-    reg  [14:0] records$n1;
-    reg  [14:0] records$n2;
-    reg  records$was_set;
+    reg  [90:0] records$record;
     wire  records$valid;
     wire  [65:0] records$beat;
     reg  records$takes;
@@ -26675,22 +23524,13 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,head
     reg  [63:0] pair;
     reg  [63:0] pair_bits;
     reg  loads;
-    reg  ends_now;
-    reg  [31:0] no_word;
-    reg  [31:0] one;
-    reg  [31:0] two;
-    reg  [6:0] one_word;
+    reg  ends;
     
     // Sub module instances
     incircle_core_logic$responder$state state(
         .d(state$d),
         .q(state$q),
         .clock(state$clock)
-    );
-    incircle_core_logic$responder$following following(
-        .d(following$d),
-        .q(following$q),
-        .clock(following$clock)
     );
     incircle_core_logic$responder$waited waited(
         .d(waited$d),
@@ -26707,20 +23547,20 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,head
         .q(offered$q),
         .clock(offered$clock)
     );
-    incircle_core_logic$responder$left left(
-        .d(left$d),
-        .q(left$q),
-        .clock(left$clock)
-    );
-    incircle_core_logic$responder$is_last is_last(
-        .d(is_last$d),
-        .q(is_last$q),
-        .clock(is_last$clock)
-    );
-    incircle_core_logic$responder$loaded loaded(
-        .d(loaded$d),
-        .q(loaded$q),
-        .clock(loaded$clock)
+    incircle_core_logic$responder$words words(
+        .clock(words$clock),
+        .reset(words$reset),
+        .prepares(words$prepares),
+        .starts(words$starts),
+        .length(words$length),
+        .runs(words$runs),
+        .index(words$index),
+        .index_ahead(words$index_ahead),
+        .chooses(words$chooses),
+        .word(words$word),
+        .valid(words$valid),
+        .beat(words$beat),
+        .takes(words$takes)
     );
     incircle_core_logic$responder$records records(
         .clock(records$clock),
@@ -26733,13 +23573,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,head
         .read(records$read),
         .read_id(records$read_id),
         .read_done(records$read_done),
-        .v0(records$v0),
-        .v1(records$v1),
-        .v2(records$v2),
-        .n0(records$n0),
-        .n1(records$n1),
-        .n2(records$n2),
-        .was_set(records$was_set),
+        .record(records$record),
         .valid(records$valid),
         .beat(records$beat),
         .takes(records$takes)
@@ -26751,54 +23585,42 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,head
         waited$clock = clock;
         valid$clock = clock;
         offered$clock = clock;
-        left$clock = clock;
-        is_last$clock = clock;
-        loaded$clock = clock;
-        following$clock = clock;
         state$d = state$q;
         waited$d = waited$q;
         valid$d = valid$q;
         offered$d = offered$q;
-        left$d = left$q;
-        is_last$d = is_last$q;
-        loaded$d = loaded$q;
-        following$d = following$q;
+        words$clock = clock;
         records$clock = clock;
-        no_word = 32'h0;
-        one = 32'h1;
-        two = 32'h2;
-        one_word = 32'h1;
-        response_valid = valid$q;
+        response$valid = valid$q;
         pair[(64'h0)+:(32)] = offered$q[(64'h0)+:(32)];
         pair[(64'h20)+:(32)] = offered$q[(64'h20)+:(32)];
         pair_bits = pair;
-        response_data = pair_bits;
-        response_both = offered$q[(64'h40)+:(1)];
-        response_last = offered$q[(64'h41)+:(1)];
-        index = loaded$q;
-        index_ahead = following$q;
-        chooses = (state$q == AnswerState$Choose) & waited$q;
-        loads = (~valid$q) | response_ready;
-        is_taken = loads;
-        is_idle = state$q == AnswerState$Idle;
+        response$data = pair_bits;
+        response$both = offered$q[(64'h40)+:(1)];
+        response$last = offered$q[(64'h41)+:(1)];
+        loads = (~valid$q) | response$ready;
+        words$reset = reset;
+        words$prepares = state$q == AnswerState$Prepare;
+        words$starts = state$q == AnswerState$Header;
+        words$length = head[(64'h20)+:(32)];
+        words$runs = state$q == AnswerState$Words;
+        words$word = word;
+        index = words$index;
+        index_ahead = words$index_ahead;
+        chooses = words$chooses;
         records$reset = reset;
         records$starts = state$q == AnswerState$Header;
-        records$first = first[(32'h0)+:(15)];
-        records$count = count[(32'h0)+:(15)];
-        records$is_packed = is_packed;
+        records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
+        records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        records$is_packed = head[(64'h42)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
         records$read_done = read_done;
-        records$v0 = v0;
-        records$v1 = v1;
-        records$v2 = v2;
-        records$n0 = n0;
-        records$n1 = n1;
-        records$n2 = n2;
-        records$was_set = was_set;
+        records$record = record;
+        words$takes = 1'b0;
         records$takes = 1'b0;
-        ends_now = 1'b0;
+        ends = 1'b0;
         valid$d = valid$q & (~loads);
         case (state$q)
             AnswerState$Idle:
@@ -26809,7 +23631,6 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,head
                 end
             AnswerState$Prepare:
                 begin
-                    following$d = 32'h0;
                     waited$d = ~waited$q;
                     if (waited$q) begin
                         state$d = AnswerState$Header;
@@ -26817,43 +23638,26 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,head
                 end
             AnswerState$Header:
                 begin
-                    left$d = length;
-                    is_last$d = length == one;
-                    loaded$d = 32'h0;
                     if (loads) begin
                         valid$d = 1'b1;
-                        offered$d[(64'h0)+:(32)] = header;
-                        offered$d[(64'h20)+:(32)] = length;
+                        offered$d[(64'h0)+:(32)] = head[(64'h0)+:(32)];
+                        offered$d[(64'h20)+:(32)] = head[(64'h20)+:(32)];
                         offered$d[(64'h40)+:(1)] = 1'b1;
-                        offered$d[(64'h41)+:(1)] = is_empty;
-                        ends_now = is_empty;
-                        state$d = AnswerState$Choose;
-                        if (is_read) begin
+                        offered$d[(64'h41)+:(1)] = head[(64'h40)+:(1)];
+                        ends = head[(64'h40)+:(1)];
+                        state$d = AnswerState$Words;
+                        if (head[(64'h41)+:(1)]) begin
                             state$d = AnswerState$Records;
                         end
                     end
                 end
-            AnswerState$Choose:
+            AnswerState$Words:
                 begin
-                    following$d = loaded$q + one_word;
-                    waited$d = ~waited$q;
-                    if (waited$q) begin
-                        state$d = AnswerState$Payload;
-                    end
-                end
-            AnswerState$Payload:
-                begin
-                    if (loads) begin
+                    if (loads & words$valid) begin
                         valid$d = 1'b1;
-                        offered$d[(64'h0)+:(32)] = word;
-                        offered$d[(64'h20)+:(32)] = no_word;
-                        offered$d[(64'h40)+:(1)] = 1'b0;
-                        offered$d[(64'h41)+:(1)] = is_last$q;
-                        loaded$d = loaded$q + one_word;
-                        left$d = left$q - one;
-                        is_last$d = left$q == two;
-                        state$d = AnswerState$Choose;
-                        ends_now = is_last$q;
+                        offered$d = words$beat;
+                        words$takes = 1'b1;
+                        ends = words$beat[(64'h41)+:(1)];
                     end
                 end
             AnswerState$Records:
@@ -26862,7 +23666,7 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,head
                         valid$d = 1'b1;
                         offered$d = records$beat;
                         records$takes = 1'b1;
-                        ends_now = records$beat[(64'h41)+:(1)];
+                        ends = records$beat[(64'h41)+:(1)];
                     end
                 end
             default:
@@ -26870,98 +23674,24 @@ module incircle_core_logic$responder(clock,reset,answers,sweeps,first,count,head
                     state$d = AnswerState$Idle;
                 end
         endcase
-        ends = ends_now;
-        if (ends_now) begin
+        if (ends) begin
             state$d = AnswerState$Idle;
         end
         if (reset) begin
             state$d = AnswerState$Idle;
             waited$d = 1'b0;
             valid$d = 1'b0;
-            offered$d[(64'h0)+:(32)] = no_word;
-            offered$d[(64'h20)+:(32)] = no_word;
+            offered$d[(64'h0)+:(32)] = 32'h0;
+            offered$d[(64'h20)+:(32)] = 32'h0;
             offered$d[(64'h40)+:(1)] = 1'b0;
             offered$d[(64'h41)+:(1)] = 1'b0;
         end
+        progress[(64'h0)+:(1)] = state$q == AnswerState$Idle;
+        progress[(64'h1)+:(1)] = ends;
+        progress[(64'h2)+:(1)] = loads;
     end
     
 endmodule // incircle_core_logic$responder
-
-
-module incircle_core_logic$responder$following(d,q,clock);
-    
-    // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$following
-
-
-module incircle_core_logic$responder$is_last(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$is_last
-
-
-module incircle_core_logic$responder$left(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$left
-
-
-module incircle_core_logic$responder$loaded(d,q,clock);
-    
-    // Module arguments
-    input wire  [6:0] d;
-    output reg  [6:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 7'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$loaded
 
 
 module incircle_core_logic$responder$offered(d,q,clock);
@@ -26983,7 +23713,7 @@ module incircle_core_logic$responder$offered(d,q,clock);
 endmodule // incircle_core_logic$responder$offered
 
 
-module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,v0,v1,v2,n0,n1,n2,was_set,valid,beat,takes);
+module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -26996,13 +23726,7 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
     output reg  read;
     output reg  [14:0] read_id;
     input wire  read_done;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
-    input wire  [14:0] n0;
-    input wire  [14:0] n1;
-    input wire  [14:0] n2;
-    input wire  was_set;
+    input wire  [90:0] record;
     output reg  valid;
     output reg  [65:0] beat;
     input wire  takes;
@@ -27023,24 +23747,18 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
     reg  fetching$d;
     wire  fetching$q;
     reg  fetching$clock;
-    reg  record$clock;
-    reg  record$reset;
-    reg  record$read_done;
-    reg  [14:0] record$v0;
-    reg  [14:0] record$v1;
-    reg  [14:0] record$v2;
-    reg  [14:0] record$n0;
-    reg  [14:0] record$n1;
-    reg  [14:0] record$n2;
-    reg  record$was_set;
-    wire  record$holds;
-    wire  [31:0] record$word;
-    wire  record$is_at_last;
-    reg  record$takes;
-    wire  [14:0] record$vertex0;
-    wire  [14:0] record$vertex1;
-    wire  [14:0] record$vertex2;
-    reg  record$takes_whole;
+    reg  buffer$clock;
+    reg  buffer$reset;
+    reg  buffer$read_done;
+    reg  [90:0] buffer$record;
+    wire  buffer$holds;
+    wire  [31:0] buffer$word;
+    wire  buffer$is_at_last;
+    reg  buffer$takes;
+    wire  [14:0] buffer$vertex0;
+    wire  [14:0] buffer$vertex1;
+    wire  [14:0] buffer$vertex2;
+    reg  buffer$takes_whole;
     reg  vertices$clock;
     reg  vertices$reset;
     reg  vertices$starts;
@@ -27094,25 +23812,19 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
         .q(fetching$q),
         .clock(fetching$clock)
     );
-    incircle_core_logic$responder$records$record record(
-        .clock(record$clock),
-        .reset(record$reset),
-        .read_done(record$read_done),
-        .v0(record$v0),
-        .v1(record$v1),
-        .v2(record$v2),
-        .n0(record$n0),
-        .n1(record$n1),
-        .n2(record$n2),
-        .was_set(record$was_set),
-        .holds(record$holds),
-        .word(record$word),
-        .is_at_last(record$is_at_last),
-        .takes(record$takes),
-        .vertex0(record$vertex0),
-        .vertex1(record$vertex1),
-        .vertex2(record$vertex2),
-        .takes_whole(record$takes_whole)
+    incircle_core_logic$responder$records$buffer buffer(
+        .clock(buffer$clock),
+        .reset(buffer$reset),
+        .read_done(buffer$read_done),
+        .record(buffer$record),
+        .holds(buffer$holds),
+        .word(buffer$word),
+        .is_at_last(buffer$is_at_last),
+        .takes(buffer$takes),
+        .vertex0(buffer$vertex0),
+        .vertex1(buffer$vertex1),
+        .vertex2(buffer$vertex2),
+        .takes_whole(buffer$takes_whole)
     );
     incircle_core_logic$responder$records$vertices vertices(
         .clock(vertices$clock),
@@ -27155,12 +23867,12 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
         fetching$d = fetching$q;
         is_there$d = is_there$q;
         head$d = head$q;
-        record$clock = clock;
+        buffer$clock = clock;
         vertices$clock = clock;
         no_word = 32'h0;
         one = 32'h1;
         vertices_alone$d = is_packed;
-        may_ask = (~fetching$q) & (~record$holds);
+        may_ask = (~fetching$q) & (~buffer$holds);
         if (vertices_alone$q) begin
             may_ask = vertices$has_room;
         end
@@ -27181,35 +23893,29 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
             left$d = count;
             some_are_left$d = |count;
         end
-        record$reset = reset;
-        record$read_done = read_done;
-        record$v0 = v0;
-        record$v1 = v1;
-        record$v2 = v2;
-        record$n0 = n0;
-        record$n1 = n1;
-        record$n2 = n2;
-        record$was_set = was_set;
-        packs = vertices_alone$q & record$holds;
-        record$takes_whole = packs;
+        buffer$reset = reset;
+        buffer$read_done = read_done;
+        buffer$record = record;
+        packs = vertices_alone$q & buffer$holds;
+        buffer$takes_whole = packs;
         vertices$reset = reset;
         vertices$starts = starts;
         vertices$count = count;
         vertices$comes = packs;
-        vertices$v0 = record$vertex0;
-        vertices$v1 = record$vertex1;
-        vertices$v2 = record$vertex2;
+        vertices$v0 = buffer$vertex0;
+        vertices$v1 = buffer$vertex1;
+        vertices$v2 = buffer$vertex2;
         valid = is_there$q;
         beat = head$q;
         moves = (~is_there$q) | takes;
-        record$takes = moves & record$holds & (~vertices_alone$q);
+        buffer$takes = moves & buffer$holds & (~vertices_alone$q);
         vertices$takes = moves & vertices$valid & vertices_alone$q;
         if (moves) begin
-            is_there$d = record$holds;
-            head$d[(64'h0)+:(32)] = record$word;
+            is_there$d = buffer$holds;
+            head$d[(64'h0)+:(32)] = buffer$word;
             head$d[(64'h20)+:(32)] = no_word;
             head$d[(64'h40)+:(1)] = 1'b0;
-            head$d[(64'h41)+:(1)] = record$is_at_last & (~some_are_left$q);
+            head$d[(64'h41)+:(1)] = buffer$is_at_last & (~some_are_left$q);
             if (vertices_alone$q) begin
                 is_there$d = vertices$valid;
                 head$d = vertices$beat;
@@ -27223,6 +23929,294 @@ module incircle_core_logic$responder$records(clock,reset,starts,first,count,is_p
     end
     
 endmodule // incircle_core_logic$responder$records
+
+
+module incircle_core_logic$responder$records$buffer(clock,reset,read_done,record,holds,word,is_at_last,takes,vertex0,vertex1,vertex2,takes_whole);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  read_done;
+    input wire  [90:0] record;
+    output reg  holds;
+    output reg  [31:0] word;
+    output reg  is_at_last;
+    input wire  takes;
+    output reg  [14:0] vertex0;
+    output reg  [14:0] vertex1;
+    output reg  [14:0] vertex2;
+    input wire  takes_whole;
+    
+    // Stub signals
+    reg  is_held$d;
+    wire  is_held$q;
+    reg  is_held$clock;
+    reg  [31:0] buffer0$d;
+    wire  [31:0] buffer0$q;
+    reg  buffer0$clock;
+    reg  [31:0] buffer1$d;
+    wire  [31:0] buffer1$q;
+    reg  buffer1$clock;
+    reg  [31:0] buffer2$d;
+    wire  [31:0] buffer2$q;
+    reg  buffer2$clock;
+    reg  is_second$d;
+    wire  is_second$q;
+    reg  is_second$clock;
+    reg  is_third$d;
+    wire  is_third$q;
+    reg  is_third$clock;
+    reg  [90:0] words$record;
+    wire  [31:0] words$word0;
+    wire  [31:0] words$word1;
+    wire  [31:0] words$word2;
+    
+    // Sub module instances
+    incircle_core_logic$responder$records$buffer$is_held is_held(
+        .d(is_held$d),
+        .q(is_held$q),
+        .clock(is_held$clock)
+    );
+    incircle_core_logic$responder$records$buffer$buffer0 buffer0(
+        .d(buffer0$d),
+        .q(buffer0$q),
+        .clock(buffer0$clock)
+    );
+    incircle_core_logic$responder$records$buffer$buffer1 buffer1(
+        .d(buffer1$d),
+        .q(buffer1$q),
+        .clock(buffer1$clock)
+    );
+    incircle_core_logic$responder$records$buffer$buffer2 buffer2(
+        .d(buffer2$d),
+        .q(buffer2$q),
+        .clock(buffer2$clock)
+    );
+    incircle_core_logic$responder$records$buffer$is_second is_second(
+        .d(is_second$d),
+        .q(is_second$q),
+        .clock(is_second$clock)
+    );
+    incircle_core_logic$responder$records$buffer$is_third is_third(
+        .d(is_third$d),
+        .q(is_third$q),
+        .clock(is_third$clock)
+    );
+    incircle_core_logic$responder$records$buffer$words words(
+        .record(words$record),
+        .word0(words$word0),
+        .word1(words$word1),
+        .word2(words$word2)
+    );
+    
+    // Update code
+    always @(*) begin
+        is_held$clock = clock;
+        buffer0$clock = clock;
+        buffer1$clock = clock;
+        buffer2$clock = clock;
+        is_second$clock = clock;
+        is_third$clock = clock;
+        is_held$d = is_held$q;
+        buffer0$d = buffer0$q;
+        buffer1$d = buffer1$q;
+        buffer2$d = buffer2$q;
+        is_second$d = is_second$q;
+        is_third$d = is_third$q;
+        holds = is_held$q;
+        words$record = record;
+        vertex0 = buffer0$q[(32'h0)+:(15)];
+        vertex1 = buffer1$q[(32'h0)+:(15)];
+        vertex2 = buffer2$q[(32'h0)+:(15)];
+        if (takes_whole) begin
+            is_held$d = 1'b0;
+        end
+        if (read_done) begin
+            is_held$d = 1'b1;
+            buffer0$d = words$word0;
+            buffer1$d = words$word1;
+            buffer2$d = words$word2;
+        end
+        is_at_last = is_third$q;
+        word = buffer0$q;
+        if (is_second$q) begin
+            word = buffer1$q;
+        end
+        if (is_third$q) begin
+            word = buffer2$q;
+        end
+        if (takes) begin
+            is_second$d = (~is_second$q) & (~is_third$q);
+            is_third$d = is_second$q;
+            is_held$d = ~is_third$q;
+        end
+        if (reset) begin
+            is_held$d = 1'b0;
+            is_second$d = 1'b0;
+            is_third$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$records$buffer
+
+
+module incircle_core_logic$responder$records$buffer$buffer0(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$buffer$buffer0
+
+
+module incircle_core_logic$responder$records$buffer$buffer1(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$buffer$buffer1
+
+
+module incircle_core_logic$responder$records$buffer$buffer2(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$buffer$buffer2
+
+
+module incircle_core_logic$responder$records$buffer$is_held(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$buffer$is_held
+
+
+module incircle_core_logic$responder$records$buffer$is_second(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$buffer$is_second
+
+
+module incircle_core_logic$responder$records$buffer$is_third(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$records$buffer$is_third
+
+
+module incircle_core_logic$responder$records$buffer$words(record,word0,word1,word2);
+    
+    // Module arguments
+    input wire  [90:0] record;
+    output reg  [31:0] word0;
+    output reg  [31:0] word1;
+    output reg  [31:0] word2;
+    
+    // Local signals
+    reg  [31:0] lock;
+    reg  [31:0] vertex0;
+    reg  [31:0] vertex1;
+    reg  [31:0] vertex2;
+    reg  [31:0] link0;
+    reg  [31:0] link1;
+    reg  [31:0] link2;
+    reg  [31:0] high0;
+    reg  [31:0] high1;
+    reg  [31:0] high2;
+    reg  [31:0] link_shift;
+    
+    // Update code
+    always @(*) begin
+        link_shift = 32'hf;
+        lock = 32'h0;
+        if (record[(64'h5a)+:(1)]) begin
+            lock = 64'h80000000;
+        end
+        vertex0 = ((record[(64'h0)+:(15)]) & 32'hffffffff);
+        vertex1 = ((record[(64'hf)+:(15)]) & 32'hffffffff);
+        vertex2 = ((record[(64'h1e)+:(15)]) & 32'hffffffff);
+        link0 = ((record[(64'h2d)+:(15)]) & 32'hffffffff);
+        link1 = ((record[(64'h3c)+:(15)]) & 32'hffffffff);
+        link2 = ((record[(64'h4b)+:(15)]) & 32'hffffffff);
+        high0 = link0 << link_shift;
+        high1 = link1 << link_shift;
+        high2 = link2 << link_shift;
+        word0 = vertex0 | high0 | lock;
+        word1 = vertex1 | high1;
+        word2 = vertex2 | high2;
+    end
+    
+endmodule // incircle_core_logic$responder$records$buffer$words
 
 
 module incircle_core_logic$responder$records$fetching(d,q,clock);
@@ -27299,324 +24293,6 @@ module incircle_core_logic$responder$records$left(d,q,clock);
     end
           
 endmodule // incircle_core_logic$responder$records$left
-
-
-module incircle_core_logic$responder$records$record(clock,reset,read_done,v0,v1,v2,n0,n1,n2,was_set,holds,word,is_at_last,takes,vertex0,vertex1,vertex2,takes_whole);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  reset;
-    input wire  read_done;
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
-    input wire  [14:0] n0;
-    input wire  [14:0] n1;
-    input wire  [14:0] n2;
-    input wire  was_set;
-    output reg  holds;
-    output reg  [31:0] word;
-    output reg  is_at_last;
-    input wire  takes;
-    output reg  [14:0] vertex0;
-    output reg  [14:0] vertex1;
-    output reg  [14:0] vertex2;
-    input wire  takes_whole;
-    
-    // Stub signals
-    reg  is_held$d;
-    wire  is_held$q;
-    reg  is_held$clock;
-    reg  [31:0] buffer0$d;
-    wire  [31:0] buffer0$q;
-    reg  buffer0$clock;
-    reg  [31:0] buffer1$d;
-    wire  [31:0] buffer1$q;
-    reg  buffer1$clock;
-    reg  [31:0] buffer2$d;
-    wire  [31:0] buffer2$q;
-    reg  buffer2$clock;
-    reg  is_second$d;
-    wire  is_second$q;
-    reg  is_second$clock;
-    reg  is_third$d;
-    wire  is_third$q;
-    reg  is_third$clock;
-    reg  [14:0] words$v0;
-    reg  [14:0] words$v1;
-    reg  [14:0] words$v2;
-    reg  [14:0] words$n0;
-    reg  [14:0] words$n1;
-    reg  [14:0] words$n2;
-    reg  words$was_set;
-    wire  [31:0] words$word0;
-    wire  [31:0] words$word1;
-    wire  [31:0] words$word2;
-    
-    // Sub module instances
-    incircle_core_logic$responder$records$record$is_held is_held(
-        .d(is_held$d),
-        .q(is_held$q),
-        .clock(is_held$clock)
-    );
-    incircle_core_logic$responder$records$record$buffer0 buffer0(
-        .d(buffer0$d),
-        .q(buffer0$q),
-        .clock(buffer0$clock)
-    );
-    incircle_core_logic$responder$records$record$buffer1 buffer1(
-        .d(buffer1$d),
-        .q(buffer1$q),
-        .clock(buffer1$clock)
-    );
-    incircle_core_logic$responder$records$record$buffer2 buffer2(
-        .d(buffer2$d),
-        .q(buffer2$q),
-        .clock(buffer2$clock)
-    );
-    incircle_core_logic$responder$records$record$is_second is_second(
-        .d(is_second$d),
-        .q(is_second$q),
-        .clock(is_second$clock)
-    );
-    incircle_core_logic$responder$records$record$is_third is_third(
-        .d(is_third$d),
-        .q(is_third$q),
-        .clock(is_third$clock)
-    );
-    incircle_core_logic$responder$records$record$words words(
-        .v0(words$v0),
-        .v1(words$v1),
-        .v2(words$v2),
-        .n0(words$n0),
-        .n1(words$n1),
-        .n2(words$n2),
-        .was_set(words$was_set),
-        .word0(words$word0),
-        .word1(words$word1),
-        .word2(words$word2)
-    );
-    
-    // Update code
-    always @(*) begin
-        is_held$clock = clock;
-        buffer0$clock = clock;
-        buffer1$clock = clock;
-        buffer2$clock = clock;
-        is_second$clock = clock;
-        is_third$clock = clock;
-        is_held$d = is_held$q;
-        buffer0$d = buffer0$q;
-        buffer1$d = buffer1$q;
-        buffer2$d = buffer2$q;
-        is_second$d = is_second$q;
-        is_third$d = is_third$q;
-        holds = is_held$q;
-        words$v0 = v0;
-        words$v1 = v1;
-        words$v2 = v2;
-        words$n0 = n0;
-        words$n1 = n1;
-        words$n2 = n2;
-        words$was_set = was_set;
-        vertex0 = buffer0$q[(32'h0)+:(15)];
-        vertex1 = buffer1$q[(32'h0)+:(15)];
-        vertex2 = buffer2$q[(32'h0)+:(15)];
-        if (takes_whole) begin
-            is_held$d = 1'b0;
-        end
-        if (read_done) begin
-            is_held$d = 1'b1;
-            buffer0$d = words$word0;
-            buffer1$d = words$word1;
-            buffer2$d = words$word2;
-        end
-        is_at_last = is_third$q;
-        word = buffer0$q;
-        if (is_second$q) begin
-            word = buffer1$q;
-        end
-        if (is_third$q) begin
-            word = buffer2$q;
-        end
-        if (takes) begin
-            is_second$d = (~is_second$q) & (~is_third$q);
-            is_third$d = is_second$q;
-            is_held$d = ~is_third$q;
-        end
-        if (reset) begin
-            is_held$d = 1'b0;
-            is_second$d = 1'b0;
-            is_third$d = 1'b0;
-        end
-    end
-    
-endmodule // incircle_core_logic$responder$records$record
-
-
-module incircle_core_logic$responder$records$record$buffer0(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$record$buffer0
-
-
-module incircle_core_logic$responder$records$record$buffer1(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$record$buffer1
-
-
-module incircle_core_logic$responder$records$record$buffer2(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$record$buffer2
-
-
-module incircle_core_logic$responder$records$record$is_held(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$record$is_held
-
-
-module incircle_core_logic$responder$records$record$is_second(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$record$is_second
-
-
-module incircle_core_logic$responder$records$record$is_third(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$responder$records$record$is_third
-
-
-module incircle_core_logic$responder$records$record$words(v0,v1,v2,n0,n1,n2,was_set,word0,word1,word2);
-    
-    // Module arguments
-    input wire  [14:0] v0;
-    input wire  [14:0] v1;
-    input wire  [14:0] v2;
-    input wire  [14:0] n0;
-    input wire  [14:0] n1;
-    input wire  [14:0] n2;
-    input wire  was_set;
-    output reg  [31:0] word0;
-    output reg  [31:0] word1;
-    output reg  [31:0] word2;
-    
-    // Local signals
-    reg  [31:0] lock;
-    reg  [31:0] vertex0;
-    reg  [31:0] vertex1;
-    reg  [31:0] vertex2;
-    reg  [31:0] link0;
-    reg  [31:0] link1;
-    reg  [31:0] link2;
-    reg  [31:0] high0;
-    reg  [31:0] high1;
-    reg  [31:0] high2;
-    reg  [31:0] link_shift;
-    
-    // Update code
-    always @(*) begin
-        link_shift = 32'hf;
-        lock = 32'h0;
-        if (was_set) begin
-            lock = 64'h80000000;
-        end
-        vertex0 = ((v0) & 32'hffffffff);
-        vertex1 = ((v1) & 32'hffffffff);
-        vertex2 = ((v2) & 32'hffffffff);
-        link0 = ((n0) & 32'hffffffff);
-        link1 = ((n1) & 32'hffffffff);
-        link2 = ((n2) & 32'hffffffff);
-        high0 = link0 << link_shift;
-        high1 = link1 << link_shift;
-        high2 = link2 << link_shift;
-        word0 = vertex0 | high0 | lock;
-        word1 = vertex1 | high1;
-        word2 = vertex2 | high2;
-    end
-    
-endmodule // incircle_core_logic$responder$records$record$words
 
 
 module incircle_core_logic$responder$records$record_id(d,q,clock);
@@ -28438,9 +25114,8 @@ module incircle_core_logic$responder$state(d,q,clock);
     localparam AnswerState$Idle = 0;
     localparam AnswerState$Prepare = 1;
     localparam AnswerState$Header = 2;
-    localparam AnswerState$Choose = 3;
-    localparam AnswerState$Payload = 4;
-    localparam AnswerState$Records = 5;
+    localparam AnswerState$Words = 3;
+    localparam AnswerState$Records = 4;
     
     // Update code (custom)
     initial begin
@@ -28491,6 +25166,251 @@ module incircle_core_logic$responder$waited(d,q,clock);
           
 endmodule // incircle_core_logic$responder$waited
 
+
+module incircle_core_logic$responder$words(clock,reset,prepares,starts,length,runs,index,index_ahead,chooses,word,valid,beat,takes);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  prepares;
+    input wire  starts;
+    input wire  [31:0] length;
+    input wire  runs;
+    output reg  [6:0] index;
+    output reg  [6:0] index_ahead;
+    output reg  chooses;
+    input wire  [31:0] word;
+    output reg  valid;
+    output reg  [65:0] beat;
+    input wire  takes;
+    
+    // Stub signals
+    reg  [6:0] loaded$d;
+    wire  [6:0] loaded$q;
+    reg  loaded$clock;
+    reg  [6:0] following$d;
+    wire  [6:0] following$q;
+    reg  following$clock;
+    reg  [31:0] left$d;
+    wire  [31:0] left$q;
+    reg  left$clock;
+    reg  is_last$d;
+    wire  is_last$q;
+    reg  is_last$clock;
+    reg  waited$d;
+    wire  waited$q;
+    reg  waited$clock;
+    reg  is_chosen$d;
+    wire  is_chosen$q;
+    reg  is_chosen$clock;
+    
+    // Local signals
+    reg  is_choosing;
+    reg  [31:0] no_word;
+    reg  [31:0] one;
+    reg  [31:0] two;
+    reg  [6:0] one_word;
+    
+    // Sub module instances
+    incircle_core_logic$responder$words$loaded loaded(
+        .d(loaded$d),
+        .q(loaded$q),
+        .clock(loaded$clock)
+    );
+    incircle_core_logic$responder$words$following following(
+        .d(following$d),
+        .q(following$q),
+        .clock(following$clock)
+    );
+    incircle_core_logic$responder$words$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
+    incircle_core_logic$responder$words$is_last is_last(
+        .d(is_last$d),
+        .q(is_last$q),
+        .clock(is_last$clock)
+    );
+    incircle_core_logic$responder$words$waited waited(
+        .d(waited$d),
+        .q(waited$q),
+        .clock(waited$clock)
+    );
+    incircle_core_logic$responder$words$is_chosen is_chosen(
+        .d(is_chosen$d),
+        .q(is_chosen$q),
+        .clock(is_chosen$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        loaded$clock = clock;
+        following$clock = clock;
+        left$clock = clock;
+        is_last$clock = clock;
+        waited$clock = clock;
+        is_chosen$clock = clock;
+        loaded$d = loaded$q;
+        following$d = following$q;
+        left$d = left$q;
+        is_last$d = is_last$q;
+        waited$d = waited$q;
+        is_chosen$d = is_chosen$q;
+        no_word = 32'h0;
+        one = 32'h1;
+        two = 32'h2;
+        one_word = 32'h1;
+        index = loaded$q;
+        index_ahead = following$q;
+        valid = is_chosen$q;
+        beat[(64'h0)+:(32)] = word;
+        beat[(64'h20)+:(32)] = no_word;
+        beat[(64'h40)+:(1)] = 1'b0;
+        beat[(64'h41)+:(1)] = is_last$q;
+        is_choosing = runs & (~is_chosen$q);
+        chooses = is_choosing & waited$q;
+        if (is_choosing) begin
+            following$d = loaded$q + one_word;
+            waited$d = ~waited$q;
+            is_chosen$d = waited$q;
+        end
+        if (takes) begin
+            loaded$d = loaded$q + one_word;
+            left$d = left$q - one;
+            is_last$d = left$q == two;
+            is_chosen$d = 1'b0;
+        end
+        if (prepares) begin
+            following$d = 32'h0;
+        end
+        if (starts) begin
+            loaded$d = 32'h0;
+            left$d = length;
+            is_last$d = length == one;
+        end
+        if (reset) begin
+            waited$d = 1'b0;
+            is_chosen$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$responder$words
+
+
+module incircle_core_logic$responder$words$following(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$words$following
+
+
+module incircle_core_logic$responder$words$is_chosen(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$words$is_chosen
+
+
+module incircle_core_logic$responder$words$is_last(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$words$is_last
+
+
+module incircle_core_logic$responder$words$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$words$left
+
+
+module incircle_core_logic$responder$words$loaded(d,q,clock);
+    
+    // Module arguments
+    input wire  [6:0] d;
+    output reg  [6:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 7'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$words$loaded
+
+
+module incircle_core_logic$responder$words$waited(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$responder$words$waited
+
 `default_nettype wire
 `default_nettype none
 module incircle_core (
@@ -28509,14 +25429,14 @@ module incircle_core (
     incircle_core_logic core (
         .clock(clock),
         .reset(reset),
-        .command_valid(command_valid),
-        .command_ready(command_ready),
-        .command_data(command_data),
-        .response_valid(response_valid),
-        .response_ready(response_ready),
-        .response_data(response_data),
-        .response_both(response_both),
-        .response_last(response_last),
+        .command$valid(command_valid),
+        .command$ready(command_ready),
+        .command$data(command_data),
+        .response$valid(response_valid),
+        .response$ready(response_ready),
+        .response$data(response_data),
+        .response$both(response_both),
+        .response$last(response_last),
         .write(unused_write)
     );
 endmodule

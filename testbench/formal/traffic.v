@@ -1,20 +1,21 @@
 // What the clocks of the counters promise, though no simulation gets to their high half: put into `stream_register_block$traffic` by
-// tests/blocks_stream_proof.rs.
+// tests/it/gates/proofs.rs.
 reg has_started = 0, was_reset, was_kept;
 reg [63:0] clocks_before;
 reg [31:0] high_before;
 always @(posedge clock) begin
     has_started <= 1;
     was_reset <= reset;
-    was_kept <= keeps;
+    was_kept <= reads && index == 10'd32;
     clocks_before <= clocks$q;
-    high_before <= clocks_high;
+    high_before <= kept$q;
 end
 always @(*) if (has_started) begin
-    assert (clocks_low == clocks$q[31:0]);
-    if (was_reset) assert (clocks$q == 0 && clocks_high == 0);
+    if (index == 10'd32) assert (value == clocks$q[31:0]);
+    if (index == 10'd33) assert (value == kept$q);
+    if (was_reset) assert (clocks$q == 0 && kept$q == 0);
     else begin
         assert (clocks$q == clocks_before + 64'd1);
-        assert (clocks_high == (was_kept ? clocks_before[63:32] : high_before));
+        assert (kept$q == (was_kept ? clocks_before[63:32] : high_before));
     end
 end

@@ -74,6 +74,12 @@ impl<const A: usize, const D: usize> DualClockMemory<A, D> {
     }
 }
 
+impl<const A: usize, const D: usize> Default for DualClockMemory<A, D> {
+    fn default() -> Self {
+        Self::new(A.min(super::memory_shape::MAX_ADDRESS_BITS), D)
+    }
+}
+
 impl<const A: usize, const D: usize> Logic for DualClockMemory<A, D> {
     fn update(&mut self) {
         let last = self._memory.len() - 1;

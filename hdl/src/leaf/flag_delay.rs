@@ -9,9 +9,8 @@
 use rust_hdl_core::prelude::*;
 
 /// A delayed flag; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct FlagDelay {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Taken at every edge.
     pub flag_in: Signal<In, Bit>,
@@ -27,13 +26,8 @@ impl FlagDelay {
     /// If `stages` is 0.
     pub fn new(stages: usize) -> Self {
         assert!(stages >= 1, "a flag delay has at least 1 stage, not 0");
-        Self {
-            clock: Signal::default(),
-            flag_in: Signal::default(),
-            flag_out: Signal::default(),
-            // The last stage is the output register.
-            _line: vec![false; stages - 1],
-        }
+        // The last stage is the output register.
+        Self { _line: vec![false; stages - 1], ..Self::default() }
     }
 }
 

@@ -36,15 +36,22 @@ macro_rules! packed {
         #[derive(Clone, Copy, Debug, Default, PartialEq, LogicStruct)]
         pub struct $name { $($(#[$field_about])* pub $field: $kind,)* }
 
-        impl $crate::leaf::Unpacked for $name {
-            fn unpacked<const N: usize>(bits: Bits<N>) -> Self {
-                let mut offset = 0;
+        impl $crate::leaf::unpack::Field for $name {
+            fn field<const N: usize>(bits: Bits<N>, offset: usize) -> Self {
+                let mut place = offset;
                 $(
-                    let $field = <$kind as $crate::leaf::Field>::field(bits, offset);
-                    offset += <$kind as Synth>::BITS;
+                    let $field = <$kind as $crate::leaf::unpack::Field>::field(bits, place);
+                    place += <$kind as Synth>::BITS;
                 )*
-                assert_eq!(offset, N, "packed bits and structure differ in width");
+                assert!(place <= N, "a structure reaches beyond the bits that it is in");
                 Self { $($field,)* }
+            }
+        }
+
+        impl $crate::leaf::unpack::Unpacked for $name {
+            fn unpacked<const N: usize>(bits: Bits<N>) -> Self {
+                assert_eq!(<Self as Synth>::BITS, N, "packed bits and structure differ in width");
+                <Self as $crate::leaf::unpack::Field>::field(bits, 0)
             }
         }
     )*};

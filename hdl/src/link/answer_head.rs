@@ -1,23 +1,12 @@
 //! The first two words of an answer: status and length, in three ranks of registers.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `opcode`, `first`, `count` | in | 8, 32, 32 | the command and its arguments |
-//! | `is_refused` | in | 1 | it is a `Clear` that asks for more contexts than there are |
-//! | `records` | in | 15 | records of the mesh |
-//! | `collinear`, `stuck` | in | 1 | the first three points are collinear; nothing is finished any more |
-//! | `some_refused` | in | 1 | points have been refused |
-//! | `header` | out | 32 | first word of the answer |
-//! | `length`, `is_empty` | out | 32, 1 | words of the payload; whether there are none |
-//! | `is_read`, `is_packed` | out | 1 | the payload consists of records; it has their vertices alone |
-//!
 //! 1. A read is in range if its last record is one; the end of the range and the ids of the records are computed in the first rank,
 //!    the end is compared in the second, and the third chooses. Words of a `Read` are as many as these ids; of `Triangles` half as many, rounded up.
-//! 2. `opcode` and `is_refused` stand still from the command to the end of its answer, so they enter at the last rank.
+//! 2. `request.opcode` and `is_refused` stand still from the command to the end of its answer, so they enter at the last rank.
 //!
 //! Latency: 3 clocks.
 
+use super::types::{Head, RecordCount, Request, Word};
 use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -25,66 +14,50 @@ use rust_hdl_widgets::prelude::*;
 /// Status and length of an answer; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerHead {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// The command.
-    pub opcode: Signal<In, Bits<8>>,
-    /// First record of a read.
-    pub first: Signal<In, Bits<32>>,
-    /// Records of a read.
-    pub count: Signal<In, Bits<32>>,
-    /// The command asks for too many contexts.
+    pub request: Signal<In, Request>,
+    /// It is a `Clear` that asks for more contexts than there are.
     pub is_refused: Signal<In, Bit>,
     /// Records of the mesh.
-    pub records: Signal<In, Bits<15>>,
-    /// The start was collinear.
+    pub records: Signal<In, RecordCount>,
+    /// The first three points are collinear; nothing is finished any more.
     pub collinear: Signal<In, Bit>,
-    /// Nothing is finished any more.
     pub stuck: Signal<In, Bit>,
     /// Points have been refused.
     pub some_refused: Signal<In, Bit>,
-    /// First word of the answer.
-    pub header: Signal<Out, Bits<32>>,
-    /// Words of the payload.
-    pub length: Signal<Out, Bits<32>>,
-    /// There are none.
-    pub is_empty: Signal<Out, Bit>,
-    /// The payload consists of records.
-    pub is_read: Signal<Out, Bit>,
-    /// It has their vertices alone.
-    pub is_packed: Signal<Out, Bit>,
+    pub head: Signal<Out, Head>,
     /// First rank.
     range_end: DFF<Bits<33>>,
-    range_bound: DFF<Bits<15>>,
-    triple: DFF<Bits<32>>,
+    range_bound: DFF<RecordCount>,
+    triple: DFF<Word>,
     counts_none: DFF<Bit>,
     insert_status: DFF<Bits<3>>,
     /// Second rank.
     is_outside: DFF<Bit>,
-    read_length: DFF<Bits<32>>,
-    packed_length: DFF<Bits<32>>,
+    read_length: DFF<Word>,
+    packed_length: DFF<Word>,
     reads_none: DFF<Bit>,
     report_status: DFF<Bits<3>>,
     /// Third rank.
     answer_status: DFF<Bits<3>>,
-    answer_length: DFF<Bits<32>>,
+    answer_length: DFF<Word>,
     has_none: DFF<Bit>,
     wide_first: Signal<Local, Bits<33>>,
     wide_count: Signal<Local, Bits<33>>,
     wide_bound: Signal<Local, Bits<33>>,
-    double_count: Signal<Local, Bits<32>>,
-    status: Signal<Local, Bits<32>>,
-    shifted_status: Signal<Local, Bits<32>>,
-    wide_opcode: Signal<Local, Bits<32>>,
-    shifted_opcode: Signal<Local, Bits<32>>,
-    none: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<32>>,
-    status_shift: Signal<Local, Bits<32>>,
-    opcode_shift: Signal<Local, Bits<32>>,
+    double_count: Signal<Local, Word>,
+    status: Signal<Local, Word>,
+    shifted_status: Signal<Local, Word>,
+    wide_opcode: Signal<Local, Word>,
+    shifted_opcode: Signal<Local, Word>,
+    none: Signal<Local, Word>,
+    one: Signal<Local, Word>,
+    status_shift: Signal<Local, Word>,
+    opcode_shift: Signal<Local, Word>,
     read_code: Signal<Local, Bits<8>>,
     packed_code: Signal<Local, Bits<8>>,
     packs: Signal<Local, Bit>,
-    rounded: Signal<Local, Bits<32>>,
+    rounded: Signal<Local, Word>,
 }
 
 // The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
@@ -123,13 +96,13 @@ impl Logic for AnswerHead {
         self.packed_code.next = 7.into();
 
         // The first rank adds.
-        self.wide_first.next = bit_cast::<33, 32>(self.first.val());
-        self.wide_count.next = bit_cast::<33, 32>(self.count.val());
+        self.wide_first.next = bit_cast::<33, 32>(self.request.val().first);
+        self.wide_count.next = bit_cast::<33, 32>(self.request.val().count);
         self.range_end.d.next = self.wide_first.val() + self.wide_count.val();
         self.range_bound.d.next = self.records.val();
-        self.double_count.next = self.count.val() << self.one.val();
-        self.triple.d.next = self.double_count.val() + self.count.val();
-        self.counts_none.d.next = self.count.val() == self.none.val();
+        self.double_count.next = self.request.val().count << self.one.val();
+        self.triple.d.next = self.double_count.val() + self.request.val().count;
+        self.counts_none.d.next = self.request.val().count == self.none.val();
         self.insert_status.d.next = 0.into();
         if self.some_refused.val() {
             self.insert_status.d.next = 4.into();
@@ -154,7 +127,7 @@ impl Logic for AnswerHead {
         self.answer_status.d.next = 0.into();
         self.answer_length.d.next = 0.into();
         self.has_none.d.next = false;
-        match self.opcode.val().index() {
+        match self.request.val().opcode.index() {
             1 => {
                 self.answer_length.d.next = 7.into();
             }
@@ -197,15 +170,15 @@ impl Logic for AnswerHead {
                 self.has_none.d.next = true;
             }
         }
-        self.packs.next = self.opcode.val() == self.packed_code.val();
-        self.is_packed.next = self.packs.val();
-        self.is_read.next = self.packs.val() | (self.opcode.val() == self.read_code.val());
-        self.length.next = self.answer_length.q.val();
-        self.is_empty.next = self.has_none.q.val();
+        self.packs.next = self.request.val().opcode == self.packed_code.val();
+        self.head.next.is_packed = self.packs.val();
+        self.head.next.is_read = self.packs.val() | (self.request.val().opcode == self.read_code.val());
+        self.head.next.length = self.answer_length.q.val();
+        self.head.next.is_empty = self.has_none.q.val();
         self.status.next = bit_cast::<32, 3>(self.answer_status.q.val());
         self.shifted_status.next = self.status.val() << self.status_shift.val();
-        self.wide_opcode.next = bit_cast::<32, 8>(self.opcode.val());
+        self.wide_opcode.next = bit_cast::<32, 8>(self.request.val().opcode);
         self.shifted_opcode.next = self.wide_opcode.val() << self.opcode_shift.val();
-        self.header.next = self.shifted_opcode.val() | self.shifted_status.val();
+        self.head.next.header = self.shifted_opcode.val() | self.shifted_status.val();
     }
 }

@@ -1,22 +1,12 @@
 //! The words of a payload that is no record, chosen in two ranks of registers.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `opcode` | in | 8 | the command |
-//! | `capacity`, `contexts`, `ring` | in | 15, 5, 7 | parameters of the core, constants |
-//! | `arrived`, `refused`, `insertions`, `duplicates`, `records` | in | | counts of the mesh |
-//! | `index` | in | 7 | word of the payload |
-//! | `counter`, `latency` | in | 32 | the counter, and the bucket of the histogram, of the number that `index` was a clock ago |
-//! | `chooses` | in | 1 | take the word that `index` was a clock ago |
-//! | `word` | out | 32 | that word, until the next one is taken |
-//!
 //! 1. Each kind of payload chooses its word in the first rank, the counters and the histogram in blocks of their own; the second
 //!    chooses the kind.
 //! 2. `opcode` stands still from the command to the end of its answer.
 //!
 //! Latency: 2 clocks from `index`, and 1 from `counter` and `latency`, at an edge with `chooses`.
 
+use super::types::{RecordCount, Tally, VertexCount, Word};
 use incircle_protocol::{Opcode, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -24,39 +14,29 @@ use rust_hdl_widgets::prelude::*;
 /// Words of a payload; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerWords {
-    /// Clock.
     pub clock: Signal<In, Clock>,
     /// The command.
     pub opcode: Signal<In, Bits<8>>,
-    /// Points the core holds.
-    pub capacity: Signal<In, Bits<15>>,
-    /// Contexts it has.
+    /// Parameters of the core, constants.
+    pub capacity: Signal<In, VertexCount>,
     pub contexts: Signal<In, Bits<5>>,
-    /// Entries of a boundary list.
     pub ring: Signal<In, Bits<7>>,
-    /// Points with an id.
-    pub arrived: Signal<In, Bits<15>>,
-    /// Points refused.
-    pub refused: Signal<In, Bits<32>>,
-    /// Points inserted.
-    pub insertions: Signal<In, Bits<32>>,
-    /// Duplicates.
-    pub duplicates: Signal<In, Bits<32>>,
-    /// Records.
-    pub records: Signal<In, Bits<15>>,
+    pub tally: Signal<In, Tally>,
+    pub insertions: Signal<In, Word>,
+    pub duplicates: Signal<In, Word>,
+    pub records: Signal<In, RecordCount>,
     /// Word of the payload.
     pub index: Signal<In, Bits<7>>,
-    /// Counter of that number.
-    pub counter: Signal<In, Bits<32>>,
-    /// Bucket of that number.
-    pub latency: Signal<In, Bits<32>>,
-    /// Take the word.
+    /// The counter, and the bucket of the histogram, of the number that `index` was a clock ago.
+    pub counter: Signal<In, Word>,
+    pub latency: Signal<In, Word>,
+    /// Take the word that `index` was a clock ago.
     pub chooses: Signal<In, Bit>,
-    /// Word of the payload.
-    pub word: Signal<Out, Bits<32>>,
-    identity: DFF<Bits<32>>,
-    report: DFF<Bits<32>>,
-    chosen: DFF<Bits<32>>,
+    /// The word that was taken, until the next one is.
+    pub word: Signal<Out, Word>,
+    identity: DFF<Word>,
+    report: DFF<Word>,
+    chosen: DFF<Word>,
     /// The two payloads chosen here are shorter than 8 words.
     place: Signal<Local, Bits<3>>,
 }
@@ -82,7 +62,7 @@ impl Logic for AnswerWords {
         match self.place.val().index() {
             0 => {
                 self.identity.d.next = 0x696e_4369.into();
-                self.report.d.next = bit_cast::<32, 15>(self.arrived.val());
+                self.report.d.next = bit_cast::<32, 15>(self.tally.val().arrived);
             }
             1 => {
                 self.identity.d.next = 0x0001_0002.into();
@@ -94,7 +74,7 @@ impl Logic for AnswerWords {
             }
             3 => {
                 self.identity.d.next = 16.into();
-                self.report.d.next = self.refused.val();
+                self.report.d.next = self.tally.val().refused;
             }
             4 => {
                 self.identity.d.next = bit_cast::<32, 15>(self.capacity.val());

@@ -1,20 +1,12 @@
 //! What a `Clear` asks for: that the mesh is forgotten, how many contexts work from then on, and whether each has a mesh of its own.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | after reset all contexts work |
-//! | `built` | in | 5 | contexts that the core has, a constant |
-//! | `accepts`, `word` | in | 1, 32 | a command word is taken |
-//! | `clears` | out | 1 | forget the mesh at this edge |
-//! | `deal` | out | Deal | contexts that work, and which points are theirs |
-//! | `is_refused` | out | 1 | the last command is a `Clear` that asks for more contexts than there are |
-//!
 //! 1. The low byte of the word is the number of contexts; 0 is all.
 //! 2. Bit 8 begins a batch: each of the contexts has a mesh of its own, and the first points are three for each.
 //! 3. A `Clear` that is refused changes nothing. After reset there is no batch.
 //!
 //! Latency: 1 clock, 2 to `deal.dealt_from`.
 
+use super::types::{Clearing, TakenWord, Word};
 use crate::engine::Deal;
 use incircle_protocol::{Opcode, CLEAR_BATCH, FIRST_ROUND};
 use rust_hdl_core::prelude::*;
@@ -23,27 +15,22 @@ use rust_hdl_widgets::prelude::*;
 /// What a `Clear` asks for; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ClearCommand {
-    /// Clock.
+    /// After reset all contexts work.
     pub clock: Signal<In, Clock>,
-    /// All contexts work.
     pub reset: Signal<In, Bit>,
-    /// Contexts that the core has.
+    /// Contexts that the core has, a constant.
     pub built: Signal<In, Bits<5>>,
-    /// A command word is taken.
-    pub accepts: Signal<In, Bit>,
-    /// It.
-    pub word: Signal<In, Bits<32>>,
-    /// Forget the mesh.
-    pub clears: Signal<Out, Bit>,
+    /// A command may come.
+    pub taken: Signal<In, TakenWord>,
+    pub clearing: Signal<Out, Clearing>,
     /// Contexts that work, and which points are theirs.
     pub deal: Signal<Out, Deal>,
-    /// The last command is a `Clear` for too many.
-    pub is_refused: Signal<Out, Bit>,
-    clearing: DFF<Bit>,
+    clears: DFF<Bit>,
     working: DFF<Bits<5>>,
     batch: DFF<Bit>,
     dealt: DFF<Bits<7>>,
     refusing: DFF<Bit>,
+    word: Signal<Local, Word>,
     code: Signal<Local, Bits<8>>,
     asked: Signal<Local, Bits<8>>,
     wide_built: Signal<Local, Bits<8>>,
@@ -65,23 +52,24 @@ const _: () = assert!(
 impl Logic for ClearCommand {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, clearing, working, batch, dealt, refusing);
+        dff_setup!(self, clock, clears, working, batch, dealt, refusing);
         self.clear_code.next = 2.into();
         self.all_contexts.next = 0.into();
-        self.clears.next = self.clearing.q.val();
+        self.clearing.next.clears = self.clears.q.val();
         self.deal.next.contexts = self.working.q.val();
         self.deal.next.is_batch = self.batch.q.val();
         self.deal.next.dealt_from = self.dealt.q.val();
-        self.is_refused.next = self.refusing.q.val();
+        self.clearing.next.is_refused = self.refusing.q.val();
 
+        self.word.next = self.taken.val().word;
         self.code.next = self.word.val().get_bits::<8>(24);
         self.asked.next = self.word.val().get_bits::<8>(0);
         self.wide_built.next = bit_cast::<8, 5>(self.built.val());
         self.is_clear.next = self.code.val() == self.clear_code.val();
         self.asks_too_much.next = self.asked.val() > self.wide_built.val();
-        self.is_granted.next = self.accepts.val() & self.is_clear.val() & (!self.asks_too_much.val());
-        self.clearing.d.next = self.is_granted.val();
-        if self.accepts.val() {
+        self.is_granted.next = self.taken.val().is_command & self.is_clear.val() & (!self.asks_too_much.val());
+        self.clears.d.next = self.is_granted.val();
+        if self.taken.val().is_command {
             self.refusing.d.next = self.is_clear.val() & self.asks_too_much.val();
         }
         if self.is_granted.val() {
@@ -98,7 +86,7 @@ impl Logic for ClearCommand {
             self.dealt.d.next = self.twice_working.val() + self.wide_working.val();
         }
         if self.reset.val() {
-            self.clearing.d.next = false;
+            self.clears.d.next = false;
             self.batch.d.next = false;
             self.dealt.d.next = 16.into();
             self.working.d.next = self.built.val();

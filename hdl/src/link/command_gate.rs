@@ -1,60 +1,55 @@
 //! When a command word is taken.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `is_command`, `is_argument`, `is_points` | in | 1 | what the next word means |
-//! | `sweeps` | in | 1 | the core is not ready for commands yet |
-//! | `none_is_left` | in | 1 | all points of the command have come |
-//! | `came` | in | 1 | the point before is being stored |
-//! | `start_is_open` | in | 1 | three points have come for a first triangle, and it is not known yet whether they span one |
-//! | `stuck` | in | 1 | the core is stuck: nothing is waited for |
-//! | `ready` | out | 1 | a word is taken |
-//! | `takes_command`, `takes_point` | out | 1 | it is a command; it is a point |
-//! | `awaits_point` | out | 1 | a point may come |
-//!
 //! 1. The fourth point waits until the first three are known to span a triangle; in a batch so does the one behind the three of each job.
+//! 2. A word of zeros in place of a command is taken and forgotten.
 //!
 //! Latency: none (combinational).
 
+use super::channels::CommandSink;
+use super::command_port::CommandState;
+use super::types::TakenWord;
+use crate::engine::EngineState;
 use rust_hdl_core::prelude::*;
 
 /// When a command word is taken; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandGate {
-    /// The next word is a command.
-    pub is_command: Signal<In, Bit>,
-    /// It is an argument.
-    pub is_argument: Signal<In, Bit>,
-    /// It is a point.
-    pub is_points: Signal<In, Bit>,
-    /// The core is not ready yet.
+    pub command: CommandSink,
+    /// The meaning of the next word.
+    pub state: Signal<In, CommandState>,
+    /// The core is not ready for commands yet.
     pub sweeps: Signal<In, Bit>,
-    /// All points have come.
+    /// All points of the command have come.
     pub none_is_left: Signal<In, Bit>,
     /// The point before is being stored.
     pub came: Signal<In, Bit>,
-    /// Three points for a first triangle are being looked at.
-    pub start_is_open: Signal<In, Bit>,
-    /// The core is stuck.
-    pub stuck: Signal<In, Bit>,
-    /// A word is taken.
-    pub ready: Signal<Out, Bit>,
-    /// A command is taken.
-    pub takes_command: Signal<Out, Bit>,
-    /// A point is taken.
-    pub takes_point: Signal<Out, Bit>,
+    pub engine: Signal<In, EngineState>,
+    /// A word that is taken.
+    pub taken: Signal<Out, TakenWord>,
     /// A point may come.
     pub awaits_point: Signal<Out, Bit>,
     is_held: Signal<Local, Bit>,
+    may_be_point: Signal<Local, Bit>,
+    takes_command: Signal<Local, Bit>,
+    takes_argument: Signal<Local, Bit>,
+    takes_point: Signal<Local, Bit>,
+    is_some: Signal<Local, Bit>,
 }
 
 impl Logic for CommandGate {
     #[hdl_gen]
     fn update(&mut self) {
-        self.is_held.next = self.start_is_open.val() & (!self.stuck.val());
-        self.awaits_point.next = self.is_points.val() & (!self.none_is_left.val());
-        self.takes_command.next = self.is_command.val() & (!self.sweeps.val());
-        self.takes_point.next = self.awaits_point.val() & (!self.came.val()) & (!self.is_held.val());
-        self.ready.next = self.is_argument.val() | self.takes_command.val() | self.takes_point.val();
+        self.is_held.next = self.engine.val().start_is_open & (!self.engine.val().stuck);
+        self.may_be_point.next = (self.state.val() == CommandState::Points) & (!self.none_is_left.val());
+        self.awaits_point.next = self.may_be_point.val();
+        self.takes_command.next = (self.state.val() == CommandState::Command) & (!self.sweeps.val());
+        self.takes_argument.next =
+            (self.state.val() == CommandState::First) | (self.state.val() == CommandState::Count);
+        self.takes_point.next = self.may_be_point.val() & (!self.came.val()) & (!self.is_held.val());
+        self.command.ready.next = self.takes_argument.val() | self.takes_command.val() | self.takes_point.val();
+        self.is_some.next = self.command.data.val().any();
+        self.taken.next.is_command = self.command.valid.val() & self.takes_command.val() & self.is_some.val();
+        self.taken.next.is_point = self.command.valid.val() & self.takes_point.val();
+        self.taken.next.word = self.command.data.val();
     }
 }

@@ -1,26 +1,5 @@
 //! Takes command words: opcodes, arguments, and points one at a time.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset awaits a command; all contexts work |
-//! | `capacity`, `built` | in | 15, 5 | points the core holds, and contexts it has; constants |
-//! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
-//! | `sweeps` | in | 1 | memories are being cleared: the core is not ready for commands |
-//! | `start_is_open`, `collinear` | in | 1 | three points are being looked at for a first triangle; such three are collinear |
-//! | `stuck` | in | 1 | nothing is finished any more: points are refused, and nothing is waited for |
-//! | `is_quiet` | in | 1 | every point that has come is finished, and no lock is held |
-//! | `came`, `came_id` | out | 1, 15 | a point has come, and is written into the vertex memory at this edge |
-//! | `point` | out | 32 | that point: x in the low half, y in the high |
-//! | `clears` | out | 1 | forget the mesh at this edge |
-//! | `deal` | out | Deal | contexts that work, and which points are theirs |
-//! | `is_refused` | out | 1 | the last command is a `Clear` that asks for more contexts than there are |
-//! | `answers` | out | 1 | an answer is due, until `answer_ends` |
-//! | `opcode`, `first`, `count` | out | 8, 32, 32 | the command and its arguments |
-//! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
-//! | `some_refused` | out | 1 | there are some of these |
-//! | `responder_is_idle`, `answer_ends`, `answer_is_taken` | in | 1 | the responder |
-//! | `inserting`, `reading`, `awaits_point` | out | 1 | what the cycle counters count |
-//!
 //! 1. `command_ready` depends on registers only and does not wait for `command_valid`.
 //! 2. A point is taken when the one before has been stored; the fourth waits until the first three are known to span a triangle.
 //! 3. A `Clear` for no number of contexts is one for all. One for too many changes nothing, and `clears` stays low.
@@ -41,8 +20,13 @@
 //! answers         _______________________________________/^^^^^^^^
 //! ```
 
-use super::{ClearCommand, CommandGate, PointSlot};
+use super::channels::CommandSink;
+use super::clear_command::ClearCommand;
+use super::command_gate::CommandGate;
+use super::point_slot::PointSlot;
+use super::types::{Activity, AnswerProgress, Clearing, Request, Tally, VertexCount, Word};
 use crate::engine::Deal;
+use crate::engine::{Arrival, EngineState};
 use incircle_protocol::{Opcode, PADDING};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -67,72 +51,28 @@ pub enum CommandState {
 /// The command stream; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandPort {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Awaits a command.
+    /// Reset awaits a command; all contexts work.
     pub reset: Signal<In, Bit>,
-    /// Points the core holds.
-    pub capacity: Signal<In, Bits<15>>,
-    /// Contexts it has.
+    /// Points the core holds, and contexts it has; constants.
+    pub capacity: Signal<In, VertexCount>,
     pub built: Signal<In, Bits<5>>,
-    /// A word is offered.
-    pub command_valid: Signal<In, Bit>,
-    /// A word is taken.
-    pub command_ready: Signal<Out, Bit>,
-    /// The word.
-    pub command_data: Signal<In, Bits<32>>,
-    /// The core is not ready yet.
+    pub command: CommandSink,
+    /// Memories are being cleared: the core is not ready for commands.
     pub sweeps: Signal<In, Bit>,
-    /// Three points are being looked at for a first triangle.
-    pub start_is_open: Signal<In, Bit>,
-    /// The first three points are collinear.
-    pub collinear: Signal<In, Bit>,
-    /// Nothing is finished any more.
-    pub stuck: Signal<In, Bit>,
-    /// The engine has finished.
-    pub is_quiet: Signal<In, Bit>,
-    /// A point has come.
-    pub came: Signal<Out, Bit>,
-    /// Its vertex id.
-    pub came_id: Signal<Out, Bits<15>>,
-    /// Its coordinates.
-    pub point: Signal<Out, Bits<32>>,
-    /// Forget the mesh.
-    pub clears: Signal<Out, Bit>,
+    pub engine: Signal<In, EngineState>,
+    pub arrival: Signal<Out, Arrival>,
+    pub clearing: Signal<Out, Clearing>,
     /// Contexts that work, and which points are theirs.
     pub deal: Signal<Out, Deal>,
-    /// The last command is a `Clear` for too many.
-    pub is_refused: Signal<Out, Bit>,
-    /// An answer is due.
+    /// An answer is due, until `answer.ends`.
     pub answers: Signal<Out, Bit>,
-    /// The command.
-    pub opcode: Signal<Out, Bits<8>>,
-    /// First argument of a read.
-    pub first: Signal<Out, Bits<32>>,
-    /// Second argument of a read; points still to come of an insert.
-    pub count: Signal<Out, Bits<32>>,
-    /// Points that were given an id.
-    pub arrived: Signal<Out, Bits<15>>,
-    /// Points that were refused.
-    pub refused: Signal<Out, Bits<32>>,
-    /// There are such points.
-    pub some_refused: Signal<Out, Bit>,
-    /// The responder is idle.
-    pub responder_is_idle: Signal<In, Bit>,
-    /// It loads its last word.
-    pub answer_ends: Signal<In, Bit>,
-    /// No answer word waits, or it is taken.
-    pub answer_is_taken: Signal<In, Bit>,
-    /// A job is under way.
-    pub inserting: Signal<Out, Bit>,
-    /// A read-out is under way.
-    pub reading: Signal<Out, Bit>,
-    /// A point may come.
-    pub awaits_point: Signal<Out, Bit>,
+    pub request: Signal<Out, Request>,
+    pub tally: Signal<Out, Tally>,
+    pub answer: Signal<In, AnswerProgress>,
+    pub activity: Signal<Out, Activity>,
     state: DFF<CommandState>,
-    command: DFF<Bits<8>>,
-    first_word: DFF<Bits<32>>,
-    left: DFF<Bits<32>>,
+    held: DFF<Request>,
     /// No point is left; good while points come.
     none_is_left: DFF<Bit>,
     is_inserting: DFF<Bit>,
@@ -140,15 +80,11 @@ pub struct CommandPort {
     slot: PointSlot,
     gate: CommandGate,
     clear: ClearCommand,
-    accepts_command: Signal<Local, Bit>,
-    accepts_point: Signal<Local, Bit>,
     code: Signal<Local, Bits<8>>,
-    is_padding: Signal<Local, Bit>,
     read_code: Signal<Local, Bits<8>>,
     packed_code: Signal<Local, Bits<8>>,
     insert_code: Signal<Local, Bits<8>>,
-    none: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<32>>,
+    one: Signal<Local, Word>,
 }
 
 // The kernel names opcodes by number, because rust-hdl takes literals only; a change in the protocol must come here.
@@ -160,65 +96,47 @@ const _: () = assert!(
 impl Logic for CommandPort {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, command, first_word, left, none_is_left, is_inserting, is_reading);
+        dff_setup!(self, clock, state, held, none_is_left, is_inserting, is_reading);
         clock!(self, clock, slot, clear);
         self.insert_code.next = 3.into();
         self.read_code.next = 4.into();
         self.packed_code.next = 7.into();
-        self.none.next = 0.into();
         self.one.next = 1.into();
 
-        self.came.next = self.slot.came.val();
-        self.came_id.next = self.slot.came_id.val();
-        self.point.next = self.slot.point.val();
-        self.clears.next = self.clear.clears.val();
+        self.arrival.next = self.slot.arrival.val();
+        self.clearing.next = self.clear.clearing.val();
         self.deal.next = self.clear.deal.val();
-        self.is_refused.next = self.clear.is_refused.val();
-        self.answers.next = (self.state.q.val() == CommandState::Answer) & (!self.clear.clears.val());
-        self.opcode.next = self.command.q.val();
-        self.first.next = self.first_word.q.val();
-        self.count.next = self.left.q.val();
-        self.arrived.next = self.slot.arrived.val();
-        self.refused.next = self.slot.refused.val();
-        self.some_refused.next = self.slot.some_refused.val();
-        self.inserting.next = self.is_inserting.q.val();
-        self.reading.next = self.is_reading.q.val();
+        self.answers.next = (self.state.q.val() == CommandState::Answer) & (!self.clear.clearing.val().clears);
+        self.request.next = self.held.q.val();
+        self.tally.next = self.slot.tally.val();
+        self.activity.next.inserting = self.is_inserting.q.val();
+        self.activity.next.reading = self.is_reading.q.val();
 
         // Is a word taken?
-        self.gate.is_command.next = self.state.q.val() == CommandState::Command;
-        self.gate.is_argument.next =
-            (self.state.q.val() == CommandState::First) | (self.state.q.val() == CommandState::Count);
-        self.gate.is_points.next = self.state.q.val() == CommandState::Points;
+        CommandSink::link(&mut self.command, &mut self.gate.command);
+        self.gate.state.next = self.state.q.val();
         self.gate.sweeps.next = self.sweeps.val();
         self.gate.none_is_left.next = self.none_is_left.q.val();
-        self.gate.came.next = self.slot.came.val();
-        self.gate.start_is_open.next = self.start_is_open.val();
-        self.gate.stuck.next = self.stuck.val();
-        self.awaits_point.next = self.gate.awaits_point.val();
-        self.command_ready.next = self.gate.ready.val();
-        self.is_padding.next = self.command_data.val() == self.none.val();
-        self.accepts_command.next = self.command_valid.val() & self.gate.takes_command.val() & (!self.is_padding.val());
-        self.accepts_point.next = self.command_valid.val() & self.gate.takes_point.val();
+        self.gate.came.next = self.slot.arrival.val().came;
+        self.gate.engine.next = self.engine.val();
+        self.activity.next.awaits_point = self.gate.awaits_point.val();
         self.clear.reset.next = self.reset.val();
         self.clear.built.next = self.built.val();
-        self.clear.accepts.next = self.accepts_command.val();
-        self.clear.word.next = self.command_data.val();
+        self.clear.taken.next = self.gate.taken.val();
         self.slot.reset.next = self.reset.val();
-        self.slot.clears.next = self.clear.clears.val();
+        self.slot.clears.next = self.clear.clearing.val().clears;
         self.slot.capacity.next = self.capacity.val();
-        self.slot.collinear.next = self.collinear.val();
-        self.slot.stuck.next = self.stuck.val();
-        self.slot.accepts.next = self.accepts_point.val();
-        self.slot.word.next = self.command_data.val();
-        self.code.next = self.command_data.val().get_bits::<8>(24);
+        self.slot.engine.next = self.engine.val();
+        self.slot.taken.next = self.gate.taken.val();
+        self.code.next = self.command.data.val().get_bits::<8>(24);
 
-        if (self.state.q.val() != CommandState::Answer) & self.responder_is_idle.val() & self.answer_is_taken.val() {
+        if (self.state.q.val() != CommandState::Answer) & self.answer.val().is_idle & self.answer.val().is_taken {
             self.is_reading.d.next = false;
         }
         match self.state.q.val() {
             CommandState::Command => {
-                if self.accepts_command.val() {
-                    self.command.d.next = self.code.val();
+                if self.gate.taken.val().is_command {
+                    self.held.d.next.opcode = self.code.val();
                     self.state.d.next = CommandState::Answer;
                     if self.code.val() == self.insert_code.val() {
                         self.state.d.next = CommandState::Count;
@@ -229,16 +147,16 @@ impl Logic for CommandPort {
                 }
             }
             CommandState::First => {
-                if self.command_valid.val() {
-                    self.first_word.d.next = self.command_data.val();
+                if self.command.valid.val() {
+                    self.held.d.next.first = self.command.data.val();
                     self.state.d.next = CommandState::Count;
                 }
             }
             CommandState::Count => {
-                if self.command_valid.val() {
-                    self.left.d.next = self.command_data.val();
-                    self.none_is_left.d.next = self.command_data.val() == self.none.val();
-                    if self.command.q.val() == self.insert_code.val() {
+                if self.command.valid.val() {
+                    self.held.d.next.count = self.command.data.val();
+                    self.none_is_left.d.next = !self.command.data.val().any();
+                    if self.held.q.val().opcode == self.insert_code.val() {
                         self.state.d.next = CommandState::Points;
                     } else {
                         self.is_reading.d.next = true;
@@ -250,20 +168,20 @@ impl Logic for CommandPort {
                 if self.none_is_left.q.val() {
                     self.state.d.next = CommandState::Settle;
                 }
-                if self.accepts_point.val() {
-                    self.left.d.next = self.left.q.val() - self.one.val();
-                    self.none_is_left.d.next = self.left.q.val() == self.one.val();
+                if self.gate.taken.val().is_point {
+                    self.held.d.next.count = self.held.q.val().count - self.one.val();
+                    self.none_is_left.d.next = self.held.q.val().count == self.one.val();
                     self.is_inserting.d.next = true;
                 }
             }
             CommandState::Settle => {
-                if self.is_quiet.val() | self.stuck.val() {
+                if self.engine.val().is_quiet | self.engine.val().stuck {
                     self.is_inserting.d.next = false;
                     self.state.d.next = CommandState::Answer;
                 }
             }
             CommandState::Answer => {
-                if self.answer_ends.val() {
+                if self.answer.val().ends {
                     self.state.d.next = CommandState::Command;
                 }
             }

@@ -3,23 +3,28 @@
 mod answer_beat;
 mod answer_head;
 mod answer_words;
+mod channels;
 mod clear_command;
 mod command_gate;
 mod command_port;
+mod payload_words;
 mod point_slot;
 mod record_buffer;
 mod record_reads;
 mod record_words;
 mod responder;
+pub mod types;
 mod vertex_packer;
 mod vertex_stream;
 
 pub use answer_beat::{AnswerBeat, WordPair, ANSWER_BEAT_BITS, WORD_PAIR_BITS};
 pub use answer_head::AnswerHead;
 pub use answer_words::AnswerWords;
+pub use channels::{AnswerSink, AnswerSource, CommandSink, CommandSource};
 pub use clear_command::ClearCommand;
 pub use command_gate::CommandGate;
 pub use command_port::{CommandPort, CommandState};
+pub use payload_words::PayloadWords;
 pub use point_slot::PointSlot;
 pub use record_buffer::RecordBuffer;
 pub use record_reads::RecordReads;

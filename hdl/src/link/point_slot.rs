@@ -1,68 +1,46 @@
 //! The point that has just come, and the count of points.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset`, `clears` | in | 1 | reset drops the point; reset and clear set the counts to zero |
-//! | `capacity` | in | 15 | points the core holds, a constant |
-//! | `collinear`, `stuck` | in | 1 | the first three points are collinear, or the core is stuck: points are refused |
-//! | `accepts`, `word` | in | 1, 32 | a point comes |
-//! | `came`, `came_id`, `point` | out | 1, 15, 32 | it came with the last edge and is not refused: it is to be stored at this edge |
-//! | `arrived`, `refused` | out | 15, 32 | points that were given an id, and points that were not |
-//! | `some_refused` | out | 1 | there is one of these |
-//!
-//! 1. `came_id` and `point` are good only with `came`: their registers take in whatever comes, so that nothing has to reach all of them.
+//! 1. Registers of `arrival.id` and `arrival.point` take in whatever comes, so that nothing has to reach all of them.
 //! 2. No point comes in the clock of `came`: the counts are compared in it.
 //!
 //! Latency: 1 clock; 2 to `refused` and `some_refused`.
 
+use super::types::{TakenWord, Tally, VertexCount, Word};
+use crate::engine::types::VertexId;
+use crate::engine::{Arrival, EngineState};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The last point; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PointSlot {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Drops the point.
+    /// Reset drops the point; reset and clear set the counts to zero.
     pub reset: Signal<In, Bit>,
-    /// Sets the counts to zero.
     pub clears: Signal<In, Bit>,
-    /// Points the core holds.
-    pub capacity: Signal<In, Bits<15>>,
-    /// The first three points are collinear.
-    pub collinear: Signal<In, Bit>,
-    /// The core is stuck.
-    pub stuck: Signal<In, Bit>,
-    /// A point comes.
-    pub accepts: Signal<In, Bit>,
-    /// It.
-    pub word: Signal<In, Bits<32>>,
-    /// It came with the last edge.
-    pub came: Signal<Out, Bit>,
-    /// Its vertex id.
-    pub came_id: Signal<Out, Bits<15>>,
-    /// Its coordinates.
-    pub point: Signal<Out, Bits<32>>,
-    /// Points with an id.
-    pub arrived: Signal<Out, Bits<15>>,
-    /// Points refused.
-    pub refused: Signal<Out, Bits<32>>,
-    /// Points are refused.
-    pub some_refused: Signal<Out, Bit>,
+    /// Points the core holds, a constant.
+    pub capacity: Signal<In, VertexCount>,
+    /// Points are refused where it is `collinear` or `stuck`.
+    pub engine: Signal<In, EngineState>,
+    /// A point may come.
+    pub taken: Signal<In, TakenWord>,
+    /// It came with the last edge and is not refused.
+    pub arrival: Signal<Out, Arrival>,
+    pub tally: Signal<Out, Tally>,
     is_new: DFF<Bit>,
-    last_id: DFF<Bits<15>>,
-    last_point: DFF<Bits<32>>,
-    arrivals: DFF<Bits<15>>,
+    last_id: DFF<VertexId>,
+    last_point: DFF<Word>,
+    arrivals: DFF<VertexCount>,
     /// As many as the core holds.
     is_full: DFF<Bit>,
     /// The last point is refused, and counted now.
     is_surplus: DFF<Bit>,
-    refusals: DFF<Bits<32>>,
+    refusals: DFF<Word>,
     has_refused: DFF<Bit>,
     stores: Signal<Local, Bit>,
     has_room: Signal<Local, Bit>,
-    one_arrival: Signal<Local, Bits<15>>,
-    one: Signal<Local, Bits<32>>,
+    one_arrival: Signal<Local, VertexCount>,
+    one: Signal<Local, Word>,
 }
 
 impl Logic for PointSlot {
@@ -72,20 +50,20 @@ impl Logic for PointSlot {
         dff_setup!(self, clock, is_full, is_surplus, has_refused);
         self.one_arrival.next = 1.into();
         self.one.next = 1.into();
-        self.came.next = self.is_new.q.val();
-        self.came_id.next = self.last_id.q.val();
-        self.point.next = self.last_point.q.val();
-        self.arrived.next = self.arrivals.q.val();
-        self.refused.next = self.refusals.q.val();
-        self.some_refused.next = self.has_refused.q.val();
+        self.arrival.next.came = self.is_new.q.val();
+        self.arrival.next.id = self.last_id.q.val();
+        self.arrival.next.point = self.last_point.q.val();
+        self.tally.next.arrived = self.arrivals.q.val();
+        self.tally.next.refused = self.refusals.q.val();
+        self.tally.next.some_refused = self.has_refused.q.val();
 
         self.is_full.d.next = self.arrivals.q.val() == self.capacity.val();
-        self.has_room.next = (!self.collinear.val()) & (!self.stuck.val()) & (!self.is_full.q.val());
-        self.stores.next = self.accepts.val() & self.has_room.val();
-        self.is_surplus.d.next = self.accepts.val() & (!self.has_room.val());
+        self.has_room.next = (!self.engine.val().collinear) & (!self.engine.val().stuck) & (!self.is_full.q.val());
+        self.stores.next = self.taken.val().is_point & self.has_room.val();
+        self.is_surplus.d.next = self.taken.val().is_point & (!self.has_room.val());
         self.is_new.d.next = self.stores.val();
         self.last_id.d.next = self.arrivals.q.val();
-        self.last_point.d.next = self.word.val();
+        self.last_point.d.next = self.taken.val().word;
         if self.stores.val() {
             self.arrivals.d.next = self.arrivals.q.val() + self.one_arrival.val();
         }

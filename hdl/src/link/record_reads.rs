@@ -1,76 +1,51 @@
 //! The payload of a read-out: reads records, one at a time for their words, or one a clock for their vertices alone.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset drops everything |
-//! | `starts`, `first`, `count` | in | 1, 15, 15 | the payload is of so many records from this one on; only when nothing of another one is left |
-//! | `is_packed` | in | 1 | it has their vertices alone; stands still from the clock before `runs` on |
-//! | `runs` | in | 1 | the payload is being sent |
-//! | `read`, `read_id` | out | 1, 15 | a record is wanted |
-//! | `read_done`, `v0..v2`, `n0..n2`, `was_set` | in | 1, 15, 1 | it has come; records come in the order in which they were wanted |
-//! | `valid`, `beat` | out | 1, AnswerBeat | the first beat of the payload that is left; the payload ends with the one that says `last` |
-//! | `takes` | in | 1 | it is taken at this edge; only while `valid` |
-//!
 //! 1. `read` goes on to the addresses of the triangle memory, so `is_packed` passes a register before it.
 //! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
 //! 3. `valid` and `beat` are registers: whether a beat is the last decides in the same clock what the whole command port does next.
 //!
 //! Latency: 2 clocks from `read_done` to the first word of the record, 3 to the beat that its vertices fill.
 
-use super::{AnswerBeat, RecordBuffer, VertexStream};
+use super::answer_beat::AnswerBeat;
+use super::record_buffer::RecordBuffer;
+use super::types::{RecordCount, Word};
+use super::vertex_stream::VertexStream;
+use crate::engine::types::TriangleId;
+use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The payload of a read-out; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordReads {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Drops everything.
+    /// Reset drops everything.
     pub reset: Signal<In, Bit>,
-    /// A payload begins.
+    /// The payload is of so many records from this one on; only when nothing of another one is left.
     pub starts: Signal<In, Bit>,
-    /// Its first record.
-    pub first: Signal<In, Bits<15>>,
-    /// Its records.
-    pub count: Signal<In, Bits<15>>,
-    /// It has vertices alone.
+    pub first: Signal<In, TriangleId>,
+    pub count: Signal<In, RecordCount>,
+    /// It has their vertices alone; stands still from the clock before `runs` on.
     pub is_packed: Signal<In, Bit>,
-    /// It is being sent.
+    /// The payload is being sent.
     pub runs: Signal<In, Bit>,
     /// A record is wanted.
     pub read: Signal<Out, Bit>,
-    /// Its id.
-    pub read_id: Signal<Out, Bits<15>>,
-    /// It has come.
+    pub read_id: Signal<Out, TriangleId>,
+    /// It has come; records come in the order in which they were wanted.
     pub read_done: Signal<In, Bit>,
-    /// Its column.
-    pub v0: Signal<In, Bits<15>>,
-    /// Its column.
-    pub v1: Signal<In, Bits<15>>,
-    /// Its column.
-    pub v2: Signal<In, Bits<15>>,
-    /// Its column.
-    pub n0: Signal<In, Bits<15>>,
-    /// Its column.
-    pub n1: Signal<In, Bits<15>>,
-    /// Its column.
-    pub n2: Signal<In, Bits<15>>,
-    /// Its lock bit.
-    pub was_set: Signal<In, Bit>,
-    /// A beat is left.
+    pub record: Signal<In, Record>,
     pub valid: Signal<Out, Bit>,
-    /// The first.
     pub beat: Signal<Out, AnswerBeat>,
-    /// It is taken.
+    /// It is taken at this edge; only while `valid`.
     pub takes: Signal<In, Bit>,
     vertices_alone: DFF<Bit>,
-    record_id: DFF<Bits<15>>,
+    record_id: DFF<TriangleId>,
     /// Records still to be read.
-    left: DFF<Bits<15>>,
+    left: DFF<RecordCount>,
     some_are_left: DFF<Bit>,
     fetching: DFF<Bit>,
-    record: RecordBuffer,
+    buffer: RecordBuffer,
     vertices: VertexStream,
     is_there: DFF<Bit>,
     head: DFF<AnswerBeat>,
@@ -78,21 +53,21 @@ pub struct RecordReads {
     may_ask: Signal<Local, Bit>,
     asks: Signal<Local, Bit>,
     packs: Signal<Local, Bit>,
-    no_word: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<15>>,
+    no_word: Signal<Local, Word>,
+    one: Signal<Local, RecordCount>,
 }
 
 impl Logic for RecordReads {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, vertices_alone, record_id, left, some_are_left, fetching, is_there, head);
-        clock!(self, clock, record, vertices);
+        clock!(self, clock, buffer, vertices);
         self.no_word.next = 0.into();
         self.one.next = 1.into();
         self.vertices_alone.d.next = self.is_packed.val();
 
         // A whole record is fetched when the one before has been taken.
-        self.may_ask.next = (!self.fetching.q.val()) & (!self.record.holds.val());
+        self.may_ask.next = (!self.fetching.q.val()) & (!self.buffer.holds.val());
         if self.vertices_alone.q.val() {
             self.may_ask.next = self.vertices.has_room.val();
         }
@@ -115,37 +90,31 @@ impl Logic for RecordReads {
         }
 
         // The record that has come.
-        self.record.reset.next = self.reset.val();
-        self.record.read_done.next = self.read_done.val();
-        self.record.v0.next = self.v0.val();
-        self.record.v1.next = self.v1.val();
-        self.record.v2.next = self.v2.val();
-        self.record.n0.next = self.n0.val();
-        self.record.n1.next = self.n1.val();
-        self.record.n2.next = self.n2.val();
-        self.record.was_set.next = self.was_set.val();
-        self.packs.next = self.vertices_alone.q.val() & self.record.holds.val();
-        self.record.takes_whole.next = self.packs.val();
+        self.buffer.reset.next = self.reset.val();
+        self.buffer.read_done.next = self.read_done.val();
+        self.buffer.record.next = self.record.val();
+        self.packs.next = self.vertices_alone.q.val() & self.buffer.holds.val();
+        self.buffer.takes_whole.next = self.packs.val();
         self.vertices.reset.next = self.reset.val();
         self.vertices.starts.next = self.starts.val();
         self.vertices.count.next = self.count.val();
         self.vertices.comes.next = self.packs.val();
-        self.vertices.v0.next = self.record.vertex0.val();
-        self.vertices.v1.next = self.record.vertex1.val();
-        self.vertices.v2.next = self.record.vertex2.val();
+        self.vertices.v0.next = self.buffer.vertex0.val();
+        self.vertices.v1.next = self.buffer.vertex1.val();
+        self.vertices.v2.next = self.buffer.vertex2.val();
 
         // What is sent of it.
         self.valid.next = self.is_there.q.val();
         self.beat.next = self.head.q.val();
         self.moves.next = (!self.is_there.q.val()) | self.takes.val();
-        self.record.takes.next = self.moves.val() & self.record.holds.val() & (!self.vertices_alone.q.val());
+        self.buffer.takes.next = self.moves.val() & self.buffer.holds.val() & (!self.vertices_alone.q.val());
         self.vertices.takes.next = self.moves.val() & self.vertices.valid.val() & self.vertices_alone.q.val();
         if self.moves.val() {
-            self.is_there.d.next = self.record.holds.val();
-            self.head.d.next.low = self.record.word.val();
+            self.is_there.d.next = self.buffer.holds.val();
+            self.head.d.next.low = self.buffer.word.val();
             self.head.d.next.high = self.no_word.val();
             self.head.d.next.both = false;
-            self.head.d.next.last = self.record.is_at_last.val() & (!self.some_are_left.q.val());
+            self.head.d.next.last = self.buffer.is_at_last.val() & (!self.some_are_left.q.val());
             if self.vertices_alone.q.val() {
                 self.is_there.d.next = self.vertices.valid.val();
                 self.head.d.next = self.vertices.beat.val();

@@ -1,48 +1,30 @@
 //! A record as the three words of an answer.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `v0..v2`, `n0..n2`, `was_set` | in | 15, 1 | columns and lock bit of a record |
-//! | `word0..word2` | out | 32 | `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit |
-//!
 //! Latency: none (combinational).
 
+use super::types::Word;
+use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 
 /// Words of a record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordWords {
-    /// Column.
-    pub v0: Signal<In, Bits<15>>,
-    /// Column.
-    pub v1: Signal<In, Bits<15>>,
-    /// Column.
-    pub v2: Signal<In, Bits<15>>,
-    /// Column.
-    pub n0: Signal<In, Bits<15>>,
-    /// Column.
-    pub n1: Signal<In, Bits<15>>,
-    /// Column.
-    pub n2: Signal<In, Bits<15>>,
-    /// Lock bit.
-    pub was_set: Signal<In, Bit>,
-    /// First word.
-    pub word0: Signal<Out, Bits<32>>,
-    /// Second word.
-    pub word1: Signal<Out, Bits<32>>,
-    /// Third word.
-    pub word2: Signal<Out, Bits<32>>,
-    lock: Signal<Local, Bits<32>>,
-    vertex0: Signal<Local, Bits<32>>,
-    vertex1: Signal<Local, Bits<32>>,
-    vertex2: Signal<Local, Bits<32>>,
-    link0: Signal<Local, Bits<32>>,
-    link1: Signal<Local, Bits<32>>,
-    link2: Signal<Local, Bits<32>>,
-    high0: Signal<Local, Bits<32>>,
-    high1: Signal<Local, Bits<32>>,
-    high2: Signal<Local, Bits<32>>,
-    link_shift: Signal<Local, Bits<32>>,
+    pub record: Signal<In, Record>,
+    /// `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
+    pub word0: Signal<Out, Word>,
+    pub word1: Signal<Out, Word>,
+    pub word2: Signal<Out, Word>,
+    lock: Signal<Local, Word>,
+    vertex0: Signal<Local, Word>,
+    vertex1: Signal<Local, Word>,
+    vertex2: Signal<Local, Word>,
+    link0: Signal<Local, Word>,
+    link1: Signal<Local, Word>,
+    link2: Signal<Local, Word>,
+    high0: Signal<Local, Word>,
+    high1: Signal<Local, Word>,
+    high2: Signal<Local, Word>,
+    link_shift: Signal<Local, Word>,
 }
 
 impl Logic for RecordWords {
@@ -50,15 +32,15 @@ impl Logic for RecordWords {
     fn update(&mut self) {
         self.link_shift.next = 15.into();
         self.lock.next = 0.into();
-        if self.was_set.val() {
+        if self.record.val().was_set {
             self.lock.next = 0x8000_0000u64.into();
         }
-        self.vertex0.next = bit_cast::<32, 15>(self.v0.val());
-        self.vertex1.next = bit_cast::<32, 15>(self.v1.val());
-        self.vertex2.next = bit_cast::<32, 15>(self.v2.val());
-        self.link0.next = bit_cast::<32, 15>(self.n0.val());
-        self.link1.next = bit_cast::<32, 15>(self.n1.val());
-        self.link2.next = bit_cast::<32, 15>(self.n2.val());
+        self.vertex0.next = bit_cast::<32, 15>(self.record.val().v0);
+        self.vertex1.next = bit_cast::<32, 15>(self.record.val().v1);
+        self.vertex2.next = bit_cast::<32, 15>(self.record.val().v2);
+        self.link0.next = bit_cast::<32, 15>(self.record.val().n0);
+        self.link1.next = bit_cast::<32, 15>(self.record.val().n1);
+        self.link2.next = bit_cast::<32, 15>(self.record.val().n2);
         self.high0.next = self.link0.val() << self.link_shift.val();
         self.high1.next = self.link1.val() << self.link_shift.val();
         self.high2.next = self.link2.val() << self.link_shift.val();

@@ -1,23 +1,6 @@
 //! Sends answers: header and length in one beat, then the payload. Records are read from the triangle memory one at a time, or one a
 //! clock where their vertices alone are sent.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset drops an answer |
-//! | `answers` | in | 1 | an answer is due, held until `ends` |
-//! | `sweeps` | in | 1 | counts are being cleared: no answer begins |
-//! | `first`, `count` | in | 32 | first record of a read, and number of its records |
-//! | `header`, `length`, `is_empty`, `is_read`, `is_packed` | in | | the answer, from `AnswerHead`, good 3 clocks after `answers` comes |
-//! | `word` | in | 32 | a word of the payload, from `AnswerWords`, good from `chooses` to the next one |
-//! | `index` | out | 7 | word of the payload that is wanted |
-//! | `index_ahead` | out | 7 | what `index` becomes at this edge, if it changes |
-//! | `chooses` | out | 1 | the word that `index` was a clock ago is taken into a register at this edge, and is then `word` |
-//! | `read`, `read_id` | out | 1, 15 | a record is wanted |
-//! | `read_done`, `v0..n2`, `was_set` | in | | it has come; records come in the order in which they were wanted |
-//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 64 | the answer stream |
-//! | `response_both`, `response_last` | out | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
-//! | `is_idle`, `ends`, `is_taken` | out | 1 | no answer is under way; its last word is loaded at this edge; no word waits, or it is taken |
-//!
 //! 1. What is offered is held until it is taken; `response_valid` does not wait for `response_ready`.
 //! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
 //! 3. The second word is zero where there is none.
@@ -37,7 +20,15 @@
 //! is_idle         /^^^^^\________________________________/^^^^^^^^
 //! ```
 
-use super::{AnswerBeat, RecordReads, WordPair, WORD_PAIR_BITS};
+use super::answer_beat::AnswerBeat;
+use super::answer_beat::WordPair;
+use super::answer_beat::WORD_PAIR_BITS;
+use super::channels::AnswerSource;
+use super::payload_words::PayloadWords;
+use super::record_reads::RecordReads;
+use super::types::{AnswerProgress, Head, Request, Word, WordIndex};
+use crate::engine::types::TriangleId;
+use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -50,10 +41,8 @@ pub enum AnswerState {
     Prepare,
     /// Header and length.
     Header,
-    /// None: a word of the payload is being chosen.
-    Choose,
-    /// A word of the payload.
-    Payload,
+    /// A word of a payload that is no record.
+    Words,
     /// A beat of records or vertices.
     Records,
 }
@@ -61,136 +50,83 @@ pub enum AnswerState {
 /// The answer stream; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Responder {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Drops an answer.
+    /// Reset drops an answer.
     pub reset: Signal<In, Bit>,
-    /// An answer is due.
+    /// An answer is due, held until `progress.ends`.
     pub answers: Signal<In, Bit>,
-    /// Counts are being cleared.
+    /// Counts are being cleared: no answer begins.
     pub sweeps: Signal<In, Bit>,
-    /// First record of a read.
-    pub first: Signal<In, Bits<32>>,
-    /// Its records.
-    pub count: Signal<In, Bits<32>>,
-    /// First word of the answer.
-    pub header: Signal<In, Bits<32>>,
-    /// Words of the payload.
-    pub length: Signal<In, Bits<32>>,
-    /// There are none.
-    pub is_empty: Signal<In, Bit>,
-    /// Word of the payload.
-    pub word: Signal<In, Bits<32>>,
-    /// The payload consists of records.
-    pub is_read: Signal<In, Bit>,
-    /// It has their vertices alone.
-    pub is_packed: Signal<In, Bit>,
-    /// Word of the payload that is wanted.
-    pub index: Signal<Out, Bits<7>>,
-    /// The one after it, in time for what takes a clock longer to choose.
-    pub index_ahead: Signal<Out, Bits<7>>,
-    /// The word is taken into a register.
+    /// The command: its records, if it is a read.
+    pub request: Signal<In, Request>,
+    /// The answer, from `AnswerHead`, good 3 clocks after `answers` comes.
+    pub head: Signal<In, Head>,
+    /// A word of the payload, from `AnswerWords`, good from `chooses` to the next one.
+    pub word: Signal<In, Word>,
+    /// Number of the word that is wanted, and what it becomes at this edge, if it changes.
+    pub index: Signal<Out, WordIndex>,
+    pub index_ahead: Signal<Out, WordIndex>,
+    /// The word that `index` was a clock ago is taken into a register at this edge, and is then `word`.
     pub chooses: Signal<Out, Bit>,
     /// A record is wanted.
     pub read: Signal<Out, Bit>,
-    /// Its id.
-    pub read_id: Signal<Out, Bits<15>>,
-    /// It has come.
+    pub read_id: Signal<Out, TriangleId>,
+    /// A record has come; records come in the order in which they were wanted.
     pub read_done: Signal<In, Bit>,
-    /// Its column.
-    pub v0: Signal<In, Bits<15>>,
-    /// Its column.
-    pub v1: Signal<In, Bits<15>>,
-    /// Its column.
-    pub v2: Signal<In, Bits<15>>,
-    /// Its column.
-    pub n0: Signal<In, Bits<15>>,
-    /// Its column.
-    pub n1: Signal<In, Bits<15>>,
-    /// Its column.
-    pub n2: Signal<In, Bits<15>>,
-    /// Its lock bit.
-    pub was_set: Signal<In, Bit>,
-    /// A word is offered, or two.
-    pub response_valid: Signal<Out, Bit>,
-    /// It is taken.
-    pub response_ready: Signal<In, Bit>,
-    /// The word in the low half, the one that follows it in the high.
-    pub response_data: Signal<Out, Bits<64>>,
-    /// There is one that follows it.
-    pub response_both: Signal<Out, Bit>,
-    /// The last word of the answer is among them.
-    pub response_last: Signal<Out, Bit>,
-    /// No answer is under way.
-    pub is_idle: Signal<Out, Bit>,
-    /// The last word is loaded.
-    pub ends: Signal<Out, Bit>,
-    /// No word waits, or it is taken.
-    pub is_taken: Signal<Out, Bit>,
+    pub record: Signal<In, Record>,
+    pub response: AnswerSource,
+    pub progress: Signal<Out, AnswerProgress>,
     state: DFF<AnswerState>,
-    following: DFF<Bits<7>>,
-    /// The first of the two clocks of `Prepare` or `Choose` is over.
+    /// The first of the two clocks of `Prepare` is over.
     waited: DFF<Bit>,
     valid: DFF<Bit>,
     offered: DFF<AnswerBeat>,
-    left: DFF<Bits<32>>,
-    /// One word is left.
-    is_last: DFF<Bit>,
-    loaded: DFF<Bits<7>>,
+    words: PayloadWords,
     records: RecordReads,
     pair: Signal<Local, WordPair>,
     pair_bits: Signal<Local, Bits<WORD_PAIR_BITS>>,
     loads: Signal<Local, Bit>,
-    ends_now: Signal<Local, Bit>,
-    no_word: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<32>>,
-    two: Signal<Local, Bits<32>>,
-    one_word: Signal<Local, Bits<7>>,
+    ends: Signal<Local, Bit>,
 }
 
 impl Logic for Responder {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, waited, valid, offered, left, is_last, loaded, following);
-        clock!(self, clock, records);
-        self.no_word.next = 0.into();
-        self.one.next = 1.into();
-        self.two.next = 2.into();
-        self.one_word.next = 1.into();
-
-        self.response_valid.next = self.valid.q.val();
+        dff_setup!(self, clock, state, waited, valid, offered);
+        clock!(self, clock, words, records);
+        self.response.valid.next = self.valid.q.val();
         self.pair.next.low = self.offered.q.val().low;
         self.pair.next.high = self.offered.q.val().high;
         self.pair_bits.next = self.pair.val().into();
-        self.response_data.next = self.pair_bits.val();
-        self.response_both.next = self.offered.q.val().both;
-        self.response_last.next = self.offered.q.val().last;
-        self.index.next = self.loaded.q.val();
-        self.index_ahead.next = self.following.q.val();
-        self.chooses.next = (self.state.q.val() == AnswerState::Choose) & self.waited.q.val();
-        self.loads.next = (!self.valid.q.val()) | self.response_ready.val();
-        self.is_taken.next = self.loads.val();
-        self.is_idle.next = self.state.q.val() == AnswerState::Idle;
+        self.response.data.next = self.pair_bits.val();
+        self.response.both.next = self.offered.q.val().both;
+        self.response.last.next = self.offered.q.val().last;
+        self.loads.next = (!self.valid.q.val()) | self.response.ready.val();
+
+        self.words.reset.next = self.reset.val();
+        self.words.prepares.next = self.state.q.val() == AnswerState::Prepare;
+        self.words.starts.next = self.state.q.val() == AnswerState::Header;
+        self.words.length.next = self.head.val().length;
+        self.words.runs.next = self.state.q.val() == AnswerState::Words;
+        self.words.word.next = self.word.val();
+        self.index.next = self.words.index.val();
+        self.index_ahead.next = self.words.index_ahead.val();
+        self.chooses.next = self.words.chooses.val();
 
         self.records.reset.next = self.reset.val();
         self.records.starts.next = self.state.q.val() == AnswerState::Header;
-        self.records.first.next = self.first.val().get_bits::<15>(0);
-        self.records.count.next = self.count.val().get_bits::<15>(0);
-        self.records.is_packed.next = self.is_packed.val();
+        self.records.first.next = bit_cast::<15, 32>(self.request.val().first);
+        self.records.count.next = bit_cast::<15, 32>(self.request.val().count);
+        self.records.is_packed.next = self.head.val().is_packed;
         self.records.runs.next = self.state.q.val() == AnswerState::Records;
         self.read.next = self.records.read.val();
         self.read_id.next = self.records.read_id.val();
         self.records.read_done.next = self.read_done.val();
-        self.records.v0.next = self.v0.val();
-        self.records.v1.next = self.v1.val();
-        self.records.v2.next = self.v2.val();
-        self.records.n0.next = self.n0.val();
-        self.records.n1.next = self.n1.val();
-        self.records.n2.next = self.n2.val();
-        self.records.was_set.next = self.was_set.val();
+        self.records.record.next = self.record.val();
 
+        self.words.takes.next = false;
         self.records.takes.next = false;
-        self.ends_now.next = false;
+        self.ends.next = false;
         self.valid.d.next = self.valid.q.val() & (!self.loads.val());
         match self.state.q.val() {
             AnswerState::Idle => {
@@ -199,48 +135,31 @@ impl Logic for Responder {
                 }
             }
             AnswerState::Prepare => {
-                self.following.d.next = 0.into();
                 self.waited.d.next = !self.waited.q.val();
                 if self.waited.q.val() {
                     self.state.d.next = AnswerState::Header;
                 }
             }
             AnswerState::Header => {
-                self.left.d.next = self.length.val();
-                self.is_last.d.next = self.length.val() == self.one.val();
-                self.loaded.d.next = 0.into();
                 if self.loads.val() {
                     self.valid.d.next = true;
-                    self.offered.d.next.low = self.header.val();
-                    self.offered.d.next.high = self.length.val();
+                    self.offered.d.next.low = self.head.val().header;
+                    self.offered.d.next.high = self.head.val().length;
                     self.offered.d.next.both = true;
-                    self.offered.d.next.last = self.is_empty.val();
-                    self.ends_now.next = self.is_empty.val();
-                    self.state.d.next = AnswerState::Choose;
-                    if self.is_read.val() {
+                    self.offered.d.next.last = self.head.val().is_empty;
+                    self.ends.next = self.head.val().is_empty;
+                    self.state.d.next = AnswerState::Words;
+                    if self.head.val().is_read {
                         self.state.d.next = AnswerState::Records;
                     }
                 }
             }
-            AnswerState::Choose => {
-                self.following.d.next = self.loaded.q.val() + self.one_word.val();
-                self.waited.d.next = !self.waited.q.val();
-                if self.waited.q.val() {
-                    self.state.d.next = AnswerState::Payload;
-                }
-            }
-            AnswerState::Payload => {
-                if self.loads.val() {
+            AnswerState::Words => {
+                if self.loads.val() & self.words.valid.val() {
                     self.valid.d.next = true;
-                    self.offered.d.next.low = self.word.val();
-                    self.offered.d.next.high = self.no_word.val();
-                    self.offered.d.next.both = false;
-                    self.offered.d.next.last = self.is_last.q.val();
-                    self.loaded.d.next = self.loaded.q.val() + self.one_word.val();
-                    self.left.d.next = self.left.q.val() - self.one.val();
-                    self.is_last.d.next = self.left.q.val() == self.two.val();
-                    self.state.d.next = AnswerState::Choose;
-                    self.ends_now.next = self.is_last.q.val();
+                    self.offered.d.next = self.words.beat.val();
+                    self.words.takes.next = true;
+                    self.ends.next = self.words.beat.val().last;
                 }
             }
             AnswerState::Records => {
@@ -248,25 +167,27 @@ impl Logic for Responder {
                     self.valid.d.next = true;
                     self.offered.d.next = self.records.beat.val();
                     self.records.takes.next = true;
-                    self.ends_now.next = self.records.beat.val().last;
+                    self.ends.next = self.records.beat.val().last;
                 }
             }
             _ => {
                 self.state.d.next = AnswerState::Idle;
             }
         }
-        self.ends.next = self.ends_now.val();
-        if self.ends_now.val() {
+        if self.ends.val() {
             self.state.d.next = AnswerState::Idle;
         }
         if self.reset.val() {
             self.state.d.next = AnswerState::Idle;
             self.waited.d.next = false;
             self.valid.d.next = false;
-            self.offered.d.next.low = self.no_word.val();
-            self.offered.d.next.high = self.no_word.val();
+            self.offered.d.next.low = 0.into();
+            self.offered.d.next.high = 0.into();
             self.offered.d.next.both = false;
             self.offered.d.next.last = false;
         }
+        self.progress.next.is_idle = self.state.q.val() == AnswerState::Idle;
+        self.progress.next.ends = self.ends.val();
+        self.progress.next.is_taken = self.loads.val();
     }
 }

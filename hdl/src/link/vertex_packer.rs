@@ -1,12 +1,5 @@
 //! Packs the vertices of records into beats of two words: ids of 16 bits without gaps.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset drops the beat |
-//! | `starts`, `count` | in | 1, 15 | so many records will come, one at least |
-//! | `comes`, `v0..v2` | in | 1, 15 | a record comes |
-//! | `valid`, `beat` | out | 1, AnswerBeat | a beat is full, or the last one; it stands for one clock |
-//!
 //! 1. Four records fill three beats: the first of four fills none, and each of the others fills one and leaves what is beyond it.
 //! 2. What the last record leaves follows a clock later as a beat of its own, with the words that it needs; an odd half is zero.
 //! 3. Nothing can be held up here: the user sees to it that there is room for every beat.
@@ -23,62 +16,58 @@
 //! last            ________________________/^^\__
 //! ```
 
-use super::AnswerBeat;
+use super::answer_beat::AnswerBeat;
+use super::types::{RecordCount, Word};
+use crate::engine::types::VertexId;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Vertices of records, packed; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexPacker {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Drops the beat.
+    /// Reset drops the beat.
     pub reset: Signal<In, Bit>,
-    /// Records will come.
+    /// So many records will come, one at least.
     pub starts: Signal<In, Bit>,
-    /// So many.
-    pub count: Signal<In, Bits<15>>,
+    pub count: Signal<In, RecordCount>,
     /// A record comes.
     pub comes: Signal<In, Bit>,
-    /// Its vertex.
-    pub v0: Signal<In, Bits<15>>,
-    /// Its vertex.
-    pub v1: Signal<In, Bits<15>>,
-    /// Its vertex.
-    pub v2: Signal<In, Bits<15>>,
-    /// A beat is there.
+    pub v0: Signal<In, VertexId>,
+    pub v1: Signal<In, VertexId>,
+    pub v2: Signal<In, VertexId>,
+    /// A beat is full, or the last one; it stands for one clock.
     pub valid: Signal<Out, Bit>,
-    /// It.
     pub beat: Signal<Out, AnswerBeat>,
     is_there: DFF<Bit>,
     filled: DFF<AnswerBeat>,
     /// Records of the present four that have come.
     place: DFF<Bits<2>>,
-    left: DFF<Bits<15>>,
+    left: DFF<RecordCount>,
     /// One record is left.
     is_last: DFF<Bit>,
     /// The rest is due.
     flushes: DFF<Bit>,
-    held0: DFF<Bits<15>>,
-    held1: DFF<Bits<15>>,
-    held2: DFF<Bits<15>>,
+    held0: DFF<VertexId>,
+    held1: DFF<VertexId>,
+    held2: DFF<VertexId>,
     takes: Signal<Local, Bit>,
     ends_full: Signal<Local, Bit>,
-    new0: Signal<Local, Bits<15>>,
-    new1: Signal<Local, Bits<15>>,
-    new2: Signal<Local, Bits<15>>,
-    half1: Signal<Local, Bits<15>>,
-    half2: Signal<Local, Bits<15>>,
-    half3: Signal<Local, Bits<15>>,
-    even0: Signal<Local, Bits<32>>,
-    even1: Signal<Local, Bits<32>>,
-    odd0: Signal<Local, Bits<32>>,
-    odd1: Signal<Local, Bits<32>>,
-    high0: Signal<Local, Bits<32>>,
-    high1: Signal<Local, Bits<32>>,
-    half_shift: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<15>>,
-    two: Signal<Local, Bits<15>>,
+    new0: Signal<Local, VertexId>,
+    new1: Signal<Local, VertexId>,
+    new2: Signal<Local, VertexId>,
+    half1: Signal<Local, VertexId>,
+    half2: Signal<Local, VertexId>,
+    half3: Signal<Local, VertexId>,
+    even0: Signal<Local, Word>,
+    even1: Signal<Local, Word>,
+    odd0: Signal<Local, Word>,
+    odd1: Signal<Local, Word>,
+    high0: Signal<Local, Word>,
+    high1: Signal<Local, Word>,
+    half_shift: Signal<Local, Word>,
+    one: Signal<Local, RecordCount>,
+    two: Signal<Local, RecordCount>,
     first_place: Signal<Local, Bits<2>>,
     second_place: Signal<Local, Bits<2>>,
     last_place: Signal<Local, Bits<2>>,

@@ -1,20 +1,15 @@
 //! The payload of a `Triangles` answer: packs the vertices of records that come, and keeps the beats until they are taken.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset drops everything |
-//! | `starts`, `count` | in | 1, 15 | so many records will come; only when no beat of others is left |
-//! | `has_room` | out | 1 | a record may be asked for |
-//! | `comes`, `v0..v2` | in | 1, 15 | one that was asked for comes |
-//! | `valid`, `beat` | out | 1, AnswerBeat | the first beat that is left |
-//! | `takes` | in | 1 | it is taken at this edge; only while `valid` |
-//!
 //! 1. `has_room` is low while more than `ROOM` beats wait, two clocks later. The queue holds 16, so there is a place for every record
 //!    under way, if each comes within `PATIENCE` clocks.
 //!
 //! Latency: 1 clock from a record to the beat that it fills, when none waits.
 
-use super::{AnswerBeat, VertexPacker, ANSWER_BEAT_BITS};
+use super::answer_beat::AnswerBeat;
+use super::answer_beat::ANSWER_BEAT_BITS;
+use super::types::RecordCount;
+use super::vertex_packer::VertexPacker;
+use crate::engine::types::VertexId;
 use crate::leaf::{Fifo, Unpack};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -25,29 +20,23 @@ const QUEUE_BITS: usize = 4;
 /// The vertices of a range of records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexStream {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Drops everything.
+    /// Reset drops everything.
     pub reset: Signal<In, Bit>,
-    /// Records will come.
+    /// So many records will come; only when no beat of others is left.
     pub starts: Signal<In, Bit>,
-    /// So many.
-    pub count: Signal<In, Bits<15>>,
+    pub count: Signal<In, RecordCount>,
     /// A record may be asked for.
     pub has_room: Signal<Out, Bit>,
-    /// One comes.
+    /// One that was asked for comes.
     pub comes: Signal<In, Bit>,
-    /// Its vertex.
-    pub v0: Signal<In, Bits<15>>,
-    /// Its vertex.
-    pub v1: Signal<In, Bits<15>>,
-    /// Its vertex.
-    pub v2: Signal<In, Bits<15>>,
-    /// A beat is left.
+    pub v0: Signal<In, VertexId>,
+    pub v1: Signal<In, VertexId>,
+    pub v2: Signal<In, VertexId>,
+    /// The first beat that is left.
     pub valid: Signal<Out, Bit>,
-    /// The first.
     pub beat: Signal<Out, AnswerBeat>,
-    /// It is taken.
+    /// It is taken at this edge; only while `valid`.
     pub takes: Signal<In, Bit>,
     /// Beats in the queue.
     waiting: DFF<Bits<5>>,

@@ -23,6 +23,7 @@
 //! foreign           ._________/^^\_____/^^\__
 //! ```
 
+use crate::engine::types::LockClear;
 use crate::leaf::{BlockMemory, LockMemory};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -30,7 +31,6 @@ use rust_hdl_widgets::prelude::*;
 /// Locks and their owners; see the top of this file.
 #[derive(LogicBlock)]
 pub struct LockStore {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// The lock that a visit comes to, in clock 0.
     pub id: Signal<In, Bits<15>>,
@@ -45,8 +45,7 @@ pub struct LockStore {
     /// The lock was set before the visit, in clock 2.
     pub was_set: Signal<Out, Bit>,
     /// A lock to clear at this edge.
-    pub clear_id: Signal<In, Bits<15>>,
-    pub clear_enable: Signal<In, Bit>,
+    pub clear: Signal<In, LockClear>,
     locks: LockMemory<15>,
     owners: BlockMemory<15, 5>,
     lock: Signal<Local, Bits<15>>,
@@ -113,8 +112,7 @@ impl LockStore {
             took: Signal::default(),
             foreign: Signal::default(),
             was_set: Signal::default(),
-            clear_id: Signal::default(),
-            clear_enable: Signal::default(),
+            clear: Signal::default(),
             locks: LockMemory::new(id_bits),
             owners: BlockMemory::new(id_bits, context_bits),
             lock: Signal::default(),
@@ -174,15 +172,15 @@ impl Logic for LockStore {
         dff_setup!(self, clock, found_set, found_owner, is_told, told_is_owner, took4, took5);
         clock!(self, clock, locks, owners);
         self.lock.next = self.id.val() & self.kept_id_bits.val();
-        self.cleared.next = self.clear_id.val() & self.kept_id_bits.val();
+        self.cleared.next = self.clear.val().id & self.kept_id_bits.val();
         self.visitor.next = self.owner.val() & self.kept_owner_bits.val();
 
         // Clock 0: test and set, unless the lock is being cleared.
-        self.meets_clear.next = self.clear_enable.val() & (self.lock.val() == self.cleared.val());
+        self.meets_clear.next = self.clear.val().valid & (self.lock.val() == self.cleared.val());
         self.locks.test_address.next = self.lock.val();
         self.locks.test_set.next = self.takes.val() & (!self.meets_clear.val());
         self.locks.clear_address.next = self.cleared.val();
-        self.locks.clear_enable.next = self.clear_enable.val();
+        self.locks.clear_enable.next = self.clear.val().valid;
         self.owners.read_address.next = self.lock.val();
         self.id1.d.next = self.lock.val();
         self.owner1.d.next = self.visitor.val();

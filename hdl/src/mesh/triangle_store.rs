@@ -23,39 +23,32 @@
 //! Source: Cline and Renka's triangle-based structure: three vertices and three neighbours for each triangle.
 
 use super::lock_store::LockStore;
-use crate::engine::types::{Write, WriteEnables};
+use super::record::Record;
+use crate::engine::types::{ContextId, LockClear, TriangleId, Write, WriteEnables};
 use crate::leaf::BlockMemory;
 use rust_hdl_core::prelude::*;
 
 /// The triangle memory; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct TriangleStore {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// A record or one link, written at this edge; only `enables` says what of it and where.
     pub write: Signal<In, Write>,
     pub enables: Signal<In, WriteEnables>,
     /// Record to read: its lock, its vertex and its link columns.
-    pub read_id: Signal<In, Bits<15>>,
-    pub vertices_id: Signal<In, Bits<15>>,
-    pub links_id: Signal<In, Bits<15>>,
+    pub read_id: Signal<In, TriangleId>,
+    pub vertices_id: Signal<In, TriangleId>,
+    pub links_id: Signal<In, TriangleId>,
     /// Take its lock at this edge, for this context.
     pub read_locks: Signal<In, Bit>,
-    pub owner: Signal<In, Bits<5>>,
-    /// Its columns.
-    pub v0: Signal<Out, Bits<15>>,
-    pub v1: Signal<Out, Bits<15>>,
-    pub v2: Signal<Out, Bits<15>>,
-    pub n0: Signal<Out, Bits<15>>,
-    pub n1: Signal<Out, Bits<15>>,
-    pub n2: Signal<Out, Bits<15>>,
-    /// What became of that, the last two a clock after the columns; see `LockStore`.
-    pub was_set: Signal<Out, Bit>,
+    pub owner: Signal<In, ContextId>,
+    /// It, with its lock as it was before.
+    pub record: Signal<Out, Record>,
+    /// What became of the lock, a clock after the record; see `LockStore`.
     pub took: Signal<Out, Bit>,
     pub foreign: Signal<Out, Bit>,
     /// A lock to clear at this edge.
-    pub clear_id: Signal<In, Bits<15>>,
-    pub clear_enable: Signal<In, Bit>,
+    pub clear: Signal<In, LockClear>,
     vertices: [BlockMemory<15, 15>; 3],
     links: [BlockMemory<15, 15>; 3],
     locks: LockStore,
@@ -97,20 +90,19 @@ impl Logic for TriangleStore {
         self.links[0].write_enable.next = self.enables.val().link0;
         self.links[1].write_enable.next = self.enables.val().link1;
         self.links[2].write_enable.next = self.enables.val().link2;
-        self.v0.next = self.vertices[0].read_data.val();
-        self.v1.next = self.vertices[1].read_data.val();
-        self.v2.next = self.vertices[2].read_data.val();
-        self.n0.next = self.links[0].read_data.val();
-        self.n1.next = self.links[1].read_data.val();
-        self.n2.next = self.links[2].read_data.val();
+        self.record.next.v0 = self.vertices[0].read_data.val();
+        self.record.next.v1 = self.vertices[1].read_data.val();
+        self.record.next.v2 = self.vertices[2].read_data.val();
+        self.record.next.n0 = self.links[0].read_data.val();
+        self.record.next.n1 = self.links[1].read_data.val();
+        self.record.next.n2 = self.links[2].read_data.val();
+        self.record.next.was_set = self.locks.was_set.val();
         self.locks.clock.next = self.clock.val();
         self.locks.id.next = self.read_id.val();
         self.locks.takes.next = self.read_locks.val();
         self.locks.owner.next = self.owner.val();
-        self.locks.clear_id.next = self.clear_id.val();
-        self.locks.clear_enable.next = self.clear_enable.val();
+        self.locks.clear.next = self.clear.val();
         self.took.next = self.locks.took.val();
         self.foreign.next = self.locks.foreign.val();
-        self.was_set.next = self.locks.was_set.val();
     }
 }

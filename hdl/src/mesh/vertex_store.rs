@@ -15,30 +15,27 @@
 //! fetched           .  .  .  . 42
 //! ```
 
+use crate::engine::types::{Arrival, VertexId};
 use crate::leaf::{BlockMemory, SharedMemory};
+use crate::predicate::{Corners, Point};
 use rust_hdl_core::prelude::*;
 
 /// The vertex memory; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexStore {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// A vertex written at this edge: x in the low half, y in the high.
-    pub write_id: Signal<In, Bits<15>>,
-    pub write_position: Signal<In, Bits<32>>,
-    pub write_enable: Signal<In, Bit>,
+    pub write: Signal<In, Arrival>,
     /// Vertices to read.
-    pub id0: Signal<In, Bits<15>>,
-    pub id1: Signal<In, Bits<15>>,
-    pub id2: Signal<In, Bits<15>>,
+    pub id0: Signal<In, VertexId>,
+    pub id1: Signal<In, VertexId>,
+    pub id2: Signal<In, VertexId>,
     /// Their coordinates.
-    pub position0: Signal<Out, Bits<32>>,
-    pub position1: Signal<Out, Bits<32>>,
-    pub position2: Signal<Out, Bits<32>>,
+    pub corners: Signal<Out, Corners>,
     /// Another vertex to read, at an edge without a write.
-    pub fetch_id: Signal<In, Bits<15>>,
+    pub fetch_id: Signal<In, VertexId>,
     /// Its coordinates.
-    pub fetched: Signal<Out, Bits<32>>,
+    pub fetched: Signal<Out, Point>,
     first_copy: SharedMemory<15, 32>,
     copies: [BlockMemory<15, 32>; 2],
 }
@@ -62,23 +59,23 @@ impl Logic for VertexStore {
     fn update(&mut self) {
         clock!(self, clock, first_copy);
         self.first_copy.read_address.next = self.id0.val();
-        self.first_copy.write_data.next = self.write_position.val();
-        self.first_copy.write_enable.next = self.write_enable.val();
+        self.first_copy.write_data.next = self.write.val().point;
+        self.first_copy.write_enable.next = self.write.val().came;
         self.first_copy.shared_address.next = self.fetch_id.val();
-        if self.write_enable.val() {
-            self.first_copy.shared_address.next = self.write_id.val();
+        if self.write.val().came {
+            self.first_copy.shared_address.next = self.write.val().id;
         }
         for i in 0..2 {
             self.copies[i].clock.next = self.clock.val();
-            self.copies[i].write_address.next = self.write_id.val();
-            self.copies[i].write_data.next = self.write_position.val();
-            self.copies[i].write_enable.next = self.write_enable.val();
+            self.copies[i].write_address.next = self.write.val().id;
+            self.copies[i].write_data.next = self.write.val().point;
+            self.copies[i].write_enable.next = self.write.val().came;
         }
         self.copies[0].read_address.next = self.id1.val();
         self.copies[1].read_address.next = self.id2.val();
-        self.position0.next = self.first_copy.read_data.val();
-        self.position1.next = self.copies[0].read_data.val();
-        self.position2.next = self.copies[1].read_data.val();
+        self.corners.next.r0 = self.first_copy.read_data.val();
+        self.corners.next.r1 = self.copies[0].read_data.val();
+        self.corners.next.r2 = self.copies[1].read_data.val();
         self.fetched.next = self.first_copy.shared_data.val();
     }
 }

@@ -11,29 +11,18 @@
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
+use super::signs::EdgeFlags;
 use crate::leaf::FlagDelay;
 
 /// Flags of three orientations; see the top of this file.
 #[derive(LogicBlock)]
 pub struct EdgeSigns {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Orientations, two's complement, each in `-2^32 .. 2^32`.
     pub e0: Signal<In, Bits<36>>,
     pub e1: Signal<In, Bits<36>>,
     pub e2: Signal<In, Bits<36>>,
-    /// Below zero.
-    pub e0_negative: Signal<Out, Bit>,
-    pub e1_negative: Signal<Out, Bit>,
-    pub e2_negative: Signal<Out, Bit>,
-    /// Zero.
-    pub e0_zero: Signal<Out, Bit>,
-    pub e1_zero: Signal<Out, Bit>,
-    pub e2_zero: Signal<Out, Bit>,
-    /// Signed comparison.
-    pub e1_below_e0: Signal<Out, Bit>,
-    pub e2_below_e0: Signal<Out, Bit>,
-    pub e2_below_e1: Signal<Out, Bit>,
+    pub flags: Signal<Out, EdgeFlags>,
     value_0: Signal<Local, Bits<33>>,
     value_1: Signal<Local, Bits<33>>,
     value_2: Signal<Local, Bits<33>>,
@@ -74,15 +63,7 @@ impl EdgeSigns {
             e0: Signal::default(),
             e1: Signal::default(),
             e2: Signal::default(),
-            e0_negative: Signal::default(),
-            e1_negative: Signal::default(),
-            e2_negative: Signal::default(),
-            e0_zero: Signal::default(),
-            e1_zero: Signal::default(),
-            e2_zero: Signal::default(),
-            e1_below_e0: Signal::default(),
-            e2_below_e0: Signal::default(),
-            e2_below_e1: Signal::default(),
+            flags: Signal::default(),
             value_0: Signal::default(),
             value_1: Signal::default(),
             value_2: Signal::default(),
@@ -160,14 +141,14 @@ impl Logic for EdgeSigns {
             self.delay_2_below_1.flag_in.next = self.low_2_below_1.q.val();
         }
 
-        self.e0_negative.next = self.delay_negative_0.flag_out.val();
-        self.e1_negative.next = self.delay_negative_1.flag_out.val();
-        self.e2_negative.next = self.delay_negative_2.flag_out.val();
-        self.e0_zero.next = self.delay_zero_0.flag_out.val();
-        self.e1_zero.next = self.delay_zero_1.flag_out.val();
-        self.e2_zero.next = self.delay_zero_2.flag_out.val();
-        self.e1_below_e0.next = self.delay_1_below_0.flag_out.val();
-        self.e2_below_e0.next = self.delay_2_below_0.flag_out.val();
-        self.e2_below_e1.next = self.delay_2_below_1.flag_out.val();
+        self.flags.next.e0_negative = self.delay_negative_0.flag_out.val();
+        self.flags.next.e1_negative = self.delay_negative_1.flag_out.val();
+        self.flags.next.e2_negative = self.delay_negative_2.flag_out.val();
+        self.flags.next.e0_zero = self.delay_zero_0.flag_out.val();
+        self.flags.next.e1_zero = self.delay_zero_1.flag_out.val();
+        self.flags.next.e2_zero = self.delay_zero_2.flag_out.val();
+        self.flags.next.e1_below_e0 = self.delay_1_below_0.flag_out.val();
+        self.flags.next.e2_below_e0 = self.delay_2_below_0.flag_out.val();
+        self.flags.next.e2_below_e1 = self.delay_2_below_1.flag_out.val();
     }
 }

@@ -8,30 +8,17 @@
 
 use rust_hdl_core::prelude::*;
 
+use super::signs::{Corners, OrderFlags};
+use super::widths::Point;
 use crate::leaf::FlagDelay;
 
 /// Order of four points; see the top of this file.
 #[derive(LogicBlock)]
 pub struct VertexOrder {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Points: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned.
-    pub r0: Signal<In, Bits<32>>,
-    pub r1: Signal<In, Bits<32>>,
-    pub r2: Signal<In, Bits<32>>,
-    pub p: Signal<In, Bits<32>>,
-    /// `p` comes before that vertex: by `x`, then by `y`.
-    pub p_before_r0: Signal<Out, Bit>,
-    pub p_before_r1: Signal<Out, Bit>,
-    pub p_before_r2: Signal<Out, Bit>,
-    /// `p` is that vertex.
-    pub p_equals_r0: Signal<Out, Bit>,
-    pub p_equals_r1: Signal<Out, Bit>,
-    pub p_equals_r2: Signal<Out, Bit>,
-    /// The one vertex comes before the other.
-    pub r0_before_r1: Signal<Out, Bit>,
-    pub r0_before_r2: Signal<Out, Bit>,
-    pub r1_before_r2: Signal<Out, Bit>,
+    pub corners: Signal<In, Corners>,
+    pub p: Signal<In, Point>,
+    pub flags: Signal<Out, OrderFlags>,
     key_r0: SortKey,
     key_r1: SortKey,
     key_r2: SortKey,
@@ -56,19 +43,9 @@ impl VertexOrder {
         let delay = || FlagDelay::new(latency);
         Self {
             clock: Signal::default(),
-            r0: Signal::default(),
-            r1: Signal::default(),
-            r2: Signal::default(),
+            corners: Signal::default(),
             p: Signal::default(),
-            p_before_r0: Signal::default(),
-            p_before_r1: Signal::default(),
-            p_before_r2: Signal::default(),
-            p_equals_r0: Signal::default(),
-            p_equals_r1: Signal::default(),
-            p_equals_r2: Signal::default(),
-            r0_before_r1: Signal::default(),
-            r0_before_r2: Signal::default(),
-            r1_before_r2: Signal::default(),
+            flags: Signal::default(),
             key_r0: SortKey::default(),
             key_r1: SortKey::default(),
             key_r2: SortKey::default(),
@@ -92,35 +69,35 @@ impl Logic for VertexOrder {
         clock!(self, clock, delay_before_r0, delay_before_r1, delay_before_r2);
         clock!(self, clock, delay_equals_r0, delay_equals_r1, delay_equals_r2);
         clock!(self, clock, delay_r0_before_r1, delay_r0_before_r2, delay_r1_before_r2);
-        self.key_r0.point.next = self.r0.val();
-        self.key_r1.point.next = self.r1.val();
-        self.key_r2.point.next = self.r2.val();
+        self.key_r0.point.next = self.corners.val().r0;
+        self.key_r1.point.next = self.corners.val().r1;
+        self.key_r2.point.next = self.corners.val().r2;
         self.key_p.point.next = self.p.val();
         self.delay_before_r0.flag_in.next = self.key_p.key.val() < self.key_r0.key.val();
         self.delay_before_r1.flag_in.next = self.key_p.key.val() < self.key_r1.key.val();
         self.delay_before_r2.flag_in.next = self.key_p.key.val() < self.key_r2.key.val();
-        self.delay_equals_r0.flag_in.next = self.p.val() == self.r0.val();
-        self.delay_equals_r1.flag_in.next = self.p.val() == self.r1.val();
-        self.delay_equals_r2.flag_in.next = self.p.val() == self.r2.val();
+        self.delay_equals_r0.flag_in.next = self.p.val() == self.corners.val().r0;
+        self.delay_equals_r1.flag_in.next = self.p.val() == self.corners.val().r1;
+        self.delay_equals_r2.flag_in.next = self.p.val() == self.corners.val().r2;
         self.delay_r0_before_r1.flag_in.next = self.key_r0.key.val() < self.key_r1.key.val();
         self.delay_r0_before_r2.flag_in.next = self.key_r0.key.val() < self.key_r2.key.val();
         self.delay_r1_before_r2.flag_in.next = self.key_r1.key.val() < self.key_r2.key.val();
-        self.p_before_r0.next = self.delay_before_r0.flag_out.val();
-        self.p_before_r1.next = self.delay_before_r1.flag_out.val();
-        self.p_before_r2.next = self.delay_before_r2.flag_out.val();
-        self.p_equals_r0.next = self.delay_equals_r0.flag_out.val();
-        self.p_equals_r1.next = self.delay_equals_r1.flag_out.val();
-        self.p_equals_r2.next = self.delay_equals_r2.flag_out.val();
-        self.r0_before_r1.next = self.delay_r0_before_r1.flag_out.val();
-        self.r0_before_r2.next = self.delay_r0_before_r2.flag_out.val();
-        self.r1_before_r2.next = self.delay_r1_before_r2.flag_out.val();
+        self.flags.next.p_before_r0 = self.delay_before_r0.flag_out.val();
+        self.flags.next.p_before_r1 = self.delay_before_r1.flag_out.val();
+        self.flags.next.p_before_r2 = self.delay_before_r2.flag_out.val();
+        self.flags.next.p_equals_r0 = self.delay_equals_r0.flag_out.val();
+        self.flags.next.p_equals_r1 = self.delay_equals_r1.flag_out.val();
+        self.flags.next.p_equals_r2 = self.delay_equals_r2.flag_out.val();
+        self.flags.next.r0_before_r1 = self.delay_r0_before_r1.flag_out.val();
+        self.flags.next.r0_before_r2 = self.delay_r0_before_r2.flag_out.val();
+        self.flags.next.r1_before_r2 = self.delay_r1_before_r2.flag_out.val();
     }
 }
 
 /// A point as a number that sorts lexicographically: the halves change places.
 #[derive(LogicBlock, Default)]
 struct SortKey {
-    pub point: Signal<In, Bits<32>>,
+    pub point: Signal<In, Point>,
     pub key: Signal<Out, Bits<32>>,
     x: Signal<Local, Bits<16>>,
     y: Signal<Local, Bits<16>>,

@@ -19,47 +19,18 @@ use super::cross_product::CrossProduct;
 use super::dot_product::DotProduct;
 use super::edge_signs::EdgeSigns;
 use super::point_difference::PointDifference;
+use super::signs::{Corners, Signs};
 use super::vertex_order::VertexOrder;
 use super::wide_product::WideProduct;
+use super::widths::Point;
 
 /// Predicates of a visit; see the top of this file.
 #[derive(LogicBlock)]
 pub struct VisitPredicates {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// Vertices: `x` in bits 0 to 15, `y` in bits 16 to 31, unsigned.
-    pub r0: Signal<In, Bits<32>>,
-    pub r1: Signal<In, Bits<32>>,
-    pub r2: Signal<In, Bits<32>>,
-    /// New point, in the same form.
-    pub p: Signal<In, Bits<32>>,
-    /// `E_k < 0`: `p` lies right of edge `k`.
-    pub e0_negative: Signal<Out, Bit>,
-    pub e1_negative: Signal<Out, Bit>,
-    pub e2_negative: Signal<Out, Bit>,
-    /// `E_k = 0`: `p` lies on the line of edge `k`.
-    pub e0_zero: Signal<Out, Bit>,
-    pub e1_zero: Signal<Out, Bit>,
-    pub e2_zero: Signal<Out, Bit>,
-    /// `E_i < E_j`, signed.
-    pub e1_below_e0: Signal<Out, Bit>,
-    pub e2_below_e0: Signal<Out, Bit>,
-    pub e2_below_e1: Signal<Out, Bit>,
-    /// Sign of `I`.
-    pub incircle_positive: Signal<Out, Bit>,
-    pub incircle_zero: Signal<Out, Bit>,
-    /// `p` comes before that vertex: by `x`, then by `y`.
-    pub p_before_r0: Signal<Out, Bit>,
-    pub p_before_r1: Signal<Out, Bit>,
-    pub p_before_r2: Signal<Out, Bit>,
-    /// `p` is that vertex.
-    pub p_equals_r0: Signal<Out, Bit>,
-    pub p_equals_r1: Signal<Out, Bit>,
-    pub p_equals_r2: Signal<Out, Bit>,
-    /// The one vertex comes before the other.
-    pub r0_before_r1: Signal<Out, Bit>,
-    pub r0_before_r2: Signal<Out, Bit>,
-    pub r1_before_r2: Signal<Out, Bit>,
+    pub corners: Signal<In, Corners>,
+    pub p: Signal<In, Point>,
+    pub signs: Signal<Out, Signs>,
     p_to_r0: PointDifference,
     p_to_r1: PointDifference,
     p_to_r2: PointDifference,
@@ -93,30 +64,9 @@ impl Default for VisitPredicates {
     fn default() -> Self {
         Self {
             clock: Signal::default(),
-            r0: Signal::default(),
-            r1: Signal::default(),
-            r2: Signal::default(),
+            corners: Signal::default(),
             p: Signal::default(),
-            e0_negative: Signal::default(),
-            e1_negative: Signal::default(),
-            e2_negative: Signal::default(),
-            e0_zero: Signal::default(),
-            e1_zero: Signal::default(),
-            e2_zero: Signal::default(),
-            e1_below_e0: Signal::default(),
-            e2_below_e0: Signal::default(),
-            e2_below_e1: Signal::default(),
-            incircle_positive: Signal::default(),
-            incircle_zero: Signal::default(),
-            p_before_r0: Signal::default(),
-            p_before_r1: Signal::default(),
-            p_before_r2: Signal::default(),
-            p_equals_r0: Signal::default(),
-            p_equals_r1: Signal::default(),
-            p_equals_r2: Signal::default(),
-            r0_before_r1: Signal::default(),
-            r0_before_r2: Signal::default(),
-            r1_before_r2: Signal::default(),
+            signs: Signal::default(),
             p_to_r0: PointDifference::default(),
             p_to_r1: PointDifference::default(),
             p_to_r2: PointDifference::default(),
@@ -149,15 +99,15 @@ impl Logic for VisitPredicates {
 
         // Vectors between the points.
         self.p_to_r0.from.next = self.p.val();
-        self.p_to_r0.to.next = self.r0.val();
+        self.p_to_r0.to.next = self.corners.val().r0;
         self.p_to_r1.from.next = self.p.val();
-        self.p_to_r1.to.next = self.r1.val();
+        self.p_to_r1.to.next = self.corners.val().r1;
         self.p_to_r2.from.next = self.p.val();
-        self.p_to_r2.to.next = self.r2.val();
-        self.r0_to_r1.from.next = self.r0.val();
-        self.r0_to_r1.to.next = self.r1.val();
-        self.r0_to_r2.from.next = self.r0.val();
-        self.r0_to_r2.to.next = self.r2.val();
+        self.p_to_r2.to.next = self.corners.val().r2;
+        self.r0_to_r1.from.next = self.corners.val().r0;
+        self.r0_to_r1.to.next = self.corners.val().r1;
+        self.r0_to_r2.from.next = self.corners.val().r0;
+        self.r0_to_r2.to.next = self.corners.val().r2;
 
         // Orientations of the three edges, and of the triangle.
         self.cross_0.a_x.next = self.p_to_r1.x.val();
@@ -199,30 +149,12 @@ impl Logic for VisitPredicates {
         self.biased_second.next = self.apex_by_point.product.val() ^ self.sign.val();
         self.positive.d.next = self.biased_second.val() < self.biased_first.val();
         self.zero.d.next = self.point_by_apex.product.val() == self.apex_by_point.product.val();
-        self.incircle_positive.next = self.positive.q.val();
-        self.incircle_zero.next = self.zero.q.val();
+        self.signs.next.incircle_positive = self.positive.q.val();
+        self.signs.next.incircle_zero = self.zero.q.val();
 
-        self.order.r0.next = self.r0.val();
-        self.order.r1.next = self.r1.val();
-        self.order.r2.next = self.r2.val();
+        self.order.corners.next = self.corners.val();
         self.order.p.next = self.p.val();
-        self.e0_negative.next = self.edges.e0_negative.val();
-        self.e1_negative.next = self.edges.e1_negative.val();
-        self.e2_negative.next = self.edges.e2_negative.val();
-        self.e0_zero.next = self.edges.e0_zero.val();
-        self.e1_zero.next = self.edges.e1_zero.val();
-        self.e2_zero.next = self.edges.e2_zero.val();
-        self.e1_below_e0.next = self.edges.e1_below_e0.val();
-        self.e2_below_e0.next = self.edges.e2_below_e0.val();
-        self.e2_below_e1.next = self.edges.e2_below_e1.val();
-        self.p_before_r0.next = self.order.p_before_r0.val();
-        self.p_before_r1.next = self.order.p_before_r1.val();
-        self.p_before_r2.next = self.order.p_before_r2.val();
-        self.p_equals_r0.next = self.order.p_equals_r0.val();
-        self.p_equals_r1.next = self.order.p_equals_r1.val();
-        self.p_equals_r2.next = self.order.p_equals_r2.val();
-        self.r0_before_r1.next = self.order.r0_before_r1.val();
-        self.r0_before_r2.next = self.order.r0_before_r2.val();
-        self.r1_before_r2.next = self.order.r1_before_r2.val();
+        self.signs.next.edges = self.edges.flags.val();
+        self.signs.next.order = self.order.flags.val();
     }
 }

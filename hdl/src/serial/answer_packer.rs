@@ -1,23 +1,13 @@
 //! Cuts the answers of the core into parts that fit a frame, and gives their words byte by byte.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset awaits an answer, number 0 |
-//! | `word_valid`, `word_ready`, `word_data` | in, out, in | 1, 1, 32 | the answer stream of the core, word by word |
-//! | `is_due`, `is_last` | out | 1 | a part is ready to be sent; it is the last one of its answer |
-//! | `starts` | in | 1 | its frame begins |
-//! | `number`, `part` | out | 8, 8 | answers that have been sent to their end; the part's first word, divided by 256 |
-//! | `byte_valid`, `byte_data`, `takes` | out, out, in | 1, 8, 1 | a byte of the part; it is taken at this edge |
-//! | `byte_is_last` | out | 1 | it is the last one |
-//! | `ended` | in | 1 | the frame of the last part is over |
-//! | `awaits` | out | 1 | no word of an answer has come |
-//!
 //! 1. All parts but the last have 256 words. The length of an answer is its second word, below 2^17.
 //! 2. `word_ready`, `is_due` and `byte_valid` depend on registers only.
 //! 3. A part begins when its first word is there; of the first part the second, too, which is not taken then.
 //!
 //! Latency: 3 clocks from the first two words of an answer to `is_due`.
 
+use super::types::{AnswerPlace, Byte};
+use crate::link::types::Word;
 use incircle_protocol::MAX_PAYLOAD;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -40,40 +30,32 @@ pub enum PackState {
 /// Parts of answers; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerPacker {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Awaits an answer, number 0.
+    /// Reset awaits an answer, number 0.
     pub reset: Signal<In, Bit>,
-    /// A word is offered.
+    /// The answer stream of the core, word by word.
     pub word_valid: Signal<In, Bit>,
-    /// It is taken.
     pub word_ready: Signal<Out, Bit>,
-    /// The word.
-    pub word_data: Signal<In, Bits<32>>,
-    /// A part is ready.
+    pub word_data: Signal<In, Word>,
+    /// A part is ready to be sent; it is the last one of its answer.
     pub is_due: Signal<Out, Bit>,
-    /// It is the last one.
     pub is_last: Signal<Out, Bit>,
-    /// Its frame begins.
+    /// The frame of the part begins.
     pub starts: Signal<In, Bit>,
-    /// Answers sent to their end.
-    pub number: Signal<Out, Bits<8>>,
-    /// Parts of the answer before this one.
-    pub part: Signal<Out, Bits<8>>,
-    /// A byte is there.
+    /// The part.
+    pub answer: Signal<Out, AnswerPlace>,
+    /// A byte of the part; it is taken at this edge.
     pub byte_valid: Signal<Out, Bit>,
-    /// It.
-    pub byte_data: Signal<Out, Bits<8>>,
-    /// It is taken.
+    pub byte_data: Signal<Out, Byte>,
     pub takes: Signal<In, Bit>,
-    /// It is the last one of the part.
+    /// The byte is the last one of the part.
     pub byte_is_last: Signal<Out, Bit>,
     /// The frame of the last part is over.
     pub ended: Signal<In, Bit>,
-    /// No word has come.
+    /// No word of an answer has come.
     pub awaits: Signal<Out, Bit>,
     state: DFF<PackState>,
-    word: DFF<Bits<32>>,
+    word: DFF<Word>,
     is_held: DFF<Bit>,
     place: DFF<Bits<2>>,
     /// The first word of an answer is held.
@@ -81,23 +63,23 @@ pub struct AnswerPacker {
     /// Words of the answer behind the one that is held, without the second word.
     after: DFF<Bits<17>>,
     /// The word that is held in its part.
-    position: DFF<Bits<8>>,
-    part_number: DFF<Bits<8>>,
-    answers: DFF<Bits<8>>,
+    position: DFF<Byte>,
+    part_number: DFF<Byte>,
+    answers: DFF<Byte>,
     is_settled: DFF<Bit>,
     is_short: DFF<Bit>,
     part_ends: DFF<Bit>,
     is_taking: Signal<Local, Bit>,
     loads: Signal<Local, Bit>,
     many: Signal<Local, Bits<9>>,
-    few: Signal<Local, Bits<8>>,
+    few: Signal<Local, Byte>,
     is_end: Signal<Local, Bit>,
     one: Signal<Local, Bits<17>>,
-    one_byte: Signal<Local, Bits<8>>,
+    one_byte: Signal<Local, Byte>,
     one_place: Signal<Local, Bits<2>>,
     last_place: Signal<Local, Bits<2>>,
-    last_position: Signal<Local, Bits<8>>,
-    eight: Signal<Local, Bits<32>>,
+    last_position: Signal<Local, Byte>,
+    eight: Signal<Local, Word>,
 }
 
 const _: () = assert!(MAX_PAYLOAD == 4 * 256, "the parts of this block are as long as the protocol says");
@@ -115,8 +97,8 @@ impl Logic for AnswerPacker {
         self.eight.next = 8.into();
         self.is_due.next = (self.state.q.val() == PackState::Start) & self.is_settled.q.val();
         self.is_last.next = self.is_short.q.val();
-        self.number.next = self.answers.q.val();
-        self.part.next = self.part_number.q.val();
+        self.answer.next.number = self.answers.q.val();
+        self.answer.next.part = self.part_number.q.val();
         self.byte_valid.next = (self.state.q.val() == PackState::Words) & self.is_held.q.val();
         self.byte_data.next = self.word.q.val().get_bits::<8>(0);
         self.byte_is_last.next = self.part_ends.q.val() & (self.place.q.val() == self.last_place.val());

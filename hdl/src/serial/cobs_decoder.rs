@@ -1,13 +1,5 @@
 //! Takes frames out of COBS: the bytes of a frame, and its end.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset awaits a frame |
-//! | `byte_valid`, `byte_data` | in | 1, 8 | a byte from the line |
-//! | `noise` | in | 1 | a byte from the line was lost |
-//! | `data_valid`, `data` | out | 1, 8 | a byte of a frame |
-//! | `frame_ends`, `is_broken` | out | 1 | the frame is over; it lacks bytes |
-//!
 //! 1. A zero ends a frame. Nothing between two zeros is no frame.
 //! 2. A frame is broken if it ends inside a piece, or a byte of it was lost. Noise between frames changes nothing.
 //!
@@ -23,44 +15,41 @@
 //! is_broken       ____________________________________/^^\________
 //! ```
 
+use super::types::Byte;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Frames out of COBS; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CobsDecoder {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Awaits a frame.
+    /// Reset awaits a frame.
     pub reset: Signal<In, Bit>,
     /// A byte from the line.
     pub byte_valid: Signal<In, Bit>,
-    /// It.
-    pub byte_data: Signal<In, Bits<8>>,
-    /// A byte was lost.
+    pub byte_data: Signal<In, Byte>,
+    /// A byte from the line was lost.
     pub noise: Signal<In, Bit>,
     /// A byte of a frame.
     pub data_valid: Signal<Out, Bit>,
-    /// It.
-    pub data: Signal<Out, Bits<8>>,
-    /// The frame is over.
+    pub data: Signal<Out, Byte>,
+    /// The frame is over; it lacks bytes.
     pub frame_ends: Signal<Out, Bit>,
-    /// It lacks bytes.
     pub is_broken: Signal<Out, Bit>,
     /// Bytes before the next length byte.
-    left: DFF<Bits<8>>,
+    left: DFF<Byte>,
     in_frame: DFF<Bit>,
     /// A zero stands behind the present piece, if another one follows.
     owes_zero: DFF<Bit>,
     lacks: DFF<Bit>,
     gives: DFF<Bit>,
-    value: DFF<Bits<8>>,
+    value: DFF<Byte>,
     ends: DFF<Bit>,
     ends_broken: DFF<Bit>,
     is_end: Signal<Local, Bit>,
     is_length: Signal<Local, Bit>,
-    one: Signal<Local, Bits<8>>,
-    longest: Signal<Local, Bits<8>>,
+    one: Signal<Local, Byte>,
+    longest: Signal<Local, Byte>,
 }
 
 impl Logic for CobsDecoder {

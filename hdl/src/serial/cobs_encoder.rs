@@ -1,13 +1,5 @@
 //! Puts frames into reverse COBS: no byte of a frame is zero, and a zero ends it.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset awaits a frame |
-//! | `data_valid`, `data_ready`, `data` | in, out, in | 1, 1, 8 | the bytes of a frame |
-//! | `ends`, `cuts` | in | 1 | no byte follows, held until `ended`; with `cuts` the frame is to be invalid |
-//! | `ended` | out | 1 | the zero behind the frame is taken |
-//! | `byte_valid`, `byte_ready`, `byte_data` | out, in, out | 1, 1, 8 | bytes for the line |
-//!
 //! 1. A byte that is not zero goes out as it comes. For a zero, and at the end, goes out a length byte: the bytes since the last one, plus
 //!    one. After 254 bytes goes out a 255.
 //! 2. A frame that is cut ends in a zero at once, without a length byte: its check sum is missing.
@@ -26,6 +18,7 @@
 //! ended           ______________________________/^^
 //! ```
 
+use super::types::Byte;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -43,35 +36,29 @@ pub enum EncodeState {
 /// Frames into reverse COBS; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CobsEncoder {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Awaits a frame.
+    /// Reset awaits a frame.
     pub reset: Signal<In, Bit>,
-    /// A byte of a frame is offered.
+    /// The bytes of a frame.
     pub data_valid: Signal<In, Bit>,
-    /// It is taken.
     pub data_ready: Signal<Out, Bit>,
-    /// The byte.
-    pub data: Signal<In, Bits<8>>,
-    /// No byte follows.
+    pub data: Signal<In, Byte>,
+    /// No byte follows, held until `ended`; with `cuts` the frame is to be invalid.
     pub ends: Signal<In, Bit>,
-    /// The frame is to be invalid.
     pub cuts: Signal<In, Bit>,
-    /// The frame is over.
+    /// The zero behind the frame is taken.
     pub ended: Signal<Out, Bit>,
-    /// A byte is offered to the line.
+    /// Bytes for the line.
     pub byte_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub byte_ready: Signal<In, Bit>,
-    /// The byte.
-    pub byte_data: Signal<Out, Bits<8>>,
+    pub byte_data: Signal<Out, Byte>,
     state: DFF<EncodeState>,
     /// Bytes since the last length byte, plus one.
-    length: DFF<Bits<8>>,
+    length: DFF<Byte>,
     is_zero: Signal<Local, Bit>,
     is_frame: Signal<Local, Bit>,
-    one: Signal<Local, Bits<8>>,
-    last_length: Signal<Local, Bits<8>>,
+    one: Signal<Local, Byte>,
+    last_length: Signal<Local, Byte>,
 }
 
 impl Logic for CobsEncoder {

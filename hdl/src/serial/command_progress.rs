@@ -1,38 +1,28 @@
 //! Whether a command is under way: the core has taken a word of one whose answer has not been sent to its end.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | after reset none is |
-//! | `takes`, `word` | in | 1, 32 | the core takes a command word |
-//! | `offers_last`, `takes_answer` | in | 1 | the core offers the last word of an answer; what it offers is taken |
-//! | `answer_ended` | in | 1 | the frame of an answer's last word is over |
-//! | `is_busy` | out | 1 | a command is under way |
-//!
 //! 1. The core takes the words of the next command as soon as it offers the last word of an answer, so a word that comes then or later belongs to
 //!    that one. At most two answers have been offered to their end and not sent to it.
 //! 2. A word of zeros where a command may begin is padding and begins none.
 //!
 //! Latency: 1 clock from a word taken and from the end of an answer.
 
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Commands under way; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandProgress {
-    /// Clock.
+    /// After reset none is.
     pub clock: Signal<In, Clock>,
-    /// No command is under way.
     pub reset: Signal<In, Bit>,
-    /// A command word is taken.
+    /// The core takes a command word.
     pub takes: Signal<In, Bit>,
-    /// It.
-    pub word: Signal<In, Bits<32>>,
-    /// The last word of an answer is offered.
+    pub word: Signal<In, Word>,
+    /// The core offers the last word of an answer; what it offers is taken.
     pub offers_last: Signal<In, Bit>,
-    /// What is offered is taken.
     pub takes_answer: Signal<In, Bit>,
-    /// The answer has ended.
+    /// The frame of an answer's last word is over.
     pub answer_ended: Signal<In, Bit>,
     /// A command is under way.
     pub is_busy: Signal<Out, Bit>,

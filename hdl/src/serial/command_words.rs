@@ -1,11 +1,5 @@
 //! Bytes as the words of the core's command stream, the low byte first.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets the bytes of a word |
-//! | `byte_valid`, `byte_data`, `takes` | in, in, out | 1, 8, 1 | a byte; it is taken at this edge |
-//! | `word_valid`, `word_ready`, `word` | out, in, out | 1, 1, 32 | a word |
-//!
 //! 1. A word once offered stays until it is taken.
 //!
 //! Latency: 1 clock from the fourth byte.
@@ -20,37 +14,34 @@
 //! word              .  .  .  .  .  5  5  5  .  .
 //! ```
 
+use super::types::Byte;
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Words of commands; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandWords {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Forgets the bytes of a word.
+    /// Reset forgets the bytes of a word.
     pub reset: Signal<In, Bit>,
-    /// A byte is there.
+    /// A byte; it is taken at this edge.
     pub byte_valid: Signal<In, Bit>,
-    /// It.
-    pub byte_data: Signal<In, Bits<8>>,
-    /// It is taken.
+    pub byte_data: Signal<In, Byte>,
     pub takes: Signal<Out, Bit>,
-    /// A word is offered.
+    /// A word.
     pub word_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub word_ready: Signal<In, Bit>,
-    /// The word.
-    pub word: Signal<Out, Bits<32>>,
-    bytes: DFF<Bits<32>>,
+    pub word: Signal<Out, Word>,
+    bytes: DFF<Word>,
     count: DFF<Bits<2>>,
     is_full: DFF<Bit>,
     takes_byte: Signal<Local, Bit>,
-    older: Signal<Local, Bits<32>>,
-    wide: Signal<Local, Bits<32>>,
-    newest: Signal<Local, Bits<32>>,
-    eight: Signal<Local, Bits<32>>,
-    three_bytes: Signal<Local, Bits<32>>,
+    older: Signal<Local, Word>,
+    wide: Signal<Local, Word>,
+    newest: Signal<Local, Word>,
+    eight: Signal<Local, Word>,
+    three_bytes: Signal<Local, Word>,
     one: Signal<Local, Bits<2>>,
     last: Signal<Local, Bits<2>>,
 }

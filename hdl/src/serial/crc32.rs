@@ -1,13 +1,5 @@
 //! A running CRC-32 over bytes, a bit at a time.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `sets`, `start` | in | 1, 32 | begin with this state at this edge |
-//! | `takes`, `byte_data` | in | 1, 8 | one more byte |
-//! | `is_busy` | out | 1 | the last byte is not in the state yet |
-//! | `state` | out | 32 | the state: all ones in the beginning, and the check sum is its complement |
-//!
 //! 1. A byte is taken only while `is_busy` is low, or the byte before is lost.
 //! 2. `sets` forgets a byte that is under way.
 //!
@@ -15,34 +7,33 @@
 //!
 //! Source: polynomial 04C11DB7, reflected, as Ethernet and zip have it.
 
+use super::types::Byte;
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// A running check sum; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Crc32 {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Begin with `start`.
+    /// Begin with this state at this edge.
     pub sets: Signal<In, Bit>,
-    /// A state.
-    pub start: Signal<In, Bits<32>>,
+    pub start: Signal<In, Word>,
     /// One more byte.
     pub takes: Signal<In, Bit>,
-    /// It.
-    pub byte_data: Signal<In, Bits<8>>,
+    pub byte_data: Signal<In, Byte>,
     /// The last byte is not in the state yet.
     pub is_busy: Signal<Out, Bit>,
-    /// The state.
-    pub state: Signal<Out, Bits<32>>,
-    remainder: DFF<Bits<32>>,
-    bits: DFF<Bits<8>>,
+    /// The state: all ones in the beginning, and the check sum is its complement.
+    pub state: Signal<Out, Word>,
+    remainder: DFF<Word>,
+    bits: DFF<Byte>,
     left: DFF<Bits<4>>,
-    shifted: Signal<Local, Bits<32>>,
-    one: Signal<Local, Bits<32>>,
-    one_bit: Signal<Local, Bits<8>>,
+    shifted: Signal<Local, Word>,
+    one: Signal<Local, Word>,
+    one_bit: Signal<Local, Byte>,
     one_left: Signal<Local, Bits<4>>,
-    polynomial: Signal<Local, Bits<32>>,
+    polynomial: Signal<Local, Word>,
     feeds_back: Signal<Local, Bit>,
 }
 

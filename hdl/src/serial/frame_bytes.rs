@@ -1,57 +1,41 @@
 //! The byte of a frame to the host, chosen among its parts.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `part`, `index` | in | 3, 2 | part of the frame, as `FrameSender` numbers them, and the low bits of the byte's index in it |
-//! | `ends_answer` | in | 1 | the digest is that of an answer |
-//! | `header`, `greeting`, `word` | in | 8 | the byte, if it is of the header, of the greeting, of the words |
-//! | `answers`, `answer_part` | in | 8 | number of the answer; index of the frame's first word, divided by 256 |
-//! | `payload_state`, `answer_state`, `sum_state` | in | 32 | states of the check sums: of the payload, of the answer, of the frame |
-//! | `byte_data` | out | 8 | the byte |
-//!
 //! 1. A check sum is the complement of its state.
 //!
 //! Latency: 1 clock.
 
+use super::types::{AnswerPlace, Byte};
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The byte of a frame; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameBytes {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Part of the frame.
+    /// Part of the frame, as `FrameSender` numbers them, and the low bits of the byte's index in it.
     pub part: Signal<In, Bits<3>>,
-    /// Byte of it.
     pub index: Signal<In, Bits<2>>,
     /// The digest is that of an answer.
     pub ends_answer: Signal<In, Bit>,
-    /// A byte of the header.
-    pub header: Signal<In, Bits<8>>,
-    /// A byte of the greeting.
-    pub greeting: Signal<In, Bits<8>>,
-    /// A byte of the words.
-    pub word: Signal<In, Bits<8>>,
-    /// Number of the answer.
-    pub answers: Signal<In, Bits<8>>,
-    /// Parts of it before this one.
-    pub answer_part: Signal<In, Bits<8>>,
-    /// State of the payload's check sum.
-    pub payload_state: Signal<In, Bits<32>>,
-    /// State of the answer's.
-    pub answer_state: Signal<In, Bits<32>>,
-    /// State of the frame's.
-    pub sum_state: Signal<In, Bits<32>>,
+    /// The byte, if it is of the header, of the greeting, of the words.
+    pub header: Signal<In, Byte>,
+    pub greeting: Signal<In, Byte>,
+    pub word: Signal<In, Byte>,
+    /// The part of the answer in the frame.
+    pub answer: Signal<In, AnswerPlace>,
+    /// States of the check sums: of the payload, of the answer, of the frame.
+    pub payload_state: Signal<In, Word>,
+    pub answer_state: Signal<In, Word>,
+    pub sum_state: Signal<In, Word>,
     /// The byte.
-    pub byte_data: Signal<Out, Bits<8>>,
-    chosen: DFF<Bits<8>>,
-    payload_byte: Signal<Local, Bits<8>>,
-    answer_byte: Signal<Local, Bits<8>>,
-    sum_byte: Signal<Local, Bits<8>>,
-    head_byte: Signal<Local, Bits<8>>,
-    all: Signal<Local, Bits<8>>,
+    pub byte_data: Signal<Out, Byte>,
+    chosen: DFF<Byte>,
+    payload_byte: Signal<Local, Byte>,
+    answer_byte: Signal<Local, Byte>,
+    sum_byte: Signal<Local, Byte>,
+    head_byte: Signal<Local, Byte>,
+    all: Signal<Local, Byte>,
 }
 
 impl Logic for FrameBytes {
@@ -65,7 +49,7 @@ impl Logic for FrameBytes {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(0);
                 self.answer_byte.next = self.answer_state.val().get_bits::<8>(0);
                 self.sum_byte.next = self.sum_state.val().get_bits::<8>(0);
-                self.head_byte.next = self.answers.val();
+                self.head_byte.next = self.answer.val().number;
             }
             1 => {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(8);
@@ -77,13 +61,13 @@ impl Logic for FrameBytes {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(16);
                 self.answer_byte.next = self.answer_state.val().get_bits::<8>(16);
                 self.sum_byte.next = self.sum_state.val().get_bits::<8>(16);
-                self.head_byte.next = self.answer_part.val();
+                self.head_byte.next = self.answer.val().part;
             }
             _ => {
                 self.payload_byte.next = self.payload_state.val().get_bits::<8>(24);
                 self.answer_byte.next = self.answer_state.val().get_bits::<8>(24);
                 self.sum_byte.next = self.sum_state.val().get_bits::<8>(24);
-                self.head_byte.next = self.answer_part.val();
+                self.head_byte.next = self.answer.val().part;
             }
         }
         match self.part.val().index() {

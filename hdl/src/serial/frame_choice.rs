@@ -1,22 +1,11 @@
 //! Decides which frame goes to the host next.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `is_idle` | in | 1 | no frame is under way |
-//! | `reply_is_due`, `reply_kind` | in | 1, 8 | a control frame is due; its type |
-//! | `answer_is_due`, `answer_is_last` | in | 1 | a part of an answer is; it is the last one |
-//! | `holds` | in | 1 | no frame may begin |
-//! | `cuts` | in | 1 | no answer may begin |
-//! | `starts`, `starts_reply`, `starts_answer` | out | 1 | a frame begins at this edge; which of the two |
-//! | `kind` | out | 8 | type of the frame under way |
-//! | `has_greeting`, `has_digest`, `has_answer`, `ends_answer` | out | 1 | what it has |
-//!
 //! 1. A control frame goes before an answer.
 //! 2. What is said of the frame under way stands from the clock after `starts` to the end of the frame.
 //!
 //! Latency: none to `starts` (combinational), 1 clock to the type.
 
+use super::types::{Byte, Contents};
 use incircle_protocol::DeviceFrame;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -24,39 +13,27 @@ use rust_hdl_widgets::prelude::*;
 /// The next frame; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameChoice {
-    /// Clock.
     pub clock: Signal<In, Clock>,
     /// No frame is under way.
     pub is_idle: Signal<In, Bit>,
-    /// A control frame is due.
+    /// A control frame is due; its type.
     pub reply_is_due: Signal<In, Bit>,
-    /// Its type.
-    pub reply_kind: Signal<In, Bits<8>>,
-    /// A part of an answer is due.
+    pub reply_kind: Signal<In, Byte>,
+    /// A part of an answer is; it is the last one.
     pub answer_is_due: Signal<In, Bit>,
-    /// It is the last one.
     pub answer_is_last: Signal<In, Bit>,
     /// No frame may begin.
     pub holds: Signal<In, Bit>,
     /// No answer may begin.
     pub cuts: Signal<In, Bit>,
-    /// A frame begins.
+    /// A frame begins at this edge; which of the two.
     pub starts: Signal<Out, Bit>,
-    /// A control frame.
     pub starts_reply: Signal<Out, Bit>,
-    /// One of an answer.
     pub starts_answer: Signal<Out, Bit>,
     /// Type of the frame under way.
-    pub kind: Signal<Out, Bits<8>>,
-    /// It has a greeting.
-    pub has_greeting: Signal<Out, Bit>,
-    /// It has a digest behind its header.
-    pub has_digest: Signal<Out, Bit>,
-    /// It has words of an answer.
-    pub has_answer: Signal<Out, Bit>,
-    /// It has the last ones, and a digest behind them.
-    pub ends_answer: Signal<Out, Bit>,
-    kind_byte: DFF<Bits<8>>,
+    pub kind: Signal<Out, Byte>,
+    pub contents: Signal<Out, Contents>,
+    kind_byte: DFF<Byte>,
     is_hello: DFF<Bit>,
     is_receipt: DFF<Bit>,
     is_answer: DFF<Bit>,
@@ -64,9 +41,9 @@ pub struct FrameChoice {
     may_start: Signal<Local, Bit>,
     begins_reply: Signal<Local, Bit>,
     begins_answer: Signal<Local, Bit>,
-    hello_kind: Signal<Local, Bits<8>>,
-    ack_kind: Signal<Local, Bits<8>>,
-    nak_kind: Signal<Local, Bits<8>>,
+    hello_kind: Signal<Local, Byte>,
+    ack_kind: Signal<Local, Byte>,
+    nak_kind: Signal<Local, Byte>,
 }
 
 // The kernel names types by number, because rust-hdl takes literals only; a change in the protocol must come here.
@@ -87,10 +64,10 @@ impl Logic for FrameChoice {
         self.ack_kind.next = 0x83.into();
         self.nak_kind.next = 0x84.into();
         self.kind.next = self.kind_byte.q.val();
-        self.has_greeting.next = self.is_hello.q.val();
-        self.has_digest.next = self.is_receipt.q.val();
-        self.has_answer.next = self.is_answer.q.val();
-        self.ends_answer.next = self.is_end.q.val();
+        self.contents.next.has_greeting = self.is_hello.q.val();
+        self.contents.next.has_digest = self.is_receipt.q.val();
+        self.contents.next.has_answer = self.is_answer.q.val();
+        self.contents.next.ends_answer = self.is_end.q.val();
 
         self.may_start.next = self.is_idle.val() & (!self.holds.val());
         self.begins_reply.next = self.may_start.val() & self.reply_is_due.val();

@@ -1,21 +1,11 @@
 //! The header of a frame to the host, as it was when the frame began, and the digest that goes with it.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | after reset no frame has been dropped |
-//! | `starts` | in | 1 | a frame begins: all below is as it is now, until the next begins |
-//! | `session`, `expected`, `answers`, `free` | in | 8, 8, 8, 16 | fields of the header |
-//! | `is_open`, `is_refused`, `is_busy` | in | 1 | a session is open; the last `Rate` was refused; a command is under way |
-//! | `drops` | in | 1 | a frame of the host is dropped |
-//! | `digest` | in | 32 | state of the check sum of the session's payload |
-//! | `kind`, `index` | in | 8, 3 | type of the frame; byte of the header |
-//! | `byte_data` | out | 8 | it |
-//! | `digest_taken` | out | 32 | the state as it was |
-//!
 //! 1. A frame that is dropped at the very clock in which one begins shows in the next.
 //!
 //! Latency: none (combinational) from `kind` and `index`.
 
+use super::types::{Byte, Receipt, Session};
+use crate::link::types::Word;
 use incircle_protocol::{STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -23,49 +13,37 @@ use rust_hdl_widgets::prelude::*;
 /// Headers of frames to the host; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameHeader {
-    /// Clock.
+    /// After reset no frame has been dropped.
     pub clock: Signal<In, Clock>,
-    /// No frame has been dropped.
     pub reset: Signal<In, Bit>,
-    /// A frame begins.
+    /// A frame begins: all below is as it is now, until the next begins.
     pub starts: Signal<In, Bit>,
-    /// The open session.
-    pub session: Signal<In, Bits<8>>,
-    /// Number of the frame that is awaited.
-    pub expected: Signal<In, Bits<8>>,
-    /// Answers sent to their end.
-    pub answers: Signal<In, Bits<8>>,
-    /// Bytes of the FIFO that are free.
-    pub free: Signal<In, Bits<16>>,
-    /// A session is open.
-    pub is_open: Signal<In, Bit>,
-    /// The last `Rate` was refused.
+    /// Fields of the header.
+    pub open: Signal<In, Session>,
+    pub answers: Signal<In, Byte>,
+    pub receipt: Signal<In, Receipt>,
+    /// The last `Rate` was refused; a command is under way.
     pub is_refused: Signal<In, Bit>,
-    /// A command is under way.
     pub is_busy: Signal<In, Bit>,
-    /// A frame is dropped.
+    /// A frame of the host is dropped.
     pub drops: Signal<In, Bit>,
-    /// State of the payload's check sum.
-    pub digest: Signal<In, Bits<32>>,
-    /// Type of the frame.
-    pub kind: Signal<In, Bits<8>>,
-    /// Byte of the header.
+    /// Type of the frame; byte of the header.
+    pub kind: Signal<In, Byte>,
     pub index: Signal<In, Bits<3>>,
-    /// It.
-    pub byte_data: Signal<Out, Bits<8>>,
-    /// State of the payload's check sum when the frame began.
-    pub digest_taken: Signal<Out, Bits<32>>,
-    session_then: DFF<Bits<8>>,
-    expected_then: DFF<Bits<8>>,
-    answers_then: DFF<Bits<8>>,
+    pub byte_data: Signal<Out, Byte>,
+    /// The digest as it was.
+    pub digest_taken: Signal<Out, Word>,
+    session_then: DFF<Byte>,
+    expected_then: DFF<Byte>,
+    answers_then: DFF<Byte>,
     free_then: DFF<Bits<16>>,
-    status_then: DFF<Bits<8>>,
-    digest_then: DFF<Bits<32>>,
+    status_then: DFF<Byte>,
+    digest_then: DFF<Word>,
     has_dropped: DFF<Bit>,
-    open_bit: Signal<Local, Bits<8>>,
-    refused_bit: Signal<Local, Bits<8>>,
-    dropped_bit: Signal<Local, Bits<8>>,
-    busy_bit: Signal<Local, Bits<8>>,
+    open_bit: Signal<Local, Byte>,
+    refused_bit: Signal<Local, Byte>,
+    dropped_bit: Signal<Local, Byte>,
+    busy_bit: Signal<Local, Byte>,
 }
 
 // The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
@@ -84,7 +62,7 @@ impl Logic for FrameHeader {
         self.refused_bit.next = 0.into();
         self.dropped_bit.next = 0.into();
         self.busy_bit.next = 0.into();
-        if self.is_open.val() {
+        if self.open.val().is_open {
             self.open_bit.next = 1.into();
         }
         if self.is_refused.val() {
@@ -97,13 +75,13 @@ impl Logic for FrameHeader {
             self.busy_bit.next = 8.into();
         }
         if self.starts.val() {
-            self.session_then.d.next = self.session.val();
-            self.expected_then.d.next = self.expected.val();
+            self.session_then.d.next = self.open.val().number;
+            self.expected_then.d.next = self.open.val().expected;
             self.answers_then.d.next = self.answers.val();
-            self.free_then.d.next = self.free.val();
+            self.free_then.d.next = self.receipt.val().free;
             self.status_then.d.next =
                 self.open_bit.val() | self.refused_bit.val() | self.dropped_bit.val() | self.busy_bit.val();
-            self.digest_then.d.next = self.digest.val();
+            self.digest_then.d.next = self.receipt.val().digest;
             self.has_dropped.d.next = false;
         }
         if self.drops.val() {

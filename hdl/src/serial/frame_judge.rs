@@ -1,30 +1,20 @@
 //! What a frame of a host asks for.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset forgets a frame that is under way |
-//! | `session`, `kind`, `number`, `length` | in | 8, 8, 8, 11 | its header, from `FrameReader` |
-//! | `header_comes` | in | 1 | it is complete |
-//! | `comes`, `is_sound` | in | 1 | the frame is over; its check sum and its length are right |
-//! | `is_open`, `open_session`, `expected` | in | 1, 8, 8 | the session, and the number of the `Data` frame that is awaited |
-//! | `free` | in | 16 | bytes of the receive FIFO that are free |
-//! | `takes_payload` | out | 1 | the payload belongs into the FIFO, if the frame turns out to be sound |
-//! | `asked` | out | Asked | what is asked for, at the end of the frame |
-//!
 //! 1. Exactly one of the fields of `asked` but `hears` is high at the end of a frame, or none: for frames of another session.
-//! 2. `takes_payload` is decided 3 clocks after the header and stays until the end; `length` bytes fit the FIFO then.
+//! 2. `takes_payload` is decided 3 clocks after the header and stays until the end; `head.length` bytes fit the FIFO then.
 //! 3. Bytes of a frame come at least 16 clocks apart, so what the header says is compared in ranks of registers.
 //! 4. Whether a session is open is looked at once more in the clock of `comes`: it may end in any clock before.
 //!
 //! Latency: 1 clock.
 
+use super::types::{Byte, FrameHead, Session};
 use crate::packed;
 use incircle_protocol::{HostFrame, MAX_PAYLOAD};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 packed! {
-    /// What a frame asks for.
+    /// The request of a frame of the host.
     pub struct Asked {
         /// A sound frame: there is a host.
         pub hears: bool,
@@ -54,35 +44,22 @@ packed! {
 /// What a frame asks for; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameJudge {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Forgets a frame that is under way.
+    /// Reset forgets a frame that is under way.
     pub reset: Signal<In, Bit>,
-    /// Session of the frame.
-    pub session: Signal<In, Bits<8>>,
-    /// Its type.
-    pub kind: Signal<In, Bits<8>>,
-    /// Its number.
-    pub number: Signal<In, Bits<8>>,
-    /// Bytes of its payload.
-    pub length: Signal<In, Bits<11>>,
-    /// These are complete.
+    /// The header of the frame, from `FrameReader`.
+    pub head: Signal<In, FrameHead>,
+    /// The header is complete.
     pub header_comes: Signal<In, Bit>,
-    /// The frame is over.
+    /// The frame is over; its check sum and its length are right.
     pub comes: Signal<In, Bit>,
-    /// Its check sum and its length are right.
     pub is_sound: Signal<In, Bit>,
-    /// A session is open.
-    pub is_open: Signal<In, Bit>,
-    /// Its number.
-    pub open_session: Signal<In, Bits<8>>,
-    /// Number of the frame that is awaited.
-    pub expected: Signal<In, Bits<8>>,
-    /// Bytes of the FIFO that are free.
+    pub open: Signal<In, Session>,
+    /// Bytes of the receive FIFO that are free.
     pub free: Signal<In, Bits<16>>,
-    /// The payload belongs into the FIFO.
+    /// The payload belongs into the FIFO, if the frame turns out to be sound.
     pub takes_payload: Signal<Out, Bit>,
-    /// What is asked for.
+    /// What is asked for, at the end of the frame.
     pub asked: Signal<Out, Asked>,
     // First rank: what the header says.
     kind_low: DFF<Bits<3>>,
@@ -92,7 +69,7 @@ pub struct FrameJudge {
     is_none: DFF<Bit>,
     is_four: DFF<Bit>,
     is_words: DFF<Bit>,
-    distance: DFF<Bits<8>>,
+    distance: DFF<Byte>,
     has_room: DFF<Bit>,
     // Second rank: what follows.
     is_fit: DFF<Bit>,
@@ -103,11 +80,19 @@ pub struct FrameJudge {
     header_first: DFF<Bit>,
     taking: DFF<Bit>,
     answer: DFF<Asked>,
+    kind: Signal<Local, Byte>,
     high_kind: Signal<Local, Bits<5>>,
     low_length: Signal<Local, Bits<2>>,
     wide_length: Signal<Local, Bits<16>>,
     four: Signal<Local, Bits<11>>,
     is_ours: Signal<Local, Bit>,
+    wide_kind: Signal<Local, Byte>,
+    /// Bit `k`: the frame is of type `k`.
+    kinds: Signal<Local, Byte>,
+    is_behind: Signal<Local, Bit>,
+    is_data_of_ours: Signal<Local, Bit>,
+    is_of_session: Signal<Local, Bit>,
+    one: Signal<Local, Byte>,
     is_wanted: Signal<Local, Bit>,
 }
 
@@ -127,34 +112,25 @@ impl Logic for FrameJudge {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, kind_low, is_host_kind, is_this_session, names_session, is_none, is_four, is_words);
-        dff_setup!(
-            self,
-            clock,
-            distance,
-            has_room,
-            is_fit,
-            is_next,
-            is_data,
-            header_before,
-            header_first,
-            taking,
-            answer
-        );
+        dff_setup!(self, clock, distance, has_room, is_fit, is_next, is_data);
+        dff_setup!(self, clock, header_before, header_first, taking, answer);
         self.four.next = 4.into();
+        self.one.next = 1.into();
         self.takes_payload.next = self.taking.q.val();
         self.asked.next = self.answer.q.val();
 
-        self.kind_low.d.next = self.kind.val().get_bits::<3>(0);
+        self.kind_low.d.next = bit_cast::<3, 8>(self.head.val().kind);
+        self.kind.next = self.head.val().kind;
         self.high_kind.next = self.kind.val().get_bits::<5>(3);
         self.is_host_kind.d.next = !self.high_kind.val().any();
-        self.is_this_session.d.next = self.is_open.val() & (self.session.val() == self.open_session.val());
-        self.names_session.d.next = self.session.val().any();
-        self.is_none.d.next = !self.length.val().any();
-        self.is_four.d.next = self.length.val() == self.four.val();
-        self.low_length.next = self.length.val().get_bits::<2>(0);
-        self.is_words.d.next = self.length.val().any() & (!self.low_length.val().any());
-        self.distance.d.next = self.number.val() - self.expected.val();
-        self.wide_length.next = bit_cast::<16, 11>(self.length.val());
+        self.is_this_session.d.next = self.open.val().is_open & (self.head.val().session == self.open.val().number);
+        self.names_session.d.next = self.head.val().session.any();
+        self.is_none.d.next = !self.head.val().length.any();
+        self.is_four.d.next = self.head.val().length == self.four.val();
+        self.low_length.next = bit_cast::<2, 11>(self.head.val().length);
+        self.is_words.d.next = self.head.val().length.any() & (!self.low_length.val().any());
+        self.distance.d.next = self.head.val().number - self.open.val().expected;
+        self.wide_length.next = bit_cast::<16, 11>(self.head.val().length);
         self.has_room.d.next = self.free.val() >= self.wide_length.val();
 
         self.is_data.d.next = false;
@@ -188,48 +164,27 @@ impl Logic for FrameJudge {
                 self.is_data.q.val() & self.is_next.q.val() & self.has_room.q.val() & self.is_this_session.q.val();
         }
         // A session that has ended since the header came is none.
-        self.is_ours.next = self.is_this_session.q.val() & self.is_open.val();
+        self.is_ours.next = self.is_this_session.q.val() & self.open.val().is_open;
         self.is_wanted.next = self.comes.val() & self.is_sound.val() & self.is_fit.q.val();
+        self.wide_kind.next = bit_cast::<8, 3>(self.kind_low.q.val());
+        self.kinds.next = self.one.val() << self.wide_kind.val();
+        self.is_behind.next = self.distance.q.val().get_bit(7);
+        self.is_data_of_ours.next = self.is_wanted.val() & self.is_ours.val() & self.kinds.val().get_bit(5);
+        self.is_of_session.next = self.kinds.val().get_bit(3)
+            | self.kinds.val().get_bit(4)
+            | self.kinds.val().get_bit(5)
+            | self.kinds.val().get_bit(6);
         self.answer.d.next.hears = self.is_wanted.val();
+        self.answer.d.next.hello = self.is_wanted.val() & self.kinds.val().get_bit(1);
+        self.answer.d.next.opens = self.is_wanted.val() & self.kinds.val().get_bit(2);
+        self.answer.d.next.rate = self.is_wanted.val() & self.is_ours.val() & self.kinds.val().get_bit(3);
+        self.answer.d.next.polls = self.is_wanted.val() & self.is_ours.val() & self.kinds.val().get_bit(4);
+        self.answer.d.next.closes = self.is_wanted.val() & self.is_ours.val() & self.kinds.val().get_bit(6);
+        self.answer.d.next.takes = self.is_data_of_ours.val() & self.taking.q.val();
+        self.answer.d.next.repeats = self.is_data_of_ours.val() & self.is_behind.val();
+        self.answer.d.next.gap = self.is_data_of_ours.val() & (!self.taking.q.val()) & (!self.is_behind.val());
+        self.answer.d.next.no_session = self.is_wanted.val() & self.is_of_session.val() & (!self.open.val().is_open);
         self.answer.d.next.drops = self.comes.val() & (!self.is_wanted.val());
-        self.answer.d.next.hello = false;
-        self.answer.d.next.opens = false;
-        self.answer.d.next.rate = false;
-        self.answer.d.next.polls = false;
-        self.answer.d.next.closes = false;
-        self.answer.d.next.takes = false;
-        self.answer.d.next.repeats = false;
-        self.answer.d.next.gap = false;
-        self.answer.d.next.no_session = false;
-        if self.is_wanted.val() {
-            match self.kind_low.q.val().index() {
-                1 => {
-                    self.answer.d.next.hello = true;
-                }
-                2 => {
-                    self.answer.d.next.opens = true;
-                }
-                3 => {
-                    self.answer.d.next.rate = self.is_ours.val();
-                    self.answer.d.next.no_session = !self.is_open.val();
-                }
-                4 => {
-                    self.answer.d.next.polls = self.is_ours.val();
-                    self.answer.d.next.no_session = !self.is_open.val();
-                }
-                5 => {
-                    self.answer.d.next.takes = self.taking.q.val() & self.is_ours.val();
-                    self.answer.d.next.repeats = self.is_ours.val() & self.distance.q.val().get_bit(7);
-                    self.answer.d.next.gap =
-                        self.is_ours.val() & (!self.taking.q.val()) & (!self.distance.q.val().get_bit(7));
-                    self.answer.d.next.no_session = !self.is_open.val();
-                }
-                _ => {
-                    self.answer.d.next.closes = self.is_ours.val();
-                    self.answer.d.next.no_session = !self.is_open.val();
-                }
-            }
-        }
         if self.comes.val() | self.reset.val() {
             self.taking.d.next = false;
         }

@@ -1,14 +1,8 @@
 //! Whether a byte is the last one of its part of a frame to the host.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `part`, `index` | in | 3, 6 | part of the frame, as `FrameSender` numbers them, and byte of it |
-//! | `word_byte_is_last` | in | 1 | the byte is the last one of the words |
-//! | `is_last` | out | 1 | the byte is the last one of the part |
-//!
 //! Latency: 1 clock.
 
+use super::types::BytePlace;
 use incircle_protocol::{ANSWER_HEADER_BYTES, CRC_BYTES, DEVICE_HEADER_BYTES, GREETING_WORDS};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -16,15 +10,11 @@ use rust_hdl_widgets::prelude::*;
 /// The ends of parts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FramePart {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Part of the frame.
-    pub part: Signal<In, Bits<3>>,
-    /// Byte of it.
-    pub index: Signal<In, Bits<6>>,
+    pub at: Signal<In, BytePlace>,
     /// The byte is the last one of the words.
     pub word_byte_is_last: Signal<In, Bit>,
-    /// It is the last one of the part.
+    /// The byte is the last one of the part.
     pub is_last: Signal<Out, Bit>,
     at_end: DFF<Bit>,
     last_index: Signal<Local, Bits<6>>,
@@ -42,24 +32,24 @@ impl Logic for FramePart {
         dff_setup!(self, clock, at_end);
         self.is_last.next = self.at_end.q.val();
         self.last_index.next = 3.into();
-        match self.part.val().index() {
+        match self.at.val().part.index() {
             0 => {
                 self.last_index.next = 6.into();
-                self.at_end.d.next = self.index.val() == self.last_index.val();
+                self.at_end.d.next = self.at.val().index == self.last_index.val();
             }
             1 => {
                 self.last_index.next = 51.into();
-                self.at_end.d.next = self.index.val() == self.last_index.val();
+                self.at_end.d.next = self.at.val().index == self.last_index.val();
             }
             3 => {
                 self.last_index.next = 2.into();
-                self.at_end.d.next = self.index.val() == self.last_index.val();
+                self.at_end.d.next = self.at.val().index == self.last_index.val();
             }
             4 => {
                 self.at_end.d.next = self.word_byte_is_last.val();
             }
             _ => {
-                self.at_end.d.next = self.index.val() == self.last_index.val();
+                self.at_end.d.next = self.at.val().index == self.last_index.val();
             }
         }
     }

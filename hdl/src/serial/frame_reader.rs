@@ -1,23 +1,14 @@
 //! Reads the frames of a host: header, payload, check sum.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset awaits a frame |
-//! | `data_valid`, `data` | in | 1, 8 | a byte of a frame |
-//! | `frame_ends`, `is_broken` | in | 1 | the frame is over; it lacks bytes |
-//! | `session`, `kind`, `number`, `length` | out | 8, 8, 8, 11 | the header |
-//! | `header_comes` | out | 1 | it is complete, and stands until the next frame |
-//! | `payload_valid`, `payload` | out | 1, 8 | a byte of the payload |
-//! | `value` | out | 32 | the last four bytes of the payload |
-//! | `comes`, `is_sound` | out | 1 | a frame is over; its check sum and its length are right |
-//!
 //! 1. Bytes, and the end of a frame, come at least 16 clocks apart.
 //! 2. A frame whose header says more than 1,024 bytes has no payload and is not sound.
 //! 3. The payload comes before the check sum is known.
 //!
 //! Latency: 1 clock.
 
-use super::Crc32;
+use super::crc32::Crc32;
+use super::types::{Byte, FrameHead};
+use crate::link::types::Word;
 use incircle_protocol::{CRC_BYTES, HOST_HEADER_BYTES, MAX_PAYLOAD};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -46,65 +37,51 @@ pub enum ReadState {
 /// Frames of a host; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameReader {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Awaits a frame.
+    /// Reset awaits a frame.
     pub reset: Signal<In, Bit>,
     /// A byte of a frame.
     pub data_valid: Signal<In, Bit>,
-    /// It.
-    pub data: Signal<In, Bits<8>>,
-    /// The frame is over.
+    pub data: Signal<In, Byte>,
+    /// The frame is over; it lacks bytes.
     pub frame_ends: Signal<In, Bit>,
-    /// It lacks bytes.
     pub is_broken: Signal<In, Bit>,
-    /// Session of the frame.
-    pub session: Signal<Out, Bits<8>>,
-    /// Its type.
-    pub kind: Signal<Out, Bits<8>>,
-    /// Its number.
-    pub number: Signal<Out, Bits<8>>,
-    /// Bytes of its payload.
-    pub length: Signal<Out, Bits<11>>,
-    /// These are complete.
+    /// The header of the frame.
+    pub head: Signal<Out, FrameHead>,
+    /// It is complete, and stands until the next frame.
     pub header_comes: Signal<Out, Bit>,
     /// A byte of the payload.
     pub payload_valid: Signal<Out, Bit>,
-    /// It.
-    pub payload: Signal<Out, Bits<8>>,
+    pub payload: Signal<Out, Byte>,
     /// The last four bytes of the payload.
-    pub value: Signal<Out, Bits<32>>,
-    /// A frame is over.
+    pub value: Signal<Out, Word>,
+    /// A frame is over; its check sum and its length are right.
     pub comes: Signal<Out, Bit>,
-    /// Check sum and length are right.
     pub is_sound: Signal<Out, Bit>,
     state: DFF<ReadState>,
-    session_byte: DFF<Bits<8>>,
-    kind_byte: DFF<Bits<8>>,
-    number_byte: DFF<Bits<8>>,
-    length_word: DFF<Bits<11>>,
+    header: DFF<FrameHead>,
     /// Bytes of the payload or of the check sum that are to come.
     left: DFF<Bits<11>>,
     has_header: DFF<Bit>,
     gives: DFF<Bit>,
-    given: DFF<Bits<8>>,
-    last_bytes: DFF<Bits<32>>,
+    given: DFF<Byte>,
+    last_bytes: DFF<Word>,
     is_over: DFF<Bit>,
     is_good: DFF<Bit>,
     crc: Crc32,
     low_length: Signal<Local, Bits<16>>,
     high_length: Signal<Local, Bits<16>>,
     full_length: Signal<Local, Bits<16>>,
-    wide_data: Signal<Local, Bits<32>>,
-    top_byte: Signal<Local, Bits<32>>,
-    older_bytes: Signal<Local, Bits<32>>,
+    wide_data: Signal<Local, Word>,
+    top_byte: Signal<Local, Word>,
+    older_bytes: Signal<Local, Word>,
     most: Signal<Local, Bits<16>>,
     eight: Signal<Local, Bits<16>>,
-    wide_eight: Signal<Local, Bits<32>>,
-    three_bytes: Signal<Local, Bits<32>>,
+    wide_eight: Signal<Local, Word>,
+    three_bytes: Signal<Local, Word>,
     one: Signal<Local, Bits<11>>,
-    first_state: Signal<Local, Bits<32>>,
-    sound_state: Signal<Local, Bits<32>>,
+    first_state: Signal<Local, Word>,
+    sound_state: Signal<Local, Word>,
 }
 
 // The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
@@ -120,7 +97,7 @@ const _: () = assert!(
 impl Logic for FrameReader {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, session_byte, kind_byte, number_byte, length_word, left, has_header);
+        dff_setup!(self, clock, state, header, left, has_header);
         dff_setup!(self, clock, gives, given, last_bytes, is_over, is_good);
         clock!(self, clock, crc);
         self.most.next = 1024.into();
@@ -130,10 +107,7 @@ impl Logic for FrameReader {
         self.one.next = 1.into();
         self.first_state.next = 0xffff_ffffu64.into();
         self.sound_state.next = 0xdebb_20e3u64.into();
-        self.session.next = self.session_byte.q.val();
-        self.kind.next = self.kind_byte.q.val();
-        self.number.next = self.number_byte.q.val();
-        self.length.next = self.length_word.q.val();
+        self.head.next = self.header.q.val();
         self.header_comes.next = self.has_header.q.val();
         self.payload_valid.next = self.gives.q.val();
         self.payload.next = self.given.q.val();
@@ -147,7 +121,7 @@ impl Logic for FrameReader {
         self.crc.takes.next = self.data_valid.val();
         self.crc.byte_data.next = self.data.val();
 
-        self.low_length.next = bit_cast::<16, 11>(self.length_word.q.val());
+        self.low_length.next = bit_cast::<16, 11>(self.header.q.val().length);
         self.high_length.next = bit_cast::<16, 8>(self.data.val()) << self.eight.val();
         self.full_length.next = self.low_length.val() | self.high_length.val();
         self.wide_data.next = bit_cast::<32, 8>(self.data.val());
@@ -160,23 +134,23 @@ impl Logic for FrameReader {
             self.left.d.next = self.left.q.val() - self.one.val();
             match self.state.q.val() {
                 ReadState::Session => {
-                    self.session_byte.d.next = self.data.val();
+                    self.header.d.next.session = self.data.val();
                     self.state.d.next = ReadState::Kind;
                 }
                 ReadState::Kind => {
-                    self.kind_byte.d.next = self.data.val();
+                    self.header.d.next.kind = self.data.val();
                     self.state.d.next = ReadState::Number;
                 }
                 ReadState::Number => {
-                    self.number_byte.d.next = self.data.val();
+                    self.header.d.next.number = self.data.val();
                     self.state.d.next = ReadState::LengthLow;
                 }
                 ReadState::LengthLow => {
-                    self.length_word.d.next = bit_cast::<11, 8>(self.data.val());
+                    self.header.d.next.length = bit_cast::<11, 8>(self.data.val());
                     self.state.d.next = ReadState::LengthHigh;
                 }
                 ReadState::LengthHigh => {
-                    self.length_word.d.next = self.full_length.val().get_bits::<11>(0);
+                    self.header.d.next.length = self.full_length.val().get_bits::<11>(0);
                     self.left.d.next = self.full_length.val().get_bits::<11>(0);
                     self.has_header.d.next = true;
                     self.state.d.next = ReadState::Payload;

@@ -1,26 +1,12 @@
 //! Sends a frame to the host: asks for its bytes in order.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset sends nothing |
-//! | `starts` | in | 1 | a frame begins at this edge |
-//! | `has_greeting`, `has_digest`, `has_answer`, `ends_answer` | in | 1 | what the frame under way has, from `FrameChoice` |
-//! | `cuts` | in | 1 | an answer is over: its frame is to end, invalid |
-//! | `part`, `index` | out | 3, 6 | part of the frame (0 header, 1 greeting, 2 digest, 3 head of an answer, 4 words, 5 check sum), and byte of that |
-//! | `byte_data`, `sum_is_busy` | in | 8, 1 | that byte, 2 clocks later; the check sum has not taken the byte before |
-//! | `word_byte_valid`, `word_byte_is_last` | in | 1 | the next byte of the words is there; it is the last one of the frame |
-//! | `loads`, `loads_word` | out | 1 | a byte that the check sum covers is loaded; it is one of the words |
-//! | `data_valid`, `data_ready`, `data` | out, in, out | 1, 1, 8 | bytes of the frame |
-//! | `ends`, `is_cut`, `ended` | out, out, in | 1 | no byte follows; the frame is to be invalid; it is over |
-//! | `answer_ended` | out | 1 | it was the last of an answer, and whole |
-//! | `is_idle` | out | 1 | no frame is under way |
-//!
 //! 1. `starts` only while `is_idle`.
 //! 2. A byte once offered stays until it is taken, unless the frame is cut.
 //!
 //! Latency: 4 clocks from `starts` to the first byte; 4 from a byte taken to the next, and not before the check sum has taken it.
 
-use super::FramePart;
+use super::frame_part::FramePart;
+use super::types::{Byte, BytePlace, Contents};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -38,51 +24,35 @@ pub enum SendState {
 /// Frames to the host; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameSender {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Sends nothing.
+    /// Reset sends nothing.
     pub reset: Signal<In, Bit>,
-    /// A frame begins.
+    /// A frame begins at this edge.
     pub starts: Signal<In, Bit>,
-    /// It has a greeting.
-    pub has_greeting: Signal<In, Bit>,
-    /// It has a digest behind its header.
-    pub has_digest: Signal<In, Bit>,
-    /// It has words of an answer.
-    pub has_answer: Signal<In, Bit>,
-    /// It has the last ones, and a digest behind them.
-    pub ends_answer: Signal<In, Bit>,
-    /// An answer is over.
+    /// What the frame under way has, from `FrameChoice`.
+    pub contents: Signal<In, Contents>,
+    /// An answer is over: its frame is to end, invalid.
     pub cuts: Signal<In, Bit>,
-    /// Part of the frame.
-    pub part: Signal<Out, Bits<3>>,
-    /// Byte of the part.
-    pub index: Signal<Out, Bits<6>>,
-    /// That byte.
-    pub byte_data: Signal<In, Bits<8>>,
-    /// The check sum has not taken the byte before.
+    /// The byte of the frame that is wanted.
+    pub at: Signal<Out, BytePlace>,
+    /// The byte, 2 clocks later; the check sum has not taken the byte before.
+    pub byte_data: Signal<In, Byte>,
     pub sum_is_busy: Signal<In, Bit>,
-    /// A byte of the words is there.
+    /// The next byte of the words is there; it is the last one of the frame.
     pub word_byte_valid: Signal<In, Bit>,
-    /// It is the last one.
     pub word_byte_is_last: Signal<In, Bit>,
-    /// A byte under the check sum is loaded.
+    /// A byte that the check sum covers is loaded; it is one of the words.
     pub loads: Signal<Out, Bit>,
-    /// It is one of the words.
     pub loads_word: Signal<Out, Bit>,
-    /// A byte is offered.
+    /// Bytes of the frame.
     pub data_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub data_ready: Signal<In, Bit>,
-    /// The byte.
-    pub data: Signal<Out, Bits<8>>,
-    /// No byte follows.
+    pub data: Signal<Out, Byte>,
+    /// No byte follows; the frame is to be invalid; it is over.
     pub ends: Signal<Out, Bit>,
-    /// The frame is to be invalid.
     pub is_cut: Signal<Out, Bit>,
-    /// The frame is over.
     pub ended: Signal<In, Bit>,
-    /// The last frame of an answer is over.
+    /// It was the last of an answer, and whole.
     pub answer_ended: Signal<Out, Bit>,
     /// No frame is under way.
     pub is_idle: Signal<Out, Bit>,
@@ -93,7 +63,7 @@ pub struct FrameSender {
     asked_once: DFF<Bit>,
     asked_twice: DFF<Bit>,
     is_loaded: DFF<Bit>,
-    loaded: DFF<Bits<8>>,
+    loaded: DFF<Byte>,
     was_cut: DFF<Bit>,
     part_end: FramePart,
     is_words: Signal<Local, Bit>,
@@ -114,19 +84,18 @@ impl Logic for FrameSender {
         self.one.next = 1.into();
         self.words_part.next = 4.into();
         self.sum_part.next = 5.into();
-        self.part.next = self.part_number.q.val();
-        self.index.next = self.place.q.val();
+        self.at.next.part = self.part_number.q.val();
+        self.at.next.index = self.place.q.val();
         self.data_valid.next = self.is_loaded.q.val();
         self.data.next = self.loaded.q.val();
         self.is_cut.next = self.was_cut.q.val();
         self.is_idle.next = self.state.q.val() == SendState::Idle;
         self.ends.next = (self.state.q.val() == SendState::End) & (!self.is_loaded.q.val());
         self.answer_ended.next =
-            self.ended.val() & self.ends_answer.val() & (!self.was_cut.q.val()) & (!self.cuts.val());
+            self.ended.val() & self.contents.val().ends_answer & (!self.was_cut.q.val()) & (!self.cuts.val());
 
         // A byte is asked for through two ranks of registers, while none is loaded and the check sum rests.
-        self.part_end.part.next = self.part_number.q.val();
-        self.part_end.index.next = self.place.q.val();
+        self.part_end.at.next = self.at.val();
         self.part_end.word_byte_is_last.next = self.word_byte_is_last.val();
         self.is_words.next = self.part_number.q.val() == self.words_part.val();
         self.is_sum.next = self.part_number.q.val() == self.sum_part.val();
@@ -154,13 +123,13 @@ impl Logic for FrameSender {
             self.part_number.d.next = 5.into();
             match self.part_number.q.val().index() {
                 0 => {
-                    if self.has_greeting.val() {
+                    if self.contents.val().has_greeting {
                         self.part_number.d.next = 1.into();
                     }
-                    if self.has_digest.val() {
+                    if self.contents.val().has_digest {
                         self.part_number.d.next = 2.into();
                     }
-                    if self.has_answer.val() {
+                    if self.contents.val().has_answer {
                         self.part_number.d.next = 3.into();
                     }
                 }
@@ -168,7 +137,7 @@ impl Logic for FrameSender {
                     self.part_number.d.next = 4.into();
                 }
                 4 => {
-                    if self.ends_answer.val() {
+                    if self.contents.val().ends_answer {
                         self.part_number.d.next = 2.into();
                     }
                 }
@@ -189,7 +158,7 @@ impl Logic for FrameSender {
         if (self.state.q.val() == SendState::End) & self.ended.val() {
             self.state.d.next = SendState::Idle;
         }
-        if self.cuts.val() & self.has_answer.val() & (self.state.q.val() != SendState::Idle) {
+        if self.cuts.val() & self.contents.val().has_answer & (self.state.q.val() != SendState::Idle) {
             self.was_cut.d.next = true;
             self.is_loaded.d.next = false;
             if self.state.q.val() == SendState::Parts {

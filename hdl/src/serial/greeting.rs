@@ -1,13 +1,10 @@
 //! The greeting, byte by byte: a memory of constants.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | |
-//! | `index` | in | 6 | a byte of the greeting, 0 to 51 |
-//! | `byte_data` | out | 8 | it |
-//!
 //! Latency: 1 clock.
 
+use super::types::Byte;
+use crate::leaf::Parameter;
+use crate::link::types::Word;
 use incircle_protocol::{
     Config, Greeting as GreetingWords, Identity, LinkConfig, CORE_COORD_BITS, CORE_VERSION, GREETING_WORDS, LINK_MAGIC,
     LINK_VERSION, MAGIC, PROTOCOL_VERSION,
@@ -18,46 +15,37 @@ use rust_hdl_widgets::prelude::*;
 const _: () = assert!(GREETING_WORDS == 13, "the kernel of this block lists the words of the greeting");
 
 /// The greeting; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct Greeting {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// A byte of the greeting.
+    /// A byte of the greeting, 0 to 51.
     pub index: Signal<In, Bits<6>>,
-    /// It.
-    pub byte_data: Signal<Out, Bits<8>>,
-    chosen: DFF<Bits<8>>,
-    word: Signal<Local, Bits<32>>,
+    pub byte_data: Signal<Out, Byte>,
+    chosen: DFF<Byte>,
+    word: Signal<Local, Word>,
     word_index: Signal<Local, Bits<4>>,
     place: Signal<Local, Bits<2>>,
-    word0: Constant<Bits<32>>,
-    word1: Constant<Bits<32>>,
-    word2: Constant<Bits<32>>,
-    word3: Constant<Bits<32>>,
-    word4: Constant<Bits<32>>,
-    word5: Constant<Bits<32>>,
-    word6: Constant<Bits<32>>,
-    word7: Constant<Bits<32>>,
-    word8: Constant<Bits<32>>,
-    word9: Constant<Bits<32>>,
-    word10: Constant<Bits<32>>,
-    word11: Constant<Bits<32>>,
-    word12: Constant<Bits<32>>,
+    word0: Parameter<Word>,
+    word1: Parameter<Word>,
+    word2: Parameter<Word>,
+    word3: Parameter<Word>,
+    word4: Parameter<Word>,
+    word5: Parameter<Word>,
+    word6: Parameter<Word>,
+    word7: Parameter<Word>,
+    word8: Parameter<Word>,
+    word9: Parameter<Word>,
+    word10: Parameter<Word>,
+    word11: Parameter<Word>,
+    word12: Parameter<Word>,
 }
 
 impl Greeting {
     /// The greeting of a core behind a link.
     pub fn new(config: Config, link: LinkConfig) -> Self {
         let words = Self::words(config, link);
-        let word = |index: usize| Constant::new(u64::from(words[index]).into());
+        let word = |index: usize| Parameter::new(u64::from(words[index]).into());
         Self {
-            clock: Signal::default(),
-            index: Signal::default(),
-            byte_data: Signal::default(),
-            chosen: DFF::default(),
-            word: Signal::default(),
-            word_index: Signal::default(),
-            place: Signal::default(),
             word0: word(0),
             word1: word(1),
             word2: word(2),
@@ -71,10 +59,11 @@ impl Greeting {
             word10: word(10),
             word11: word(11),
             word12: word(12),
+            ..Self::default()
         }
     }
 
-    /// Its words.
+    /// The words of the greeting.
     fn words(config: Config, link: LinkConfig) -> [u32; GREETING_WORDS] {
         let LinkConfig { clock_hz, fifo_bytes, silence_ms } = link;
         let identity = Identity {

@@ -1,19 +1,11 @@
 //! Silence, breaks, and a beat to see.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | after reset silence begins anew |
-//! | `is_low` | in | 1 | the line is low |
-//! | `hears` | in | 1 | a sound frame has come |
-//! | `is_broken` | out | 1 | the line has been low for a millisecond, and is |
-//! | `is_silent` | out | 1 | no sound frame has come for as long as the parameter says |
-//! | `beat` | out | 1 | high for about half a second, low for as long |
-//!
 //! 1. Time is counted in eighths of a millisecond, of which the first may be short: both last up to an eighth longer.
 //! 2. `is_silent` falls a clock after `hears`.
 //!
 //! Latency: 2 clocks from the end of the time.
 
+use crate::leaf::Parameter;
 use incircle_protocol::{LinkConfig, BREAK_MS};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -21,21 +13,20 @@ use rust_hdl_widgets::prelude::*;
 const _: () = assert!(BREAK_MS == 1, "eight eighths of this block are a break, and a short one");
 
 /// Times of the line; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct LineTimers {
-    /// Clock.
+    /// After reset silence begins anew.
     pub clock: Signal<In, Clock>,
-    /// Silence begins anew.
     pub reset: Signal<In, Bit>,
     /// The line is low.
     pub is_low: Signal<In, Bit>,
     /// A sound frame has come.
     pub hears: Signal<In, Bit>,
-    /// The line has been low for long.
+    /// The line has been low for a millisecond, and is.
     pub is_broken: Signal<Out, Bit>,
-    /// No sound frame has come for long.
+    /// No sound frame has come for as long as the parameter says.
     pub is_silent: Signal<Out, Bit>,
-    /// High, then low.
+    /// High for about half a second, low for as long.
     pub beat: Signal<Out, Bit>,
     clocks: DFF<Bits<16>>,
     ticks: DFF<Bit>,
@@ -48,8 +39,8 @@ pub struct LineTimers {
     one_eighth: Signal<Local, Bits<4>>,
     one_beat: Signal<Local, Bits<13>>,
     longest: Signal<Local, Bits<4>>,
-    last_clock: Constant<Bits<16>>,
-    silence: Constant<Bits<16>>,
+    last_clock: Parameter<Bits<16>>,
+    silence: Parameter<Bits<16>>,
 }
 
 impl LineTimers {
@@ -60,26 +51,9 @@ impl LineTimers {
     pub fn new(link: LinkConfig) -> Self {
         let part = link.clock_hz.div_ceil(1000 * Self::PARTS);
         Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            is_low: Signal::default(),
-            hears: Signal::default(),
-            is_broken: Signal::default(),
-            is_silent: Signal::default(),
-            beat: Signal::default(),
-            clocks: DFF::default(),
-            ticks: DFF::default(),
-            low_for: DFF::default(),
-            breaks: DFF::default(),
-            left: DFF::default(),
-            silent: DFF::default(),
-            beats: DFF::default(),
-            one: Signal::default(),
-            one_eighth: Signal::default(),
-            one_beat: Signal::default(),
-            longest: Signal::default(),
-            last_clock: Constant::new(u64::from(part - 1).into()),
-            silence: Constant::new(u64::from(link.silence_ms * Self::PARTS + 1).into()),
+            last_clock: Parameter::new(u64::from(part - 1).into()),
+            silence: Parameter::new(u64::from(link.silence_ms * Self::PARTS + 1).into()),
+            ..Self::default()
         }
     }
 }

@@ -1,17 +1,5 @@
 //! From the line to the core: bytes, frames, payload, command words.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | |
-//! | `step`, `rx` | in | 22, 1 | rate, and the line |
-//! | `is_open`, `open_session`, `expected` | in | 1, 8, 8 | the session |
-//! | `forgets` | in | 1 | empty the FIFO |
-//! | `asked`, `session`, `value` | out | Asked, 8, 32 | what a frame asks for, the session it names, the last four bytes of its payload |
-//! | `free` | out | 16 | bytes of the FIFO that are free |
-//! | `digest` | out | 32 | state of the check sum of the session's payload |
-//! | `is_low` | out | 1 | the line is low |
-//! | `command_valid`, `command_ready`, `command_data` | out, in, out | 1, 1, 32 | the command stream |
-//!
 //! 1. Payload goes into the FIFO as it comes, and counts when its frame has turned out to be sound.
 //!
 //! ```text
@@ -21,47 +9,39 @@
 //! ```
 //! Latency: see the blocks.
 
-use super::{Asked, CobsDecoder, CommandWords, FrameJudge, FrameReader, PayloadDigest, ReceiveFifo, UartReceiver};
+use super::cobs_decoder::CobsDecoder;
+use super::command_words::CommandWords;
+use super::frame_judge::Asked;
+use super::frame_judge::FrameJudge;
+use super::frame_reader::FrameReader;
+use super::payload_digest::PayloadDigest;
+use super::receive_fifo::ReceiveFifo;
+use super::types::{Byte, Receipt, Session, Step};
+use super::uart_receiver::UartReceiver;
+use crate::link::types::Word;
+use crate::link::CommandSource;
 use incircle_protocol::LinkConfig;
 use rust_hdl_core::prelude::*;
 
 /// From the line to the core; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct LinkReceiver {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Begins anew.
     pub reset: Signal<In, Bit>,
-    /// Rate.
-    pub step: Signal<In, Bits<22>>,
-    /// The line.
+    /// Rate, and the line.
+    pub step: Signal<In, Step>,
     pub rx: Signal<In, Bit>,
-    /// A session is open.
-    pub is_open: Signal<In, Bit>,
-    /// Its number.
-    pub open_session: Signal<In, Bits<8>>,
-    /// Number of the frame that is awaited.
-    pub expected: Signal<In, Bits<8>>,
+    pub open: Signal<In, Session>,
     /// Empty the FIFO.
     pub forgets: Signal<In, Bit>,
-    /// What a frame asks for.
+    /// What a frame asks for, the session it names, the last four bytes of its payload.
     pub asked: Signal<Out, Asked>,
-    /// The session it names.
-    pub session: Signal<Out, Bits<8>>,
-    /// The last four bytes of its payload.
-    pub value: Signal<Out, Bits<32>>,
-    /// Bytes of the FIFO that are free.
-    pub free: Signal<Out, Bits<16>>,
-    /// State of the payload's check sum.
-    pub digest: Signal<Out, Bits<32>>,
+    pub named: Signal<Out, Byte>,
+    pub value: Signal<Out, Word>,
+    pub receipt: Signal<Out, Receipt>,
     /// The line is low.
     pub is_low: Signal<Out, Bit>,
-    /// A command word is offered.
-    pub command_valid: Signal<Out, Bit>,
-    /// It is taken.
-    pub command_ready: Signal<In, Bit>,
-    /// The word.
-    pub command_data: Signal<Out, Bits<32>>,
+    pub command: CommandSource,
     uart: UartReceiver,
     decoder: CobsDecoder,
     reader: FrameReader,
@@ -76,34 +56,7 @@ pub struct LinkReceiver {
 impl LinkReceiver {
     /// The receiver of a link that has passed [`LinkConfig::check`].
     pub fn new(link: LinkConfig) -> Self {
-        Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            step: Signal::default(),
-            rx: Signal::default(),
-            is_open: Signal::default(),
-            open_session: Signal::default(),
-            expected: Signal::default(),
-            forgets: Signal::default(),
-            asked: Signal::default(),
-            session: Signal::default(),
-            value: Signal::default(),
-            free: Signal::default(),
-            digest: Signal::default(),
-            is_low: Signal::default(),
-            command_valid: Signal::default(),
-            command_ready: Signal::default(),
-            command_data: Signal::default(),
-            uart: UartReceiver::default(),
-            decoder: CobsDecoder::default(),
-            reader: FrameReader::default(),
-            judge: FrameJudge::default(),
-            fifo: ReceiveFifo::new(link),
-            payload_digest: PayloadDigest::default(),
-            words: CommandWords::default(),
-            pushes: Signal::default(),
-            clears: Signal::default(),
-        }
+        Self { uart: UartReceiver::new(), fifo: ReceiveFifo::new(link), ..Self::default() }
     }
 }
 
@@ -126,20 +79,15 @@ impl Logic for LinkReceiver {
         self.reader.data.next = self.decoder.data.val();
         self.reader.frame_ends.next = self.decoder.frame_ends.val();
         self.reader.is_broken.next = self.decoder.is_broken.val();
-        self.session.next = self.reader.session.val();
+        self.named.next = self.reader.head.val().session;
         self.value.next = self.reader.value.val();
 
         self.judge.reset.next = self.reset.val();
-        self.judge.session.next = self.reader.session.val();
-        self.judge.kind.next = self.reader.kind.val();
-        self.judge.number.next = self.reader.number.val();
-        self.judge.length.next = self.reader.length.val();
+        self.judge.head.next = self.reader.head.val();
         self.judge.header_comes.next = self.reader.header_comes.val();
         self.judge.comes.next = self.reader.comes.val();
         self.judge.is_sound.next = self.reader.is_sound.val();
-        self.judge.is_open.next = self.is_open.val();
-        self.judge.open_session.next = self.open_session.val();
-        self.judge.expected.next = self.expected.val();
+        self.judge.open.next = self.open.val();
         self.judge.free.next = self.fifo.free.val();
         self.asked.next = self.judge.asked.val();
 
@@ -150,20 +98,20 @@ impl Logic for LinkReceiver {
         self.fifo.push.next = self.pushes.val();
         self.fifo.push_data.next = self.reader.payload.val();
         self.fifo.commits.next = self.judge.asked.val().takes;
-        self.free.next = self.fifo.free.val();
+        self.receipt.next.free = self.fifo.free.val();
         self.payload_digest.reset.next = self.clears.val();
         self.payload_digest.begins.next = self.reader.header_comes.val();
         self.payload_digest.push.next = self.pushes.val();
         self.payload_digest.push_data.next = self.reader.payload.val();
         self.payload_digest.commits.next = self.judge.asked.val().takes;
-        self.digest.next = self.payload_digest.state.val();
+        self.receipt.next.digest = self.payload_digest.state.val();
 
         self.words.reset.next = self.clears.val();
         self.words.byte_valid.next = self.fifo.byte_valid.val();
         self.words.byte_data.next = self.fifo.byte_data.val();
         self.fifo.takes.next = self.words.takes.val();
-        self.command_valid.next = self.words.word_valid.val();
-        self.command_data.next = self.words.word.val();
-        self.words.word_ready.next = self.command_ready.val();
+        self.command.valid.next = self.words.word_valid.val();
+        self.command.data.next = self.words.word.val();
+        self.words.word_ready.next = self.command.ready.val();
     }
 }

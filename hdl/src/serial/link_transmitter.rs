@@ -1,19 +1,5 @@
 //! From the core to the line: answers and control frames, their headers and check sums, bytes.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | |
-//! | `step`, `tx` | in, out | 22, 1 | rate, and the line |
-//! | `asked`, `saw_gap` | in | Asked, 1 | what a frame of the host asks for; a gap was seen before it |
-//! | `session`, `expected`, `free`, `digest` | in | 8, 8, 16, 32 | what a frame to the host says |
-//! | `is_open`, `is_refused`, `is_busy` | in | 1 | its status |
-//! | `fails`, `forgets`, `holds` | in | 1 | the session ends; its answers are over; no frame may begin |
-//! | `acknowledges`, `closes` | out | 1 | an `Ack` or `Nak` begins; a `Closed` |
-//! | `is_quiet` | out | 1 | no frame is under way, and the last stop bit is over |
-//! | `answer_ended` | out | 1 | the frame of an answer's last word is over |
-//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 64 | the answer stream |
-//! | `response_both` | in | 1 | bits 63 to 32 are a second word, which follows the first |
-//!
 //! 1. A frame says what was true when it began.
 //!
 //! ```text
@@ -23,63 +9,55 @@
 //! ```
 //! Latency: see the blocks.
 
-use super::{
-    AnswerPacker, Asked, CobsEncoder, Crc32, FrameBytes, FrameChoice, FrameHeader, FrameSender, Greeting, Replies,
-    UartTransmitter, WordNarrower,
-};
+use super::answer_packer::AnswerPacker;
+use super::cobs_encoder::CobsEncoder;
+use super::crc32::Crc32;
+use super::frame_bytes::FrameBytes;
+use super::frame_choice::FrameChoice;
+use super::frame_header::FrameHeader;
+use super::frame_judge::Asked;
+use super::frame_sender::FrameSender;
+use super::greeting::Greeting;
+use super::replies::Replies;
+use super::types::{Receipt, Session, Step};
+use super::uart_transmitter::UartTransmitter;
+use super::word_narrower::WordNarrower;
+use crate::link::types::Word;
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;
 
 /// From the core to the line; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct LinkTransmitter {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Begins anew.
     pub reset: Signal<In, Bit>,
-    /// Rate.
-    pub step: Signal<In, Bits<22>>,
-    /// The line.
+    /// Rate, and the line.
+    pub step: Signal<In, Step>,
     pub tx: Signal<Out, Bit>,
-    /// What a frame asks for.
+    /// What a frame of the host asks for; a gap was seen before it.
     pub asked: Signal<In, Asked>,
-    /// A gap was seen.
     pub saw_gap: Signal<In, Bit>,
-    /// The open session.
-    pub session: Signal<In, Bits<8>>,
-    /// Number of the frame that is awaited.
-    pub expected: Signal<In, Bits<8>>,
-    /// Bytes of the FIFO that are free.
-    pub free: Signal<In, Bits<16>>,
-    /// State of the payload's check sum.
-    pub digest: Signal<In, Bits<32>>,
-    /// A session is open.
-    pub is_open: Signal<In, Bit>,
-    /// The last `Rate` was refused.
+    /// The session and the receipt that a frame to the host reports.
+    pub open: Signal<In, Session>,
+    pub receipt: Signal<In, Receipt>,
     pub is_refused: Signal<In, Bit>,
-    /// A command is under way.
     pub is_busy: Signal<In, Bit>,
-    /// The session ends.
+    /// The session ends; its answers are over; no frame may begin.
     pub fails: Signal<In, Bit>,
-    /// Its answers are over.
     pub forgets: Signal<In, Bit>,
-    /// No frame may begin.
     pub holds: Signal<In, Bit>,
-    /// An `Ack` or `Nak` begins.
+    /// An `Ack` or `Nak` begins; a `Closed`.
     pub acknowledges: Signal<Out, Bit>,
-    /// A `Closed` begins.
     pub closes: Signal<Out, Bit>,
-    /// The line is idle.
+    /// No frame is under way, and the last stop bit is over.
     pub is_quiet: Signal<Out, Bit>,
-    /// The answer has ended.
+    /// The frame of an answer's last word is over.
     pub answer_ended: Signal<Out, Bit>,
-    /// An answer word is offered, or two.
+    /// The answer stream.
     pub response_valid: Signal<In, Bit>,
-    /// It is taken.
     pub response_ready: Signal<Out, Bit>,
-    /// The word in the low half, the one that follows it in the high.
     pub response_data: Signal<In, Bits<64>>,
-    /// There is one that follows it.
+    /// Bits 63 to 32 are a second word, which follows the first.
     pub response_both: Signal<In, Bit>,
     replies: Replies,
     narrower: WordNarrower,
@@ -94,7 +72,7 @@ pub struct LinkTransmitter {
     encoder: CobsEncoder,
     uart: UartTransmitter,
     is_over: Signal<Local, Bit>,
-    first_state: Signal<Local, Bits<32>>,
+    first_state: Signal<Local, Word>,
 }
 
 const _: () = assert!(Crc32::FIRST == 0xffff_ffff, "the literal of this block follows the check sum");
@@ -102,46 +80,7 @@ const _: () = assert!(Crc32::FIRST == 0xffff_ffff, "the literal of this block fo
 impl LinkTransmitter {
     /// The transmitter of a core behind a link that has passed [`LinkConfig::check`].
     pub fn new(config: Config, link: LinkConfig) -> Self {
-        Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            step: Signal::default(),
-            tx: Signal::default(),
-            asked: Signal::default(),
-            saw_gap: Signal::default(),
-            session: Signal::default(),
-            expected: Signal::default(),
-            free: Signal::default(),
-            digest: Signal::default(),
-            is_open: Signal::default(),
-            is_refused: Signal::default(),
-            is_busy: Signal::default(),
-            fails: Signal::default(),
-            forgets: Signal::default(),
-            holds: Signal::default(),
-            acknowledges: Signal::default(),
-            closes: Signal::default(),
-            is_quiet: Signal::default(),
-            answer_ended: Signal::default(),
-            response_valid: Signal::default(),
-            response_ready: Signal::default(),
-            response_data: Signal::default(),
-            response_both: Signal::default(),
-            replies: Replies::default(),
-            narrower: WordNarrower::default(),
-            packer: AnswerPacker::default(),
-            choice: FrameChoice::default(),
-            sender: FrameSender::default(),
-            header: FrameHeader::default(),
-            greeting: Greeting::new(config, link),
-            bytes: FrameBytes::default(),
-            frame_sum: Crc32::default(),
-            answer_digest: Crc32::default(),
-            encoder: CobsEncoder::default(),
-            uart: UartTransmitter::default(),
-            is_over: Signal::default(),
-            first_state: Signal::default(),
-        }
+        Self { uart: UartTransmitter::new(), greeting: Greeting::new(config, link), ..Self::default() }
     }
 }
 
@@ -191,10 +130,7 @@ impl Logic for LinkTransmitter {
         // The frame.
         self.sender.reset.next = self.reset.val();
         self.sender.starts.next = self.choice.starts.val();
-        self.sender.has_greeting.next = self.choice.has_greeting.val();
-        self.sender.has_digest.next = self.choice.has_digest.val();
-        self.sender.has_answer.next = self.choice.has_answer.val();
-        self.sender.ends_answer.next = self.choice.ends_answer.val();
+        self.sender.contents.next = self.choice.contents.val();
         self.sender.cuts.next = self.is_over.val();
         self.sender.byte_data.next = self.bytes.byte_data.val();
         self.sender.sum_is_busy.next = self.frame_sum.is_busy.val() | self.answer_digest.is_busy.val();
@@ -208,26 +144,22 @@ impl Logic for LinkTransmitter {
         // Its bytes.
         self.header.reset.next = self.reset.val();
         self.header.starts.next = self.choice.starts.val();
-        self.header.session.next = self.session.val();
-        self.header.expected.next = self.expected.val();
-        self.header.answers.next = self.packer.number.val();
-        self.header.free.next = self.free.val();
-        self.header.is_open.next = self.is_open.val();
+        self.header.open.next = self.open.val();
+        self.header.answers.next = self.packer.answer.val().number;
+        self.header.receipt.next = self.receipt.val();
         self.header.is_refused.next = self.is_refused.val();
         self.header.is_busy.next = self.is_busy.val();
         self.header.drops.next = self.asked.val().drops;
-        self.header.digest.next = self.digest.val();
         self.header.kind.next = self.choice.kind.val();
-        self.header.index.next = self.sender.index.val().get_bits::<3>(0);
-        self.greeting.index.next = self.sender.index.val();
-        self.bytes.part.next = self.sender.part.val();
-        self.bytes.index.next = self.sender.index.val().get_bits::<2>(0);
-        self.bytes.ends_answer.next = self.choice.ends_answer.val();
+        self.header.index.next = bit_cast::<3, 6>(self.sender.at.val().index);
+        self.greeting.index.next = self.sender.at.val().index;
+        self.bytes.part.next = self.sender.at.val().part;
+        self.bytes.index.next = bit_cast::<2, 6>(self.sender.at.val().index);
+        self.bytes.ends_answer.next = self.choice.contents.val().ends_answer;
         self.bytes.header.next = self.header.byte_data.val();
         self.bytes.greeting.next = self.greeting.byte_data.val();
         self.bytes.word.next = self.packer.byte_data.val();
-        self.bytes.answers.next = self.packer.number.val();
-        self.bytes.answer_part.next = self.packer.part.val();
+        self.bytes.answer.next = self.packer.answer.val();
         self.bytes.payload_state.next = self.header.digest_taken.val();
         self.bytes.answer_state.next = self.answer_digest.state.val();
         self.bytes.sum_state.next = self.frame_sum.state.val();

@@ -24,6 +24,7 @@ mod receive_fifo;
 mod replies;
 mod serial_link;
 mod session_state;
+pub mod types;
 mod uart_receiver;
 mod uart_transmitter;
 mod word_narrower;

@@ -1,41 +1,33 @@
 //! The check sum of all payload that was taken in a session.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset begins anew |
-//! | `begins` | in | 1 | forget the bytes that do not count yet |
-//! | `push`, `push_data` | in | 1, 8 | one more byte, which does not count yet |
-//! | `commits` | in | 1 | all bytes count |
-//! | `state` | out | 32 | state of the check sum over all bytes that count |
-//!
 //! 1. `push`, and `commits` after it, come at least 9 clocks apart; so do `begins` and what follows it, or it follows the next clock.
 //!
 //! Latency: 1 clock from `commits`.
 
-use super::Crc32;
+use super::crc32::Crc32;
+use super::types::Byte;
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The digest of a session; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PayloadDigest {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Begins anew.
+    /// Reset begins anew.
     pub reset: Signal<In, Bit>,
-    /// Forget bytes that do not count yet.
+    /// Forget the bytes that do not count yet.
     pub begins: Signal<In, Bit>,
-    /// One more byte.
+    /// One more byte, which does not count yet.
     pub push: Signal<In, Bit>,
-    /// It.
-    pub push_data: Signal<In, Bits<8>>,
+    pub push_data: Signal<In, Byte>,
     /// All bytes count.
     pub commits: Signal<In, Bit>,
-    /// State over the bytes that count.
-    pub state: Signal<Out, Bits<32>>,
-    committed: DFF<Bits<32>>,
+    /// State of the check sum over all bytes that count.
+    pub state: Signal<Out, Word>,
+    committed: DFF<Word>,
     crc: Crc32,
-    first_state: Signal<Local, Bits<32>>,
+    first_state: Signal<Local, Word>,
 }
 
 const _: () = assert!(Crc32::FIRST == 0xffff_ffff, "the literal of this block follows the check sum");

@@ -1,55 +1,44 @@
 //! The rate of the line: the first one, until the host asks for another.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset returns to the first rate |
-//! | `asked`, `value` | in | Asked, 32 | what a frame asks for, and the step if it is a `Rate` |
-//! | `fails` | in | 1 | return to the first rate at this edge |
-//! | `acknowledges`, `closes` | in | 1 | an `Ack` or `Nak` begins; a `Closed` |
-//! | `is_quiet` | in | 1 | no frame to the host is under way, and the last stop bit is over |
-//! | `step` | out | 22 | a bit takes `2^24 / step` clocks |
-//! | `is_refused` | out | 1 | the last `Rate` of the session was refused |
-//! | `holds` | out | 1 | no frame may begin: the rate is about to change |
-//!
 //! 1. `value` stands 2 clocks before `asked`. A step of 0, and one above 2^21, is refused.
 //! 2. The rate changes when the first `Ack` or `Nak` that begins after the `Rate` is over, to the last byte.
 //! 3. It returns to the first rate when a `Closed` is over.
 //!
 //! Latency: 1 clock.
 
-use super::Asked;
+use super::frame_judge::Asked;
+use super::types::Step;
+use crate::leaf::Parameter;
+use crate::link::types::Word;
 use incircle_protocol::{LinkConfig, FIRST_RATE, MAX_STEP};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The rate of the line; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct RateControl {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Returns to the first rate.
+    /// Reset returns to the first rate.
     pub reset: Signal<In, Bit>,
-    /// What a frame asks for.
+    /// What a frame asks for, and the step if it is a `Rate`.
     pub asked: Signal<In, Asked>,
-    /// The step.
-    pub value: Signal<In, Bits<32>>,
-    /// Return to the first rate.
+    pub value: Signal<In, Word>,
+    /// Return to the first rate at this edge.
     pub fails: Signal<In, Bit>,
-    /// An `Ack` or `Nak` begins.
+    /// An `Ack` or `Nak` begins; a `Closed`.
     pub acknowledges: Signal<In, Bit>,
-    /// A `Closed` begins.
     pub closes: Signal<In, Bit>,
-    /// The line to the host is idle.
+    /// No frame to the host is under way, and the last stop bit is over.
     pub is_quiet: Signal<In, Bit>,
     /// A bit takes `2^24 / step` clocks.
-    pub step: Signal<Out, Bits<22>>,
-    /// The last `Rate` was refused.
+    pub step: Signal<Out, Step>,
+    /// The last `Rate` of the session was refused.
     pub is_refused: Signal<Out, Bit>,
-    /// No frame may begin.
+    /// No frame may begin: the rate is about to change.
     pub holds: Signal<Out, Bit>,
-    present: DFF<Bits<22>>,
-    wanted: DFF<Bits<22>>,
-    coming: DFF<Bits<22>>,
+    present: DFF<Step>,
+    wanted: DFF<Step>,
+    coming: DFF<Step>,
     is_some: DFF<Bit>,
     is_small: DFF<Bit>,
     is_large: DFF<Bit>,
@@ -60,7 +49,7 @@ pub struct RateControl {
     is_fit: Signal<Local, Bit>,
     low: Signal<Local, Bits<21>>,
     high: Signal<Local, Bits<10>>,
-    first: Constant<Bits<22>>,
+    first: Parameter<Step>,
 }
 
 const _: () = assert!(MAX_STEP == 1 << 21, "the largest step of this block is the protocol's");
@@ -69,33 +58,7 @@ impl RateControl {
     /// The rate of a link that has passed [`LinkConfig::check`].
     pub fn new(link: LinkConfig) -> Self {
         let first = incircle_protocol::rate_step(FIRST_RATE, link.clock_hz).unwrap_or(MAX_STEP);
-        Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            asked: Signal::default(),
-            value: Signal::default(),
-            fails: Signal::default(),
-            acknowledges: Signal::default(),
-            closes: Signal::default(),
-            is_quiet: Signal::default(),
-            step: Signal::default(),
-            is_refused: Signal::default(),
-            holds: Signal::default(),
-            present: DFF::default(),
-            wanted: DFF::default(),
-            coming: DFF::default(),
-            is_some: DFF::default(),
-            is_small: DFF::default(),
-            is_large: DFF::default(),
-            is_wanted: DFF::default(),
-            changes: DFF::default(),
-            returns: DFF::default(),
-            refused: DFF::default(),
-            is_fit: Signal::default(),
-            low: Signal::default(),
-            high: Signal::default(),
-            first: Constant::new(u64::from(first).into()),
-        }
+        Self { first: Parameter::new(u64::from(first).into()), ..Self::default() }
     }
 }
 

@@ -1,14 +1,5 @@
 //! The receive FIFO: bytes of payload, which count when their frame has turned out to be sound.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset empties it |
-//! | `begins` | in | 1 | forget the bytes that do not count yet |
-//! | `push`, `push_data` | in | 1, 8 | one more byte, which does not count yet |
-//! | `commits` | in | 1 | all bytes count |
-//! | `free` | out | 16 | bytes that may be pushed, apart from those that do not count yet |
-//! | `byte_valid`, `byte_data`, `takes` | out, out, in | 1, 8, 1 | the oldest byte that counts; it is taken at this edge |
-//!
 //! 1. `takes` only while `byte_valid`. Without it the byte stays.
 //! 2. The user pushes no more bytes than `free` says before the first of them: there is no check.
 //! 3. `commits` comes 3 clocks or more after the last `push`.
@@ -19,7 +10,8 @@
 //! a whole memory behind the oldest byte and so is its address too. They have 16 bits, of which the memory uses as many as it has: the
 //! difference of two is the number of bytes between them.
 
-use crate::leaf::BlockMemory;
+use super::types::Byte;
+use crate::leaf::{BlockMemory, Parameter};
 use incircle_protocol::LinkConfig;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -28,27 +20,23 @@ use rust_hdl_widgets::prelude::*;
 const ADDRESS_BITS: usize = 15;
 
 /// The receive FIFO; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct ReceiveFifo {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Empties it.
+    /// Reset empties it.
     pub reset: Signal<In, Bit>,
-    /// Forget bytes that do not count yet.
+    /// Forget the bytes that do not count yet.
     pub begins: Signal<In, Bit>,
-    /// One more byte.
+    /// One more byte, which does not count yet.
     pub push: Signal<In, Bit>,
-    /// It.
-    pub push_data: Signal<In, Bits<8>>,
+    pub push_data: Signal<In, Byte>,
     /// All bytes count.
     pub commits: Signal<In, Bit>,
-    /// Bytes that may be pushed.
+    /// Bytes that may be pushed, apart from those that do not count yet.
     pub free: Signal<Out, Bits<16>>,
-    /// A byte is there.
+    /// The oldest byte that counts; it is taken at this edge.
     pub byte_valid: Signal<Out, Bit>,
-    /// The oldest.
-    pub byte_data: Signal<Out, Bits<8>>,
-    /// It is taken.
+    pub byte_data: Signal<Out, Byte>,
     pub takes: Signal<In, Bit>,
     memory: BlockMemory<ADDRESS_BITS, 8>,
     provisional: DFF<Bits<16>>,
@@ -58,7 +46,7 @@ pub struct ReceiveFifo {
     holds: DFF<Bit>,
     /// Clocks for which the oldest byte has been read, up to 3.
     read_for: DFF<Bits<2>>,
-    size: Constant<Bits<16>>,
+    size: Parameter<Bits<16>>,
     one: Signal<Local, Bits<16>>,
     one_clock: Signal<Local, Bits<2>>,
     longest: Signal<Local, Bits<2>>,
@@ -68,27 +56,9 @@ impl ReceiveFifo {
     /// The FIFO of a link that has passed [`LinkConfig::check`].
     pub fn new(link: LinkConfig) -> Self {
         Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            begins: Signal::default(),
-            push: Signal::default(),
-            push_data: Signal::default(),
-            commits: Signal::default(),
-            free: Signal::default(),
-            byte_valid: Signal::default(),
-            byte_data: Signal::default(),
-            takes: Signal::default(),
             memory: BlockMemory::new(link.fifo_bytes.trailing_zeros() as usize, 8),
-            provisional: DFF::default(),
-            committed: DFF::default(),
-            free_end: DFF::default(),
-            unused: DFF::default(),
-            holds: DFF::default(),
-            read_for: DFF::default(),
-            size: Constant::new(u64::from(link.fifo_bytes).into()),
-            one: Signal::default(),
-            one_clock: Signal::default(),
-            longest: Signal::default(),
+            size: Parameter::new(u64::from(link.fifo_bytes).into()),
+            ..Self::default()
         }
     }
 }

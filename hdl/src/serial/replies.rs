@@ -1,14 +1,5 @@
 //! Which control frames are due to the host, and which of them goes first.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | after reset none is due |
-//! | `asked`, `saw_gap` | in | Asked, 1 | what a frame asks for; a gap was seen before it |
-//! | `fails` | in | 1 | the session ends without a word |
-//! | `is_due`, `kind` | out | 1, 8 | a control frame is due; its type |
-//! | `starts` | in | 1 | it begins at this edge |
-//! | `acknowledges`, `closes` | out | 1 | the frame that is due is an `Ack` or `Nak`; a `Closed` |
-//!
 //! 1. The order is `Hello`, `Opened`, `Closed`, `NoSession`, `Ack` or `Nak`. Each is due once, however often it was asked for.
 //! 2. Where both are due, one `Nak` stands for an `Ack` as well. A frame that is taken needs no `Nak` any more.
 //! 3. What is asked for while a frame begins is due after it.
@@ -16,7 +7,8 @@
 //!
 //! Latency: 1 clock.
 
-use super::Asked;
+use super::frame_judge::Asked;
+use super::types::Byte;
 use incircle_protocol::DeviceFrame;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -24,25 +16,21 @@ use rust_hdl_widgets::prelude::*;
 /// Control frames that are due; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Replies {
-    /// Clock.
+    /// After reset none is due.
     pub clock: Signal<In, Clock>,
-    /// None is due.
     pub reset: Signal<In, Bit>,
-    /// What a frame asks for.
+    /// What a frame asks for; a gap was seen before it.
     pub asked: Signal<In, Asked>,
-    /// A gap was seen.
     pub saw_gap: Signal<In, Bit>,
-    /// The session ends.
+    /// The session ends without a word.
     pub fails: Signal<In, Bit>,
-    /// A control frame is due.
+    /// A control frame is due; its type.
     pub is_due: Signal<Out, Bit>,
-    /// Its type.
-    pub kind: Signal<Out, Bits<8>>,
-    /// It begins.
+    pub kind: Signal<Out, Byte>,
+    /// The control frame begins at this edge.
     pub starts: Signal<In, Bit>,
-    /// It is an `Ack` or a `Nak`.
+    /// The frame that is due is an `Ack` or `Nak`; a `Closed`.
     pub acknowledges: Signal<Out, Bit>,
-    /// It is a `Closed`.
     pub closes: Signal<Out, Bit>,
     hello: DFF<Bit>,
     opened: DFF<Bit>,

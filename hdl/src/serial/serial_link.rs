@@ -1,15 +1,5 @@
 //! The serial link: a line on one side, the streams of a core on the other.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
-//! | `rx`, `tx` | in, out | 1 | the line, high when idle |
-//! | `alive`, `busy`, `error` | out | 1 | for lamps: a beat, or steady in a session; a command is under way; a frame was dropped in this session |
-//! | `core_reset` | out | 1 | reset of the core |
-//! | `command_valid`, `command_ready`, `command_data` | out, in, out | 1, 1, 32 | the command stream |
-//! | `response_valid`, `response_ready`, `response_data` | in, out, in | 1, 1, 64 | the answer stream |
-//! | `response_both`, `response_last` | in | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
-//!
 //! 1. `protocol/SERIAL.md` says what passes on the line.
 //! 2. The core is held in reset while no session is open, and reset when one begins.
 //!
@@ -23,46 +13,32 @@
 //! ```
 //! Latency: see the blocks.
 
-use super::{CommandProgress, LineTimers, LinkReceiver, LinkTransmitter, RateControl, SessionState};
+use super::command_progress::CommandProgress;
+use super::line_timers::LineTimers;
+use super::link_receiver::LinkReceiver;
+use super::link_transmitter::LinkTransmitter;
+use super::rate_control::RateControl;
+use super::session_state::SessionState;
+use super::types::Lamps;
+use crate::link::{AnswerSink, CommandSource};
 use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The serial link; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct SerialLink {
-    /// Clock.
+    /// One clock; synchronous reset, active high.
     pub clock: Signal<In, Clock>,
-    /// Synchronous reset.
     pub reset: Signal<In, Bit>,
-    /// The line from the host.
+    /// The line, high when idle.
     pub rx: Signal<In, Bit>,
-    /// The line to the host.
     pub tx: Signal<Out, Bit>,
-    /// A beat, or steady in a session.
-    pub alive: Signal<Out, Bit>,
-    /// A command is under way.
-    pub busy: Signal<Out, Bit>,
-    /// A frame was dropped.
-    pub error: Signal<Out, Bit>,
+    pub lamps: Signal<Out, Lamps>,
     /// Reset of the core.
     pub core_reset: Signal<Out, Bit>,
-    /// A command word is offered.
-    pub command_valid: Signal<Out, Bit>,
-    /// It is taken.
-    pub command_ready: Signal<In, Bit>,
-    /// The word.
-    pub command_data: Signal<Out, Bits<32>>,
-    /// An answer word is offered, or two.
-    pub response_valid: Signal<In, Bit>,
-    /// It is taken.
-    pub response_ready: Signal<Out, Bit>,
-    /// The word in the low half, the one that follows it in the high.
-    pub response_data: Signal<In, Bits<64>>,
-    /// There is one that follows it.
-    pub response_both: Signal<In, Bit>,
-    /// The last word of the answer is among them.
-    pub response_last: Signal<In, Bit>,
+    pub command: CommandSource,
+    pub response: AnswerSink,
     receiver: LinkReceiver,
     transmitter: LinkTransmitter,
     session: SessionState,
@@ -106,34 +82,11 @@ impl SerialLink {
     pub fn new(config: Config, link: LinkConfig) -> Result<Self, SerialError> {
         let (config, link) = (config.check()?, link.check()?);
         Ok(Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            rx: Signal::default(),
-            tx: Signal::default(),
-            alive: Signal::default(),
-            busy: Signal::default(),
-            error: Signal::default(),
-            core_reset: Signal::default(),
-            command_valid: Signal::default(),
-            command_ready: Signal::default(),
-            command_data: Signal::default(),
-            response_valid: Signal::default(),
-            response_ready: Signal::default(),
-            response_data: Signal::default(),
-            response_both: Signal::default(),
-            response_last: Signal::default(),
-            is_offered: Signal::default(),
             receiver: LinkReceiver::new(link),
             transmitter: LinkTransmitter::new(config, link),
-            session: SessionState::default(),
             rate: RateControl::new(link),
             timers: LineTimers::new(link),
-            progress: CommandProgress::default(),
-            resets_core: DFF::default(),
-            has_failed: DFF::default(),
-            dropped: DFF::default(),
-            takes_command: Signal::default(),
-            clears: Signal::default(),
+            ..Self::default()
         })
     }
 }
@@ -156,23 +109,21 @@ impl Logic for SerialLink {
         // From the line to the core.
         self.receiver.step.next = self.rate.step.val();
         self.receiver.rx.next = self.rx.val();
-        self.receiver.is_open.next = self.session.is_open.val();
-        self.receiver.open_session.next = self.session.number.val();
-        self.receiver.expected.next = self.session.expected.val();
+        self.receiver.open.next = self.session.open.val();
         self.receiver.forgets.next = self.session.forgets.val();
         self.takes_command.next =
-            self.receiver.command_valid.val() & self.command_ready.val() & (!self.resets_core.q.val());
-        self.command_valid.next = self.receiver.command_valid.val();
-        self.command_data.next = self.receiver.command_data.val();
-        self.receiver.command_ready.next = self.takes_command.val();
+            self.receiver.command.valid.val() & self.command.ready.val() & (!self.resets_core.q.val());
+        self.command.valid.next = self.receiver.command.valid.val();
+        self.command.data.next = self.receiver.command.data.val();
+        self.receiver.command.ready.next = self.takes_command.val();
 
         // The session.
         self.timers.is_low.next = self.receiver.is_low.val();
         self.timers.hears.next = self.receiver.asked.val().hears;
         self.has_failed.d.next = self.timers.is_broken.val()
-            | (self.timers.is_silent.val() & self.session.is_open.val() & (!self.receiver.asked.val().hears));
+            | (self.timers.is_silent.val() & self.session.open.val().is_open & (!self.receiver.asked.val().hears));
         self.session.asked.next = self.receiver.asked.val();
-        self.session.session.next = self.receiver.session.val();
+        self.session.session.next = self.receiver.named.val();
         self.session.fails.next = self.has_failed.q.val();
         self.rate.asked.next = self.receiver.asked.val();
         self.rate.value.next = self.receiver.value.val();
@@ -180,10 +131,10 @@ impl Logic for SerialLink {
         self.rate.acknowledges.next = self.transmitter.acknowledges.val();
         self.rate.closes.next = self.transmitter.closes.val();
         self.rate.is_quiet.next = self.transmitter.is_quiet.val();
-        self.is_offered.next = self.response_valid.val() & (!self.resets_core.q.val());
+        self.is_offered.next = self.response.valid.val() & (!self.resets_core.q.val());
         self.progress.takes.next = self.takes_command.val();
-        self.progress.word.next = self.receiver.command_data.val();
-        self.progress.offers_last.next = self.is_offered.val() & self.response_last.val();
+        self.progress.word.next = self.receiver.command.data.val();
+        self.progress.offers_last.next = self.is_offered.val() & self.response.last.val();
         self.progress.takes_answer.next = self.transmitter.response_ready.val();
         self.progress.answer_ended.next = self.transmitter.answer_ended.val();
 
@@ -191,20 +142,17 @@ impl Logic for SerialLink {
         self.transmitter.step.next = self.rate.step.val();
         self.transmitter.asked.next = self.receiver.asked.val();
         self.transmitter.saw_gap.next = self.session.saw_gap.val();
-        self.transmitter.session.next = self.session.number.val();
-        self.transmitter.expected.next = self.session.expected.val();
-        self.transmitter.free.next = self.receiver.free.val();
-        self.transmitter.digest.next = self.receiver.digest.val();
-        self.transmitter.is_open.next = self.session.is_open.val();
+        self.transmitter.open.next = self.session.open.val();
+        self.transmitter.receipt.next = self.receiver.receipt.val();
         self.transmitter.is_refused.next = self.rate.is_refused.val();
         self.transmitter.is_busy.next = self.progress.is_busy.val();
         self.transmitter.fails.next = self.has_failed.q.val();
         self.transmitter.forgets.next = self.session.forgets.val();
         self.transmitter.holds.next = self.rate.holds.val() | self.session.settles.val();
         self.transmitter.response_valid.next = self.is_offered.val();
-        self.transmitter.response_data.next = self.response_data.val();
-        self.transmitter.response_both.next = self.response_both.val();
-        self.response_ready.next = self.transmitter.response_ready.val();
+        self.transmitter.response_data.next = self.response.data.val();
+        self.transmitter.response_both.next = self.response.both.val();
+        self.response.ready.next = self.transmitter.response_ready.val();
         self.tx.next = self.transmitter.tx.val();
 
         // Lamps.
@@ -214,8 +162,8 @@ impl Logic for SerialLink {
         if self.clears.val() {
             self.dropped.d.next = false;
         }
-        self.alive.next = self.session.is_open.val() | self.timers.beat.val();
-        self.busy.next = self.progress.is_busy.val();
-        self.error.next = self.dropped.q.val();
+        self.lamps.next.alive = self.session.open.val().is_open | self.timers.beat.val();
+        self.lamps.next.busy = self.progress.is_busy.val();
+        self.lamps.next.error = self.dropped.q.val();
     }
 }

@@ -1,58 +1,41 @@
 //! The session: whether one is open, its number, and the number of the `Data` frame that is awaited.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | after reset no session is open |
-//! | `asked`, `session` | in | Asked, 8 | what a frame asks for, and the session it names |
-//! | `fails` | in | 1 | silence or a break: the session ends at this edge |
-//! | `is_open`, `number` | out | 1, 8 | a session is open; its number, or 0 |
-//! | `expected` | out | 8 | number of the `Data` frame that is awaited |
-//! | `saw_gap` | out | 1 | a `Data` frame behind it has come, or one without room, since the last that was taken |
-//! | `forgets` | out | 1 | whatever belongs to a session is to be forgotten: none is open, or one begins |
-//! | `settles` | out | 1 | something has just changed: no frame to the host may begin |
-//!
 //! 1. `forgets` lasts a clock at least when a session begins, also if one was open before.
 //! 2. An `Open` at the very clock of `fails` opens a session.
 //! 3. `settles` lasts 7 clocks from a change on: then what a frame says of number, credit and digest is of one and the same moment.
 //!
 //! Latency: 1 clock.
 
-use super::Asked;
+use super::frame_judge::Asked;
+use super::types::{Byte, Session};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The session; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SessionState {
-    /// Clock.
+    /// After reset no session is open.
     pub clock: Signal<In, Clock>,
-    /// No session is open.
     pub reset: Signal<In, Bit>,
-    /// What a frame asks for.
+    /// What a frame asks for, and the session it names.
     pub asked: Signal<In, Asked>,
-    /// The session that it names.
-    pub session: Signal<In, Bits<8>>,
-    /// The session ends.
+    pub session: Signal<In, Byte>,
+    /// Silence or a break: the session ends at this edge.
     pub fails: Signal<In, Bit>,
-    /// A session is open.
-    pub is_open: Signal<Out, Bit>,
-    /// Its number.
-    pub number: Signal<Out, Bits<8>>,
-    /// Number of the frame that is awaited.
-    pub expected: Signal<Out, Bits<8>>,
-    /// There is a gap before a frame that has come.
+    pub open: Signal<Out, Session>,
+    /// A `Data` frame behind it has come, or one without room, since the last that was taken.
     pub saw_gap: Signal<Out, Bit>,
-    /// Forget what belongs to a session.
+    /// Whatever belongs to a session is to be forgotten: none is open, or one begins.
     pub forgets: Signal<Out, Bit>,
-    /// No frame may begin.
+    /// Something has just changed: no frame to the host may begin.
     pub settles: Signal<Out, Bit>,
     opened: DFF<Bit>,
-    session_number: DFF<Bits<8>>,
-    awaited: DFF<Bits<8>>,
+    session_number: DFF<Byte>,
+    awaited: DFF<Byte>,
     gap: DFF<Bit>,
     begins: DFF<Bit>,
     settling: DFF<Bits<3>>,
-    one: Signal<Local, Bits<8>>,
+    one: Signal<Local, Byte>,
     one_clock: Signal<Local, Bits<3>>,
 }
 
@@ -62,9 +45,9 @@ impl Logic for SessionState {
         dff_setup!(self, clock, opened, session_number, awaited, gap, begins, settling);
         self.one.next = 1.into();
         self.one_clock.next = 1.into();
-        self.is_open.next = self.opened.q.val();
-        self.number.next = self.session_number.q.val();
-        self.expected.next = self.awaited.q.val();
+        self.open.next.is_open = self.opened.q.val();
+        self.open.next.number = self.session_number.q.val();
+        self.open.next.expected = self.awaited.q.val();
         self.saw_gap.next = self.gap.q.val();
         self.forgets.next = self.begins.q.val() | (!self.opened.q.val());
         self.settles.next = self.settling.q.val().any();

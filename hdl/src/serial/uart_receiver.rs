@@ -1,14 +1,5 @@
 //! Bytes from a line: 8 data bits, no parity, one stop bit, at any rate.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset awaits a byte |
-//! | `step` | in | 22 | a bit takes `2^24 / step` clocks, at least 8 |
-//! | `rx` | in | 1 | the line, high when idle; it may change at any time |
-//! | `byte_valid`, `byte_data` | out | 1, 8 | a byte has come |
-//! | `noise` | out | 1 | a byte without a stop bit has come: it is lost |
-//! | `is_low` | out | 1 | the line as it is, for the detection of a break |
-//!
 //! 1. The line passes two registers before it is used. A bit is what two of three samples around its middle say.
 //! 2. A start bit that is high in its middle was none: nothing happens.
 //! 3. After a byte without a stop bit the line must be high before another begins: a break is one such byte.
@@ -18,7 +9,8 @@
 //!
 //! Source: the two registers are the usual guard against metastability. All store the line inverted, so that they begin as an idle one.
 
-use super::BitClock;
+use super::bit_clock::BitClock;
+use super::types::{Byte, Step};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -38,23 +30,21 @@ pub enum ReceiveState {
 }
 
 /// Bytes from a line; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct UartReceiver {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Awaits a byte.
+    /// Reset awaits a byte.
     pub reset: Signal<In, Bit>,
-    /// Rate.
-    pub step: Signal<In, Bits<22>>,
-    /// The line.
+    /// A bit takes `2^24 / step` clocks, at least 8.
+    pub step: Signal<In, Step>,
+    /// The line, high when idle; it may change at any time.
     pub rx: Signal<In, Bit>,
     /// A byte has come.
     pub byte_valid: Signal<Out, Bit>,
-    /// It.
-    pub byte_data: Signal<Out, Bits<8>>,
-    /// A byte is lost.
+    pub byte_data: Signal<Out, Byte>,
+    /// A byte without a stop bit has come: it is lost.
     pub noise: Signal<Out, Bit>,
-    /// The line is low.
+    /// The line as it is, for the detection of a break.
     pub is_low: Signal<Out, Bit>,
     unsettled: DFF<Bit>,
     sample: DFF<Bit>,
@@ -62,46 +52,22 @@ pub struct UartReceiver {
     sample_first: DFF<Bit>,
     vote: DFF<Bit>,
     state: DFF<ReceiveState>,
-    bits: DFF<Bits<8>>,
+    bits: DFF<Byte>,
     place: DFF<Bits<3>>,
     comes: DFF<Bit>,
     is_noise: DFF<Bit>,
     bit_clock: BitClock,
-    shifted: Signal<Local, Bits<8>>,
-    one: Signal<Local, Bits<8>>,
+    shifted: Signal<Local, Byte>,
+    one: Signal<Local, Byte>,
     one_place: Signal<Local, Bits<3>>,
     last_place: Signal<Local, Bits<3>>,
-    top_bit: Signal<Local, Bits<8>>,
+    top_bit: Signal<Local, Byte>,
 }
 
-impl Default for UartReceiver {
-    fn default() -> Self {
-        Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            step: Signal::default(),
-            rx: Signal::default(),
-            byte_valid: Signal::default(),
-            byte_data: Signal::default(),
-            noise: Signal::default(),
-            is_low: Signal::default(),
-            unsettled: DFF::default(),
-            sample: DFF::default(),
-            sample_before: DFF::default(),
-            sample_first: DFF::default(),
-            vote: DFF::default(),
-            state: DFF::default(),
-            bits: DFF::default(),
-            place: DFF::default(),
-            comes: DFF::default(),
-            is_noise: DFF::default(),
-            bit_clock: BitClock::in_middles(),
-            shifted: Signal::default(),
-            one: Signal::default(),
-            one_place: Signal::default(),
-            last_place: Signal::default(),
-            top_bit: Signal::default(),
-        }
+impl UartReceiver {
+    /// A receiver that awaits a byte.
+    pub fn new() -> Self {
+        Self { bit_clock: BitClock::in_middles(), ..Self::default() }
     }
 }
 

@@ -1,13 +1,5 @@
 //! Bytes onto a line: 8 data bits, no parity, one stop bit, at any rate.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset leaves the line high |
-//! | `step` | in | 22 | a bit takes `2^24 / step` clocks |
-//! | `byte_valid`, `byte_ready`, `byte_data` | in, out, in | 1, 1, 8 | the bytes |
-//! | `tx` | out | 1 | the line, high when idle |
-//! | `is_idle` | out | 1 | the last stop bit is over |
-//!
 //! 1. `byte_ready` depends on registers only, and lasts a clock: a byte is taken between two bits.
 //! 2. Bytes that are always there follow each other without a gap; a byte that comes later waits for up to a bit.
 //!
@@ -15,61 +7,43 @@
 //!
 //! Source: the line is stored inverted, so that it is high before reset too.
 
-use super::BitClock;
+use super::bit_clock::BitClock;
+use super::types::{Byte, Step};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Bytes onto a line; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct UartTransmitter {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Leaves the line high.
+    /// Reset leaves the line high.
     pub reset: Signal<In, Bit>,
-    /// Rate.
-    pub step: Signal<In, Bits<22>>,
-    /// A byte is offered.
+    /// A bit takes `2^24 / step` clocks.
+    pub step: Signal<In, Step>,
+    /// The bytes.
     pub byte_valid: Signal<In, Bit>,
-    /// It is taken.
     pub byte_ready: Signal<Out, Bit>,
-    /// The byte.
-    pub byte_data: Signal<In, Bits<8>>,
-    /// The line.
+    pub byte_data: Signal<In, Byte>,
+    /// The line, high when idle.
     pub tx: Signal<Out, Bit>,
     /// The last stop bit is over.
     pub is_idle: Signal<Out, Bit>,
     is_low: DFF<Bit>,
     /// Data bits that are still to come, inverted; the stop bit follows them as zeros.
-    bits: DFF<Bits<8>>,
+    bits: DFF<Byte>,
     /// Bits of the byte, the one on the line included.
     left: DFF<Bits<4>>,
     bit_clock: BitClock,
     is_over: Signal<Local, Bit>,
-    all: Signal<Local, Bits<8>>,
-    one: Signal<Local, Bits<8>>,
+    all: Signal<Local, Byte>,
+    one: Signal<Local, Byte>,
     one_bit: Signal<Local, Bits<4>>,
 }
 
-impl Default for UartTransmitter {
-    fn default() -> Self {
-        Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            step: Signal::default(),
-            byte_valid: Signal::default(),
-            byte_ready: Signal::default(),
-            byte_data: Signal::default(),
-            tx: Signal::default(),
-            is_idle: Signal::default(),
-            is_low: DFF::default(),
-            bits: DFF::default(),
-            left: DFF::default(),
-            bit_clock: BitClock::at_ends(),
-            is_over: Signal::default(),
-            all: Signal::default(),
-            one: Signal::default(),
-            one_bit: Signal::default(),
-        }
+impl UartTransmitter {
+    /// A transmitter whose line is idle.
+    pub fn new() -> Self {
+        Self { bit_clock: BitClock::at_ends(), ..Self::default() }
     }
 }
 

@@ -1,12 +1,5 @@
 //! Gives the words of answer beats one by one.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | reset begins a beat anew |
-//! | `pair_valid`, `pair_ready`, `pair` | in, out, in | 1, 1, 64 | a beat of one word or two, the first in the low half |
-//! | `both` | in | 1 | it has two |
-//! | `word_valid`, `word_ready`, `word` | out, in, out | 1, 1, 32 | the words |
-//!
 //! 1. A beat is taken with its last word; until then it stands, as all that is offered.
 //!
 //! Latency: none.
@@ -20,30 +13,26 @@
 //! word_ready      /^^\__/^^^^^^^^
 //! ```
 
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Words of beats; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct WordNarrower {
-    /// Clock.
     pub clock: Signal<In, Clock>,
-    /// Begins a beat anew.
+    /// Reset begins a beat anew.
     pub reset: Signal<In, Bit>,
-    /// A beat is offered.
+    /// A beat of one word or two, the first in the low half.
     pub pair_valid: Signal<In, Bit>,
-    /// It is taken.
     pub pair_ready: Signal<Out, Bit>,
-    /// Its words.
     pub pair: Signal<In, Bits<64>>,
-    /// It has two.
+    /// The beat has two words.
     pub both: Signal<In, Bit>,
-    /// A word is offered.
+    /// The words.
     pub word_valid: Signal<Out, Bit>,
-    /// It is taken.
     pub word_ready: Signal<In, Bit>,
-    /// The word.
-    pub word: Signal<Out, Bits<32>>,
+    pub word: Signal<Out, Word>,
     /// The first word of the beat has been taken.
     is_second: DFF<Bit>,
     is_first_of_two: Signal<Local, Bit>,

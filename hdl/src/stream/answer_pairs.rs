@@ -1,14 +1,5 @@
 //! Answer words, one or two at a time, as pairs; each answer begins with a new pair.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the core's clock; reset forgets all words |
-//! | `response_valid`, `response_ready` | in, out | 1 | words of an answer are offered; they are taken |
-//! | `response_data`, `response_both`, `response_last` | in | 64, 1, 1 | a word in bits 31 to 0; a second one in bits 63 to 32; the last word of its answer is among them |
-//! | `pair_valid`, `pair_data`, `pair_last` | out | 1, 64, 1 | a pair; the last one of its answer |
-//! | `is_stalled` | in | 1 | it cannot go on at this edge |
-//! | `is_held` | out | 1 | words are held |
-//!
 //! 1. A pair that is offered stays while `is_stalled`.
 //! 2. An answer with an odd number of words ends in a pair with zeros in bits 63 to 32.
 //! 3. `response_ready` depends on registers and `is_stalled`, and not on `response_valid`. It is low for a clock where an answer leaves
@@ -28,51 +19,41 @@
 //! second            .  .  2  0  .  5  7  0  .  .  .
 //! ```
 
+use crate::link::types::Word;
+use crate::link::AnswerSink;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Pairs of answer words; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerPairs {
-    /// Clock of the core.
+    /// The core's clock; reset forgets all words.
     pub clock: Signal<In, Clock>,
-    /// Forgets all words.
     pub reset: Signal<In, Bit>,
-    /// Words are offered.
-    pub response_valid: Signal<In, Bit>,
-    /// They are taken.
-    pub response_ready: Signal<Out, Bit>,
-    /// They.
-    pub response_data: Signal<In, Bits<64>>,
-    /// There are two of them.
-    pub response_both: Signal<In, Bit>,
-    /// The last one of an answer is among them.
-    pub response_last: Signal<In, Bit>,
-    /// A pair is offered.
+    pub response: AnswerSink,
+    /// A pair; the last one of its answer.
     pub pair_valid: Signal<Out, Bit>,
-    /// It.
     pub pair_data: Signal<Out, Bits<64>>,
-    /// The last one of its answer.
     pub pair_last: Signal<Out, Bit>,
-    /// It cannot go on.
+    /// The pair cannot go on at this edge.
     pub is_stalled: Signal<In, Bit>,
     /// Words are held.
     pub is_held: Signal<Out, Bit>,
     /// A word that awaits its second.
-    waiting: DFF<Bits<32>>,
+    waiting: DFF<Word>,
     awaits: DFF<Bit>,
     /// It is the last of its answer and goes alone.
     ends: DFF<Bit>,
-    first: DFF<Bits<32>>,
-    second: DFF<Bits<32>>,
+    first: DFF<Word>,
+    second: DFF<Word>,
     is_offered: DFF<Bit>,
     is_last: DFF<Bit>,
     is_free: Signal<Local, Bit>,
     is_ready: Signal<Local, Bit>,
     takes: Signal<Local, Bit>,
     keeps: Signal<Local, Bit>,
-    low: Signal<Local, Bits<32>>,
-    high: Signal<Local, Bits<32>>,
+    low: Signal<Local, Word>,
+    high: Signal<Local, Word>,
     low_half: Signal<Local, Bits<64>>,
     wide_second: Signal<Local, Bits<64>>,
     high_half: Signal<Local, Bits<64>>,
@@ -93,16 +74,16 @@ impl Logic for AnswerPairs {
         self.is_held.next = self.is_offered.q.val() | self.awaits.q.val() | self.ends.q.val();
         self.is_free.next = !(self.is_offered.q.val() & self.is_stalled.val());
         self.is_ready.next = self.is_free.val() & (!self.ends.q.val());
-        self.response_ready.next = self.is_ready.val();
-        self.takes.next = self.response_valid.val() & self.is_ready.val();
-        self.low.next = self.response_data.val().get_bits::<32>(0);
+        self.response.ready.next = self.is_ready.val();
+        self.takes.next = self.response.valid.val() & self.is_ready.val();
+        self.low.next = self.response.data.val().get_bits::<32>(0);
         self.high.next = 0.into();
-        if self.response_both.val() {
-            self.high.next = self.response_data.val().get_bits::<32>(32);
+        if self.response.both.val() {
+            self.high.next = self.response.data.val().get_bits::<32>(32);
         }
         // One word alone stays, to await its second; so does the second of two behind one that waited.
-        self.keeps.next = (self.awaits.q.val() & self.response_both.val())
-            | ((!self.awaits.q.val()) & (!self.response_both.val()) & (!self.response_last.val()));
+        self.keeps.next = (self.awaits.q.val() & self.response.both.val())
+            | ((!self.awaits.q.val()) & (!self.response.both.val()) & (!self.response.last.val()));
 
         if self.is_free.val() {
             self.is_offered.d.next = false;
@@ -114,14 +95,14 @@ impl Logic for AnswerPairs {
             }
         }
         if self.takes.val() {
-            self.is_offered.d.next = self.awaits.q.val() | self.response_both.val() | self.response_last.val();
-            self.is_last.d.next = self.response_last.val() & (!self.keeps.val());
+            self.is_offered.d.next = self.awaits.q.val() | self.response.both.val() | self.response.last.val();
+            self.is_last.d.next = self.response.last.val() & (!self.keeps.val());
             self.waiting.d.next = self.low.val();
-            if self.response_both.val() {
+            if self.response.both.val() {
                 self.waiting.d.next = self.high.val();
             }
-            self.awaits.d.next = self.keeps.val() & (!self.response_last.val());
-            self.ends.d.next = self.keeps.val() & self.response_last.val();
+            self.awaits.d.next = self.keeps.val() & (!self.response.last.val());
+            self.ends.d.next = self.keeps.val() & self.response.last.val();
         }
         if self.ends.q.val() & self.is_free.val() {
             self.is_offered.d.next = true;

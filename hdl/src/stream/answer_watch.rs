@@ -1,53 +1,35 @@
 //! Watches the answer beats that are taken, and finds the headers with a status other than `Ok`.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the bus's clock and reset |
-//! | `resets` | in | 1 | the FIFOs are in reset: the next beat is the first of an answer |
-//! | `m_axis_tvalid`, `m_axis_tready`, `m_axis_tdata`, `m_axis_tlast` | in | 1, 1, W, 1 | the answers |
-//! | `took`, `waited`, `ended` | out | 1 | in the clock before a beat was taken; waited; was taken and was the last of its answer |
-//! | `failed`, `header` | out | 1, 32 | in the clock before the first beat of an answer with another status was taken; its header word |
-//!
 //! Latency: 1 clock.
 
+use crate::link::types::Word;
 use incircle_protocol::{answer_header, Status};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
+use super::events::AnswerEvents;
+
 /// The watch on answers; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerWatch<const W: usize> {
-    /// Clock of the bus.
+    /// The bus's clock and reset.
     pub clock: Signal<In, Clock>,
-    /// Its reset.
     pub reset: Signal<In, Bit>,
-    /// The FIFOs are in reset.
+    /// The FIFOs are in reset: the next beat is the first of an answer.
     pub resets: Signal<In, Bit>,
-    /// A beat is offered.
+    /// The answers that are offered and taken.
     pub m_axis_tvalid: Signal<In, Bit>,
-    /// It is taken.
     pub m_axis_tready: Signal<In, Bit>,
-    /// It.
     pub m_axis_tdata: Signal<In, Bits<W>>,
-    /// It is the last of its answer.
     pub m_axis_tlast: Signal<In, Bit>,
-    /// A beat was taken.
-    pub took: Signal<Out, Bit>,
-    /// A beat waited.
-    pub waited: Signal<Out, Bit>,
-    /// An answer ended.
-    pub ended: Signal<Out, Bit>,
-    /// An answer had another status.
-    pub failed: Signal<Out, Bit>,
-    /// Its header.
-    pub header: Signal<Out, Bits<32>>,
+    pub events: Signal<Out, AnswerEvents>,
     /// A beat of an answer was taken, and not its last one.
     is_inside: DFF<Bit>,
     takes: DFF<Bit>,
     waits: DFF<Bit>,
     ends: DFF<Bit>,
     begins: DFF<Bit>,
-    word: DFF<Bits<32>>,
+    word: DFF<Word>,
     is_taken: Signal<Local, Bit>,
     status: Signal<Local, Bits<8>>,
 }
@@ -81,11 +63,11 @@ impl<const W: usize> Logic for AnswerWatch<W> {
             self.ends.d.next = false;
             self.begins.d.next = false;
         }
-        self.took.next = self.takes.q.val();
-        self.waited.next = self.waits.q.val();
-        self.ended.next = self.ends.q.val();
-        self.header.next = self.word.q.val();
+        self.events.next.took = self.takes.q.val();
+        self.events.next.waited = self.waits.q.val();
+        self.events.next.ended = self.ends.q.val();
+        self.events.next.header = self.word.q.val();
         self.status.next = self.word.q.val().get_bits::<8>(16);
-        self.failed.next = self.begins.q.val() & self.status.val().any();
+        self.events.next.failed = self.begins.q.val() & self.status.val().any();
     }
 }

@@ -1,14 +1,5 @@
 //! A buffer between two clocks.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `write_clock`, `write_reset` | in | 1 | the writer's side: clock, and reset, which empties it |
-//! | `push`, `push_data`, `is_full` | in, in, out | 1, D, 1 | an entry; it is taken where `push` and not `is_full` |
-//! | `is_fetched` | out | 1 | the reader has fetched all that was taken, as far as the writer knows |
-//! | `read_clock`, `read_reset` | in | 1 | the reader's side |
-//! | `valid`, `data`, `pop` | out, out, in | 1, D, 1 | there is an entry; it; it is removed at this edge |
-//! | `is_empty` | out | 1 | the reader knows of no entry that has not been popped |
-//!
 //! 1. P is the number of bits of a pointer: there is room for `2^(P-1)` entries, and two more in the read port.
 //! 2. `pop` only while `valid`. Without it `valid` and `data` stay.
 //! 3. `is_full`, `valid` and `data` are registers, `is_fetched` and `is_empty` functions of registers. Each belongs to its own side's clock.
@@ -30,34 +21,28 @@
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use crate::leaf::{DualClockMemory, Synchroniser};
+use crate::leaf::{DualClockMemory, Parameter, Synchroniser};
 
 /// A buffer between two clocks; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct AsyncFifo<const P: usize, const D: usize> {
-    /// Clock of the writer.
+    /// The writer's side: clock, and reset, which empties it.
     pub write_clock: Signal<In, Clock>,
-    /// Reset of its side.
     pub write_reset: Signal<In, Bit>,
-    /// An entry comes.
+    /// An entry; it is taken where `push` and not `is_full`.
     pub push: Signal<In, Bit>,
-    /// It.
     pub push_data: Signal<In, Bits<D>>,
-    /// No entry is taken.
     pub is_full: Signal<Out, Bit>,
-    /// All entries have been fetched.
+    /// The reader has fetched all that was taken, as far as the writer knows.
     pub is_fetched: Signal<Out, Bit>,
-    /// Clock of the reader.
+    /// The reader's side.
     pub read_clock: Signal<In, Clock>,
-    /// Reset of its side.
     pub read_reset: Signal<In, Bit>,
-    /// There is an entry.
+    /// There is an entry; it; it is removed at this edge.
     pub valid: Signal<Out, Bit>,
-    /// The oldest one.
     pub data: Signal<Out, Bits<D>>,
-    /// Remove it.
     pub pop: Signal<In, Bit>,
-    /// There is none, and none is on its way.
+    /// The reader knows of no entry that has not been popped.
     pub is_empty: Signal<Out, Bit>,
     memory: DualClockMemory<P, D>,
     read_seen: Synchroniser<Bits<P>>,
@@ -84,10 +69,10 @@ pub struct AsyncFifo<const P: usize, const D: usize> {
     read_ahead: Signal<Local, Bits<P>>,
     read_half: Signal<Local, Bits<P>>,
     read_code: Signal<Local, Bits<P>>,
-    nothing: Constant<Bits<P>>,
-    one: Constant<Bits<P>>,
+    nothing: Parameter<Bits<P>>,
+    one: Parameter<Bits<P>>,
     /// A pointer a whole round ahead differs in these bits of its Gray code.
-    round: Constant<Bits<P>>,
+    round: Parameter<Bits<P>>,
 }
 
 impl<const P: usize, const D: usize> AsyncFifo<P, D> {
@@ -95,48 +80,19 @@ impl<const P: usize, const D: usize> AsyncFifo<P, D> {
     pub const DEPTH: usize = 1 << (P - 1);
 }
 
-impl<const P: usize, const D: usize> Default for AsyncFifo<P, D> {
-    fn default() -> Self {
+impl<const P: usize, const D: usize> AsyncFifo<P, D> {
+    /// A buffer of [`DEPTH`](Self::DEPTH) entries and two more.
+    ///
+    /// # Panics
+    /// If P is not in `3..=16`.
+    pub fn new() -> Self {
         assert!((3..=16).contains(&P), "a buffer between two clocks has pointers of 3 to 16 bits, not {P}");
         Self {
-            write_clock: Signal::default(),
-            write_reset: Signal::default(),
-            push: Signal::default(),
-            push_data: Signal::default(),
-            is_full: Signal::default(),
-            is_fetched: Signal::default(),
-            read_clock: Signal::default(),
-            read_reset: Signal::default(),
-            valid: Signal::default(),
-            data: Signal::default(),
-            pop: Signal::default(),
-            is_empty: Signal::default(),
             memory: DualClockMemory::new(P - 1, D),
-            read_seen: Synchroniser::default(),
-            write_seen: Synchroniser::default(),
-            write_count: DFF::default(),
-            write_gray: DFF::default(),
-            full: DFF::default(),
-            read_count: DFF::default(),
-            read_gray: DFF::default(),
-            empty: DFF::default(),
-            fetched: DFF::default(),
-            shown: DFF::default(),
-            takes: Signal::default(),
-            after_write: Signal::default(),
-            write_ahead: Signal::default(),
-            write_half: Signal::default(),
-            write_code: Signal::default(),
-            full_code: Signal::default(),
-            moves: Signal::default(),
-            fetches: Signal::default(),
-            after_read: Signal::default(),
-            read_ahead: Signal::default(),
-            read_half: Signal::default(),
-            read_code: Signal::default(),
-            nothing: Constant::new(Bits::default()),
-            one: Constant::new(Bits::from(1)),
-            round: Constant::new(Bits::from(3 << (P - 2))),
+            nothing: Parameter::new(Bits::default()),
+            one: Parameter::new(Bits::from(1)),
+            round: Parameter::new(Bits::from(3 << (P - 2))),
+            ..Self::default()
         }
     }
 }

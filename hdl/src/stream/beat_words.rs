@@ -1,12 +1,5 @@
 //! Beats as the words of the core's command stream, little end first.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the core's clock; reset forgets the words of a beat |
-//! | `beat_valid`, `beat_data`, `takes` | in, in, out | 1, W, 1 | a beat; it is taken at this edge |
-//! | `command_valid`, `command_ready`, `command_data` | out, in, out | 1, 1, 32 | the command stream |
-//! | `is_held` | out | 1 | words of a beat are held |
-//!
 //! 1. A word once offered stays until it is taken. `command_valid` and `command_data` are registers.
 //! 2. With the last word of a beat taken, the next beat is taken at the same edge: a word at every clock.
 //!
@@ -21,29 +14,23 @@
 //! command_data      .  .  1  2  2  3  4  .  .
 //! ```
 
+use crate::leaf::Parameter;
+use crate::link::CommandSource;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Words of beats; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct BeatWords<const W: usize> {
-    /// Clock of the core.
+    /// The core's clock; reset forgets the words of a beat.
     pub clock: Signal<In, Clock>,
-    /// Forgets the words of a beat.
     pub reset: Signal<In, Bit>,
-    /// A beat is there.
+    /// A beat; it is taken at this edge.
     pub beat_valid: Signal<In, Bit>,
-    /// It.
     pub beat_data: Signal<In, Bits<W>>,
-    /// It is taken.
     pub takes: Signal<Out, Bit>,
-    /// A word is offered.
-    pub command_valid: Signal<Out, Bit>,
-    /// It is taken.
-    pub command_ready: Signal<In, Bit>,
-    /// The word.
-    pub command_data: Signal<Out, Bits<32>>,
-    /// Words are held.
+    pub command: CommandSource,
+    /// Words of a beat are held.
     pub is_held: Signal<Out, Bit>,
     words: DFF<Bits<W>>,
     /// Words that are held; the first one is on the output.
@@ -54,37 +41,25 @@ pub struct BeatWords<const W: usize> {
     loads: Signal<Local, Bit>,
     after: Signal<Local, Bits<3>>,
     later: Signal<Local, Bits<W>>,
-    one: Constant<Bits<3>>,
-    two: Constant<Bits<3>>,
-    all: Constant<Bits<3>>,
-    word_bits: Constant<Bits<8>>,
+    one: Parameter<Bits<3>>,
+    two: Parameter<Bits<3>>,
+    all: Parameter<Bits<3>>,
+    word_bits: Parameter<Bits<8>>,
 }
 
-impl<const W: usize> Default for BeatWords<W> {
-    fn default() -> Self {
+impl<const W: usize> BeatWords<W> {
+    /// The words of beats of W bits.
+    ///
+    /// # Panics
+    /// If W is not 64 or 128.
+    pub fn new() -> Self {
         assert!(W == 64 || W == 128, "a beat has 64 or 128 bits, not {W}");
         Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            beat_valid: Signal::default(),
-            beat_data: Signal::default(),
-            takes: Signal::default(),
-            command_valid: Signal::default(),
-            command_ready: Signal::default(),
-            command_data: Signal::default(),
-            is_held: Signal::default(),
-            words: DFF::default(),
-            left: DFF::default(),
-            holds: DFF::default(),
-            is_last: DFF::default(),
-            moves: Signal::default(),
-            loads: Signal::default(),
-            after: Signal::default(),
-            later: Signal::default(),
-            one: Constant::new(Bits::from(1)),
-            two: Constant::new(Bits::from(2)),
-            all: Constant::new(Bits::from(W as u64 / 32)),
-            word_bits: Constant::new(Bits::from(32)),
+            one: Parameter::new(Bits::from(1)),
+            two: Parameter::new(Bits::from(2)),
+            all: Parameter::new(Bits::from(W as u64 / 32)),
+            word_bits: Parameter::new(Bits::from(32)),
+            ..Self::default()
         }
     }
 }
@@ -93,12 +68,12 @@ impl<const W: usize> Logic for BeatWords<W> {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, words, left, holds, is_last);
-        self.command_valid.next = self.holds.q.val();
-        self.command_data.next = self.words.q.val().get_bits::<32>(0);
+        self.command.valid.next = self.holds.q.val();
+        self.command.data.next = self.words.q.val().get_bits::<32>(0);
         self.is_held.next = self.holds.q.val();
-        self.moves.next = self.holds.q.val() & self.command_ready.val();
+        self.moves.next = self.holds.q.val() & self.command.ready.val();
         self.loads.next =
-            self.beat_valid.val() & ((!self.holds.q.val()) | (self.is_last.q.val() & self.command_ready.val()));
+            self.beat_valid.val() & ((!self.holds.q.val()) | (self.is_last.q.val() & self.command.ready.val()));
         self.takes.next = self.loads.val();
         self.after.next = self.left.q.val() - self.one.val();
         self.later.next = self.words.q.val() >> self.word_bits.val();

@@ -1,17 +1,5 @@
 //! The bus's side of the stream link.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `bus_reset_n` | in | 1 | the bus's clock; its reset, active low |
-//! | `s_axis_tvalid`, `s_axis_tkeep` | in | 1, K | a command beat is offered; its bytes |
-//! | `m_axis_tvalid`, `m_axis_tready`, `m_axis_tdata`, `m_axis_tkeep`, `m_axis_tlast` | out, in, out, out, out | 1, 1, W, K, 1 | answer beats |
-//! | `s_axi_...` | | | the registers, as in `RegisterPort` |
-//! | `push`, `is_full`, `is_fetched` | out, in, in | 1 | writer's side of the command FIFO |
-//! | `entry_valid`, `entry`, `pop`, `is_empty` | in, in, out, in | 1, E, 1, 1 | reader's side of the answer FIFO; the highest bit of an entry marks the last beat of an answer |
-//! | `request` | out | 1 | to the core's clock: reset. A register |
-//! | `reply`, `core_beat`, `core_busy` | in | 1 | from the core's clock, each a register: it is in reset; changes while it runs; something is held or under way |
-//! | `resets` | out | 1 | the bus's side of both FIFOs is in reset |
-//!
 //! 1. All is in the bus's clock. What comes from the core's clock goes into a `Synchroniser` and nowhere else.
 //!
 //! Latency: see the blocks.
@@ -20,87 +8,41 @@ use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::{AnswerWatch, BeatGate, RegisterBlock, ResetRequest};
-use crate::leaf::Synchroniser;
+use super::answer_watch::AnswerWatch;
+use super::axi::AxiLite;
+use super::axi::AxisSink;
+use super::axi::AxisSource;
+use super::beat_gate::BeatGate;
+use super::register_block::RegisterBlock;
+use super::reset_request::ResetRequest;
+use crate::leaf::{Parameter, Synchroniser};
 
 /// The bus's side; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct BusSide<const W: usize, const K: usize, const E: usize> {
-    /// Clock of the bus.
+    /// The bus's clock; its reset, active low.
     pub clock: Signal<In, Clock>,
-    /// Its reset, active low.
     pub bus_reset_n: Signal<In, Bit>,
-    /// A command beat is offered.
-    pub s_axis_tvalid: Signal<In, Bit>,
-    /// Its bytes.
-    pub s_axis_tkeep: Signal<In, Bits<K>>,
-    /// An answer beat is offered.
-    pub m_axis_tvalid: Signal<Out, Bit>,
-    /// It is taken.
-    pub m_axis_tready: Signal<In, Bit>,
-    /// It.
-    pub m_axis_tdata: Signal<Out, Bits<W>>,
-    /// Its bytes: all.
-    pub m_axis_tkeep: Signal<Out, Bits<K>>,
-    /// It is the last one of its answer.
-    pub m_axis_tlast: Signal<Out, Bit>,
-    /// An address to write is offered.
-    pub s_axi_awvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_awready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_awaddr: Signal<In, Bits<12>>,
-    /// Data to write is offered.
-    pub s_axi_wvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_wready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_wdata: Signal<In, Bits<32>>,
-    /// Its bytes that count.
-    pub s_axi_wstrb: Signal<In, Bits<4>>,
-    /// A write is answered.
-    pub s_axi_bvalid: Signal<Out, Bit>,
-    /// That is taken.
-    pub s_axi_bready: Signal<In, Bit>,
-    /// Whether it was done.
-    pub s_axi_bresp: Signal<Out, Bits<2>>,
-    /// An address to read is offered.
-    pub s_axi_arvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_arready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_araddr: Signal<In, Bits<12>>,
-    /// A read is answered.
-    pub s_axi_rvalid: Signal<Out, Bit>,
-    /// That is taken.
-    pub s_axi_rready: Signal<In, Bit>,
-    /// The value.
-    pub s_axi_rdata: Signal<Out, Bits<32>>,
-    /// Whether it is one.
-    pub s_axi_rresp: Signal<Out, Bits<2>>,
-    /// A whole command beat is offered.
+    pub s_axis: AxisSink<W, K>,
+    pub m_axis: AxisSource<W, K>,
+    pub s_axi: AxiLite,
+    /// Writer's side of the command FIFO.
     pub push: Signal<Out, Bit>,
-    /// The command FIFO takes none.
+    pub push_data: Signal<Out, Bits<W>>,
     pub is_full: Signal<In, Bit>,
-    /// All command beats have been fetched.
     pub is_fetched: Signal<In, Bit>,
-    /// An answer beat is there.
+    /// Reader's side of the answer FIFO; the highest bit of an entry marks the last beat of an answer.
     pub entry_valid: Signal<In, Bit>,
-    /// It, and whether it is the last of its answer.
     pub entry: Signal<In, Bits<E>>,
-    /// It is taken.
     pub pop: Signal<Out, Bit>,
-    /// No answer beat is there or on its way.
     pub is_empty: Signal<In, Bit>,
-    /// To the core's clock: reset.
+    /// To the core's clock: reset. A register.
     pub request: Signal<Out, Bit>,
-    /// From the core's clock: it is in reset.
+    /// From the core's clock, each a register: it is in reset; changes while it runs; something is held or under way.
     pub reply: Signal<In, Bit>,
-    /// From the core's clock: changes while it runs.
     pub core_beat: Signal<In, Bit>,
-    /// From the core's clock: something is held or under way.
     pub core_busy: Signal<In, Bit>,
-    /// The bus's side of the FIFOs is in reset.
+    /// The bus's side of both FIFOs is in reset.
     pub resets: Signal<Out, Bit>,
     gate: BeatGate<K>,
     watch: AnswerWatch<W>,
@@ -116,8 +58,8 @@ pub struct BusSide<const W: usize, const K: usize, const E: usize> {
     is_busy: Signal<Local, Bit>,
     last_mark: Signal<Local, Bits<E>>,
     is_last: Signal<Local, Bit>,
-    all_bytes: Constant<Bits<K>>,
-    mark: Constant<Bits<E>>,
+    all_bytes: Parameter<Bits<K>>,
+    mark: Parameter<Bits<E>>,
 }
 
 impl<const W: usize, const K: usize, const E: usize> BusSide<W, K, E> {
@@ -129,59 +71,10 @@ impl<const W: usize, const K: usize, const E: usize> BusSide<W, K, E> {
         assert!(K == W / 8 && E == W + 1, "a beat of {W} bits has {} bytes and makes entries of {} bits", W / 8, W + 1);
         let one: Bits<E> = Bits::from(1);
         Self {
-            clock: Signal::default(),
-            bus_reset_n: Signal::default(),
-            s_axis_tvalid: Signal::default(),
-            s_axis_tkeep: Signal::default(),
-            m_axis_tvalid: Signal::default(),
-            m_axis_tready: Signal::default(),
-            m_axis_tdata: Signal::default(),
-            m_axis_tkeep: Signal::default(),
-            m_axis_tlast: Signal::default(),
-            s_axi_awvalid: Signal::default(),
-            s_axi_awready: Signal::default(),
-            s_axi_awaddr: Signal::default(),
-            s_axi_wvalid: Signal::default(),
-            s_axi_wready: Signal::default(),
-            s_axi_wdata: Signal::default(),
-            s_axi_wstrb: Signal::default(),
-            s_axi_bvalid: Signal::default(),
-            s_axi_bready: Signal::default(),
-            s_axi_bresp: Signal::default(),
-            s_axi_arvalid: Signal::default(),
-            s_axi_arready: Signal::default(),
-            s_axi_araddr: Signal::default(),
-            s_axi_rvalid: Signal::default(),
-            s_axi_rready: Signal::default(),
-            s_axi_rdata: Signal::default(),
-            s_axi_rresp: Signal::default(),
-            push: Signal::default(),
-            is_full: Signal::default(),
-            is_fetched: Signal::default(),
-            entry_valid: Signal::default(),
-            entry: Signal::default(),
-            pop: Signal::default(),
-            is_empty: Signal::default(),
-            request: Signal::default(),
-            reply: Signal::default(),
-            core_beat: Signal::default(),
-            core_busy: Signal::default(),
-            resets: Signal::default(),
-            gate: BeatGate::default(),
-            watch: AnswerWatch::default(),
             registers: RegisterBlock::new(config, W),
-            resetting: ResetRequest::default(),
-            reply_seen: Synchroniser::default(),
-            beat_seen: Synchroniser::default(),
-            busy_seen: Synchroniser::default(),
-            busy_before: DFF::default(),
-            busy_earlier: DFF::default(),
-            reset: Signal::default(),
-            is_busy: Signal::default(),
-            last_mark: Signal::default(),
-            is_last: Signal::default(),
-            all_bytes: Constant::new(Bits::<K>::mask()),
-            mark: Constant::new(one << W as u64),
+            all_bytes: Parameter::new(Bits::<K>::mask()),
+            mark: Parameter::new(one << W as u64),
+            ..Self::default()
         }
     }
 }
@@ -191,6 +84,8 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
     fn update(&mut self) {
         dff_setup!(self, clock, busy_before, busy_earlier);
         clock!(self, clock, gate, watch, registers, resetting, reply_seen, beat_seen, busy_seen);
+
+        AxiLite::link(&mut self.s_axi, &mut self.registers.s_axi);
 
         // Resets.
         self.reset.next = !self.bus_reset_n.val();
@@ -210,31 +105,27 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
         self.registers.core_runs.next = self.resetting.core_runs.val();
 
         // Commands.
-        self.gate.s_axis_tvalid.next = self.s_axis_tvalid.val();
-        self.gate.s_axis_tkeep.next = self.s_axis_tkeep.val();
+        self.gate.s_axis_tvalid.next = self.s_axis.tvalid.val();
+        self.gate.s_axis_tkeep.next = self.s_axis.tkeep.val();
         self.gate.is_full.next = self.is_full.val();
+        self.s_axis.tready.next = !self.is_full.val();
         self.push.next = self.gate.push.val();
-        self.registers.took_command.next = self.gate.took.val();
-        self.registers.command_waited.next = self.gate.waited.val();
-        self.registers.dropped.next = self.gate.dropped.val();
+        self.push_data.next = self.s_axis.tdata.val();
+        self.registers.commands.next = self.gate.events.val();
 
         // Answers.
         self.last_mark.next = self.entry.val() & self.mark.val();
         self.is_last.next = self.last_mark.val().any();
-        self.m_axis_tvalid.next = self.entry_valid.val();
-        self.m_axis_tdata.next = bit_cast::<W, E>(self.entry.val());
-        self.m_axis_tkeep.next = self.all_bytes.val();
-        self.m_axis_tlast.next = self.is_last.val();
-        self.pop.next = self.entry_valid.val() & self.m_axis_tready.val();
+        self.m_axis.tvalid.next = self.entry_valid.val();
+        self.m_axis.tdata.next = bit_cast::<W, E>(self.entry.val());
+        self.m_axis.tkeep.next = self.all_bytes.val();
+        self.m_axis.tlast.next = self.is_last.val();
+        self.pop.next = self.entry_valid.val() & self.m_axis.tready.val();
         self.watch.m_axis_tvalid.next = self.entry_valid.val();
-        self.watch.m_axis_tready.next = self.m_axis_tready.val();
+        self.watch.m_axis_tready.next = self.m_axis.tready.val();
         self.watch.m_axis_tdata.next = bit_cast::<W, E>(self.entry.val());
         self.watch.m_axis_tlast.next = self.is_last.val();
-        self.registers.took_answer.next = self.watch.took.val();
-        self.registers.answer_waited.next = self.watch.waited.val();
-        self.registers.answer_ended.next = self.watch.ended.val();
-        self.registers.failed.next = self.watch.failed.val();
-        self.registers.header.next = self.watch.header.val();
+        self.registers.answers.next = self.watch.events.val();
 
         // What is under way.
         self.busy_seen.sent.next = self.core_busy.val();
@@ -242,24 +133,5 @@ impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> 
         self.busy_before.d.next = self.is_busy.val();
         self.busy_earlier.d.next = self.busy_before.q.val();
         self.registers.is_busy.next = self.is_busy.val() | self.busy_before.q.val() | self.busy_earlier.q.val();
-
-        // Registers.
-        self.registers.s_axi_awvalid.next = self.s_axi_awvalid.val();
-        self.s_axi_awready.next = self.registers.s_axi_awready.val();
-        self.registers.s_axi_awaddr.next = self.s_axi_awaddr.val();
-        self.registers.s_axi_wvalid.next = self.s_axi_wvalid.val();
-        self.s_axi_wready.next = self.registers.s_axi_wready.val();
-        self.registers.s_axi_wdata.next = self.s_axi_wdata.val();
-        self.registers.s_axi_wstrb.next = self.s_axi_wstrb.val();
-        self.s_axi_bvalid.next = self.registers.s_axi_bvalid.val();
-        self.registers.s_axi_bready.next = self.s_axi_bready.val();
-        self.s_axi_bresp.next = self.registers.s_axi_bresp.val();
-        self.registers.s_axi_arvalid.next = self.s_axi_arvalid.val();
-        self.s_axi_arready.next = self.registers.s_axi_arready.val();
-        self.registers.s_axi_araddr.next = self.s_axi_araddr.val();
-        self.s_axi_rvalid.next = self.registers.s_axi_rvalid.val();
-        self.registers.s_axi_rready.next = self.s_axi_rready.val();
-        self.s_axi_rdata.next = self.registers.s_axi_rdata.val();
-        self.s_axi_rresp.next = self.registers.s_axi_rresp.val();
     }
 }

@@ -1,36 +1,27 @@
 //! Says whether a command is under way in the core.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the core's clock; after reset none is |
-//! | `takes`, `word` | in | 1, 32 | the core takes this command word |
-//! | `offers_last`, `ends` | in | 1 | it offers the last word of an answer; that is taken |
-//! | `is_busy` | out | 1 | a word of a command has been taken, and the answer to it has not ended |
-//!
 //! 1. A word 0 where a command may begin is padding and begins none. Words taken while the last word of an answer is offered belong to the next
 //!    command; before that the core takes none.
 //!
 //! Latency: 1 clock.
 
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// A command under way; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Progress {
-    /// Clock of the core.
+    /// The core's clock; after reset none is.
     pub clock: Signal<In, Clock>,
-    /// None is under way.
     pub reset: Signal<In, Bit>,
-    /// A word is taken.
+    /// The core takes this command word.
     pub takes: Signal<In, Bit>,
-    /// It.
-    pub word: Signal<In, Bits<32>>,
-    /// The last word of an answer is offered.
+    pub word: Signal<In, Word>,
+    /// It offers the last word of an answer; that is taken.
     pub offers_last: Signal<In, Bit>,
-    /// It is taken.
     pub ends: Signal<In, Bit>,
-    /// A command is under way.
+    /// A word of a command has been taken, and the answer to it has not ended.
     pub is_busy: Signal<Out, Bit>,
     busy: DFF<Bit>,
     /// The next command has begun before the answer ended.

@@ -1,197 +1,170 @@
-//! The register block: AXI4-Lite port, registers and counters.
+//! The registers behind an AXI4-Lite port: what the device is, control, status, what went wrong, and counts.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the bus's clock and reset |
-//! | `s_axi_...` | | | as in `RegisterPort` |
-//! | `resets`, `core_runs`, `is_busy` | in | 1 | for the status |
-//! | `took_command`, `command_waited`, `dropped` | in | 1 | what happened to a command beat |
-//! | `took_answer`, `answer_waited`, `answer_ended` | in | 1 | what happened to an answer beat |
-//! | `failed`, `header` | in | 1, 32 | an answer failed; its header |
-//! | `asks_reset` | out | 1 | a reset is written to the control register |
+//! 1. `protocol/STREAM.md` says what stands where. All that can be written stands in the low byte.
+//! 2. What went wrong is kept until it is cleared; what goes wrong in the clock in which it is cleared stays. The header of the last
+//!    answer that failed is kept until `reset`.
 //!
-//! 1. `protocol/STREAM.md` says what stands where.
-//!
-//! Latency: see the blocks.
+//! Latency: that of [`RegisterPort`]; 1 clock from an event to its register.
 
-use incircle_protocol::Config;
+use crate::link::types::Word;
+use incircle_protocol::{Config, StreamRegister};
 use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
-use super::{Faults, RegisterPort, Registers, Traffic};
+use super::axi::AxiLite;
+use super::axi::RegisterIndex;
+use super::device_identity::DeviceIdentity;
+use super::events::AnswerEvents;
+use super::events::CommandEvents;
+use super::register_port::RegisterPort;
+use super::traffic::Traffic;
 
 /// The register block; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct RegisterBlock {
-    /// Clock of the bus.
+    /// The bus's clock and reset.
     pub clock: Signal<In, Clock>,
-    /// Its reset.
     pub reset: Signal<In, Bit>,
-    /// An address to write is offered.
-    pub s_axi_awvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_awready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_awaddr: Signal<In, Bits<12>>,
-    /// Data to write is offered.
-    pub s_axi_wvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_wready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_wdata: Signal<In, Bits<32>>,
-    /// Its bytes that count.
-    pub s_axi_wstrb: Signal<In, Bits<4>>,
-    /// A write is answered.
-    pub s_axi_bvalid: Signal<Out, Bit>,
-    /// That is taken.
-    pub s_axi_bready: Signal<In, Bit>,
-    /// Whether it was done.
-    pub s_axi_bresp: Signal<Out, Bits<2>>,
-    /// An address to read is offered.
-    pub s_axi_arvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_arready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_araddr: Signal<In, Bits<12>>,
-    /// A read is answered.
-    pub s_axi_rvalid: Signal<Out, Bit>,
-    /// That is taken.
-    pub s_axi_rready: Signal<In, Bit>,
-    /// The value.
-    pub s_axi_rdata: Signal<Out, Bits<32>>,
-    /// Whether it is one.
-    pub s_axi_rresp: Signal<Out, Bits<2>>,
-    /// A reset is under way.
+    pub s_axi: AxiLite,
+    /// For the status: a reset is under way; the core's clock runs; something is held or under way.
     pub resets: Signal<In, Bit>,
-    /// The core's clock runs.
     pub core_runs: Signal<In, Bit>,
-    /// Something is held or under way.
     pub is_busy: Signal<In, Bit>,
-    /// A command beat was taken.
-    pub took_command: Signal<In, Bit>,
-    /// A command beat waited.
-    pub command_waited: Signal<In, Bit>,
-    /// A command beat was dropped.
-    pub dropped: Signal<In, Bit>,
-    /// An answer beat was taken.
-    pub took_answer: Signal<In, Bit>,
-    /// An answer beat waited.
-    pub answer_waited: Signal<In, Bit>,
-    /// An answer ended.
-    pub answer_ended: Signal<In, Bit>,
-    /// An answer failed.
-    pub failed: Signal<In, Bit>,
-    /// Its header.
-    pub header: Signal<In, Bits<32>>,
-    /// A reset is asked for.
+    /// Events on the streams.
+    pub commands: Signal<In, CommandEvents>,
+    pub answers: Signal<In, AnswerEvents>,
+    /// A reset is written to the control register.
     pub asks_reset: Signal<Out, Bit>,
     port: RegisterPort,
-    registers: Registers,
-    faults: Faults,
+    identity: DeviceIdentity,
     traffic: Traffic,
+    was_dropped: DFF<Bit>,
+    has_failed: DFF<Bit>,
+    fault: DFF<Word>,
+    read_index: Signal<Local, RegisterIndex>,
+    write_index: Signal<Local, RegisterIndex>,
+    writes_control: Signal<Local, Bit>,
+    writes_errors: Signal<Local, Bit>,
+    writes_low: Signal<Local, Bit>,
+    runs_bit: Signal<Local, Word>,
+    busy_bit: Signal<Local, Word>,
+    resets_bit: Signal<Local, Word>,
+    error_bit: Signal<Local, Word>,
+    control: Signal<Local, Word>,
+    dropped_bit: Signal<Local, Word>,
+    failed_bit: Signal<Local, Word>,
+    control_index: Signal<Local, RegisterIndex>,
+    errors_index: Signal<Local, RegisterIndex>,
 }
+
+// The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+const _: () = assert!(
+    StreamRegister::Control.offset() == 4 * 16
+        && StreamRegister::Status.offset() == 4 * 17
+        && StreamRegister::Errors.offset() == 4 * 18
+        && StreamRegister::Fault.offset() == 4 * 19,
+    "the offsets of this block follow the protocol"
+);
 
 impl RegisterBlock {
     /// The registers of a core of this configuration, behind streams of so many bits a beat.
     pub fn new(config: Config, beat_bits: usize) -> Self {
-        Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            s_axi_awvalid: Signal::default(),
-            s_axi_awready: Signal::default(),
-            s_axi_awaddr: Signal::default(),
-            s_axi_wvalid: Signal::default(),
-            s_axi_wready: Signal::default(),
-            s_axi_wdata: Signal::default(),
-            s_axi_wstrb: Signal::default(),
-            s_axi_bvalid: Signal::default(),
-            s_axi_bready: Signal::default(),
-            s_axi_bresp: Signal::default(),
-            s_axi_arvalid: Signal::default(),
-            s_axi_arready: Signal::default(),
-            s_axi_araddr: Signal::default(),
-            s_axi_rvalid: Signal::default(),
-            s_axi_rready: Signal::default(),
-            s_axi_rdata: Signal::default(),
-            s_axi_rresp: Signal::default(),
-            resets: Signal::default(),
-            core_runs: Signal::default(),
-            is_busy: Signal::default(),
-            took_command: Signal::default(),
-            command_waited: Signal::default(),
-            dropped: Signal::default(),
-            took_answer: Signal::default(),
-            answer_waited: Signal::default(),
-            answer_ended: Signal::default(),
-            failed: Signal::default(),
-            header: Signal::default(),
-            asks_reset: Signal::default(),
-            port: RegisterPort::default(),
-            registers: Registers::new(config, beat_bits),
-            faults: Faults::default(),
-            traffic: Traffic::default(),
-        }
+        Self { identity: DeviceIdentity::new(config, beat_bits), ..Self::default() }
     }
 }
 
 impl Logic for RegisterBlock {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, port, faults, traffic);
+        dff_setup!(self, clock, was_dropped, has_failed, fault);
+        clock!(self, clock, port, traffic);
+        AxiLite::link(&mut self.s_axi, &mut self.port.s_axi);
         self.port.reset.next = self.reset.val();
-        self.faults.reset.next = self.reset.val();
+        self.control_index.next = 16.into();
+        self.errors_index.next = 18.into();
+
+        // Writes.
+        self.write_index.next = self.port.write_address.val().get_bits::<10>(2);
+        self.writes_control.next = self.write_index.val() == self.control_index.val();
+        self.writes_errors.next = self.write_index.val() == self.errors_index.val();
+        self.port.write_is_known.next = self.writes_control.val() | self.writes_errors.val();
+        self.writes_low.next = self.port.write_enable.val() & self.port.write_bytes.val().get_bit(0);
+        self.asks_reset.next =
+            self.writes_low.val() & self.writes_control.val() & self.port.write_data.val().get_bit(0);
+        if self.writes_low.val() & self.writes_errors.val() & self.port.write_data.val().get_bit(0) {
+            self.was_dropped.d.next = false;
+        }
+        if self.writes_low.val() & self.writes_errors.val() & self.port.write_data.val().get_bit(1) {
+            self.has_failed.d.next = false;
+        }
+        if self.commands.val().dropped {
+            self.was_dropped.d.next = true;
+        }
+        if self.answers.val().failed {
+            self.has_failed.d.next = true;
+            self.fault.d.next = self.answers.val().header;
+        }
+        if self.reset.val() {
+            self.was_dropped.d.next = false;
+            self.has_failed.d.next = false;
+            self.fault.d.next = 0.into();
+        }
+
+        // Bits where they stand.
+        self.runs_bit.next = 0.into();
+        self.busy_bit.next = 0.into();
+        self.resets_bit.next = 0.into();
+        self.error_bit.next = 0.into();
+        self.control.next = 0.into();
+        self.dropped_bit.next = 0.into();
+        self.failed_bit.next = 0.into();
+        if self.core_runs.val() & (!self.resets.val()) {
+            self.runs_bit.next = 1.into();
+        }
+        if self.is_busy.val() {
+            self.busy_bit.next = 2.into();
+        }
+        if self.resets.val() {
+            self.resets_bit.next = 4.into();
+            self.control.next = 1.into();
+        }
+        if self.was_dropped.q.val() | self.has_failed.q.val() {
+            self.error_bit.next = 8.into();
+        }
+        if self.was_dropped.q.val() {
+            self.dropped_bit.next = 1.into();
+        }
+        if self.has_failed.q.val() {
+            self.failed_bit.next = 2.into();
+        }
+
+        // Reads.
+        self.read_index.next = self.port.read_address.val().get_bits::<10>(2);
+        self.identity.index.next = self.read_index.val();
         self.traffic.reset.next = self.reset.val();
-        self.port.s_axi_awvalid.next = self.s_axi_awvalid.val();
-        self.s_axi_awready.next = self.port.s_axi_awready.val();
-        self.port.s_axi_awaddr.next = self.s_axi_awaddr.val();
-        self.port.s_axi_wvalid.next = self.s_axi_wvalid.val();
-        self.s_axi_wready.next = self.port.s_axi_wready.val();
-        self.port.s_axi_wdata.next = self.s_axi_wdata.val();
-        self.port.s_axi_wstrb.next = self.s_axi_wstrb.val();
-        self.s_axi_bvalid.next = self.port.s_axi_bvalid.val();
-        self.port.s_axi_bready.next = self.s_axi_bready.val();
-        self.s_axi_bresp.next = self.port.s_axi_bresp.val();
-        self.port.s_axi_arvalid.next = self.s_axi_arvalid.val();
-        self.s_axi_arready.next = self.port.s_axi_arready.val();
-        self.port.s_axi_araddr.next = self.s_axi_araddr.val();
-        self.s_axi_rvalid.next = self.port.s_axi_rvalid.val();
-        self.port.s_axi_rready.next = self.s_axi_rready.val();
-        self.s_axi_rdata.next = self.port.s_axi_rdata.val();
-        self.s_axi_rresp.next = self.port.s_axi_rresp.val();
-
-        self.registers.write_enable.next = self.port.write_enable.val();
-        self.registers.write_address.next = self.port.write_address.val();
-        self.registers.write_data.next = self.port.write_data.val();
-        self.registers.write_bytes.next = self.port.write_bytes.val();
-        self.port.write_is_known.next = self.registers.write_is_known.val();
-        self.registers.read_enable.next = self.port.read_enable.val();
-        self.registers.read_address.next = self.port.read_address.val();
-        self.port.read_data.next = self.registers.read_data.val();
-        self.port.read_is_known.next = self.registers.read_is_known.val();
-        self.registers.resets.next = self.resets.val();
-        self.registers.core_runs.next = self.core_runs.val();
-        self.registers.is_busy.next = self.is_busy.val();
-        self.faults.dropped.next = self.dropped.val();
-        self.faults.failed.next = self.failed.val();
-        self.faults.header.next = self.header.val();
-        self.faults.clears_dropped.next = self.registers.clears_dropped.val();
-        self.faults.clears_failed.next = self.registers.clears_failed.val();
-        self.registers.was_dropped.next = self.faults.was_dropped.val();
-        self.registers.has_failed.next = self.faults.has_failed.val();
-        self.registers.fault.next = self.faults.fault.val();
-        self.asks_reset.next = self.registers.asks_reset.val();
-
-        self.traffic.keeps.next = self.registers.keeps_clocks.val();
-        self.traffic.took_command.next = self.took_command.val();
-        self.traffic.command_waited.next = self.command_waited.val();
-        self.traffic.took_answer.next = self.took_answer.val();
-        self.traffic.answer_ended.next = self.answer_ended.val();
-        self.traffic.answer_waited.next = self.answer_waited.val();
-        self.registers.clocks_low.next = self.traffic.clocks_low.val();
-        self.registers.clocks_high.next = self.traffic.clocks_high.val();
-        self.registers.command_beats.next = self.traffic.command_beats.val();
-        self.registers.command_waits.next = self.traffic.command_waits.val();
-        self.registers.answer_beats.next = self.traffic.answer_beats.val();
-        self.registers.answers.next = self.traffic.answers.val();
-        self.registers.answer_waits.next = self.traffic.answer_waits.val();
+        self.traffic.commands.next = self.commands.val();
+        self.traffic.answers.next = self.answers.val();
+        self.traffic.index.next = self.read_index.val();
+        self.traffic.reads.next = self.port.read_enable.val();
+        self.port.read_is_known.next = true;
+        match self.read_index.val().index() {
+            16 => {
+                self.port.read_data.next = self.control.val();
+            }
+            17 => {
+                self.port.read_data.next =
+                    self.runs_bit.val() | self.busy_bit.val() | self.resets_bit.val() | self.error_bit.val()
+            }
+            18 => {
+                self.port.read_data.next = self.dropped_bit.val() | self.failed_bit.val();
+            }
+            19 => {
+                self.port.read_data.next = self.fault.q.val();
+            }
+            _ => {
+                self.port.read_data.next = self.identity.value.val() | self.traffic.value.val();
+                self.port.read_is_known.next = self.identity.is_known.val() | self.traffic.is_known.val();
+            }
+        }
     }
 }

@@ -1,18 +1,5 @@
 //! The AXI4-Lite port: turns its channels into single reads and writes of registers.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the bus's clock; reset forgets all transactions |
-//! | `s_axi_awvalid`, `s_axi_awready`, `s_axi_awaddr` | in, out, in | 1, 1, 12 | address of a write |
-//! | `s_axi_wvalid`, `s_axi_wready`, `s_axi_wdata`, `s_axi_wstrb` | in, out, in, in | 1, 1, 32, 4 | its data |
-//! | `s_axi_bvalid`, `s_axi_bready`, `s_axi_bresp` | out, in, out | 1, 1, 2 | its answer |
-//! | `s_axi_arvalid`, `s_axi_arready`, `s_axi_araddr` | in, out, in | 1, 1, 12 | address of a read |
-//! | `s_axi_rvalid`, `s_axi_rready`, `s_axi_rdata`, `s_axi_rresp` | out, in, out, out | 1, 1, 32, 2 | its answer |
-//! | `write_enable`, `write_address`, `write_data`, `write_bytes` | out | 1, 12, 32, 4 | a register is written at this edge |
-//! | `write_is_known` | in | 1 | there is a register at that address, and it can be written |
-//! | `read_enable`, `read_address` | out | 1, 12 | a register is read at this edge |
-//! | `read_data`, `read_is_known` | in | 32, 1 | it; there is one at that address |
-//!
 //! 1. All outputs are functions of registers, so no `ready` waits for its `valid`, nor a `valid` for its `ready`. What an answer says stays until it is taken.
 //! 2. Each address and its data come in any order, and give one write and one answer; each address of a read gives one read and one answer. Answers
 //!    come in the order of the addresses.
@@ -35,79 +22,44 @@
 //! rdata             .  .  .  .  5  .  .  .  .
 //! ```
 
+use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
+
+use super::axi::Address;
+use super::axi::AxiLite;
 
 /// The AXI4-Lite port; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RegisterPort {
-    /// Clock of the bus.
+    /// The bus's clock; reset forgets all transactions.
     pub clock: Signal<In, Clock>,
-    /// Forgets all transactions.
     pub reset: Signal<In, Bit>,
-    /// An address to write is offered.
-    pub s_axi_awvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_awready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_awaddr: Signal<In, Bits<12>>,
-    /// Data to write is offered.
-    pub s_axi_wvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_wready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_wdata: Signal<In, Bits<32>>,
-    /// Its bytes that count.
-    pub s_axi_wstrb: Signal<In, Bits<4>>,
-    /// A write is answered.
-    pub s_axi_bvalid: Signal<Out, Bit>,
-    /// That is taken.
-    pub s_axi_bready: Signal<In, Bit>,
-    /// Whether it was done.
-    pub s_axi_bresp: Signal<Out, Bits<2>>,
-    /// An address to read is offered.
-    pub s_axi_arvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_arready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_araddr: Signal<In, Bits<12>>,
-    /// A read is answered.
-    pub s_axi_rvalid: Signal<Out, Bit>,
-    /// That is taken.
-    pub s_axi_rready: Signal<In, Bit>,
-    /// The value.
-    pub s_axi_rdata: Signal<Out, Bits<32>>,
-    /// Whether it is one.
-    pub s_axi_rresp: Signal<Out, Bits<2>>,
-    /// A register is written.
+    pub s_axi: AxiLite,
+    /// A register is written at this edge.
     pub write_enable: Signal<Out, Bit>,
-    /// Which one.
-    pub write_address: Signal<Out, Bits<12>>,
-    /// With what.
-    pub write_data: Signal<Out, Bits<32>>,
-    /// Bytes of it that count.
+    pub write_address: Signal<Out, Address>,
+    pub write_data: Signal<Out, Word>,
     pub write_bytes: Signal<Out, Bits<4>>,
-    /// It can be written.
+    /// There is a register at that address, and it can be written.
     pub write_is_known: Signal<In, Bit>,
-    /// A register is read.
+    /// A register is read at this edge.
     pub read_enable: Signal<Out, Bit>,
-    /// Which one.
-    pub read_address: Signal<Out, Bits<12>>,
-    /// Its value.
-    pub read_data: Signal<In, Bits<32>>,
-    /// It can be read.
+    pub read_address: Signal<Out, Address>,
+    /// Its value; there is a register at that address.
+    pub read_data: Signal<In, Word>,
     pub read_is_known: Signal<In, Bit>,
     has_address: DFF<Bit>,
-    address: DFF<Bits<12>>,
+    address: DFF<Address>,
     has_data: DFF<Bit>,
-    data: DFF<Bits<32>>,
+    data: DFF<Word>,
     bytes: DFF<Bits<4>>,
     is_written: DFF<Bit>,
     write_response: DFF<Bits<2>>,
     has_read: DFF<Bit>,
-    read_from: DFF<Bits<12>>,
+    read_from: DFF<Address>,
     is_read: DFF<Bit>,
-    value: DFF<Bits<32>>,
+    value: DFF<Word>,
     read_response: DFF<Bits<2>>,
     writes: Signal<Local, Bit>,
     reads: Signal<Local, Bit>,
@@ -125,26 +77,26 @@ impl Logic for RegisterPort {
         dff_setup!(self, clock, has_read, read_from, is_read, value, read_response);
 
         // Writes.
-        self.s_axi_awready.next = !self.has_address.q.val();
-        self.s_axi_wready.next = !self.has_data.q.val();
-        self.s_axi_bvalid.next = self.is_written.q.val();
-        self.s_axi_bresp.next = self.write_response.q.val();
+        self.s_axi.awready.next = !self.has_address.q.val();
+        self.s_axi.wready.next = !self.has_data.q.val();
+        self.s_axi.bvalid.next = self.is_written.q.val();
+        self.s_axi.bresp.next = self.write_response.q.val();
         self.writes.next = self.has_address.q.val() & self.has_data.q.val() & (!self.is_written.q.val());
         self.write_enable.next = self.writes.val();
         self.write_address.next = self.address.q.val();
         self.write_data.next = self.data.q.val();
         self.write_bytes.next = self.bytes.q.val();
-        if self.s_axi_bready.val() {
+        if self.s_axi.bready.val() {
             self.is_written.d.next = false;
         }
         if !self.has_address.q.val() {
-            self.has_address.d.next = self.s_axi_awvalid.val();
-            self.address.d.next = self.s_axi_awaddr.val();
+            self.has_address.d.next = self.s_axi.awvalid.val();
+            self.address.d.next = self.s_axi.awaddr.val();
         }
         if !self.has_data.q.val() {
-            self.has_data.d.next = self.s_axi_wvalid.val();
-            self.data.d.next = self.s_axi_wdata.val();
-            self.bytes.d.next = self.s_axi_wstrb.val();
+            self.has_data.d.next = self.s_axi.wvalid.val();
+            self.data.d.next = self.s_axi.wdata.val();
+            self.bytes.d.next = self.s_axi.wstrb.val();
         }
         if self.writes.val() {
             self.has_address.d.next = false;
@@ -157,19 +109,19 @@ impl Logic for RegisterPort {
         }
 
         // Reads.
-        self.s_axi_arready.next = !self.has_read.q.val();
-        self.s_axi_rvalid.next = self.is_read.q.val();
-        self.s_axi_rdata.next = self.value.q.val();
-        self.s_axi_rresp.next = self.read_response.q.val();
+        self.s_axi.arready.next = !self.has_read.q.val();
+        self.s_axi.rvalid.next = self.is_read.q.val();
+        self.s_axi.rdata.next = self.value.q.val();
+        self.s_axi.rresp.next = self.read_response.q.val();
         self.reads.next = self.has_read.q.val() & (!self.is_read.q.val());
         self.read_enable.next = self.reads.val();
         self.read_address.next = self.read_from.q.val();
-        if self.s_axi_rready.val() {
+        if self.s_axi.rready.val() {
             self.is_read.d.next = false;
         }
         if !self.has_read.q.val() {
-            self.has_read.d.next = self.s_axi_arvalid.val();
-            self.read_from.d.next = self.s_axi_araddr.val();
+            self.has_read.d.next = self.s_axi.arvalid.val();
+            self.read_from.d.next = self.s_axi.araddr.val();
         }
         if self.reads.val() {
             self.has_read.d.next = false;

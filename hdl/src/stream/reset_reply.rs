@@ -1,13 +1,5 @@
 //! The core's side of a reset: holds the core in it, and says so.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock` | in | 1 | the core's clock |
-//! | `request` | in | 1 | from the bus's clock: reset |
-//! | `resets` | out | 1 | the core's side is in reset. A register |
-//! | `reply` | out | 1 | to the bus's clock: `request` has been 1 for eight clocks. A register |
-//! | `beat` | out | 1 | to the bus's clock: changes every eight clocks. A register |
-//!
 //! 1. `resets` is 1 from the clock after `request` until both `request` and `reply` are 0 again.
 //! 2. This block has no reset: it comes to rest by itself.
 //!
@@ -19,17 +11,17 @@ use rust_hdl_widgets::prelude::*;
 use crate::leaf::FlagDelay;
 
 /// The core's side of a reset; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct ResetReply {
-    /// Clock of the core.
+    /// The core's clock.
     pub clock: Signal<In, Clock>,
-    /// Reset.
+    /// From the bus's clock: reset.
     pub request: Signal<In, Bit>,
-    /// The core's side is in reset.
+    /// The core's side is in reset. A register.
     pub resets: Signal<Out, Bit>,
-    /// It has been for eight clocks.
+    /// To the bus's clock: `request` has been 1 for eight clocks. A register.
     pub reply: Signal<Out, Bit>,
-    /// Changes every eight clocks.
+    /// To the bus's clock: changes every eight clocks. A register.
     pub beat: Signal<Out, Bit>,
     delay: FlagDelay,
     is_resetting: DFF<Bit>,
@@ -43,20 +35,10 @@ impl ResetReply {
     pub const LATENCY: usize = 8;
 }
 
-impl Default for ResetReply {
-    fn default() -> Self {
-        Self {
-            clock: Signal::default(),
-            request: Signal::default(),
-            resets: Signal::default(),
-            reply: Signal::default(),
-            beat: Signal::default(),
-            delay: FlagDelay::new(Self::LATENCY),
-            is_resetting: DFF::default(),
-            clocks: DFF::default(),
-            alternates: DFF::default(),
-            one: Signal::default(),
-        }
+impl ResetReply {
+    /// The reply, which comes after [`LATENCY`](Self::LATENCY) clocks.
+    pub fn new() -> Self {
+        Self { delay: FlagDelay::new(Self::LATENCY), ..Self::default() }
     }
 }
 

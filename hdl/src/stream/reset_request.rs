@@ -1,15 +1,5 @@
 //! The bus's side of a reset: asks the core's side for it, and waits until that has said that it is over.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the bus's clock and reset |
-//! | `asks` | in | 1 | a reset is wanted |
-//! | `request` | out | 1 | to the core's clock: reset. A register |
-//! | `reply` | in | 1 | from the core's clock: it is in reset, and has been for some clocks |
-//! | `core_beat` | in | 1 | from the core's clock: changes every few clocks |
-//! | `resets` | out | 1 | the bus's side is in reset. A register |
-//! | `core_runs` | out | 1 | `core_beat` changes |
-//!
 //! 1. `reset` or `asks` begins a reset, also within one. `request` is then 1 for at least 32 clocks and until `reply` is 1, so that one which
 //!    stands there from before is not taken for the answer; `resets` until `reply` is 0 again.
 //! 2. `core_runs` is 1 from a change of `core_beat` until 256 clocks have passed without one.
@@ -24,7 +14,7 @@ use rust_hdl_widgets::prelude::*;
 pub enum ResetState {
     /// That the core's side is in reset.
     Begin,
-    /// That it is out of it.
+    /// That the core's side is out of reset.
     End,
     /// That a reset is wanted.
     Rest,
@@ -33,21 +23,20 @@ pub enum ResetState {
 /// The bus's side of a reset; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ResetRequest {
-    /// Clock of the bus.
+    /// The bus's clock and reset.
     pub clock: Signal<In, Clock>,
-    /// Its reset.
     pub reset: Signal<In, Bit>,
     /// A reset is wanted.
     pub asks: Signal<In, Bit>,
-    /// Reset.
+    /// To the core's clock: reset. A register.
     pub request: Signal<Out, Bit>,
-    /// The core is in reset.
+    /// From the core's clock: it is in reset, and has been for some clocks.
     pub reply: Signal<In, Bit>,
-    /// Changes while the core's clock runs.
+    /// From the core's clock: changes every few clocks.
     pub core_beat: Signal<In, Bit>,
-    /// The bus's side is in reset.
+    /// The bus's side is in reset. A register.
     pub resets: Signal<Out, Bit>,
-    /// The core's clock runs.
+    /// `core_beat` changes.
     pub core_runs: Signal<Out, Bit>,
     state: DFF<ResetState>,
     is_requested: DFF<Bit>,

@@ -1,15 +1,5 @@
 //! The stream link: AXI on one side, the streams of a core on the other, each with its own clock.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `bus_clock`, `bus_reset_n` | in | 1 | clock and reset of the AXI ports; the reset is active low and synchronous |
-//! | `s_axis_tvalid`, `s_axis_tready`, `s_axis_tdata`, `s_axis_tkeep` | in, out, in, in | 1, 1, W, K | command beats |
-//! | `m_axis_tvalid`, `m_axis_tready`, `m_axis_tdata`, `m_axis_tkeep`, `m_axis_tlast` | out, in, out, out, out | 1, 1, W, K, 1 | answer beats |
-//! | `s_axi_...` | | | the registers, as in `RegisterPort` |
-//! | `core_clock`, `core_reset` | in, out | 1 | clock of the core; its reset |
-//! | `command_valid`, `command_ready`, `command_data` | out, in, out | 1, 1, 32 | the command stream |
-//! | `response_valid`, `response_ready`, `response_data`, `response_both`, `response_last` | in, out, in, in, in | 1, 1, 64, 1, 1 | the answer stream, as in `AnswerPairs` |
-//!
 //! 1. `protocol/STREAM.md` says what passes. W is 64 or 128, K the bytes of a beat, E the bits of an entry of the answer FIFO: W and one.
 //! 2. What is named after the core, `command` and `response` belong to `core_clock`, all else to `bus_clock`. What crosses is a register that
 //!    goes into a `Synchroniser`, or passes through the memory of an `AsyncFifo`.
@@ -27,91 +17,32 @@
 use incircle_protocol::{Config, ConfigError, STREAM_FIFO_BEATS};
 use rust_hdl_core::prelude::*;
 
-use super::{AsyncFifo, BusSide, CoreSide};
+use super::async_fifo::AsyncFifo;
+use super::axi::AxiLite;
+use super::axi::AxisSink;
+use super::axi::AxisSource;
+use super::bus_side::BusSide;
+use super::core_side::CoreSide;
+use crate::link::{AnswerSink, CommandSource};
 
 /// Bits of a pointer of the FIFOs.
 const POINTER_BITS: usize = 10;
 const _: () = assert!(AsyncFifo::<POINTER_BITS, 1>::DEPTH == STREAM_FIFO_BEATS as usize);
 
 /// The stream link; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct StreamLink<const W: usize, const K: usize, const E: usize> {
-    /// Clock of the AXI ports.
+    /// Clock and reset of the AXI ports; the reset is active low and synchronous.
     pub bus_clock: Signal<In, Clock>,
-    /// Their reset, active low.
     pub bus_reset_n: Signal<In, Bit>,
-    /// A command beat is offered.
-    pub s_axis_tvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axis_tready: Signal<Out, Bit>,
-    /// It.
-    pub s_axis_tdata: Signal<In, Bits<W>>,
-    /// Its bytes.
-    pub s_axis_tkeep: Signal<In, Bits<K>>,
-    /// An answer beat is offered.
-    pub m_axis_tvalid: Signal<Out, Bit>,
-    /// It is taken.
-    pub m_axis_tready: Signal<In, Bit>,
-    /// It.
-    pub m_axis_tdata: Signal<Out, Bits<W>>,
-    /// Its bytes: all.
-    pub m_axis_tkeep: Signal<Out, Bits<K>>,
-    /// It is the last one of its answer.
-    pub m_axis_tlast: Signal<Out, Bit>,
-    /// An address to write is offered.
-    pub s_axi_awvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_awready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_awaddr: Signal<In, Bits<12>>,
-    /// Data to write is offered.
-    pub s_axi_wvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_wready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_wdata: Signal<In, Bits<32>>,
-    /// Its bytes that count.
-    pub s_axi_wstrb: Signal<In, Bits<4>>,
-    /// A write is answered.
-    pub s_axi_bvalid: Signal<Out, Bit>,
-    /// That is taken.
-    pub s_axi_bready: Signal<In, Bit>,
-    /// Whether it was done.
-    pub s_axi_bresp: Signal<Out, Bits<2>>,
-    /// An address to read is offered.
-    pub s_axi_arvalid: Signal<In, Bit>,
-    /// It is taken.
-    pub s_axi_arready: Signal<Out, Bit>,
-    /// It.
-    pub s_axi_araddr: Signal<In, Bits<12>>,
-    /// A read is answered.
-    pub s_axi_rvalid: Signal<Out, Bit>,
-    /// That is taken.
-    pub s_axi_rready: Signal<In, Bit>,
-    /// The value.
-    pub s_axi_rdata: Signal<Out, Bits<32>>,
-    /// Whether it is one.
-    pub s_axi_rresp: Signal<Out, Bits<2>>,
-    /// Clock of the core.
+    pub s_axis: AxisSink<W, K>,
+    pub m_axis: AxisSource<W, K>,
+    pub s_axi: AxiLite,
+    /// Clock of the core; its reset.
     pub core_clock: Signal<In, Clock>,
-    /// Reset of the core.
     pub core_reset: Signal<Out, Bit>,
-    /// A command word is offered.
-    pub command_valid: Signal<Out, Bit>,
-    /// It is taken.
-    pub command_ready: Signal<In, Bit>,
-    /// The word.
-    pub command_data: Signal<Out, Bits<32>>,
-    /// Answer words are offered.
-    pub response_valid: Signal<In, Bit>,
-    /// They are taken.
-    pub response_ready: Signal<Out, Bit>,
-    /// The words.
-    pub response_data: Signal<In, Bits<64>>,
-    /// There are two of them.
-    pub response_both: Signal<In, Bit>,
-    /// The last one of an answer is among them.
-    pub response_last: Signal<In, Bit>,
+    pub command: CommandSource,
+    pub response: AnswerSink,
     bus: BusSide<W, K, E>,
     commands: AsyncFifo<POINTER_BITS, W>,
     answers: AsyncFifo<POINTER_BITS, E>,
@@ -128,48 +59,11 @@ impl<const W: usize, const K: usize, const E: usize> StreamLink<W, K, E> {
     /// If W is not 64 or 128, K not W / 8, or E not W + 1.
     pub fn new(config: Config) -> Result<Self, ConfigError> {
         Ok(Self {
-            bus_clock: Signal::default(),
-            bus_reset_n: Signal::default(),
-            s_axis_tvalid: Signal::default(),
-            s_axis_tready: Signal::default(),
-            s_axis_tdata: Signal::default(),
-            s_axis_tkeep: Signal::default(),
-            m_axis_tvalid: Signal::default(),
-            m_axis_tready: Signal::default(),
-            m_axis_tdata: Signal::default(),
-            m_axis_tkeep: Signal::default(),
-            m_axis_tlast: Signal::default(),
-            s_axi_awvalid: Signal::default(),
-            s_axi_awready: Signal::default(),
-            s_axi_awaddr: Signal::default(),
-            s_axi_wvalid: Signal::default(),
-            s_axi_wready: Signal::default(),
-            s_axi_wdata: Signal::default(),
-            s_axi_wstrb: Signal::default(),
-            s_axi_bvalid: Signal::default(),
-            s_axi_bready: Signal::default(),
-            s_axi_bresp: Signal::default(),
-            s_axi_arvalid: Signal::default(),
-            s_axi_arready: Signal::default(),
-            s_axi_araddr: Signal::default(),
-            s_axi_rvalid: Signal::default(),
-            s_axi_rready: Signal::default(),
-            s_axi_rdata: Signal::default(),
-            s_axi_rresp: Signal::default(),
-            core_clock: Signal::default(),
-            core_reset: Signal::default(),
-            command_valid: Signal::default(),
-            command_ready: Signal::default(),
-            command_data: Signal::default(),
-            response_valid: Signal::default(),
-            response_ready: Signal::default(),
-            response_data: Signal::default(),
-            response_both: Signal::default(),
-            response_last: Signal::default(),
             bus: BusSide::new(config.check()?),
-            commands: AsyncFifo::default(),
-            answers: AsyncFifo::default(),
-            core: CoreSide::default(),
+            commands: AsyncFifo::new(),
+            answers: AsyncFifo::new(),
+            core: CoreSide::new(),
+            ..Self::default()
         })
     }
 }
@@ -184,6 +78,12 @@ impl<const W: usize, const K: usize, const E: usize> Logic for StreamLink<W, K, 
         self.answers.write_clock.next = self.core_clock.val();
         self.answers.read_clock.next = self.bus_clock.val();
 
+        AxisSink::<W, K>::link(&mut self.s_axis, &mut self.bus.s_axis);
+        AxisSource::<W, K>::link(&mut self.m_axis, &mut self.bus.m_axis);
+        AxiLite::link(&mut self.s_axi, &mut self.bus.s_axi);
+        CommandSource::link(&mut self.command, &mut self.core.command);
+        AnswerSink::link(&mut self.response, &mut self.core.response);
+
         // Between the clocks.
         self.core.request.next = self.bus.request.val();
         self.bus.reply.next = self.core.reply.val();
@@ -197,27 +97,16 @@ impl<const W: usize, const K: usize, const E: usize> Logic for StreamLink<W, K, 
 
         // Commands.
         self.bus.bus_reset_n.next = self.bus_reset_n.val();
-        self.bus.s_axis_tvalid.next = self.s_axis_tvalid.val();
-        self.bus.s_axis_tkeep.next = self.s_axis_tkeep.val();
-        self.s_axis_tready.next = !self.commands.is_full.val();
         self.commands.push.next = self.bus.push.val();
-        self.commands.push_data.next = self.s_axis_tdata.val();
+        self.commands.push_data.next = self.bus.push_data.val();
         self.bus.is_full.next = self.commands.is_full.val();
         self.bus.is_fetched.next = self.commands.is_fetched.val();
         self.core.beat_valid.next = self.commands.valid.val();
         self.core.beat_data.next = self.commands.data.val();
         self.core.is_empty.next = self.commands.is_empty.val();
         self.commands.pop.next = self.core.takes.val();
-        self.command_valid.next = self.core.command_valid.val();
-        self.command_data.next = self.core.command_data.val();
-        self.core.command_ready.next = self.command_ready.val();
 
         // Answers.
-        self.core.response_valid.next = self.response_valid.val();
-        self.core.response_data.next = self.response_data.val();
-        self.core.response_both.next = self.response_both.val();
-        self.core.response_last.next = self.response_last.val();
-        self.response_ready.next = self.core.response_ready.val();
         self.answers.push.next = self.core.entry_valid.val();
         self.answers.push_data.next = self.core.entry.val();
         self.core.is_full.next = self.answers.is_full.val();
@@ -226,29 +115,5 @@ impl<const W: usize, const K: usize, const E: usize> Logic for StreamLink<W, K, 
         self.bus.entry.next = self.answers.data.val();
         self.bus.is_empty.next = self.answers.is_empty.val();
         self.answers.pop.next = self.bus.pop.val();
-        self.m_axis_tvalid.next = self.bus.m_axis_tvalid.val();
-        self.bus.m_axis_tready.next = self.m_axis_tready.val();
-        self.m_axis_tdata.next = self.bus.m_axis_tdata.val();
-        self.m_axis_tkeep.next = self.bus.m_axis_tkeep.val();
-        self.m_axis_tlast.next = self.bus.m_axis_tlast.val();
-
-        // Registers.
-        self.bus.s_axi_awvalid.next = self.s_axi_awvalid.val();
-        self.s_axi_awready.next = self.bus.s_axi_awready.val();
-        self.bus.s_axi_awaddr.next = self.s_axi_awaddr.val();
-        self.bus.s_axi_wvalid.next = self.s_axi_wvalid.val();
-        self.s_axi_wready.next = self.bus.s_axi_wready.val();
-        self.bus.s_axi_wdata.next = self.s_axi_wdata.val();
-        self.bus.s_axi_wstrb.next = self.s_axi_wstrb.val();
-        self.s_axi_bvalid.next = self.bus.s_axi_bvalid.val();
-        self.bus.s_axi_bready.next = self.s_axi_bready.val();
-        self.s_axi_bresp.next = self.bus.s_axi_bresp.val();
-        self.bus.s_axi_arvalid.next = self.s_axi_arvalid.val();
-        self.s_axi_arready.next = self.bus.s_axi_arready.val();
-        self.bus.s_axi_araddr.next = self.s_axi_araddr.val();
-        self.s_axi_rvalid.next = self.bus.s_axi_rvalid.val();
-        self.bus.s_axi_rready.next = self.s_axi_rready.val();
-        self.s_axi_rdata.next = self.bus.s_axi_rdata.val();
-        self.s_axi_rresp.next = self.bus.s_axi_rresp.val();
     }
 }

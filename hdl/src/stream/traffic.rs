@@ -1,61 +1,56 @@
-//! Counts what passes and what waits on the streams.
+//! Counts what passes and what waits on the streams, and is read as registers.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | the bus's clock; reset sets all to 0 |
-//! | `keeps` | in | 1 | keep the high half of the clocks |
-//! | `took_command`, `command_waited`, `took_answer`, `answer_ended`, `answer_waited` | in | 1 | count one |
-//! | `clocks_low`, `clocks_high` | out | 32 | clocks since reset: the low half as it is, the high half as it was kept |
-//! | `command_beats`, `command_waits`, `answer_beats`, `answers`, `answer_waits` | out | 32 | how many there were, modulo 2^32 |
+//! 1. A read of the low half of the clocks keeps the high half, which is what a read of that one gives.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock to a count, none to `value`.
 
+use crate::link::types::Word;
+use incircle_protocol::StreamRegister;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
+
+use super::axi::RegisterIndex;
+use super::events::AnswerEvents;
+use super::events::CommandEvents;
 
 /// Counters of the streams; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Traffic {
-    /// Clock of the bus.
+    /// The bus's clock; reset sets all to 0.
     pub clock: Signal<In, Clock>,
-    /// Sets all to 0.
     pub reset: Signal<In, Bit>,
-    /// Keep the high half of the clocks.
-    pub keeps: Signal<In, Bit>,
-    /// A command beat was taken.
-    pub took_command: Signal<In, Bit>,
-    /// A command beat waited.
-    pub command_waited: Signal<In, Bit>,
-    /// An answer beat was taken.
-    pub took_answer: Signal<In, Bit>,
-    /// An answer ended.
-    pub answer_ended: Signal<In, Bit>,
-    /// An answer beat waited.
-    pub answer_waited: Signal<In, Bit>,
-    /// Clocks, low half.
-    pub clocks_low: Signal<Out, Bits<32>>,
-    /// High half, as it was kept.
-    pub clocks_high: Signal<Out, Bits<32>>,
-    /// Command beats taken.
-    pub command_beats: Signal<Out, Bits<32>>,
-    /// Clocks that one waited.
-    pub command_waits: Signal<Out, Bits<32>>,
-    /// Answer beats taken.
-    pub answer_beats: Signal<Out, Bits<32>>,
-    /// Answers that ended.
-    pub answers: Signal<Out, Bits<32>>,
-    /// Clocks that an answer beat waited.
-    pub answer_waits: Signal<Out, Bits<32>>,
+    /// Events to count, modulo 2^32.
+    pub commands: Signal<In, CommandEvents>,
+    pub answers: Signal<In, AnswerEvents>,
+    /// The register that is looked at, and whether it is read at this edge.
+    pub index: Signal<In, RegisterIndex>,
+    pub reads: Signal<In, Bit>,
+    /// Its value, 0 if it is none of these, and whether it is one.
+    pub value: Signal<Out, Word>,
+    pub is_known: Signal<Out, Bit>,
     clocks: DFF<Bits<64>>,
-    kept: DFF<Bits<32>>,
-    commands_taken: DFF<Bits<32>>,
-    commands_waited: DFF<Bits<32>>,
-    answers_taken: DFF<Bits<32>>,
-    answers_ended: DFF<Bits<32>>,
-    answers_waited: DFF<Bits<32>>,
-    one: Signal<Local, Bits<32>>,
+    kept: DFF<Word>,
+    commands_taken: DFF<Word>,
+    commands_waited: DFF<Word>,
+    answers_taken: DFF<Word>,
+    answers_ended: DFF<Word>,
+    answers_waited: DFF<Word>,
+    one: Signal<Local, Word>,
     one_clock: Signal<Local, Bits<64>>,
+    low_clocks: Signal<Local, RegisterIndex>,
 }
+
+// The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+const _: () = assert!(
+    StreamRegister::ClocksLow.offset() == 4 * 32
+        && StreamRegister::ClocksHigh.offset() == 4 * 33
+        && StreamRegister::CommandBeats.offset() == 4 * 34
+        && StreamRegister::AnswerBeats.offset() == 4 * 35
+        && StreamRegister::Answers.offset() == 4 * 36
+        && StreamRegister::CommandWaits.offset() == 4 * 37
+        && StreamRegister::AnswerWaits.offset() == 4 * 38,
+    "the offsets of this block follow the protocol"
+);
 
 impl Logic for Traffic {
     #[hdl_gen]
@@ -64,31 +59,24 @@ impl Logic for Traffic {
         dff_setup!(self, clock, answers_taken, answers_ended, answers_waited);
         self.one.next = 1.into();
         self.one_clock.next = 1.into();
-        self.clocks_low.next = self.clocks.q.val().get_bits::<32>(0);
-        self.clocks_high.next = self.kept.q.val();
-        self.command_beats.next = self.commands_taken.q.val();
-        self.command_waits.next = self.commands_waited.q.val();
-        self.answer_beats.next = self.answers_taken.q.val();
-        self.answers.next = self.answers_ended.q.val();
-        self.answer_waits.next = self.answers_waited.q.val();
-
+        self.low_clocks.next = 32.into();
         self.clocks.d.next = self.clocks.q.val() + self.one_clock.val();
-        if self.keeps.val() {
+        if self.reads.val() & (self.index.val() == self.low_clocks.val()) {
             self.kept.d.next = self.clocks.q.val().get_bits::<32>(32);
         }
-        if self.took_command.val() {
+        if self.commands.val().took {
             self.commands_taken.d.next = self.commands_taken.q.val() + self.one.val();
         }
-        if self.command_waited.val() {
+        if self.commands.val().waited {
             self.commands_waited.d.next = self.commands_waited.q.val() + self.one.val();
         }
-        if self.took_answer.val() {
+        if self.answers.val().took {
             self.answers_taken.d.next = self.answers_taken.q.val() + self.one.val();
         }
-        if self.answer_ended.val() {
+        if self.answers.val().ended {
             self.answers_ended.d.next = self.answers_ended.q.val() + self.one.val();
         }
-        if self.answer_waited.val() {
+        if self.answers.val().waited {
             self.answers_waited.d.next = self.answers_waited.q.val() + self.one.val();
         }
         if self.reset.val() {
@@ -99,6 +87,35 @@ impl Logic for Traffic {
             self.answers_taken.d.next = 0.into();
             self.answers_ended.d.next = 0.into();
             self.answers_waited.d.next = 0.into();
+        }
+
+        self.is_known.next = true;
+        match self.index.val().index() {
+            32 => {
+                self.value.next = self.clocks.q.val().get_bits::<32>(0);
+            }
+            33 => {
+                self.value.next = self.kept.q.val();
+            }
+            34 => {
+                self.value.next = self.commands_taken.q.val();
+            }
+            35 => {
+                self.value.next = self.answers_taken.q.val();
+            }
+            36 => {
+                self.value.next = self.answers_ended.q.val();
+            }
+            37 => {
+                self.value.next = self.commands_waited.q.val();
+            }
+            38 => {
+                self.value.next = self.answers_waited.q.val();
+            }
+            _ => {
+                self.value.next = 0.into();
+                self.is_known.next = false;
+            }
         }
     }
 }

@@ -1,13 +1,5 @@
 //! The core: command stream in, answer stream out, one insertion engine between them.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
-//! | `command_valid`, `command_ready`, `command_data` | in, out, in | 1, 1, 32 | the command stream |
-//! | `response_valid`, `response_ready`, `response_data` | out, in, out | 1, 1, 64 | the answer stream |
-//! | `response_both`, `response_last` | out | 1 | bits 63 to 32 are a second word, which follows the first; the last word of the answer is here |
-//! | `write` | out | Write | the write port of the triangle memory, for simulation |
-//!
 //! 1. All outputs are functions of registers.
 //! 2. After reset the lock memory is swept, a clock for each record, and the histogram of latencies beside it; until then
 //!    `command_ready` is low.
@@ -20,34 +12,20 @@
 //! Latency: see the blocks.
 
 use crate::engine::{Counters, InsertionEngine, Latencies, Write};
-use crate::link::{AnswerHead, AnswerWords, CommandPort, Responder};
+use crate::leaf::Parameter;
+use crate::link::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
 /// The core; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct Core {
-    /// Clock.
+    /// One clock; synchronous reset, active high.
     pub clock: Signal<In, Clock>,
-    /// Synchronous reset.
     pub reset: Signal<In, Bit>,
-    /// A command word is offered.
-    pub command_valid: Signal<In, Bit>,
-    /// It is taken.
-    pub command_ready: Signal<Out, Bit>,
-    /// The word.
-    pub command_data: Signal<In, Bits<32>>,
-    /// An answer word is offered, or two.
-    pub response_valid: Signal<Out, Bit>,
-    /// It is taken.
-    pub response_ready: Signal<In, Bit>,
-    /// The word in the low half, the one that follows it in the high.
-    pub response_data: Signal<Out, Bits<64>>,
-    /// There is one that follows it.
-    pub response_both: Signal<Out, Bit>,
-    /// The last word of the answer is among them.
-    pub response_last: Signal<Out, Bit>,
-    /// The write port of the triangle memory.
+    pub command: CommandSink,
+    pub response: AnswerSource,
+    /// The write port of the triangle memory, for simulation.
     pub write: Signal<Out, Write>,
     command_port: CommandPort,
     answer_head: AnswerHead,
@@ -56,13 +34,13 @@ pub struct Core {
     engine: InsertionEngine,
     counters: Counters,
     latencies: Latencies,
-    infinite: Constant<Bits<15>>,
-    capacity: Constant<Bits<15>>,
-    ring: Constant<Bits<7>>,
-    last_id: Constant<Bits<15>>,
-    contexts: Constant<Bits<5>>,
-    all_contexts: Constant<Bits<24>>,
-    patience: Constant<Bits<22>>,
+    infinite: Parameter<Bits<15>>,
+    capacity: Parameter<Bits<15>>,
+    ring: Parameter<Bits<7>>,
+    last_id: Parameter<Bits<15>>,
+    contexts: Parameter<Bits<5>>,
+    all_contexts: Parameter<Bits<24>>,
+    patience: Parameter<Bits<22>>,
     sweeps: Signal<Local, Bit>,
 }
 
@@ -74,32 +52,15 @@ impl Core {
     pub fn new(config: Config) -> Result<Self, ConfigError> {
         let config = config.check()?;
         Ok(Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            command_valid: Signal::default(),
-            command_ready: Signal::default(),
-            command_data: Signal::default(),
-            response_valid: Signal::default(),
-            response_ready: Signal::default(),
-            response_data: Signal::default(),
-            response_both: Signal::default(),
-            response_last: Signal::default(),
-            write: Signal::default(),
-            command_port: CommandPort::default(),
-            answer_head: AnswerHead::default(),
-            answer_words: AnswerWords::default(),
-            responder: Responder::default(),
             engine: InsertionEngine::new(config),
-            counters: Counters::default(),
-            latencies: Latencies::default(),
-            infinite: Constant::new(u64::from(infinite_vertex(config.points)).into()),
-            capacity: Constant::new(u64::from(config.points).into()),
-            ring: Constant::new(u64::from(config.ring).into()),
-            last_id: Constant::new(u64::from(triangle_capacity(config.points) - 1).into()),
-            contexts: Constant::new(u64::from(config.contexts).into()),
-            all_contexts: Constant::new(((1u64 << config.contexts) - 1).into()),
-            patience: Constant::new(u64::from(patience(config.points)).into()),
-            sweeps: Signal::default(),
+            infinite: Parameter::new(u64::from(infinite_vertex(config.points)).into()),
+            capacity: Parameter::new(u64::from(config.points).into()),
+            ring: Parameter::new(u64::from(config.ring).into()),
+            last_id: Parameter::new(u64::from(triangle_capacity(config.points) - 1).into()),
+            contexts: Parameter::new(u64::from(config.contexts).into()),
+            all_contexts: Parameter::new(((1u64 << config.contexts) - 1).into()),
+            patience: Parameter::new(u64::from(patience(config.points)).into()),
+            ..Self::default()
         })
     }
 }
@@ -113,39 +74,29 @@ impl Logic for Core {
         self.engine.reset.next = self.reset.val();
         self.counters.reset.next = self.reset.val();
         self.latencies.reset.next = self.reset.val();
-        self.sweeps.next = self.engine.sweeps.val() | self.latencies.sweeps.val();
+        self.sweeps.next = self.engine.state.val().sweeps | self.latencies.sweeps.val();
 
         // The command stream.
         self.command_port.capacity.next = self.capacity.val();
         self.command_port.built.next = self.contexts.val();
-        self.command_port.command_valid.next = self.command_valid.val();
-        self.command_port.command_data.next = self.command_data.val();
-        self.command_ready.next = self.command_port.command_ready.val();
+        CommandSink::link(&mut self.command, &mut self.command_port.command);
         self.command_port.sweeps.next = self.sweeps.val();
-        self.command_port.start_is_open.next = self.engine.start_is_open.val();
-        self.command_port.collinear.next = self.engine.collinear.val();
-        self.command_port.stuck.next = self.engine.stuck.val();
-        self.command_port.is_quiet.next = self.engine.is_quiet.val();
-        self.command_port.responder_is_idle.next = self.responder.is_idle.val();
-        self.command_port.answer_ends.next = self.responder.ends.val();
-        self.command_port.answer_is_taken.next = self.responder.is_taken.val();
+        self.command_port.engine.next = self.engine.state.val();
+        self.command_port.answer.next = self.responder.progress.val();
 
         // The answer stream.
-        self.answer_head.opcode.next = self.command_port.opcode.val();
-        self.answer_head.first.next = self.command_port.first.val();
-        self.answer_head.count.next = self.command_port.count.val();
-        self.answer_head.is_refused.next = self.command_port.is_refused.val();
-        self.answer_head.records.next = self.engine.records.val();
-        self.answer_head.collinear.next = self.engine.collinear.val();
-        self.answer_head.stuck.next = self.engine.stuck.val();
-        self.answer_head.some_refused.next = self.command_port.some_refused.val();
-        self.answer_words.opcode.next = self.command_port.opcode.val();
-        self.answer_words.arrived.next = self.command_port.arrived.val();
-        self.answer_words.refused.next = self.command_port.refused.val();
+        self.answer_head.request.next = self.command_port.request.val();
+        self.answer_head.is_refused.next = self.command_port.clearing.val().is_refused;
+        self.answer_head.records.next = self.engine.state.val().records;
+        self.answer_head.collinear.next = self.engine.state.val().collinear;
+        self.answer_head.stuck.next = self.engine.state.val().stuck;
+        self.answer_head.some_refused.next = self.command_port.tally.val().some_refused;
+        self.answer_words.opcode.next = self.command_port.request.val().opcode;
+        self.answer_words.tally.next = self.command_port.tally.val();
         self.answer_words.capacity.next = self.capacity.val();
         self.answer_words.contexts.next = self.contexts.val();
         self.answer_words.ring.next = self.ring.val();
-        self.answer_words.records.next = self.engine.records.val();
+        self.answer_words.records.next = self.engine.state.val().records;
         self.answer_words.insertions.next = self.counters.insertions.val();
         self.answer_words.duplicates.next = self.counters.duplicates.val();
         self.answer_words.index.next = self.responder.index.val();
@@ -154,76 +105,39 @@ impl Logic for Core {
         self.answer_words.latency.next = self.latencies.value.val();
         self.responder.answers.next = self.command_port.answers.val();
         self.responder.sweeps.next = self.latencies.sweeps.val();
-        self.responder.first.next = self.command_port.first.val();
-        self.responder.count.next = self.command_port.count.val();
-        self.responder.header.next = self.answer_head.header.val();
-        self.responder.length.next = self.answer_head.length.val();
-        self.responder.is_empty.next = self.answer_head.is_empty.val();
+        self.responder.request.next = self.command_port.request.val();
+        self.responder.head.next = self.answer_head.head.val();
         self.responder.word.next = self.answer_words.word.val();
-        self.responder.is_read.next = self.answer_head.is_read.val();
-        self.responder.is_packed.next = self.answer_head.is_packed.val();
-        self.responder.read_done.next = self.engine.read_done.val();
-        self.responder.v0.next = self.engine.v0.val();
-        self.responder.v1.next = self.engine.v1.val();
-        self.responder.v2.next = self.engine.v2.val();
-        self.responder.n0.next = self.engine.n0.val();
-        self.responder.n1.next = self.engine.n1.val();
-        self.responder.n2.next = self.engine.n2.val();
-        self.responder.was_set.next = self.engine.was_set.val();
-        self.responder.response_ready.next = self.response_ready.val();
-        self.response_valid.next = self.responder.response_valid.val();
-        self.response_data.next = self.responder.response_data.val();
-        self.response_both.next = self.responder.response_both.val();
-        self.response_last.next = self.responder.response_last.val();
+        self.responder.read_done.next = self.engine.read_out.val().valid;
+        self.responder.record.next = self.engine.read_out.val().record;
+        AnswerSource::link(&mut self.response, &mut self.responder.response);
 
         // The engine.
-        self.engine.infinite.next = self.infinite.val();
-        self.engine.ring.next = self.ring.val();
-        self.engine.last_id.next = self.last_id.val();
-        self.engine.all.next = self.all_contexts.val();
-        self.engine.patience.next = self.patience.val();
+        self.engine.limits.next.infinite = self.infinite.val();
+        self.engine.limits.next.ring = self.ring.val();
+        self.engine.limits.next.last_id = self.last_id.val();
+        self.engine.limits.next.all = self.all_contexts.val();
+        self.engine.limits.next.patience = self.patience.val();
         self.engine.deal.next = self.command_port.deal.val();
-        self.engine.clears.next = self.command_port.clears.val();
-        self.engine.came.next = self.command_port.came.val();
-        self.engine.came_id.next = self.command_port.came_id.val();
-        self.engine.point.next = self.command_port.point.val();
-        self.engine.arrived.next = self.command_port.arrived.val();
-        self.engine.read.next = self.responder.read.val();
-        self.engine.read_id.next = self.responder.read_id.val();
+        self.engine.clears.next = self.command_port.clearing.val().clears;
+        self.engine.arrival.next = self.command_port.arrival.val();
+        self.engine.arrived.next = self.command_port.tally.val().arrived;
+        self.engine.read.next.valid = self.responder.read.val();
+        self.engine.read.next.id = self.responder.read_id.val();
         self.engine.now.next = self.counters.now.val();
         self.write.next = self.engine.write.val();
 
         // The counters.
-        self.counters.clears.next = self.command_port.clears.val();
-        self.counters.inserting.next = self.command_port.inserting.val();
-        self.counters.waiting.next =
-            self.command_port.inserting.val() & self.command_port.awaits_point.val() & self.engine.is_quiet.val();
-        self.counters.reading.next = self.command_port.reading.val();
-        self.counters.seeds.next = self.engine.events.val().seeds;
-        self.counters.commit_ends.next = self.engine.events.val().commit_ends;
-        self.counters.since.next = self.engine.events.val().since;
-        self.counters.solo_inserts.next = self.engine.events.val().solo_inserts;
-        self.counters.solo_duplicate.next = self.engine.events.val().solo_duplicate;
-        self.counters.solo_test.next = self.engine.events.val().solo_test;
-        self.counters.flip.next = self.engine.events.val().flip;
-        self.counters.duplicate.next = self.engine.events.val().duplicate;
-        self.counters.walk_visit.next = self.engine.events.val().walk_visit;
-        self.counters.root_visit.next = self.engine.events.val().root_visit;
-        self.counters.test.next = self.engine.events.val().test;
-        self.counters.revisit.next = self.engine.events.val().revisit;
-        self.counters.overflows.next = self.engine.events.val().overflow;
-        self.counters.gives_up.next = self.engine.events.val().gives_up;
-        self.counters.retries.next = self.engine.events.val().root_retry;
-        self.counters.takes_token.next = self.engine.events.val().takes_token;
-        self.counters.cavity_ends.next = self.engine.events.val().cavity_ends;
-        self.counters.cavity_triangles.next = self.engine.events.val().cavity_triangles;
-        self.counters.is_issuing.next = self.engine.events.val().is_issuing;
-        self.counters.is_writing.next = self.engine.events.val().is_writing;
-        self.counters.is_committing.next = self.engine.events.val().is_committing;
-        self.counters.is_releasing.next = self.engine.events.val().is_releasing;
-        self.counters.refused.next = self.command_port.refused.val();
+        self.counters.clears.next = self.command_port.clearing.val().clears;
+        self.counters.inserting.next = self.command_port.activity.val().inserting;
+        self.counters.waiting.next = self.command_port.activity.val().inserting
+            & self.command_port.activity.val().awaits_point
+            & self.engine.state.val().is_quiet;
+        self.counters.reading.next = self.command_port.activity.val().reading;
+        self.counters.events.next = self.engine.events.val();
+        self.counters.refused.next = self.command_port.tally.val().refused;
         self.counters.select.next = self.responder.index_ahead.val().get_bits::<5>(0);
-        self.latencies.clears.next = self.command_port.clears.val();
+        self.latencies.clears.next = self.command_port.clearing.val().clears;
         self.latencies.comes.next = self.counters.latency_comes.val();
         self.latencies.latency.next = self.counters.latency.val();
         self.latencies.select.next = self.responder.index.val();

@@ -1,44 +1,33 @@
 //! A whole device: the core behind its serial link.
 //!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `reset` | in | 1 | one clock; synchronous reset, active high |
-//! | `rx`, `tx` | in, out | 1 | the line, high when idle |
-//! | `leds` | out | 3 | alive, busy, error, from bit 0 up; see `SerialLink` |
-//! | `write` | out | Write | the write port of the triangle memory, for simulation |
-//!
 //! 1. `reset` is needed once, after power-up, for two clocks or more: it passes a register, since the pin's side of it may be far away.
 //!
 //! Latency: see the blocks.
 
-use super::Core;
+use super::core::Core;
 use crate::engine::Write;
+use crate::link::{AnswerSink, CommandSource};
 use crate::serial::{SerialError, SerialLink};
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The core behind its serial link; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct SerialTop {
-    /// Clock.
+    /// One clock; synchronous reset, active high.
     pub clock: Signal<In, Clock>,
-    /// Synchronous reset.
     pub reset: Signal<In, Bit>,
-    /// The line from the host.
+    /// The line, high when idle.
     pub rx: Signal<In, Bit>,
-    /// The line to the host.
     pub tx: Signal<Out, Bit>,
-    /// Alive, busy, error.
+    /// Alive, busy, error, from bit 0 up; see `SerialLink`.
     pub leds: Signal<Out, Bits<3>>,
-    /// The write port of the triangle memory.
+    /// The write port of the triangle memory, for simulation.
     pub write: Signal<Out, Write>,
     core: Core,
     link: SerialLink,
     resets: DFF<Bit>,
-    alive: Signal<Local, Bits<3>>,
-    busy: Signal<Local, Bits<3>>,
-    error: Signal<Local, Bits<3>>,
 }
 
 impl SerialTop {
@@ -47,20 +36,7 @@ impl SerialTop {
     /// # Errors
     /// If a parameter is out of range; the error says which and what is possible.
     pub fn new(config: Config, link: LinkConfig) -> Result<Self, SerialError> {
-        Ok(Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            rx: Signal::default(),
-            tx: Signal::default(),
-            leds: Signal::default(),
-            write: Signal::default(),
-            core: Core::new(config)?,
-            link: SerialLink::new(config, link)?,
-            resets: DFF::default(),
-            alive: Signal::default(),
-            busy: Signal::default(),
-            error: Signal::default(),
-        })
+        Ok(Self { core: Core::new(config)?, link: SerialLink::new(config, link)?, ..Self::default() })
     }
 }
 
@@ -74,28 +50,9 @@ impl Logic for SerialTop {
         self.link.rx.next = self.rx.val();
         self.tx.next = self.link.tx.val();
         self.core.reset.next = self.link.core_reset.val();
-        self.core.command_valid.next = self.link.command_valid.val();
-        self.core.command_data.next = self.link.command_data.val();
-        self.link.command_ready.next = self.core.command_ready.val();
-        self.link.response_valid.next = self.core.response_valid.val();
-        self.link.response_data.next = self.core.response_data.val();
-        self.link.response_both.next = self.core.response_both.val();
-        self.link.response_last.next = self.core.response_last.val();
-        self.core.response_ready.next = self.link.response_ready.val();
+        CommandSource::join(&mut self.link.command, &mut self.core.command);
+        AnswerSink::join(&mut self.link.response, &mut self.core.response);
         self.write.next = self.core.write.val();
-
-        self.alive.next = 0.into();
-        self.busy.next = 0.into();
-        self.error.next = 0.into();
-        if self.link.alive.val() {
-            self.alive.next = 1.into();
-        }
-        if self.link.busy.val() {
-            self.busy.next = 2.into();
-        }
-        if self.link.error.val() {
-            self.error.next = 4.into();
-        }
-        self.leds.next = self.alive.val() | self.busy.val() | self.error.val();
+        self.leds.next = self.link.lamps.val().into();
     }
 }

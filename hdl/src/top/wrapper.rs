@@ -123,6 +123,15 @@ pub fn stream_wrapper(device: &str, beat_bits: usize, with_probe: bool) -> Strin
     around(STREAM_TOP_NAME, [&stream_ports(beat_bits), &STREAM_UNUSED], ("device", device), with_probe)
 }
 
+/// Interfaces of the modules inside: a pin is named for one of them and for a signal of it, `command_valid` for `command$valid`.
+const INTERFACES: [&str; 5] = ["command", "response", "s_axis", "m_axis", "s_axi"];
+
+/// The port of the module inside that a pin is connected to.
+fn port_of(pin: &str) -> String {
+    let signal = |interface: &str| Some(format!("{interface}${}", pin.strip_prefix(interface)?.strip_prefix('_')?));
+    INTERFACES.into_iter().find_map(signal).unwrap_or_else(|| pin.to_string())
+}
+
 /// Direction, name and width of ports.
 type Ports<'a> = &'a [(&'a str, &'a str, usize)];
 
@@ -145,7 +154,8 @@ fn around(name: &str, [ports, unused]: [Ports; 2], (instance, module): (&str, &s
     }
     let sink = |name: &str| format!("    wire unused_{name} = &{{1'b0, {name}}};\n");
     inside.extend(unused.iter().map(|(_, name, _)| sink(name)));
-    let connections: String = ports.iter().map(|(_, name, _)| format!("        .{name}({name}),\n")).collect();
+    let connections: String =
+        ports.iter().map(|(_, name, _)| format!("        .{}({name}),\n", port_of(name))).collect();
     let declarations = declarations.join(",\n    ");
     format!(
         "\
@@ -165,6 +175,12 @@ endmodule
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pins_are_named_for_signals_of_interfaces() {
+        let ports = ["command_valid", "s_axi_awaddr", "s_axis_tdata", "core_clock"].map(port_of);
+        assert_eq!(ports, ["command$valid", "s_axi$awaddr", "s_axis$tdata", "core_clock"]);
+    }
 
     #[test]
     fn the_probe_is_as_wide_as_the_write_port() {

@@ -17,8 +17,8 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
     vec![
         block(BitClock::at_ends(), "serial_bit_ends"),
         block(BitClock::in_middles(), "serial_bit_middles"),
-        block(UartReceiver::default(), "serial_uart_receiver"),
-        block(UartTransmitter::default(), "serial_uart_transmitter"),
+        block(UartReceiver::new(), "serial_uart_receiver"),
+        block(UartTransmitter::new(), "serial_uart_transmitter"),
         block(Crc32::default(), "serial_crc32"),
         block(CobsDecoder::default(), "serial_cobs_decoder"),
         block(CobsEncoder::default(), "serial_cobs_encoder"),

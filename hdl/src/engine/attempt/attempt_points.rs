@@ -15,7 +15,7 @@
 //! since             .  .  3  .
 //! ```
 
-use crate::engine::types::context_bits;
+use crate::engine::types::{context_bits, Clocks, ContextId, Start, VertexId, CONTEXT_BITS, LATENCY_BITS, VERTEX_BITS};
 use crate::leaf::LutMemory;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -24,31 +24,27 @@ use rust_hdl_widgets::prelude::*;
 /// The points at hand; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptPoints {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// A context takes a point at this edge; the time.
-    pub takes: Signal<In, Bit>,
-    pub taker: Signal<In, Bits<5>>,
-    pub taken_id: Signal<In, Bits<15>>,
-    pub now: Signal<In, Bits<22>>,
-    /// A context.
-    pub owner: Signal<In, Bits<5>>,
-    /// Its point; when it was taken.
-    pub p: Signal<Out, Bits<15>>,
-    pub since: Signal<Out, Bits<22>>,
-    points: LutMemory<5, 15>,
-    times: LutMemory<5, 22>,
+    /// A context that starts may take a point at this edge; the time.
+    pub start: Signal<In, Start>,
+    pub now: Signal<In, Clocks>,
+    /// A context; its point, and when it was taken.
+    pub owner: Signal<In, ContextId>,
+    pub p: Signal<Out, VertexId>,
+    pub since: Signal<Out, Clocks>,
+    points: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
+    times: LutMemory<CONTEXT_BITS, LATENCY_BITS>,
     has_taken: DFF<Bit>,
-    last_taker: DFF<Bits<5>>,
-    last_taken: DFF<Bits<15>>,
-    taken_at: DFF<Bits<22>>,
+    last_taker: DFF<ContextId>,
+    last_taken: DFF<VertexId>,
+    taken_at: DFF<Clocks>,
 }
 
 impl AttemptPoints {
     /// The points of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
-        Self { points: LutMemory::new(bits, 15), times: LutMemory::new(bits, 22), ..Self::default() }
+        Self { points: LutMemory::new(bits, VERTEX_BITS), times: LutMemory::new(bits, LATENCY_BITS), ..Self::default() }
     }
 }
 
@@ -57,9 +53,9 @@ impl Logic for AttemptPoints {
     fn update(&mut self) {
         dff_setup!(self, clock, has_taken, last_taker, last_taken, taken_at);
         clock!(self, clock, points, times);
-        self.has_taken.d.next = self.takes.val();
-        self.last_taker.d.next = self.taker.val();
-        self.last_taken.d.next = self.taken_id.val();
+        self.has_taken.d.next = self.start.val().takes;
+        self.last_taker.d.next = self.start.val().owner;
+        self.last_taken.d.next = self.start.val().id;
         self.taken_at.d.next = self.now.val();
         self.points.write_address.next = self.last_taker.q.val();
         self.points.write_data.next = self.last_taken.q.val();

@@ -6,37 +6,24 @@
 //!
 //! Latency: none (combinational).
 
-use crate::engine::types::Attempt;
+use super::attempt_store::Held;
+use crate::engine::types::{Attempt, Case, LockCount, RingCount, Step};
 use rust_hdl_core::prelude::*;
 
 /// The step of an attempt; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptStep {
-    /// The state before.
-    pub attempt: Signal<In, Attempt>,
-    /// Of that state: one visit is out; `half_open` at `f_entry`.
-    pub is_last: Signal<In, Bit>,
-    pub edge_was_passed: Signal<In, Bit>,
-    /// The entry that names the cavity triangle the test came from, a bit each.
-    pub entry_bit: Signal<In, Bits<64>>,
+    /// The state before, and what stands beside it.
+    pub held: Signal<In, Held>,
     /// The visit took a lock.
     pub took: Signal<In, Bit>,
-    /// From `VisitCase`.
-    pub is_test: Signal<In, Bit>,
-    pub splits: Signal<In, Bit>,
-    pub repeats: Signal<In, Bit>,
-    pub gives_up: Signal<In, Bit>,
-    pub overflows: Signal<In, Bit>,
+    /// What the visit means.
+    pub found: Signal<In, Case>,
     /// The state afterwards.
     pub after: Signal<Out, Attempt>,
-    /// No visit of the attempt is out any more.
-    pub is_over: Signal<Out, Bit>,
-    /// And it has not failed: the ring is finished.
-    pub succeeds: Signal<Out, Bit>,
-    /// The cavity triangle behind the edge has no boundary edge left.
-    pub finds_inner: Signal<Out, Bit>,
-    /// The second edge of the root is passed.
-    pub passes_root: Signal<Out, Bit>,
+    pub step: Signal<Out, Step>,
+    attempt: Signal<Local, Attempt>,
+    entry_bit: Signal<Local, Bits<64>>,
     fails: Signal<Local, Bit>,
     ends_here: Signal<Local, Bit>,
     passes_second: Signal<Local, Bit>,
@@ -44,11 +31,11 @@ pub struct AttemptStep {
     passes_last_edge: Signal<Local, Bit>,
     half_open: Signal<Local, Bits<64>>,
     second_bit: Signal<Local, Bits<64>>,
-    outstanding: Signal<Local, Bits<7>>,
-    count: Signal<Local, Bits<7>>,
-    inners: Signal<Local, Bits<7>>,
-    logged: Signal<Local, Bits<7>>,
-    one: Signal<Local, Bits<7>>,
+    outstanding: Signal<Local, RingCount>,
+    count: Signal<Local, RingCount>,
+    inners: Signal<Local, RingCount>,
+    logged: Signal<Local, LockCount>,
+    one: Signal<Local, RingCount>,
 }
 
 impl Logic for AttemptStep {
@@ -56,6 +43,8 @@ impl Logic for AttemptStep {
     fn update(&mut self) {
         self.one.next = 1.into();
         self.second_bit.next = 2.into();
+        self.attempt.next = self.held.val().attempt;
+        self.entry_bit.next = self.held.val().entry_bit;
         self.outstanding.next = self.attempt.val().outstanding;
         self.count.next = self.attempt.val().count;
         self.inners.next = self.attempt.val().inners;
@@ -63,28 +52,33 @@ impl Logic for AttemptStep {
         self.half_open.next = self.attempt.val().half_open;
 
         // L1: a failed attempt is over when its last visit is in.
-        self.fails.next = self.attempt.val().drains | self.gives_up.val() | self.overflows.val();
-        self.ends_here.next = self.is_test.val() & self.is_last.val() & (!self.splits.val()) & (!self.repeats.val());
-        self.is_over.next = self.ends_here.val();
-        self.succeeds.next = self.ends_here.val() & (!self.fails.val());
+        self.fails.next = self.attempt.val().drains | self.found.val().gives_up | self.found.val().overflows;
+        self.ends_here.next = self.found.val().is_test
+            & self.held.val().is_last
+            & (!self.found.val().splits)
+            & (!self.found.val().repeats);
+        self.step.next.is_over = self.ends_here.val();
+        self.step.next.succeeds = self.ends_here.val() & (!self.fails.val());
 
         // Does the cavity triangle behind the edge keep another one?
         self.root_keeps_an_edge.next = self.entry_bit.val().get_bit(0) & (!self.half_open.val().get_bit(1));
-        self.passes_last_edge.next = self.splits.val() & self.edge_was_passed.val() & (!self.root_keeps_an_edge.val());
-        self.finds_inner.next = self.passes_last_edge.val();
-        self.passes_second.next = self.splits.val() & self.edge_was_passed.val() & self.root_keeps_an_edge.val();
-        self.passes_root.next = self.passes_second.val();
+        self.passes_last_edge.next =
+            self.found.val().splits & self.held.val().edge_was_passed & (!self.root_keeps_an_edge.val());
+        self.step.next.finds_inner = self.passes_last_edge.val();
+        self.passes_second.next =
+            self.found.val().splits & self.held.val().edge_was_passed & self.root_keeps_an_edge.val();
+        self.step.next.passes_root = self.passes_second.val();
 
         self.after.next = self.attempt.val();
         self.after.next.drains = self.fails.val();
         self.after.next.outstanding = self.outstanding.val() - self.one.val();
-        if self.repeats.val() {
+        if self.found.val().repeats {
             self.after.next.outstanding = self.outstanding.val();
         }
         if self.took.val() {
             self.after.next.logged = self.logged.val() + self.one.val();
         }
-        if self.splits.val() {
+        if self.found.val().splits {
             self.after.next.outstanding = self.outstanding.val() + self.one.val();
             self.after.next.count = self.count.val() + self.one.val();
             self.after.next.half_open = self.half_open.val() | self.entry_bit.val();

@@ -1,54 +1,55 @@
 //! The states of the attempts of all contexts, each at hand in the clock in which a visit of its context completes.
 //!
-//! 1. Every visit is announced by `early_owner` and `early_entry` in the clock before its own. There may be pauses.
+//! 1. Every visit is announced by `early_token` in the clock before its own. There may be pauses.
 //! 2. A visit sees what all visits before it have left, also a test of the clock before. The visit that opens an attempt is the only one
 //!    of its context: the next one comes later.
 //! 3. An attempt begins with the three tests of the root's neighbours and its one lock.
 //! 4. `is_last`, `is_full` and `edge_was_passed` say nothing that is not in `attempt`; they are ready sooner.
 //!
-//! Latency: 1 clock from `early_owner` to `attempt`. What is written in a clock is seen in the next.
+//! Latency: 1 clock from `early_token` to `held`. What is written in a clock is seen in the next.
 //!
 //! Source: a memory in LUTs, read a clock ahead, with a way round it.
 
-use crate::engine::types::{context_bits, ring_bits, Attempt, ATTEMPT_BITS, ENTRY_BITS};
+use crate::engine::types::{
+    context_bits, ring_bits, Attempt, Case, RingCount, RingEntry, Step, Token, ATTEMPT_BITS, CONTEXT_BITS, ENTRY_BITS,
+};
 use crate::leaf::{LutMemory, Unpack};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
+crate::packed! {
+    /// An attempt, and what is ready sooner because it stands beside it.
+    pub struct Held {
+        pub attempt: Attempt,
+        /// One visit is out; the list holds as many entries as it can.
+        pub is_last: bool,
+        pub is_full: bool,
+        /// `attempt.half_open` at `f_entry` of the visit.
+        pub edge_was_passed: bool,
+        /// `f_entry` of the visit, a bit each.
+        pub entry_bit: Bits<64>,
+    }
+}
+
 /// The states of all attempts; see the top of this file.
 #[derive(LogicBlock)]
 pub struct AttemptStore {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Entries a boundary list holds, a constant.
-    pub ring: Signal<In, Bits<7>>,
-    /// The visit that completes in the next clock: its context, and the entry that names its `f`.
-    pub early_owner: Signal<In, Bits<5>>,
-    pub early_entry: Signal<In, Bits<6>>,
-    /// The same of the visit of this clock.
-    pub owner: Signal<In, Bits<5>>,
-    pub f_entry: Signal<In, Bits<6>>,
-    /// The state of its attempt.
-    pub attempt: Signal<Out, Attempt>,
-    /// One visit is out; the list holds as many entries as it can.
-    pub is_last: Signal<Out, Bit>,
-    pub is_full: Signal<Out, Bit>,
-    /// `attempt.half_open` at `f_entry`.
-    pub edge_was_passed: Signal<Out, Bit>,
-    /// `f_entry`, a bit each.
-    pub entry_bit: Signal<Out, Bits<64>>,
-    /// From `VisitCase`.
-    pub opens: Signal<In, Bit>,
-    pub is_test: Signal<In, Bit>,
-    pub splits: Signal<In, Bit>,
-    pub repeats: Signal<In, Bit>,
-    /// The second edge of the root is passed: bit 1 of `half_open` goes up.
-    pub passes_root: Signal<In, Bit>,
+    pub ring: Signal<In, RingCount>,
+    /// The visit that completes in the next clock, and the one of this clock: context and `f_entry` count.
+    pub early_token: Signal<In, Token>,
+    pub token: Signal<In, Token>,
+    /// The attempt of the visit of this clock.
+    pub held: Signal<Out, Held>,
+    /// What the visit means, and what it makes of its attempt: if the second edge of the root is passed, bit 1 of `half_open` goes up.
+    pub found: Signal<In, Case>,
+    pub step: Signal<In, Step>,
     /// The state after a test.
     pub after: Signal<In, Attempt>,
-    states: LutMemory<5, ATTEMPT_BITS>,
-    flags: LutMemory<5, 2>,
+    states: LutMemory<CONTEXT_BITS, ATTEMPT_BITS>,
+    flags: LutMemory<CONTEXT_BITS, 2>,
     stored: Unpack<Attempt, ATTEMPT_BITS>,
     written: Signal<Local, Attempt>,
     written_bits: Signal<Local, Bits<ATTEMPT_BITS>>,
@@ -66,7 +67,7 @@ pub struct AttemptStore {
     kept_edges: Signal<Local, Bits<64>>,
     edges_after: Signal<Local, Bits<64>>,
     stored_edges: Signal<Local, Bits<64>>,
-    entry: Signal<Local, Bits<6>>,
+    entry: Signal<Local, RingEntry>,
     wide_entry: Signal<Local, Bits<64>>,
     first_bit: Signal<Local, Bits<64>>,
     becomes_last: Signal<Local, Bit>,
@@ -75,13 +76,13 @@ pub struct AttemptStore {
     full_flag: Signal<Local, Bits<2>>,
     opens_full: Signal<Local, Bit>,
     flags_after: Signal<Local, Bits<2>>,
-    outstanding: Signal<Local, Bits<7>>,
-    count: Signal<Local, Bits<7>>,
-    before_full: Signal<Local, Bits<7>>,
-    two: Signal<Local, Bits<7>>,
-    three: Signal<Local, Bits<7>>,
-    one: Signal<Local, Bits<7>>,
-    second_entry: Signal<Local, Bits<6>>,
+    outstanding: Signal<Local, RingCount>,
+    count: Signal<Local, RingCount>,
+    before_full: Signal<Local, RingCount>,
+    two: Signal<Local, RingCount>,
+    three: Signal<Local, RingCount>,
+    one: Signal<Local, RingCount>,
+    second_entry: Signal<Local, RingEntry>,
     /// A bit for each entry that a list of this configuration may have: those above are never kept.
     all_entries: Constant<Bits<64>>,
 }
@@ -95,20 +96,11 @@ impl AttemptStore {
         Self {
             clock: Signal::default(),
             ring: Signal::default(),
-            early_owner: Signal::default(),
-            early_entry: Signal::default(),
-            owner: Signal::default(),
-            f_entry: Signal::default(),
-            attempt: Signal::default(),
-            is_last: Signal::default(),
-            is_full: Signal::default(),
-            edge_was_passed: Signal::default(),
-            entry_bit: Signal::default(),
-            opens: Signal::default(),
-            splits: Signal::default(),
-            repeats: Signal::default(),
-            is_test: Signal::default(),
-            passes_root: Signal::default(),
+            early_token: Signal::default(),
+            token: Signal::default(),
+            held: Signal::default(),
+            found: Signal::default(),
+            step: Signal::default(),
             after: Signal::default(),
             states: LutMemory::new(bits, kept),
             flags: LutMemory::new(bits, 2),
@@ -164,12 +156,12 @@ impl Logic for AttemptStore {
         self.two.next = 2.into();
         self.three.next = 3.into();
         self.second_entry.next = 1.into();
-        self.attempt.next = self.state.q.val();
-        self.is_last.next = self.flag_bits.q.val().get_bit(0);
-        self.is_full.next = self.flag_bits.q.val().get_bit(1);
-        self.edge_was_passed.next = self.stored_passed.q.val();
+        self.held.next.attempt = self.state.q.val();
+        self.held.next.is_last = self.flag_bits.q.val().get_bit(0);
+        self.held.next.is_full = self.flag_bits.q.val().get_bit(1);
+        self.held.next.edge_was_passed = self.stored_passed.q.val();
         if self.went_round.q.val() {
-            self.edge_was_passed.next = self.kept_passed.q.val();
+            self.held.next.edge_was_passed = self.kept_passed.q.val();
         }
 
         // The flags after a test, from what stands in registers.
@@ -178,10 +170,10 @@ impl Logic for AttemptStore {
         self.before_full.next = self.ring.val() - self.one.val();
         self.becomes_last.next = self.outstanding.val() == self.two.val();
         self.becomes_full.next = self.flag_bits.q.val().get_bit(1);
-        if self.repeats.val() {
+        if self.found.val().repeats {
             self.becomes_last.next = self.flag_bits.q.val().get_bit(0);
         }
-        if self.splits.val() {
+        if self.found.val().splits {
             self.becomes_last.next = false;
             self.becomes_full.next = self.count.val() == self.before_full.val();
         }
@@ -199,7 +191,7 @@ impl Logic for AttemptStore {
         self.written.next = self.after.val();
         self.written_flags.next = self.flags_after.val();
         self.opens_full.next = self.ring.val() == self.three.val();
-        if self.opens.val() {
+        if self.found.val().opens {
             self.written.next.drains = false;
             self.written.next.outstanding = 3.into();
             self.written.next.count = 3.into();
@@ -214,35 +206,35 @@ impl Logic for AttemptStore {
         self.written_bits.next = self.written.val().into();
 
         // The memory.
-        self.states.write_address.next = self.owner.val();
+        self.states.write_address.next = self.token.val().owner;
         self.states.write_data.next = self.written_bits.val();
-        self.states.write_enable.next = self.is_test.val() | self.opens.val();
-        self.states.read_address.next = self.early_owner.val();
-        self.flags.write_address.next = self.owner.val();
+        self.states.write_enable.next = self.found.val().is_test | self.found.val().opens;
+        self.states.read_address.next = self.early_token.val().owner;
+        self.flags.write_address.next = self.token.val().owner;
         self.flags.write_data.next = self.written_flags.val();
-        self.flags.write_enable.next = self.is_test.val() | self.opens.val();
-        self.flags.read_address.next = self.early_owner.val();
+        self.flags.write_enable.next = self.found.val().is_test | self.found.val().opens;
+        self.flags.read_address.next = self.early_token.val().owner;
         self.stored.bits.next = self.states.read_data.val();
 
         // The edge that the next visit asks for.
-        self.entry.next = self.early_entry.val();
+        self.entry.next = self.early_token.val().f_entry;
         self.first_bit.next = 1.into();
-        self.wide_entry.next = bit_cast::<64, 6>(self.early_entry.val());
+        self.wide_entry.next = bit_cast::<64, 6>(self.early_token.val().f_entry);
         self.named_entry.d.next = self.first_bit.val() << self.wide_entry.val();
-        self.entry_bit.next = self.named_entry.q.val() & self.all_entries.val();
+        self.held.next.entry_bit = self.named_entry.q.val() & self.all_entries.val();
         self.kept_edges.next = self.state.q.val().half_open;
         self.stored_edges.next = self.stored.value.val().half_open;
-        self.is_same_entry.next = self.early_entry.val() == self.f_entry.val();
-        self.is_second_entry.next = self.early_entry.val() == self.second_entry.val();
+        self.is_same_entry.next = self.early_token.val().f_entry == self.token.val().f_entry;
+        self.is_second_entry.next = self.early_token.val().f_entry == self.second_entry.val();
         self.stored_passed.d.next = self.stored_edges.val().get_bit(self.entry.val().index());
         self.kept_passed.d.next = self.kept_edges.val().get_bit(self.entry.val().index())
-            | (self.splits.val() & self.is_same_entry.val())
-            | (self.passes_root.val() & self.is_second_entry.val());
+            | (self.found.val().splits & self.is_same_entry.val())
+            | (self.step.val().passes_root & self.is_second_entry.val());
 
         self.edges_after.next = self.after.val().half_open;
 
         // What the next visit sees: the memory, or what goes into it now.
-        self.goes_round.next = self.is_test.val() & (self.early_owner.val() == self.owner.val());
+        self.goes_round.next = self.found.val().is_test & (self.early_token.val().owner == self.token.val().owner);
         self.went_round.d.next = self.goes_round.val();
         self.state.d.next = self.stored.value.val();
         self.flag_bits.d.next = self.flags.read_data.val();

@@ -25,24 +25,23 @@
 //! bundle.after      .  .  1  9  .
 //! ```
 
-use crate::engine::types::{Bundle, Token, Turned};
+use crate::engine::types::{Bundle, Case, RingEntry, Token, TriangleId, Turned};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The visits asked for; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct NextVisits {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
+    /// The visit that completes in the next clock.
     pub early_token: Signal<In, Token>,
     pub early_turned: Signal<In, Turned>,
-    /// From `VisitCase`, of the visit of this clock.
-    pub walks_on: Signal<In, Bit>,
-    pub locates: Signal<In, Bit>,
+    /// What the visit of this clock means.
+    pub found: Signal<In, Case>,
     /// Where its walk goes on.
-    pub walk_next: Signal<In, Bits<15>>,
+    pub walk_next: Signal<In, TriangleId>,
     /// The entry that it allocates if it is a test.
-    pub entry: Signal<In, Bits<6>>,
+    pub entry: Signal<In, RingEntry>,
     /// The visits that it asks for, if it asks for any.
     pub bundle: Signal<Out, Bundle>,
     /// All that is known ahead.
@@ -91,10 +90,10 @@ impl Logic for NextVisits {
 
         self.bundle.next = self.prepared.q.val();
         // L5: the same record again, this time under its lock.
-        if self.locates.val() {
+        if self.found.val().locates {
             self.bundle.next.locks = true;
         }
-        if self.walks_on.val() {
+        if self.found.val().walks_on {
             self.bundle.next.u = self.walk_next.val();
         }
         if self.halves.q.val() {

@@ -16,7 +16,9 @@
 //! ```
 
 use crate::engine::attempt::ContextAddress;
-use crate::engine::types::{context_bits, ring_bits, RING_ADDRESS_BITS};
+use crate::engine::types::{
+    context_bits, ring_bits, ContextId, InnerWrite, RingCount, TriangleId, ENTRY_BITS, RING_ADDRESS_BITS, TRIANGLE_BITS,
+};
 use crate::leaf::BlockMemory;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -25,17 +27,13 @@ use rust_hdl_widgets::prelude::*;
 /// The lists of inner triangles; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct InnerList {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// An inner triangle joins the list of a context.
-    pub enable: Signal<In, Bit>,
-    pub owner: Signal<In, Bits<5>>,
-    pub place: Signal<In, Bits<6>>,
-    pub id: Signal<In, Bits<15>>,
+    pub inner: Signal<In, InnerWrite>,
     /// Another list is read from its start: its context and length.
     pub restarts: Signal<In, Bit>,
-    pub reader: Signal<In, Bits<5>>,
-    pub inners: Signal<In, Bits<7>>,
+    pub reader: Signal<In, ContextId>,
+    pub inners: Signal<In, RingCount>,
     /// The triangle on the output is used.
     pub steps: Signal<In, Bit>,
     /// None is left.
@@ -43,15 +41,12 @@ pub struct InnerList {
     /// There is one, and it is not on the output yet.
     pub is_awaited: Signal<Out, Bit>,
     /// It, else.
-    pub inner_id: Signal<Out, Bits<15>>,
-    memory: BlockMemory<RING_ADDRESS_BITS, 15>,
-    written: DFF<Bit>,
-    written_owner: DFF<Bits<5>>,
-    written_place: DFF<Bits<6>>,
-    written_id: DFF<Bits<15>>,
-    list_owner: DFF<Bits<5>>,
-    list_inners: DFF<Bits<7>>,
-    index: DFF<Bits<7>>,
+    pub inner_id: Signal<Out, TriangleId>,
+    memory: BlockMemory<RING_ADDRESS_BITS, TRIANGLE_BITS>,
+    written: DFF<InnerWrite>,
+    list_owner: DFF<ContextId>,
+    list_inners: DFF<RingCount>,
+    index: DFF<RingCount>,
     /// The next triangle is the last one, one clock late: it is looked at later still.
     one_is_left: DFF<Bit>,
     used_up: DFF<Bit>,
@@ -59,12 +54,12 @@ pub struct InnerList {
     /// The address has stood for one clock, and for two.
     stood_1: DFF<Bit>,
     stood_2: DFF<Bit>,
-    arrival: DFF<Bits<15>>,
-    write_at: ContextAddress<6, RING_ADDRESS_BITS>,
-    read_at: ContextAddress<6, RING_ADDRESS_BITS>,
-    first_place: Signal<Local, Bits<7>>,
-    one: Signal<Local, Bits<7>>,
-    after_index: Signal<Local, Bits<7>>,
+    arrival: DFF<TriangleId>,
+    write_at: ContextAddress<ENTRY_BITS, RING_ADDRESS_BITS>,
+    read_at: ContextAddress<ENTRY_BITS, RING_ADDRESS_BITS>,
+    first_place: Signal<Local, RingCount>,
+    one: Signal<Local, RingCount>,
+    after_index: Signal<Local, RingCount>,
 }
 
 impl InnerList {
@@ -72,7 +67,7 @@ impl InnerList {
     pub fn new(config: Config) -> Self {
         let bits = ring_bits(config);
         Self {
-            memory: BlockMemory::new(context_bits(config) + bits, 15),
+            memory: BlockMemory::new(context_bits(config) + bits, TRIANGLE_BITS),
             write_at: ContextAddress::new(bits),
             read_at: ContextAddress::new(bits),
             ..Self::default()
@@ -83,20 +78,17 @@ impl InnerList {
 impl Logic for InnerList {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, written, written_owner, written_place, written_id, list_owner, list_inners);
+        dff_setup!(self, clock, written, list_owner, list_inners);
         dff_setup!(self, clock, index, one_is_left, used_up, awaited, stood_1, stood_2, arrival);
         clock!(self, clock, memory);
         self.one.next = 1.into();
         self.first_place.next = 0.into();
-        self.written.d.next = self.enable.val();
-        self.written_owner.d.next = self.owner.val();
-        self.written_place.d.next = self.place.val();
-        self.written_id.d.next = self.id.val();
-        self.write_at.owner.next = self.written_owner.q.val();
-        self.write_at.place.next = self.written_place.q.val();
+        self.written.d.next = self.inner.val();
+        self.write_at.owner.next = self.written.q.val().owner;
+        self.write_at.place.next = self.written.q.val().place;
         self.memory.write_address.next = self.write_at.address.val();
-        self.memory.write_data.next = self.written_id.q.val();
-        self.memory.write_enable.next = self.written.q.val();
+        self.memory.write_data.next = self.written.q.val().id;
+        self.memory.write_enable.next = self.written.q.val().valid;
 
         self.read_at.owner.next = self.list_owner.q.val();
         self.read_at.place.next = self.index.q.val().get_bits::<6>(0);

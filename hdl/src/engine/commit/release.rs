@@ -6,7 +6,7 @@
 //! 3. While anything is due, a lock is cleared in every clock: there is no pause between jobs.
 //! 4. Nothing is due while the memory is swept: no visit is made then.
 //!
-//! Latency: 5 clocks from an idle unit's job to its first `clear_enable`; the sweep takes one clock for each record.
+//! Latency: 5 clocks from an idle unit's job to its first `clear`; the sweep takes one clock for each record.
 //!
 //! A sweep of four records; then two failures, of contexts 1 and 0, and a ring of context 3, which overtakes the second one:
 //! ```text
@@ -24,7 +24,10 @@
 
 use super::job_queue::JobQueue;
 use crate::engine::attempt::ContextAddress;
-use crate::engine::types::{context_bits, ring_bits, ReleaseJob, LOG_ADDRESS_BITS, RELEASE_JOB_BITS};
+use crate::engine::types::{
+    context_bits, ring_bits, ContextId, LockClear, LockCount, LockWrite, ReleaseJob, ReleaseRequest, Released,
+    TriangleId, LOG_ADDRESS_BITS, LOG_BITS, RELEASE_JOB_BITS, TRIANGLE_BITS,
+};
 use crate::leaf::{BlockMemory, Unpack};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -33,71 +36,65 @@ use rust_hdl_widgets::prelude::*;
 /// The lock log and its release; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Release {
-    /// Reset forgets all that is due and starts the sweep.
     pub clock: Signal<In, Clock>,
+    /// Reset forgets all that is due and starts the sweep.
     pub reset: Signal<In, Bit>,
     /// The highest record id, a constant.
-    pub last_id: Signal<In, Bits<15>>,
+    pub last_id: Signal<In, TriangleId>,
     /// A lock joins the log of a context.
-    pub lock_enable: Signal<In, Bit>,
-    pub lock_owner: Signal<In, Bits<5>>,
-    pub lock_place: Signal<In, Bits<7>>,
-    pub lock_id: Signal<In, Bits<15>>,
-    /// The last record of a ring is written: its locks are due (L4)
-    pub commit_enable: Signal<In, Bit>,
-    pub commit_job: Signal<In, ReleaseJob>,
-    /// A failed attempt has run out: its locks are due (L1)
-    pub failure_enable: Signal<In, Bit>,
-    pub failure_job: Signal<In, ReleaseJob>,
+    pub lock: Signal<In, LockWrite>,
+    /// The last record of a ring is written: its locks are due (L4).
+    pub commit: Signal<In, ReleaseRequest>,
+    /// A failed attempt has run out: its locks are due (L1).
+    pub failure: Signal<In, ReleaseRequest>,
     /// The lock memory is being cleared after reset.
     pub sweeps: Signal<Out, Bit>,
-    /// A lock to clear at this edge.
-    pub clear_enable: Signal<Out, Bit>,
-    pub clear_id: Signal<Out, Bits<15>>,
-    /// It is the last one of this context.
-    pub released: Signal<Out, Bit>,
-    pub released_owner: Signal<Out, Bits<5>>,
+    /// A lock to clear at this edge; it is the last one of its context.
+    pub clear: Signal<Out, LockClear>,
+    pub released: Signal<Out, Released>,
     commits: JobQueue<RELEASE_JOB_BITS>,
     failures: JobQueue<RELEASE_JOB_BITS>,
+    commit_job: Signal<Local, ReleaseJob>,
+    failure_job: Signal<Local, ReleaseJob>,
     commit_bits: Signal<Local, Bits<RELEASE_JOB_BITS>>,
     failure_bits: Signal<Local, Bits<RELEASE_JOB_BITS>>,
     /// The job that comes next.
     upcoming: Unpack<ReleaseJob, RELEASE_JOB_BITS>,
-    log: BlockMemory<LOG_ADDRESS_BITS, 15>,
-    write_at: ContextAddress<7, LOG_ADDRESS_BITS>,
-    read_at: ContextAddress<7, LOG_ADDRESS_BITS>,
+    log: BlockMemory<LOG_ADDRESS_BITS, TRIANGLE_BITS>,
+    write_at: ContextAddress<LOG_BITS, LOG_ADDRESS_BITS>,
+    read_at: ContextAddress<LOG_BITS, LOG_ADDRESS_BITS>,
     /// The job at work and its next place in the log.
     works: DFF<Bit>,
     at_work: DFF<ReleaseJob>,
-    place: DFF<Bits<7>>,
+    place: DFF<LockCount>,
     /// Its next lock is the last one, or the one before that.
     one_is_left: DFF<Bit>,
     two_are_left: DFF<Bit>,
-    left: DFF<Bits<7>>,
+    left: DFF<LockCount>,
     /// A lock in the log's array, and in its output register.
     array_valid: DFF<Bit>,
     array_is_last: DFF<Bit>,
-    array_owner: DFF<Bits<5>>,
+    array_owner: DFF<ContextId>,
     output_valid: DFF<Bit>,
     output_is_last: DFF<Bit>,
-    output_owner: DFF<Bits<5>>,
+    output_owner: DFF<ContextId>,
     /// The lock being cleared; during the sweep it counts.
     clears: DFF<Bit>,
-    cleared: DFF<Bits<15>>,
+    cleared: DFF<TriangleId>,
     is_last: DFF<Bit>,
-    owner: DFF<Bits<5>>,
+    owner: DFF<ContextId>,
     sweeping: DFF<Bit>,
     takes: Signal<Local, Bit>,
     fetches_last: Signal<Local, Bit>,
-    after_place: Signal<Local, Bits<7>>,
-    after_cleared: Signal<Local, Bits<15>>,
-    first_place: Signal<Local, Bits<7>>,
-    one_place: Signal<Local, Bits<7>>,
-    two_places: Signal<Local, Bits<7>>,
-    three_places: Signal<Local, Bits<7>>,
-    one: Signal<Local, Bits<15>>,
-    before_first: Signal<Local, Bits<15>>,
-    before_last: Signal<Local, Bits<15>>,
+    after_place: Signal<Local, LockCount>,
+    after_cleared: Signal<Local, TriangleId>,
+    first_place: Signal<Local, LockCount>,
+    one_place: Signal<Local, LockCount>,
+    two_places: Signal<Local, LockCount>,
+    three_places: Signal<Local, LockCount>,
+    one: Signal<Local, TriangleId>,
+    before_first: Signal<Local, TriangleId>,
+    before_last: Signal<Local, TriangleId>,
 }
 
 impl Release {
@@ -107,7 +104,7 @@ impl Release {
         Self {
             commits: JobQueue::new(context_bits(config)),
             failures: JobQueue::new(context_bits(config)),
-            log: BlockMemory::new(context_bits(config) + bits, 15),
+            log: BlockMemory::new(context_bits(config) + bits, TRIANGLE_BITS),
             write_at: ContextAddress::new(bits),
             read_at: ContextAddress::new(bits),
             ..Self::default()
@@ -127,17 +124,17 @@ impl Logic for Release {
         self.first_place.next = 0.into();
         self.before_first.next = 0x7fff.into();
         self.sweeps.next = self.sweeping.q.val();
-        self.clear_enable.next = self.clears.q.val();
-        self.clear_id.next = self.cleared.q.val();
-        self.released.next = self.is_last.q.val();
-        self.released_owner.next = self.owner.q.val();
+        self.clear.next.valid = self.clears.q.val();
+        self.clear.next.id = self.cleared.q.val();
+        self.released.next.valid = self.is_last.q.val();
+        self.released.next.owner = self.owner.q.val();
 
         // The log.
-        self.write_at.owner.next = self.lock_owner.val();
-        self.write_at.place.next = self.lock_place.val();
+        self.write_at.owner.next = self.lock.val().owner;
+        self.write_at.place.next = self.lock.val().place;
         self.log.write_address.next = self.write_at.address.val();
-        self.log.write_data.next = self.lock_id.val();
-        self.log.write_enable.next = self.lock_enable.val();
+        self.log.write_data.next = self.lock.val().id;
+        self.log.write_enable.next = self.lock.val().valid;
         self.read_at.owner.next = self.at_work.q.val().owner;
         self.read_at.place.next = self.place.q.val();
         self.log.read_address.next = self.read_at.address.val();
@@ -146,14 +143,16 @@ impl Logic for Release {
         self.after_place.next = self.place.q.val() + self.one_place.val();
         self.fetches_last.next = self.works.q.val() & self.one_is_left.q.val();
         self.takes.next = (!self.works.q.val()) | self.fetches_last.val();
+        self.commit_job.next = self.commit.val().job;
         self.commit_bits.next = self.commit_job.val().into();
         self.commits.reset.next = self.reset.val();
-        self.commits.enable.next = self.commit_enable.val();
+        self.commits.enable.next = self.commit.val().valid;
         self.commits.job.next = self.commit_bits.val();
         self.commits.takes.next = self.takes.val();
+        self.failure_job.next = self.failure.val().job;
         self.failure_bits.next = self.failure_job.val().into();
         self.failures.reset.next = self.reset.val();
-        self.failures.enable.next = self.failure_enable.val();
+        self.failures.enable.next = self.failure.val().valid;
         self.failures.job.next = self.failure_bits.val();
         self.failures.takes.next = self.takes.val() & (!self.commits.waits.val());
         self.upcoming.bits.next = self.failures.head.val();

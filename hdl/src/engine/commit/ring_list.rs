@@ -10,7 +10,10 @@
 //! entry is the last: those who read have no time for that.
 
 use crate::engine::attempt::ContextAddress;
-use crate::engine::types::{context_bits, ring_bits, Entry, ENTRY_BITS, ENTRY_WORD_BITS, RING_ADDRESS_BITS};
+use crate::engine::types::{
+    context_bits, ring_bits, ContextId, ContextSet, Entry, EntryWrite, RingEntry, ENTRY_BITS, ENTRY_WORD_BITS,
+    RING_ADDRESS_BITS,
+};
 use crate::leaf::{BankedMemory, PacedMemory, Unpack};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -22,28 +25,21 @@ const FOLLOWER_BITS: usize = ENTRY_BITS + 1;
 /// The boundary lists; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RingList {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
-    /// An entry of a context becomes final.
-    pub enable: Signal<In, Bit>,
-    pub owner: Signal<In, Bits<5>>,
-    pub place: Signal<In, Bits<6>>,
-    pub entry: Signal<In, Entry>,
+    pub entry: Signal<In, EntryWrite>,
     /// The entry to read; its context as a bit, too.
-    pub reader: Signal<In, Bits<5>>,
-    pub reader_bit: Signal<In, Bits<24>>,
-    pub read_place: Signal<In, Bits<6>>,
+    pub reader: Signal<In, ContextId>,
+    pub reader_bit: Signal<In, ContextSet>,
+    pub read_place: Signal<In, RingEntry>,
     /// It is read at this edge, and the one before it comes on the output.
     pub moves: Signal<In, Bit>,
     /// The entry after it, at once; there is none.
-    pub after: Signal<Out, Bits<6>>,
+    pub after: Signal<Out, RingEntry>,
     pub is_last: Signal<Out, Bit>,
     /// The entry that was read two moves ago; its `after` is 0.
     pub read: Signal<Out, Entry>,
-    written: DFF<Bit>,
-    written_owner: DFF<Bits<5>>,
-    written_place: DFF<Bits<6>>,
-    written_entry: DFF<Entry>,
+    written: DFF<EntryWrite>,
+    written_entry: Signal<Local, Entry>,
     /// Of each entry, lowest bit first: whether it is the last one, and the entry after it.
     followers: BankedMemory<24, 5, ENTRY_BITS, FOLLOWER_BITS>,
     /// All of an entry but `after`, which is its last field.
@@ -51,7 +47,7 @@ pub struct RingList {
     write_at: ContextAddress<ENTRY_BITS, RING_ADDRESS_BITS>,
     read_at: ContextAddress<ENTRY_BITS, RING_ADDRESS_BITS>,
     entry_bits: Signal<Local, Bits<ENTRY_WORD_BITS>>,
-    first_place: Signal<Local, Bits<6>>,
+    first_place: Signal<Local, RingEntry>,
     wide_after: Signal<Local, Bits<FOLLOWER_BITS>>,
     raised_after: Signal<Local, Bits<FOLLOWER_BITS>>,
     last_bit: Signal<Local, Bits<FOLLOWER_BITS>>,
@@ -77,30 +73,28 @@ impl RingList {
 impl Logic for RingList {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, written, written_owner, written_place, written_entry);
+        dff_setup!(self, clock, written);
         clock!(self, clock, followers, edges);
         self.first_place.next = 0.into();
-        self.written.d.next = self.enable.val();
-        self.written_owner.d.next = self.owner.val();
-        self.written_place.d.next = self.place.val();
-        self.written_entry.d.next = self.entry.val();
-        self.write_at.owner.next = self.written_owner.q.val();
-        self.write_at.place.next = self.written_place.q.val();
-        self.entry_bits.next = self.written_entry.q.val().into();
+        self.written.d.next = self.entry.val();
+        self.written_entry.next = self.written.q.val().entry;
+        self.write_at.owner.next = self.written.q.val().owner;
+        self.write_at.place.next = self.written.q.val().place;
+        self.entry_bits.next = self.written_entry.val().into();
         self.one.next = 1.into();
-        self.wide_after.next = bit_cast::<FOLLOWER_BITS, ENTRY_BITS>(self.written_entry.q.val().after);
+        self.wide_after.next = bit_cast::<FOLLOWER_BITS, ENTRY_BITS>(self.written_entry.val().after);
         self.raised_after.next = self.wide_after.val() << self.one.val();
         self.last_bit.next = 0.into();
-        if self.written_entry.q.val().after == self.first_place.val() {
+        if self.written_entry.val().after == self.first_place.val() {
             self.last_bit.next = 1.into();
         }
-        self.followers.write_bank.next = self.written_owner.q.val();
-        self.followers.write_address.next = self.written_place.q.val();
+        self.followers.write_bank.next = self.written.q.val().owner;
+        self.followers.write_address.next = self.written.q.val().place;
         self.followers.write_data.next = self.raised_after.val() | self.last_bit.val();
-        self.followers.write_enable.next = self.written.q.val();
+        self.followers.write_enable.next = self.written.q.val().valid;
         self.edges.write_address.next = self.write_at.address.val();
         self.edges.write_data.next = self.entry_bits.val();
-        self.edges.write_enable.next = self.written.q.val();
+        self.edges.write_enable.next = self.written.q.val().valid;
 
         self.read_at.owner.next = self.reader.val();
         self.read_at.place.next = self.read_place.val();

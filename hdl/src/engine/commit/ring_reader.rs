@@ -1,7 +1,7 @@
 //! Reads finished boundary rings in their order, an entry a clock, one ring after the other.
 //!
 //! 1. A ring starts at entry 0 and follows `after` until that is 0. It has three entries or more.
-//! 2. All its entries are final when `job_enable` comes, or become so at the same edge; none is written again until the last one
+//! 2. All its entries are final when `commit` comes, or become so at the same edge; none is written again until the last one
 //!    has been taken.
 //! 3. Without `takes` the head is held.
 //! 4. Five stages move together, when the head is free or taken: the pointer, the array of the list memory, its output register,
@@ -11,7 +11,7 @@
 //!    place on the way is empty. Who takes the head has the end of a ring to see to in that clock.
 //! 6. A context has one ring here at a time.
 //!
-//! Latency: 6 clocks from `job_enable` to `head_valid` if no ring is before it.
+//! Latency: 6 clocks from `commit` to `head` if no ring is before it.
 //!
 //! Two rings of three, of contexts 1 and 0, whose entries stand in the order 0, 2, 1 with `a` = 10, 12, 11 and 20, 22, 21; behind
 //! the first two of each lies one triangle:
@@ -29,7 +29,10 @@
 
 use super::job_queue::JobQueue;
 use super::ring_list::RingList;
-use crate::engine::types::{context_bits, CommitJob, Entry, COMMIT_JOB_BITS};
+use crate::engine::types::{
+    context_bits, CommitJob, CommitRequest, ContextSet, Entry, EntryWrite, RingEntry, RingHead, TriangleId,
+    COMMIT_JOB_BITS,
+};
 use crate::leaf::Unpack;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -38,39 +41,31 @@ use rust_hdl_widgets::prelude::*;
 /// The reader of rings; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RingReader {
-    /// Reset forgets all rings.
     pub clock: Signal<In, Clock>,
+    /// Reset forgets all rings.
     pub reset: Signal<In, Bit>,
     /// An entry of a context becomes final.
-    pub entry_enable: Signal<In, Bit>,
-    pub entry_owner: Signal<In, Bits<5>>,
-    pub entry_place: Signal<In, Bits<6>>,
-    pub entry: Signal<In, Entry>,
+    pub entry: Signal<In, EntryWrite>,
     /// A ring is finished.
-    pub job_enable: Signal<In, Bit>,
-    pub job: Signal<In, CommitJob>,
+    pub commit: Signal<In, CommitRequest>,
     /// The next entry; its `after` is 0.
-    pub head_valid: Signal<Out, Bit>,
-    pub head: Signal<Out, Entry>,
-    /// It ends its ring.
-    pub head_is_last: Signal<Out, Bit>,
-    /// The same cavity triangle lies behind the entry before it, or behind the first of its ring.
-    pub head_shares: Signal<Out, Bit>,
+    pub head: Signal<Out, RingHead>,
     /// Its ring; with the first entry.
     pub head_job: Signal<Out, CommitJob>,
     /// The head is taken at this edge, if there is one.
     pub takes: Signal<In, Bit>,
     rings: JobQueue<COMMIT_JOB_BITS>,
     oldest: Unpack<CommitJob, COMMIT_JOB_BITS>,
+    job: Signal<Local, CommitJob>,
     job_bits: Signal<Local, Bits<COMMIT_JOB_BITS>>,
     list: RingList,
     /// The ring that the pointer is in.
     ring: DFF<CommitJob>,
     /// Its context, a bit each.
-    ring_bit: DFF<Bits<24>>,
+    ring_bit: DFF<ContextSet>,
     pointer_valid: DFF<Bit>,
     pointer_is_first: DFF<Bit>,
-    pointer: DFF<Bits<6>>,
+    pointer: DFF<RingEntry>,
     array_valid: DFF<Bit>,
     array_is_first: DFF<Bit>,
     array_is_last: DFF<Bit>,
@@ -90,17 +85,17 @@ pub struct RingReader {
     /// The head; the next one is compared with it.
     last_entry: DFF<Entry>,
     /// The triangle behind the first entry of its ring.
-    first_f: DFF<Bits<15>>,
+    first_f: DFF<TriangleId>,
     moves: Signal<Local, Bit>,
     ring_is_through: Signal<Local, Bit>,
     /// The pointer is at an entry, not past the last one.
     pointer_counts: Signal<Local, Bit>,
     shares_with_last: Signal<Local, Bit>,
     shares_with_first: Signal<Local, Bit>,
-    first_place: Signal<Local, Bits<6>>,
-    first_bit: Signal<Local, Bits<24>>,
-    wide_owner: Signal<Local, Bits<24>>,
-    oldest_bit: Signal<Local, Bits<24>>,
+    first_place: Signal<Local, RingEntry>,
+    first_bit: Signal<Local, ContextSet>,
+    wide_owner: Signal<Local, ContextSet>,
+    oldest_bit: Signal<Local, ContextSet>,
 }
 
 impl RingReader {
@@ -119,17 +114,14 @@ impl Logic for RingReader {
         dff_setup!(self, clock, entry_valid, entry_is_last, entry_shares, last_entry, first_f);
         clock!(self, clock, rings, list);
         self.first_place.next = 0.into();
-        self.head_valid.next = self.entry_valid.q.val();
-        self.head.next = self.last_entry.q.val();
-        self.head_is_last.next = self.entry_is_last.q.val();
-        self.head_shares.next = self.entry_shares.q.val();
+        self.head.next.valid = self.entry_valid.q.val();
+        self.head.next.entry = self.last_entry.q.val();
+        self.head.next.is_last = self.entry_is_last.q.val();
+        self.head.next.shares = self.entry_shares.q.val();
         self.head_job.next = self.output_ring.q.val();
         self.moves.next = (!self.entry_valid.q.val()) | self.takes.val();
 
         // The list.
-        self.list.enable.next = self.entry_enable.val();
-        self.list.owner.next = self.entry_owner.val();
-        self.list.place.next = self.entry_place.val();
         self.list.entry.next = self.entry.val();
         self.list.reader.next = self.ring.q.val().owner;
         self.list.reader_bit.next = self.ring_bit.q.val();
@@ -139,9 +131,10 @@ impl Logic for RingReader {
         // The pointer follows its ring, whose last entry leads to place 0 again, and there begins the next ring.
         self.ring_is_through.next = (!self.pointer_valid.q.val()) | self.array_is_last.q.val();
         self.pointer_counts.next = self.pointer_valid.q.val() & (!self.array_is_last.q.val());
+        self.job.next = self.commit.val().job;
         self.job_bits.next = self.job.val().into();
         self.rings.reset.next = self.reset.val();
-        self.rings.enable.next = self.job_enable.val();
+        self.rings.enable.next = self.commit.val().valid;
         self.rings.job.next = self.job_bits.val();
         self.rings.takes.next = self.moves.val() & self.ring_is_through.val();
         self.oldest.bits.next = self.rings.head.val();

@@ -5,41 +5,42 @@
 //!
 //! Latency: none (combinational).
 
-use crate::engine::types::Entry;
+use crate::engine::types::{Entry, RingHead, TriangleId};
 use rust_hdl_core::prelude::*;
 
 /// The id rule of the commit; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct StarId {
-    /// The next entry of the list; rule 1 denies it its cavity triangle's id.
-    pub head: Signal<In, Entry>,
-    pub head_shares: Signal<In, Bit>,
+    /// The next entry of the list; rule 1 may deny it its cavity triangle's id.
+    pub head: Signal<In, RingHead>,
     /// The first entry.
     pub first: Signal<In, Entry>,
     /// The ring closes: the first entry lies ahead.
     pub current_is_last: Signal<In, Bit>,
     /// The next inner triangle, unless there is none left.
-    pub inner_id: Signal<In, Bits<15>>,
+    pub inner_id: Signal<In, TriangleId>,
     pub inner_is_used_up: Signal<In, Bit>,
     /// The next new id.
-    pub fresh: Signal<In, Bits<15>>,
+    pub fresh: Signal<In, TriangleId>,
     /// The entry ahead, and its id.
     pub ahead: Signal<Out, Entry>,
-    pub id: Signal<Out, Bits<15>>,
+    pub id: Signal<Out, TriangleId>,
     /// The id is the inner triangle's, or the new one.
     pub is_inner: Signal<Out, Bit>,
     pub is_fresh: Signal<Out, Bit>,
+    entry: Signal<Local, Entry>,
     shares: Signal<Local, Bit>,
 }
 
 impl Logic for StarId {
     #[hdl_gen]
     fn update(&mut self) {
-        self.shares.next = self.head_shares.val() & (!self.current_is_last.val());
+        self.entry.next = self.head.val().entry;
+        self.shares.next = self.head.val().shares & (!self.current_is_last.val());
         self.is_inner.next = self.shares.val() & (!self.inner_is_used_up.val());
         self.is_fresh.next = self.shares.val() & self.inner_is_used_up.val();
-        self.ahead.next = self.head.val();
-        self.id.next = self.head.val().f;
+        self.ahead.next = self.entry.val();
+        self.id.next = self.entry.val().f;
         if self.shares.val() {
             self.id.next = self.inner_id.val();
             if self.inner_is_used_up.val() {

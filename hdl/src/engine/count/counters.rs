@@ -10,6 +10,7 @@ use super::cycle_counters::CycleCounters;
 use super::event_counter::EventCounter;
 use super::latency_range::LatencyRange;
 use super::visit_counters::VisitCounters;
+use crate::engine::types::{Clocks, Events};
 use incircle_protocol::Counter;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -17,47 +18,15 @@ use rust_hdl_widgets::prelude::*;
 /// The event counters; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Counters {
-    /// Reset and clear set all counters to zero.
     pub clock: Signal<In, Clock>,
+    /// Reset and clear set all counters to zero.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// A job is under way; it has no point to work on; a read-out is under way.
     pub inserting: Signal<In, Bit>,
     pub waiting: Signal<In, Bit>,
     pub reading: Signal<In, Bit>,
-    /// A visit is issued; a record or a link is written.
-    pub is_issuing: Signal<In, Bit>,
-    pub is_writing: Signal<In, Bit>,
-    /// A commit is at work; a lock is cleared.
-    pub is_committing: Signal<In, Bit>,
-    pub is_releasing: Signal<In, Bit>,
-    /// A visit of that kind completes.
-    pub walk_visit: Signal<In, Bit>,
-    pub root_visit: Signal<In, Bit>,
-    pub test: Signal<In, Bit>,
-    pub solo_test: Signal<In, Bit>,
-    /// It is made once more.
-    pub revisit: Signal<In, Bit>,
-    /// An attempt ends at a foreign lock; a located triangle no longer holds the point.
-    pub gives_up: Signal<In, Bit>,
-    pub retries: Signal<In, Bit>,
-    /// The waiting token is taken.
-    pub takes_token: Signal<In, Bit>,
-    /// A boundary list has overflowed; a flip of an insertion alone is finished.
-    pub overflows: Signal<In, Bit>,
-    pub flip: Signal<In, Bit>,
-    /// A cavity is complete, and consists of so many triangles.
-    pub cavity_ends: Signal<In, Bit>,
-    pub cavity_triangles: Signal<In, Bits<7>>,
-    /// 3, 1 or 1 points are inserted.
-    pub seeds: Signal<In, Bit>,
-    pub commit_ends: Signal<In, Bit>,
-    pub solo_inserts: Signal<In, Bit>,
-    /// When the point whose commit ends was taken: `now` at that edge.
-    pub since: Signal<In, Bits<22>>,
-    /// A point is found to be a duplicate.
-    pub duplicate: Signal<In, Bit>,
-    pub solo_duplicate: Signal<In, Bit>,
+    pub events: Signal<In, Events>,
     /// Points refused, counted where they are refused.
     pub refused: Signal<In, Bits<32>>,
     /// Word to read: its place in the answer to `Counters`.
@@ -68,11 +37,11 @@ pub struct Counters {
     pub insertions: Signal<Out, Bits<32>>,
     pub duplicates: Signal<Out, Bits<32>>,
     /// Clocks since reset, modulo 2^22; clear does not stop it.
-    pub now: Signal<Out, Bits<22>>,
+    pub now: Signal<Out, Clocks>,
     /// The latency of the commit that ended with the last edge.
     pub latency_comes: Signal<Out, Bit>,
-    pub latency: Signal<Out, Bits<22>>,
-    ticks: DFF<Bits<22>>,
+    pub latency: Signal<Out, Clocks>,
+    ticks: DFF<Clocks>,
     zeroes: DFF<Bit>,
     /// The group of the word, one of the third group, and the word.
     group: DFF<Bits<2>>,
@@ -84,7 +53,7 @@ pub struct Counters {
     cycles: CycleCounters,
     visits: VisitCounters,
     range: LatencyRange,
-    one_tick: Signal<Local, Bits<22>>,
+    one_tick: Signal<Local, Clocks>,
     last_other: Signal<Local, Bits<5>>,
     first_cycles: Signal<Local, Bits<5>>,
     more: Signal<Local, Bits<32>>,
@@ -119,38 +88,28 @@ impl Logic for Counters {
         self.cycles.inserting.next = self.inserting.val();
         self.cycles.waiting.next = self.waiting.val();
         self.cycles.reading.next = self.reading.val();
-        self.cycles.is_issuing.next = self.is_issuing.val();
-        self.cycles.is_writing.next = self.is_writing.val();
-        self.cycles.is_committing.next = self.is_committing.val();
-        self.cycles.is_releasing.next = self.is_releasing.val();
+        self.cycles.is_issuing.next = self.events.val().is_issuing;
+        self.cycles.is_writing.next = self.events.val().is_writing;
+        self.cycles.is_committing.next = self.events.val().is_committing;
+        self.cycles.is_releasing.next = self.events.val().is_releasing;
         self.cycles.select.next = self.select.val();
-        self.visits.walk_visit.next = self.walk_visit.val();
-        self.visits.test.next = self.test.val() | self.solo_test.val();
-        self.visits.overflows.next = self.overflows.val();
-        self.visits.flip.next = self.flip.val();
-        self.visits.root_visit.next = self.root_visit.val();
-        self.visits.revisit.next = self.revisit.val();
-        self.visits.gives_up.next = self.gives_up.val();
-        self.visits.retries.next = self.retries.val();
-        self.visits.takes_token.next = self.takes_token.val();
-        self.visits.cavity_ends.next = self.cavity_ends.val();
-        self.visits.cavity_triangles.next = self.cavity_triangles.val();
+        self.visits.events.next = self.events.val().visits;
         self.visits.select.next = self.select.val();
 
         self.ticks.d.next = self.ticks.q.val() + self.one_tick.val();
         self.now.next = self.ticks.q.val();
-        self.range.commit_ends.next = self.commit_ends.val();
+        self.range.commit_ends.next = self.events.val().commit_ends;
         self.range.now.next = self.ticks.q.val();
-        self.range.since.next = self.since.val();
+        self.range.since.next = self.events.val().since;
         self.latency_comes.next = self.range.latency_comes.val();
         self.latency.next = self.range.latency.val();
 
-        self.duplicated.count.next = self.duplicate.val() | self.solo_duplicate.val();
+        self.duplicated.count.next = self.events.val().duplicate | self.events.val().solo_duplicate;
         self.inserts.d.next = 0.into();
-        if self.commit_ends.val() | self.solo_inserts.val() {
+        if self.events.val().commit_ends | self.events.val().solo_inserts {
             self.inserts.d.next = 1.into();
         }
-        if self.seeds.val() {
+        if self.events.val().seeds {
             self.inserts.d.next = 3.into();
         }
         self.more.next = bit_cast::<32, 2>(self.inserts.q.val());

@@ -14,6 +14,7 @@
 //! ```
 
 use super::latency_bucket::LatencyBucket;
+use crate::engine::types::Clocks;
 use crate::leaf::LutMemory;
 use incircle_protocol::LATENCY_BUCKETS;
 use rust_hdl_core::prelude::*;
@@ -27,13 +28,13 @@ const _: () = assert!(LATENCY_BUCKETS == 128, "the address of this block's memor
 /// The histogram; see the top of this file.
 #[derive(LogicBlock)]
 pub struct Latencies {
-    /// Reset and clear start a sweep.
     pub clock: Signal<In, Clock>,
+    /// Reset and clear start a sweep.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// An insertion took that long; not while it sweeps.
     pub comes: Signal<In, Bit>,
-    pub latency: Signal<In, Bits<22>>,
+    pub latency: Signal<In, Clocks>,
     /// The buckets are being cleared, one a clock.
     pub sweeps: Signal<Out, Bit>,
     /// Bucket to read; see `latency_bucket` of the protocol.

@@ -4,6 +4,7 @@
 //!
 //! Latency: 2 clocks: there are registers behind the step of eight octaves and behind that of four.
 
+use crate::engine::types::Clocks;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -12,7 +13,7 @@ use rust_hdl_widgets::prelude::*;
 pub struct LatencyBucket {
     pub clock: Signal<In, Clock>,
     /// Clocks.
-    pub latency: Signal<In, Bits<22>>,
+    pub latency: Signal<In, Clocks>,
     /// Four bits of the octave, then three of the place in it.
     pub bucket: Signal<Out, Bits<7>>,
     /// The latency from bit 1 up, shifted until its highest bit that is set stands at the top.

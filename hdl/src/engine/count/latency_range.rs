@@ -6,34 +6,35 @@
 //!
 //! Latency: 1 clock to `latency`, 3 to `least` and `most`.
 
+use crate::engine::types::Clocks;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Latencies of insertions; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LatencyRange {
-    /// `zero` forgets all.
     pub clock: Signal<In, Clock>,
+    /// `zero` forgets all.
     pub zero: Signal<In, Bit>,
     /// An insertion is finished at this edge.
     pub commit_ends: Signal<In, Bit>,
     /// The clock count, and what it was when the point was taken; both modulo 2^22.
-    pub now: Signal<In, Bits<22>>,
-    pub since: Signal<In, Bits<22>>,
+    pub now: Signal<In, Clocks>,
+    pub since: Signal<In, Clocks>,
     /// The latency of the insertion that was finished at the last edge.
     pub latency_comes: Signal<Out, Bit>,
-    pub latency: Signal<Out, Bits<22>>,
+    pub latency: Signal<Out, Clocks>,
     /// Of all; 0 if there was none.
-    pub least: Signal<Out, Bits<22>>,
-    pub most: Signal<Out, Bits<22>>,
+    pub least: Signal<Out, Clocks>,
+    pub most: Signal<Out, Clocks>,
     comes: DFF<Bit>,
     /// It is the least, and the most.
     is_least: DFF<Bit>,
     is_most: DFF<Bit>,
-    taken: DFF<Bits<22>>,
-    lowest: DFF<Bits<22>>,
-    highest: DFF<Bits<22>>,
-    none: Signal<Local, Bits<22>>,
+    taken: DFF<Clocks>,
+    lowest: DFF<Clocks>,
+    highest: DFF<Clocks>,
+    none: Signal<Local, Clocks>,
 }
 
 impl Logic for LatencyRange {

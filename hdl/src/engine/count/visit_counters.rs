@@ -3,6 +3,7 @@
 //! Latency: 2 clocks; `value` follows `select` by 1.
 
 use super::event_counter::EventCounter;
+use crate::engine::types::{RingCount, VisitEvents};
 use incircle_protocol::Counter;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -10,32 +11,16 @@ use rust_hdl_widgets::prelude::*;
 /// Counts of visits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitCounters {
-    /// `zero` forgets the clocks before.
     pub clock: Signal<In, Clock>,
+    /// `zero` forgets the clocks before.
     pub zero: Signal<In, Bit>,
-    /// A visit of that kind completes.
-    pub walk_visit: Signal<In, Bit>,
-    pub root_visit: Signal<In, Bit>,
-    pub test: Signal<In, Bit>,
-    /// It is made once more.
-    pub revisit: Signal<In, Bit>,
-    /// An attempt ends at a foreign lock; a located triangle no longer holds the point.
-    pub gives_up: Signal<In, Bit>,
-    pub retries: Signal<In, Bit>,
-    /// The waiting token is taken.
-    pub takes_token: Signal<In, Bit>,
-    /// A boundary list has overflowed; a flip of an insertion alone is finished.
-    pub overflows: Signal<In, Bit>,
-    pub flip: Signal<In, Bit>,
-    /// A cavity is complete, and consists of so many triangles.
-    pub cavity_ends: Signal<In, Bit>,
-    pub cavity_triangles: Signal<In, Bits<7>>,
+    pub events: Signal<In, VisitEvents>,
     /// Word to read: its place in the answer to `Counters`.
     pub select: Signal<In, Bits<5>>,
     /// That word, if it is one of these, a clock later.
     pub value: Signal<Out, Bits<32>>,
     chosen: DFF<Bits<32>>,
-    last_triangles: DFF<Bits<7>>,
+    last_triangles: DFF<RingCount>,
     triangles: DFF<Bits<32>>,
     walk_visits: EventCounter,
     tests: EventCounter,
@@ -79,18 +64,18 @@ impl Logic for VisitCounters {
         self.aborts.zero.next = self.zero.val();
         self.root_retries.zero.next = self.zero.val();
         self.waiting_tokens.zero.next = self.zero.val();
-        self.walk_visits.count.next = self.walk_visit.val();
-        self.tests.count.next = self.test.val();
-        self.overflowed.count.next = self.overflows.val();
-        self.flips.count.next = self.flip.val();
-        self.root_visits.count.next = self.root_visit.val();
-        self.revisits.count.next = self.revisit.val();
-        self.aborts.count.next = self.gives_up.val();
-        self.root_retries.count.next = self.retries.val();
-        self.waiting_tokens.count.next = self.takes_token.val();
+        self.walk_visits.count.next = self.events.val().walk_visit;
+        self.tests.count.next = self.events.val().test;
+        self.overflowed.count.next = self.events.val().overflows;
+        self.flips.count.next = self.events.val().flip;
+        self.root_visits.count.next = self.events.val().root_visit;
+        self.revisits.count.next = self.events.val().revisit;
+        self.aborts.count.next = self.events.val().gives_up;
+        self.root_retries.count.next = self.events.val().retries;
+        self.waiting_tokens.count.next = self.events.val().takes_token;
         self.last_triangles.d.next = 0.into();
-        if self.cavity_ends.val() {
-            self.last_triangles.d.next = self.cavity_triangles.val();
+        if self.events.val().cavity_ends {
+            self.last_triangles.d.next = self.events.val().cavity_triangles;
         }
         self.wide_triangles.next = bit_cast::<32, 7>(self.last_triangles.q.val());
         self.triangles.d.next = self.triangles.q.val() + self.wide_triangles.val();

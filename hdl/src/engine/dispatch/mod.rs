@@ -4,7 +4,7 @@
 //! outcome of a visit -> ContextFlags -> asleep, trying again, due -> Starter -> a walk starts: PushPort
 //!                       waiting token,                               |    ^
 //!                       wish to be alone                             v    |
-//!                                                        PlanTable, NextPoint: the point of each context
+//!                                                  DueCheck, PlanTable, NextPoint: is it due, with which point?
 //! finished points -> Progress -> quiet
 //!                       |
 //!                       +-----> Watchdog -> stuck
@@ -12,22 +12,26 @@
 //! A pointer goes round the contexts, one a clock, and starts the one it stands at if that one has something to do. It costs a few
 //! clocks for an insertion and saves a search over all contexts, which would set the clock of the core.
 //!
-//! Lock rules (see `docs/engine.md`): L1, who has failed rests until a fourth round of the pointer ([`Starter`]); L2, one waiting token
+//! Lock rules (see `docs/engine.md`): L1, who has failed rests until a fourth round of the pointer ([`DueCheck`]); L2, one waiting token
 //! ([`ContextFlags`]); L3, nobody but the holder tries again once it has waited for long ([`ContextFlags`], [`Starter`]); L8, the first
-//! points go to context 0 ([`Starter`], [`NextPoint`]).
+//! points go to context 0 ([`DueCheck`], [`Starter`], [`NextPoint`]).
 
 mod context_flags;
 mod dispatcher;
+mod due_check;
 mod next_point;
 mod plan_table;
 mod progress;
+mod start_pointer;
 mod starter;
 mod watchdog;
 
 pub use context_flags::ContextFlags;
 pub use dispatcher::Dispatcher;
-pub use next_point::NextPoint;
-pub use plan_table::PlanTable;
+pub use due_check::DueCheck;
+pub use next_point::{Following, NextPoint, Passed, Pointer};
+pub use plan_table::{PlanTable, PlanWrite};
 pub use progress::Progress;
-pub use starter::Starter;
+pub use start_pointer::StartPointer;
+pub use starter::{Candidate, Starter};
 pub use watchdog::Watchdog;

@@ -8,48 +8,65 @@
 //!
 //! Latency: none (combinational).
 
-use crate::engine::types::{Deal, Plan};
+use crate::engine::types::{ContextId, Deal, Plan, TriangleId, VertexId};
 use incircle_protocol::FIRST_ROUND;
 use rust_hdl_core::prelude::*;
+
+crate::packed! {
+    /// The context that the pointer stands at.
+    pub struct Pointer {
+        pub turn: ContextId,
+        /// `3 turn + 2`: in a batch, the third vertex of that context's own first triangle.
+        pub third: Bits<7>,
+    }
+
+    /// The context that the pointer has left, and the vertex that it would take.
+    pub struct Passed {
+        pub owner: ContextId,
+        pub id: VertexId,
+        /// That is the third of its first triangle, in a batch; the vertex after it.
+        pub is_seed: bool,
+        pub dealt: Bits<7>,
+    }
+
+    /// What follows for that context.
+    pub struct Following {
+        /// Its vertex is behind the first round.
+        pub is_dealt: bool,
+        /// The vertex that it takes after that.
+        pub id: VertexId,
+        /// The first record of its mesh.
+        pub first_record: TriangleId,
+    }
+}
 
 /// The next vertex of a context; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct NextPoint {
     /// Contexts that work, and whether each has a mesh of its own.
     pub deal: Signal<In, Deal>,
-    /// The context, and `3 turn + 2`.
-    pub turn: Signal<In, Bits<5>>,
-    pub third: Signal<In, Bits<7>>,
-    /// The vertex it takes first.
+    pub pointer: Signal<In, Pointer>,
+    /// The vertex that the context under the pointer takes first, and the one after that, in a batch.
     pub first: Signal<Out, Plan>,
-    /// The one that it takes after that, in a batch.
     pub first_dealt: Signal<Out, Bits<7>>,
-    /// Another context, and a vertex that it takes.
-    pub taker: Signal<In, Bits<5>>,
-    pub taken: Signal<In, Bits<15>>,
-    /// That is the third of its first triangle, in a batch; what then stood on `first_dealt`.
-    pub took_seed: Signal<In, Bit>,
-    pub taken_dealt: Signal<In, Bits<7>>,
-    /// That vertex is behind the first round.
-    pub taken_is_dealt: Signal<Out, Bit>,
-    /// The vertex that it takes after that.
-    pub after_taken: Signal<Out, Bits<15>>,
-    /// The first record of that context's mesh.
-    pub first_record: Signal<Out, Bits<15>>,
+    /// Another context.
+    pub passed: Signal<In, Passed>,
+    pub following: Signal<Out, Following>,
+    taken: Signal<Local, VertexId>,
     is_batch: Signal<Local, Bit>,
     is_early: Signal<Local, Bit>,
     is_dealt: Signal<Local, Bit>,
     rounds: Signal<Local, Bits<11>>,
-    from: Signal<Local, Bits<15>>,
-    step: Signal<Local, Bits<15>>,
-    wide_turn: Signal<Local, Bits<15>>,
-    wide_taker: Signal<Local, Bits<15>>,
+    from: Signal<Local, VertexId>,
+    step: Signal<Local, VertexId>,
+    wide_turn: Signal<Local, VertexId>,
+    wide_taker: Signal<Local, VertexId>,
     narrow_turn: Signal<Local, Bits<7>>,
     dealt_from: Signal<Local, Bits<7>>,
-    first_round: Signal<Local, Bits<15>>,
-    first_context: Signal<Local, Bits<5>>,
-    one: Signal<Local, Bits<15>>,
-    two: Signal<Local, Bits<15>>,
+    first_round: Signal<Local, VertexId>,
+    first_context: Signal<Local, ContextId>,
+    one: Signal<Local, VertexId>,
+    two: Signal<Local, VertexId>,
 }
 
 // The kernel writes it as a literal, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
@@ -63,15 +80,16 @@ impl Logic for NextPoint {
         self.one.next = 1.into();
         self.two.next = 2.into();
         self.is_batch.next = self.deal.val().is_batch;
-        self.wide_turn.next = bit_cast::<15, 5>(self.turn.val());
-        self.wide_taker.next = bit_cast::<15, 5>(self.taker.val());
-        self.narrow_turn.next = bit_cast::<7, 5>(self.turn.val());
+        self.taken.next = self.passed.val().id;
+        self.wide_turn.next = bit_cast::<15, 5>(self.pointer.val().turn);
+        self.wide_taker.next = bit_cast::<15, 5>(self.passed.val().owner);
+        self.narrow_turn.next = bit_cast::<7, 5>(self.pointer.val().turn);
         self.dealt_from.next = self.deal.val().dealt_from;
         self.first_dealt.next = self.dealt_from.val() + self.narrow_turn.val();
         // Not compared with 16: that would be a carry chain in front of the sum.
         self.rounds.next = self.taken.val().get_bits::<11>(4);
         self.is_dealt.next = self.rounds.val().any();
-        self.taken_is_dealt.next = self.is_dealt.val();
+        self.following.next.is_dealt = self.is_dealt.val();
         // L8: below the first round the next vertex is context 0's again.
         self.is_early.next = (!self.is_dealt.val()) & (!self.is_batch.val());
         self.from.next = self.taken.val();
@@ -79,19 +97,19 @@ impl Logic for NextPoint {
         if self.is_early.val() {
             self.step.next = self.one.val();
         }
-        if self.took_seed.val() {
-            self.from.next = bit_cast::<15, 7>(self.taken_dealt.val());
+        if self.passed.val().is_seed {
+            self.from.next = bit_cast::<15, 7>(self.passed.val().dealt);
             self.step.next = 0.into();
         }
-        self.after_taken.next = self.from.val() + self.step.val();
-        self.first_record.next = 0.into();
+        self.following.next.id = self.from.val() + self.step.val();
+        self.following.next.first_record = 0.into();
         if self.is_batch.val() {
-            self.first_record.next = self.wide_taker.val() << self.two.val();
+            self.following.next.first_record = self.wide_taker.val() << self.two.val();
         }
         self.first.next.id = self.wide_turn.val() + self.first_round.val();
         // That of context 0 is 2 either way.
-        if self.is_batch.val() | (self.turn.val() == self.first_context.val()) {
-            self.first.next.id = bit_cast::<15, 7>(self.third.val());
+        if self.is_batch.val() | (self.pointer.val().turn == self.first_context.val()) {
+            self.first.next.id = bit_cast::<15, 7>(self.pointer.val().third);
         }
         self.first.next.is_seed = self.is_batch.val();
     }

@@ -13,28 +13,29 @@
 //! stuck           _________________________________/^^^^^^^^^^^^^^
 //! ```
 
+use crate::engine::types::Clocks;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The watchdog; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Watchdog {
-    /// Reset forgets the fault.
     pub clock: Signal<In, Clock>,
+    /// Reset forgets the fault.
     pub reset: Signal<In, Bit>,
     /// A point is in the mesh, or known to be a duplicate, at this edge.
     pub finishes: Signal<In, Bit>,
     /// There is nothing to do.
     pub is_quiet: Signal<In, Bit>,
     /// Clocks to wait, a constant; see `patience` of the protocol.
-    pub patience: Signal<In, Bits<22>>,
+    pub patience: Signal<In, Clocks>,
     /// A fault: that many clocks have passed without either.
     pub stuck: Signal<Out, Bit>,
     rests: DFF<Bit>,
-    clocks: DFF<Bits<22>>,
+    clocks: DFF<Clocks>,
     is_over: DFF<Bit>,
     is_stuck: DFF<Bit>,
-    one: Signal<Local, Bits<22>>,
+    one: Signal<Local, Clocks>,
 }
 
 impl Logic for Watchdog {

@@ -20,38 +20,32 @@
 //! ```
 
 use super::seed_writes::SeedWrites;
-use crate::engine::types::{Deal, Verdict, Write};
+use crate::engine::types::{Arrival, ContextId, Deal, SeedProgress, TriangleId, Verdict, VertexId, Write};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The first triangles; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Seeder {
-    /// Reset and clear forget the first triangles.
     pub clock: Signal<In, Clock>,
+    /// Reset and clear forget the first triangles.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// The infinite vertex, a constant.
-    pub infinite: Signal<In, Bits<15>>,
+    pub infinite: Signal<In, VertexId>,
     /// Whether there is a batch, and of how many jobs.
     pub deal: Signal<In, Deal>,
     /// A point is stored at this edge; points that have come.
-    pub came: Signal<In, Bit>,
-    pub came_id: Signal<In, Bits<15>>,
-    pub arrived: Signal<In, Bits<15>>,
+    pub arrival: Signal<In, Arrival>,
+    pub arrived: Signal<In, VertexId>,
     /// The visit that completes is the look at three points, for the third of them.
     pub looks: Signal<In, Bit>,
     pub verdict: Signal<In, Verdict>,
-    /// Every first triangle stands.
-    pub seeded: Signal<Out, Bit>,
+    pub progress: Signal<Out, SeedProgress>,
     /// Three points for the first triangle that is due have come, and it does not stand yet.
     pub start_is_open: Signal<Out, Bit>,
     /// Such three are collinear, and no more triangles will be made.
     pub collinear: Signal<Out, Bit>,
-    /// No first triangle is being made, and none can be from the points that have come.
-    pub has_no_start: Signal<Out, Bit>,
-    /// The last record of one is written at this edge.
-    pub seeds: Signal<Out, Bit>,
     /// A record, registered.
     pub write: Signal<Out, Write>,
     step: DFF<Bits<3>>,
@@ -61,10 +55,10 @@ pub struct Seeder {
     request: DFF<Write>,
     /// The job whose first triangle is due: its first vertex and record, the points that have come with its third, and the number of the
     /// job after it.
-    vertex: DFF<Bits<15>>,
-    record: DFF<Bits<15>>,
-    triple: DFF<Bits<15>>,
-    following: DFF<Bits<5>>,
+    vertex: DFF<VertexId>,
+    record: DFF<TriangleId>,
+    triple: DFF<VertexId>,
+    following: DFF<ContextId>,
     has_triple: DFF<Bit>,
     writes: SeedWrites,
     prepares: Signal<Local, Bit>,
@@ -74,9 +68,9 @@ pub struct Seeder {
     look_step: Signal<Local, Bits<3>>,
     last_step: Signal<Local, Bits<3>>,
     one: Signal<Local, Bits<3>>,
-    one_job: Signal<Local, Bits<5>>,
-    three_vertices: Signal<Local, Bits<15>>,
-    four_records: Signal<Local, Bits<15>>,
+    one_job: Signal<Local, ContextId>,
+    three_vertices: Signal<Local, VertexId>,
+    four_records: Signal<Local, TriangleId>,
 }
 
 impl Logic for Seeder {
@@ -92,13 +86,14 @@ impl Logic for Seeder {
         self.four_records.next = 4.into();
         self.is_writing.next = self.step.q.val() != self.look_step.val();
         self.is_last.next = self.step.q.val() == self.last_step.val();
-        self.seeded.next = self.is_seeded.q.val();
+        self.progress.next.seeded = self.is_seeded.q.val();
         self.collinear.next = self.is_collinear.q.val();
-        self.seeds.next = self.is_last.val();
+        self.progress.next.seeds = self.is_last.val();
         self.start_is_open.next = self.has_triple.q.val() & (!self.is_seeded.q.val()) & (!self.is_collinear.q.val());
-        self.has_no_start.next = ((!self.has_triple.q.val()) | self.is_collinear.q.val()) & (!self.is_writing.val());
+        self.progress.next.has_no_start =
+            ((!self.has_triple.q.val()) | self.is_collinear.q.val()) & (!self.is_writing.val());
 
-        self.prepares.next = self.came.val() & (self.came_id.val() == self.vertex.q.val());
+        self.prepares.next = self.arrival.val().came & (self.arrival.val().id == self.vertex.q.val());
         self.writes.step.next = self.step.q.val();
         self.writes.first_vertex.next = self.vertex.q.val();
         self.writes.first_record.next = self.record.q.val();

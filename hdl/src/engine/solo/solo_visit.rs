@@ -2,27 +2,22 @@
 //!
 //! Latency: none (combinational).
 
-use crate::engine::types::{Bundle, Turned};
+use super::star_state::{SoloPhase, StarTriangle};
+use crate::engine::types::{Bundle, ContextId, TriangleId, Turned};
 use rust_hdl_core::prelude::*;
 
 /// Visits of an insertion alone; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloVisit {
     /// The context.
-    pub owner: Signal<In, Bits<5>>,
-    /// The triangle that a walk has come to; the star triangle at work.
-    pub is_locate: Signal<In, Bit>,
-    pub is_fetch: Signal<In, Bit>,
-    /// An outer neighbour of the split, the second one; a test if nothing else.
-    pub is_mend: Signal<In, Bit>,
+    pub owner: Signal<In, ContextId>,
+    /// What is done; a test if nothing else. An outer neighbour of the split is the second one.
+    pub phase: Signal<In, SoloPhase>,
     pub is_second: Signal<In, Bit>,
     /// The located triangle, or the one that the walk has come to.
-    pub root_id: Signal<In, Bits<15>>,
+    pub root_id: Signal<In, TriangleId>,
     pub root: Signal<In, Turned>,
-    /// The star triangle at work, the one outside, and the link by which that leads back.
-    pub id: Signal<In, Bits<15>>,
-    pub outer: Signal<In, Bits<15>>,
-    pub back: Signal<In, Bits<15>>,
+    pub triangle: Signal<In, StarTriangle>,
     /// The visit; it sets no lock.
     pub bundle: Signal<Out, Bundle>,
 }
@@ -33,25 +28,25 @@ impl Logic for SoloVisit {
         self.bundle.next.is_pair = false;
         self.bundle.next.is_triple = false;
         self.bundle.next.owner = self.owner.val();
-        self.bundle.next.rotates = (!self.is_fetch.val()) & (!self.is_locate.val());
+        self.bundle.next.rotates = (!self.phase.val().is_fetch) & (!self.phase.val().is_locate);
         self.bundle.next.locks = false;
         self.bundle.next.x = 0.into();
         self.bundle.next.after = 0.into();
         self.bundle.next.f_entry = 0.into();
-        self.bundle.next.f = self.back.val();
-        self.bundle.next.u = self.outer.val();
+        self.bundle.next.f = self.triangle.val().back;
+        self.bundle.next.u = self.triangle.val().outer;
         self.bundle.next.second_after = 0.into();
         self.bundle.next.second_u = 0.into();
         self.bundle.next.third_u = 0.into();
-        if self.is_fetch.val() {
+        if self.phase.val().is_fetch {
             self.bundle.next.f = 0.into();
-            self.bundle.next.u = self.id.val();
+            self.bundle.next.u = self.triangle.val().id;
         }
-        if self.is_locate.val() {
+        if self.phase.val().is_locate {
             self.bundle.next.f = 0.into();
             self.bundle.next.u = self.root_id.val();
         }
-        if self.is_mend.val() {
+        if self.phase.val().is_mend {
             self.bundle.next.f = self.root_id.val();
             self.bundle.next.u = self.root.val().n1;
             if self.is_second.val() {

@@ -19,7 +19,7 @@
 //! token.u           .  .  .  .  .  .  .  9  .
 //! ```
 
-use crate::engine::types::{Bundle, Token, BUNDLE_BITS, RING_ADDRESS_BITS};
+use crate::engine::types::{Bundle, Push, RecordRead, Token, TriangleId, BUNDLE_BITS, RING_ADDRESS_BITS};
 use crate::leaf::{DeepFifo, Unpack};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -27,35 +27,34 @@ use rust_hdl_widgets::prelude::*;
 /// The queue and the issue register; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Issue {
-    /// Reset empties the queue.
     pub clock: Signal<In, Clock>,
+    /// Reset empties the queue.
     pub reset: Signal<In, Bit>,
     /// A bundle enters the queue.
-    pub push: Signal<In, Bit>,
-    pub bundle: Signal<In, Bundle>,
+    pub push: Signal<In, Push>,
     /// A read-out wants this record; only while the queue is empty.
-    pub read: Signal<In, Bit>,
-    pub read_id: Signal<In, Bits<15>>,
+    pub read: Signal<In, RecordRead>,
     /// The visit issued; in a read-out `token.u` alone counts.
     pub token_valid: Signal<Out, Bit>,
     pub token: Signal<Out, Token>,
     /// `token.u` from two more registers; arbitrary after a reset until the next visit or read-out.
-    pub vertices_id: Signal<Out, Bits<15>>,
-    pub links_id: Signal<Out, Bits<15>>,
+    pub vertices_id: Signal<Out, TriangleId>,
+    pub links_id: Signal<Out, TriangleId>,
     /// The issue register holds a read-out.
     pub read_valid: Signal<Out, Bit>,
     queue: DeepFifo<RING_ADDRESS_BITS, BUNDLE_BITS>,
     head: Unpack<Bundle, BUNDLE_BITS>,
+    pushed: Signal<Local, Bundle>,
     bundle_bits: Signal<Local, Bits<BUNDLE_BITS>>,
     issued: DFF<Token>,
-    vertices_copy: DFF<Bits<15>>,
-    links_copy: DFF<Bits<15>>,
+    vertices_copy: DFF<TriangleId>,
+    links_copy: DFF<TriangleId>,
     issued_valid: DFF<Bit>,
     issued_read: DFF<Bit>,
     second_is_due: DFF<Bit>,
     third_is_due: DFF<Bit>,
-    record: Signal<Local, Bits<15>>,
-    no_record: Signal<Local, Bits<15>>,
+    record: Signal<Local, TriangleId>,
+    no_record: Signal<Local, TriangleId>,
     is_at_first: Signal<Local, Bit>,
     second_follows: Signal<Local, Bit>,
     third_follows: Signal<Local, Bit>,
@@ -90,8 +89,9 @@ impl Logic for Issue {
         );
         clock!(self, clock, queue);
         self.queue.reset.next = self.reset.val();
-        self.queue.push.next = self.push.val();
-        self.bundle_bits.next = self.bundle.val().into();
+        self.queue.push.next = self.push.val().valid;
+        self.pushed.next = self.push.val().bundle;
+        self.bundle_bits.next = self.pushed.val().into();
         self.queue.push_data.next = self.bundle_bits.val();
         self.head.bits.next = self.queue.data.val();
         self.token.next = self.issued.q.val();
@@ -108,7 +108,7 @@ impl Logic for Issue {
         self.third_is_due.d.next = self.queue.valid.val() & self.third_follows.val();
 
         self.issued_valid.d.next = self.queue.valid.val();
-        self.issued_read.d.next = self.read.val();
+        self.issued_read.d.next = self.read.val().valid;
         self.issued.d.next.owner = self.head.value.val().owner;
         self.issued.d.next.rotates = self.head.value.val().rotates;
         self.issued.d.next.locks = self.head.value.val().locks;
@@ -127,8 +127,8 @@ impl Logic for Issue {
             self.issued.d.next.after = 0.into();
             self.record.next = self.head.value.val().third_u;
         }
-        if self.read.val() {
-            self.record.next = self.read_id.val();
+        if self.read.val().valid {
+            self.record.next = self.read.val().id;
         }
         self.issued.d.next.u = self.record.val();
         self.vertices_copy.d.next = self.record.val();

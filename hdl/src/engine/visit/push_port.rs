@@ -17,31 +17,24 @@
 //! bundle.u          .  .  5  .  6  .  7
 //! ```
 
-use crate::engine::types::Bundle;
+use crate::engine::types::{Bundle, Follow, Push, Start};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// The push port; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PushPort {
-    /// Reset drops the visits.
     pub clock: Signal<In, Clock>,
+    /// Reset drops the visits.
     pub reset: Signal<In, Bit>,
-    /// A visit that completes asks for these; it may.
-    pub asks: Signal<In, Bit>,
-    pub may_ask: Signal<In, Bit>,
-    pub follows: Signal<In, Bundle>,
-    /// A context starts to walk at this record.
-    pub starts: Signal<In, Bit>,
-    pub starter: Signal<In, Bits<5>>,
-    pub u: Signal<In, Bits<15>>,
-    /// An insertion alone is at work; it asks for this visit.
+    /// What follows a visit that completes.
+    pub follow: Signal<In, Follow>,
+    /// A context starts to walk.
+    pub start: Signal<In, Start>,
+    /// An insertion alone is at work; the visit that it asks for.
     pub is_alone: Signal<In, Bit>,
-    pub solo_asks: Signal<In, Bit>,
-    pub solo: Signal<In, Bundle>,
-    /// The visits to make.
-    pub push: Signal<Out, Bit>,
-    pub bundle: Signal<Out, Bundle>,
+    pub solo: Signal<In, Push>,
+    pub push: Signal<Out, Push>,
     pushes: DFF<Bit>,
     pushed: DFF<Bundle>,
 }
@@ -50,20 +43,20 @@ impl Logic for PushPort {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, pushes, pushed);
-        self.push.next = self.pushes.q.val();
-        self.bundle.next = self.pushed.q.val();
-        self.pushes.d.next = self.asks.val() | self.starts.val() | self.solo_asks.val();
-        self.pushed.d.next = self.follows.val();
-        if !self.may_ask.val() {
+        self.push.next.valid = self.pushes.q.val();
+        self.push.next.bundle = self.pushed.q.val();
+        self.pushes.d.next = self.follow.val().asks | self.start.val().valid | self.solo.val().valid;
+        self.pushed.d.next = self.follow.val().bundle;
+        if !self.follow.val().may_ask {
             self.pushed.d.next.is_pair = false;
             self.pushed.d.next.is_triple = false;
-            self.pushed.d.next.owner = self.starter.val();
+            self.pushed.d.next.owner = self.start.val().owner;
             self.pushed.d.next.rotates = false;
             self.pushed.d.next.locks = false;
-            self.pushed.d.next.u = self.u.val();
+            self.pushed.d.next.u = self.start.val().u;
         }
         if self.is_alone.val() {
-            self.pushed.d.next = self.solo.val();
+            self.pushed.d.next = self.solo.val().bundle;
         }
         if self.reset.val() {
             self.pushes.d.next = false;

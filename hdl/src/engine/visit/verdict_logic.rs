@@ -12,7 +12,8 @@
 //!
 //! Latency: none (combinational).
 
-use crate::engine::types::{Turned, Verdict};
+use crate::engine::types::{Slot, Turned, Verdict};
+use crate::predicate::{EdgeFlags, OrderFlags, Signs};
 use rust_hdl_core::prelude::*;
 
 /// Verdict of a visit; see the top of this file.
@@ -20,51 +21,15 @@ use rust_hdl_core::prelude::*;
 pub struct VerdictLogic {
     /// The record turned.
     pub turned: Signal<In, Turned>,
-    /// The flags of `VisitPredicates` for its corners as stored.
-    pub e0_negative: Signal<In, Bit>,
-    /// Right of side 1.
-    pub e1_negative: Signal<In, Bit>,
-    /// Right of side 2.
-    pub e2_negative: Signal<In, Bit>,
-    /// On the line of side 0.
-    pub e0_zero: Signal<In, Bit>,
-    /// On the line of side 1.
-    pub e1_zero: Signal<In, Bit>,
-    /// On the line of side 2.
-    pub e2_zero: Signal<In, Bit>,
-    /// Side 1 is lower than side 0.
-    pub e1_below_e0: Signal<In, Bit>,
-    /// Side 2 is lower than side 0.
-    pub e2_below_e0: Signal<In, Bit>,
-    /// Side 2 is lower than side 1.
-    pub e2_below_e1: Signal<In, Bit>,
-    /// The point lies inside the circle.
-    pub incircle_positive: Signal<In, Bit>,
-    /// On the circle.
-    pub incircle_zero: Signal<In, Bit>,
-    /// The point comes before corner 0.
-    pub p_before_r0: Signal<In, Bit>,
-    /// Before corner 1.
-    pub p_before_r1: Signal<In, Bit>,
-    /// Before corner 2.
-    pub p_before_r2: Signal<In, Bit>,
-    /// The point is corner 0.
-    pub p_equals_r0: Signal<In, Bit>,
-    /// Corner 1.
-    pub p_equals_r1: Signal<In, Bit>,
-    /// Corner 2.
-    pub p_equals_r2: Signal<In, Bit>,
-    /// Corner 0 comes before corner 1.
-    pub r0_before_r1: Signal<In, Bit>,
-    /// Before corner 2.
-    pub r0_before_r2: Signal<In, Bit>,
-    /// The flags of `VisitPredicates` for its corners as stored.
-    pub r1_before_r2: Signal<In, Bit>,
+    /// The signs for its corners as stored.
+    pub signs: Signal<In, Signs>,
     /// What the visit found out.
     pub verdict: Signal<Out, Verdict>,
+    edges: Signal<Local, EdgeFlags>,
+    order: Signal<Local, OrderFlags>,
     is_ghost: Signal<Local, Bit>,
-    second_slot: Signal<Local, Bits<2>>,
-    third_slot: Signal<Local, Bits<2>>,
+    second_slot: Signal<Local, Slot>,
+    third_slot: Signal<Local, Slot>,
     is_second: Signal<Local, Bit>,
     is_third: Signal<Local, Bit>,
     infinite1: Signal<Local, Bit>,
@@ -81,6 +46,8 @@ pub struct VerdictLogic {
 impl Logic for VerdictLogic {
     #[hdl_gen]
     fn update(&mut self) {
+        self.edges.next = self.signs.val().edges;
+        self.order.next = self.signs.val().order;
         self.is_ghost.next = self.turned.val().infinite0 | self.turned.val().infinite1 | self.turned.val().infinite2;
 
         // The turn, undone: which corner is infinite as stored.
@@ -100,43 +67,44 @@ impl Logic for VerdictLogic {
         }
 
         // A ghost: where the point lies from its one finite side.
-        self.is_beyond.next = (!self.e0_negative.val()) & (!self.e0_zero.val());
-        self.is_on_hull_line.next = self.e0_zero.val();
-        self.is_between.next = self.p_before_r1.val() ^ self.p_before_r2.val();
+        self.is_beyond.next = (!self.edges.val().e0_negative) & (!self.edges.val().e0_zero);
+        self.is_on_hull_line.next = self.edges.val().e0_zero;
+        self.is_between.next = self.order.val().p_before_r1 ^ self.order.val().p_before_r2;
         if self.infinite1.val() {
-            self.is_beyond.next = (!self.e1_negative.val()) & (!self.e1_zero.val());
-            self.is_on_hull_line.next = self.e1_zero.val();
-            self.is_between.next = self.p_before_r2.val() ^ self.p_before_r0.val();
+            self.is_beyond.next = (!self.edges.val().e1_negative) & (!self.edges.val().e1_zero);
+            self.is_on_hull_line.next = self.edges.val().e1_zero;
+            self.is_between.next = self.order.val().p_before_r2 ^ self.order.val().p_before_r0;
         }
         if self.infinite2.val() {
-            self.is_beyond.next = (!self.e2_negative.val()) & (!self.e2_zero.val());
-            self.is_on_hull_line.next = self.e2_zero.val();
-            self.is_between.next = self.p_before_r0.val() ^ self.p_before_r1.val();
+            self.is_beyond.next = (!self.edges.val().e2_negative) & (!self.edges.val().e2_zero);
+            self.is_on_hull_line.next = self.edges.val().e2_zero;
+            self.is_between.next = self.order.val().p_before_r0 ^ self.order.val().p_before_r1;
         }
 
         // min(p, r0) < min(r1, r2), with the corners turned.
-        self.takes_tie.next =
-            (self.p_before_r1.val() & self.p_before_r2.val()) | (self.r0_before_r1.val() & self.r0_before_r2.val());
+        self.takes_tie.next = (self.order.val().p_before_r1 & self.order.val().p_before_r2)
+            | (self.order.val().r0_before_r1 & self.order.val().r0_before_r2);
         if self.is_second.val() {
-            self.takes_tie.next = (self.p_before_r2.val() & self.p_before_r0.val())
-                | (self.r1_before_r2.val() & (!self.r0_before_r1.val()));
+            self.takes_tie.next = (self.order.val().p_before_r2 & self.order.val().p_before_r0)
+                | (self.order.val().r1_before_r2 & (!self.order.val().r0_before_r1));
         }
         if self.is_third.val() {
-            self.takes_tie.next = (self.p_before_r0.val() & self.p_before_r1.val())
-                | ((!self.r0_before_r2.val()) & (!self.r1_before_r2.val()));
+            self.takes_tie.next = (self.order.val().p_before_r0 & self.order.val().p_before_r1)
+                | ((!self.order.val().r0_before_r2) & (!self.order.val().r1_before_r2));
         }
         if self.is_ghost.val() {
             self.verdict.next.conflict = self.is_beyond.val() | (self.is_on_hull_line.val() & self.is_between.val());
         } else {
             self.verdict.next.conflict =
-                self.incircle_positive.val() | (self.incircle_zero.val() & self.takes_tie.val());
+                self.signs.val().incircle_positive | (self.signs.val().incircle_zero & self.takes_tie.val());
         }
 
         // The walk.
-        self.is_outside_some_side.next = self.e0_negative.val() | self.e1_negative.val() | self.e2_negative.val();
-        self.leaves_by_side2.next =
-            (self.e1_below_e0.val() & self.e2_below_e1.val()) | ((!self.e1_below_e0.val()) & self.e2_below_e0.val());
-        self.leaves_by_side1.next = self.e1_below_e0.val() & (!self.e2_below_e1.val());
+        self.is_outside_some_side.next =
+            self.edges.val().e0_negative | self.edges.val().e1_negative | self.edges.val().e2_negative;
+        self.leaves_by_side2.next = (self.edges.val().e1_below_e0 & self.edges.val().e2_below_e1)
+            | ((!self.edges.val().e1_below_e0) & self.edges.val().e2_below_e0);
+        self.leaves_by_side1.next = self.edges.val().e1_below_e0 & (!self.edges.val().e2_below_e1);
         self.verdict.next.walk_next = self.turned.val().n0;
         if self.is_ghost.val() {
             self.verdict.next.located = self.is_beyond.val();
@@ -150,7 +118,7 @@ impl Logic for VerdictLogic {
         } else {
             self.verdict.next.located = !self.is_outside_some_side.val();
             self.verdict.next.falls_onto_corner =
-                self.p_equals_r0.val() | self.p_equals_r1.val() | self.p_equals_r2.val();
+                self.order.val().p_equals_r0 | self.order.val().p_equals_r1 | self.order.val().p_equals_r2;
             if self.leaves_by_side1.val() {
                 self.verdict.next.walk_next = self.turned.val().n1;
             }
@@ -158,7 +126,7 @@ impl Logic for VerdictLogic {
                 self.verdict.next.walk_next = self.turned.val().n2;
             }
         }
-        self.verdict.next.is_straight = self.e2_zero.val();
-        self.verdict.next.is_left = (!self.e2_negative.val()) & (!self.e2_zero.val());
+        self.verdict.next.is_straight = self.edges.val().e2_zero;
+        self.verdict.next.is_left = (!self.edges.val().e2_negative) & (!self.edges.val().e2_zero);
     }
 }

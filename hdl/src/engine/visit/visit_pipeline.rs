@@ -7,9 +7,9 @@
 //!    of the context's visits is out.
 //! 4. A read-out never meets a write of its record at one edge: the user reads only while nothing is at work.
 //!
-//! Latency: `STAGES` = 16 clocks from the issue register to `done`, 17 from `push`, and 18 round the loop with the register that
+//! Latency: `STAGES` = 16 clocks from the issue register to `visit`, 17 from `push`, and 18 round the loop with the register that
 //! drives `push`. The record is there after 2, the corners after 5, the signs after 15. A read-out takes 3 clocks from `read` to
-//! `read_done`.
+//! `read_out`.
 //!
 //! A bundle of two visits of context 1, then a read-out:
 //! ```text
@@ -28,10 +28,12 @@ use super::issue::Issue;
 use super::visit_judge::VisitJudge;
 use super::visit_reader::VisitReader;
 use crate::engine::types::{
-    context_bits, ring_bits, Bundle, Token, Turned, Verdict, Write, WriteEnables, CONTEXT_BITS, TOKEN_BITS, TURNED_BITS,
+    context_bits, ring_bits, Arrival, Completion, ContextId, LockClear, Position, Push, RecordRead, Token, TriangleId,
+    Turned, Upcoming, VertexId, Write, WriteEnables, CONTEXT_BITS, TOKEN_BITS, TURNED_BITS,
 };
 use crate::leaf::{DelayLine, LutMemory, Unpack};
-use crate::mesh::{TriangleStore, VertexStore};
+use crate::mesh::{ReadRecord, TriangleStore, VertexStore};
+use crate::predicate::{Point, POINT_BITS};
 use incircle_protocol::{triangle_id_bits, vertex_id_bits, Config};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -39,76 +41,48 @@ use rust_hdl_widgets::prelude::*;
 /// The visit pipeline; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitPipeline {
-    /// Reset forgets all visits; memories keep their contents.
     pub clock: Signal<In, Clock>,
+    /// Reset forgets all visits; memories keep their contents.
     pub reset: Signal<In, Bit>,
     /// The id of the infinite vertex, a constant.
-    pub infinite: Signal<In, Bits<15>>,
+    pub infinite: Signal<In, VertexId>,
     /// Records from this id on are not written yet.
-    pub records: Signal<In, Bits<15>>,
+    pub records: Signal<In, TriangleId>,
     /// Visits to make.
-    pub push: Signal<In, Bit>,
-    pub bundle: Signal<In, Bundle>,
+    pub push: Signal<In, Push>,
     /// The point that a context inserts from now on.
-    pub position_owner: Signal<In, Bits<5>>,
-    pub position: Signal<In, Bits<32>>,
-    pub position_enable: Signal<In, Bit>,
+    pub position: Signal<In, Position>,
     /// A visit reads its record in this clock.
     pub is_issuing: Signal<Out, Bit>,
-    /// A visit completes in this clock.
-    pub done: Signal<Out, Bit>,
-    pub token: Signal<Out, Token>,
-    pub turned: Signal<Out, Turned>,
-    pub verdict: Signal<Out, Verdict>,
-    pub early_done: Signal<Out, Bit>,
-    pub early_token: Signal<Out, Token>,
-    pub early_turned: Signal<Out, Turned>,
+    /// The visit that completes in this clock, and the one that does in the next clock unless reset.
+    pub visit: Signal<Out, Completion>,
+    pub early: Signal<Out, Upcoming>,
     /// A read-out wants a record; only while no visit is out.
-    pub read: Signal<In, Bit>,
-    pub read_id: Signal<In, Bits<15>>,
-    /// The record stands on `v0..n2` and `was_set`.
-    pub read_done: Signal<Out, Bit>,
-    /// Column read.
-    pub v0: Signal<Out, Bits<15>>,
-    /// Column read.
-    pub v1: Signal<Out, Bits<15>>,
-    /// Column read.
-    pub v2: Signal<Out, Bits<15>>,
-    /// Column read.
-    pub n0: Signal<Out, Bits<15>>,
-    /// Column read.
-    pub n1: Signal<Out, Bits<15>>,
-    /// Column read.
-    pub n2: Signal<Out, Bits<15>>,
-    /// Lock bit read.
-    pub was_set: Signal<Out, Bit>,
+    pub read: Signal<In, RecordRead>,
+    pub read_out: Signal<Out, ReadRecord>,
     /// A write into the triangle memory, and the columns that it writes.
     pub write: Signal<In, Write>,
     pub enables: Signal<In, WriteEnables>,
     /// A write into the vertex memory.
-    pub vertex_id: Signal<In, Bits<15>>,
-    pub vertex_position: Signal<In, Bits<32>>,
-    pub vertex_enable: Signal<In, Bit>,
+    pub arrival: Signal<In, Arrival>,
     /// A vertex read, 2 clocks later; only at an edge without such a write.
-    pub fetch_id: Signal<In, Bits<15>>,
-    pub fetched: Signal<Out, Bits<32>>,
-    /// A lock to clear.
-    pub clear_id: Signal<In, Bits<15>>,
-    pub clear_enable: Signal<In, Bit>,
+    pub fetch_id: Signal<In, VertexId>,
+    pub fetched: Signal<Out, Point>,
+    pub clear: Signal<In, LockClear>,
     issue: Issue,
     triangles: TriangleStore,
     vertices: VertexStore,
     reader: VisitReader,
     judge: VisitJudge,
-    positions: LutMemory<CONTEXT_BITS, 32>,
+    positions: LutMemory<CONTEXT_BITS, POINT_BITS>,
     is_written: Signal<Local, Bit>,
     is_torn: Signal<Local, Bit>,
     /// The visit in clocks 1 and 2 must look again.
     again1: DFF<Bit>,
     again2: DFF<Bit>,
     /// The context of the visit in clocks 3 and 4.
-    owner3: DFF<Bits<5>>,
-    owner4: DFF<Bits<5>>,
+    owner3: DFF<ContextId>,
+    owner4: DFF<ContextId>,
     token_bits: Signal<Local, Bits<TOKEN_BITS>>,
     turned_bits: Signal<Local, Bits<TURNED_BITS>>,
     token_delay: DelayLine<TOKEN_BITS>,
@@ -117,20 +91,18 @@ pub struct VisitPipeline {
     delayed_turned: Unpack<Turned, TURNED_BITS>,
     /// The record in clock 15.
     judged: DFF<Turned>,
-    point: DFF<Bits<32>>,
-    /// Bit `k`: the visit issued `k + 1` clocks ago is valid.
-    valid: DFF<Bits<16>>,
+    point: DFF<Point>,
+    /// Bit `k`: the visit issued `k + 1` clocks ago is valid; `completes` says so of the last stage.
+    valid: DFF<Bits<15>>,
     read_valid1: DFF<Bit>,
     read_valid2: DFF<Bit>,
-    token_register: DFF<Token>,
-    turned_register: DFF<Turned>,
-    verdict_register: DFF<Verdict>,
-    shifted: Signal<Local, Bits<16>>,
-    one: Signal<Local, Bits<16>>,
+    completes: DFF<Completion>,
+    shifted: Signal<Local, Bits<15>>,
+    one: Signal<Local, Bits<15>>,
 }
 
 impl VisitPipeline {
-    /// Clocks from the issue register to `done`: corners, signs, verdict.
+    /// Clocks from the issue register to `visit`: corners, signs, verdict.
     pub const STAGES: usize = VisitReader::LATENCY + VisitJudge::LATENCY + 1;
 
     /// The pipeline of a configuration.
@@ -138,7 +110,7 @@ impl VisitPipeline {
     /// # Panics
     /// If the stages do not add up to the width of the valid register, which is a fault in this source.
     pub fn new(config: Config) -> Self {
-        assert_eq!(Self::STAGES, 16, "the valid register has 16 bits");
+        assert_eq!(Self::STAGES, 16, "the valid register has a bit for each stage but the last");
         let signs = VisitReader::LATENCY + VisitJudge::LATENCY;
         Self {
             issue: Issue::new(context_bits(config) + ring_bits(config)),
@@ -147,7 +119,7 @@ impl VisitPipeline {
                 vertex_id_bits(config.points) as usize,
                 context_bits(config),
             ),
-            positions: LutMemory::new(context_bits(config), 32),
+            positions: LutMemory::new(context_bits(config), POINT_BITS),
             vertices: VertexStore::new(vertex_id_bits(config.points) as usize - 1),
             token_delay: DelayLine::new(signs - TriangleStore::LATENCY),
             turned_delay: DelayLine::new(signs - VisitReader::TURNED_LATENCY - 1),
@@ -159,30 +131,14 @@ impl VisitPipeline {
 impl Logic for VisitPipeline {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(
-            self,
-            clock,
-            again1,
-            again2,
-            owner3,
-            owner4,
-            point,
-            valid,
-            read_valid1,
-            read_valid2,
-            judged,
-            token_register,
-            turned_register,
-            verdict_register
-        );
+        dff_setup!(self, clock, again1, again2, owner3, owner4, point, valid, read_valid1, read_valid2);
+        dff_setup!(self, clock, judged, completes);
         clock!(self, clock, issue, triangles, vertices, reader, positions, judge, token_delay, turned_delay);
         self.one.next = 1.into();
         self.reader.infinite.next = self.infinite.val();
         self.issue.reset.next = self.reset.val();
         self.issue.push.next = self.push.val();
-        self.issue.bundle.next = self.bundle.val();
         self.issue.read.next = self.read.val();
-        self.issue.read_id.next = self.read_id.val();
         self.is_issuing.next = self.issue.token_valid.val();
 
         // Clock 0, L7: a record that is not written yet, or being written, does not count.
@@ -199,53 +155,35 @@ impl Logic for VisitPipeline {
         self.triangles.owner.next = self.issue.token.val().owner;
         self.triangles.write.next = self.write.val();
         self.triangles.enables.next = self.enables.val();
-        self.triangles.clear_id.next = self.clear_id.val();
-        self.triangles.clear_enable.next = self.clear_enable.val();
+        self.triangles.clear.next = self.clear.val();
         self.reader.token.next = self.issue.token.val();
-        self.reader.v0.next = self.triangles.v0.val();
-        self.reader.v1.next = self.triangles.v1.val();
-        self.reader.v2.next = self.triangles.v2.val();
-        self.reader.n0.next = self.triangles.n0.val();
-        self.reader.n1.next = self.triangles.n1.val();
-        self.reader.n2.next = self.triangles.n2.val();
+        self.reader.record.next = self.triangles.record.val();
         self.reader.took.next = self.triangles.took.val();
         self.reader.foreign.next = self.triangles.foreign.val();
         self.reader.again.next = self.again2.q.val();
-        self.v0.next = self.triangles.v0.val();
-        self.v1.next = self.triangles.v1.val();
-        self.v2.next = self.triangles.v2.val();
-        self.n0.next = self.triangles.n0.val();
-        self.n1.next = self.triangles.n1.val();
-        self.n2.next = self.triangles.n2.val();
-        self.was_set.next = self.triangles.was_set.val();
         self.read_valid1.d.next = self.issue.read_valid.val();
         self.read_valid2.d.next = self.read_valid1.q.val();
-        self.read_done.next = self.read_valid2.q.val();
+        self.read_out.next.valid = self.read_valid2.q.val();
+        self.read_out.next.record = self.triangles.record.val();
 
         // Clocks 2 to 5: the corners, and the point.
-        self.vertices.id0.next = self.triangles.v0.val();
-        self.vertices.id1.next = self.triangles.v1.val();
-        self.vertices.id2.next = self.triangles.v2.val();
-        self.vertices.write_id.next = self.vertex_id.val();
-        self.vertices.write_position.next = self.vertex_position.val();
-        self.vertices.write_enable.next = self.vertex_enable.val();
-        self.reader.position0.next = self.vertices.position0.val();
-        self.reader.position1.next = self.vertices.position1.val();
-        self.reader.position2.next = self.vertices.position2.val();
+        self.vertices.id0.next = self.triangles.record.val().v0;
+        self.vertices.id1.next = self.triangles.record.val().v1;
+        self.vertices.id2.next = self.triangles.record.val().v2;
+        self.vertices.write.next = self.arrival.val();
+        self.reader.stored_corners.next = self.vertices.corners.val();
         self.vertices.fetch_id.next = self.fetch_id.val();
         self.fetched.next = self.vertices.fetched.val();
         self.owner3.d.next = self.reader.token_at_record.val().owner;
         self.owner4.d.next = self.owner3.q.val();
-        self.positions.write_address.next = self.position_owner.val();
-        self.positions.write_data.next = self.position.val();
-        self.positions.write_enable.next = self.position_enable.val();
+        self.positions.write_address.next = self.position.val().owner;
+        self.positions.write_data.next = self.position.val().point;
+        self.positions.write_enable.next = self.position.val().valid;
         self.positions.read_address.next = self.owner4.q.val();
         self.point.d.next = self.positions.read_data.val();
 
         // Clocks 5 to 15: the signs, and beside them the visit and its record.
-        self.judge.r0.next = self.reader.r0.val();
-        self.judge.r1.next = self.reader.r1.val();
-        self.judge.r2.next = self.reader.r2.val();
+        self.judge.corners.next = self.reader.corners.val();
         self.judge.p.next = self.point.q.val();
         self.token_bits.next = self.reader.token_at_record.val().into();
         self.token_delay.data_in.next = self.token_bits.val();
@@ -257,22 +195,20 @@ impl Logic for VisitPipeline {
         // Clock 14: the record comes out of the delay. Clock 15: the verdict.
         self.judged.d.next = self.delayed_turned.value.val();
         self.judge.turned.next = self.judged.q.val();
-        self.token_register.d.next = self.delayed_token.value.val();
-        self.turned_register.d.next = self.judged.q.val();
-        self.verdict_register.d.next = self.judge.verdict.val();
-        self.early_done.next = self.valid.q.val().get_bit(14);
-        self.early_token.next = self.delayed_token.value.val();
-        self.early_turned.next = self.judged.q.val();
-        self.token.next = self.token_register.q.val();
-        self.turned.next = self.turned_register.q.val();
-        self.verdict.next = self.verdict_register.q.val();
+        self.early.next.done = self.valid.q.val().get_bit(14);
+        self.early.next.token = self.delayed_token.value.val();
+        self.early.next.turned = self.judged.q.val();
+        self.completes.d.next.done = self.valid.q.val().get_bit(14) & (!self.reset.val());
+        self.completes.d.next.token = self.delayed_token.value.val();
+        self.completes.d.next.turned = self.judged.q.val();
+        self.completes.d.next.verdict = self.judge.verdict.val();
+        self.visit.next = self.completes.q.val();
 
         self.shifted.next = self.valid.q.val() << self.one.val();
         self.valid.d.next = self.shifted.val();
         if self.issue.token_valid.val() {
             self.valid.d.next = self.shifted.val() | self.one.val();
         }
-        self.done.next = self.valid.q.val().get_bit(15);
         if self.reset.val() {
             self.valid.d.next = 0.into();
             self.read_valid1.d.next = false;

@@ -23,47 +23,35 @@
 //! r0                .  .  .  .  . 51  .
 //! ```
 
-use crate::engine::types::{Token, Turned};
-use crate::mesh::{TriangleStore, VertexStore};
+use crate::engine::types::{Slot, Token, Turned, VertexId};
+use crate::mesh::{Record, TriangleStore, VertexStore};
+use crate::predicate::Corners;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Slot search, rotation and corners; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitReader {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// The id of the infinite vertex, a constant.
-    pub infinite: Signal<In, Bits<15>>,
+    pub infinite: Signal<In, VertexId>,
     /// The visit, in clock 0.
     pub token: Signal<In, Token>,
     /// Its record from the triangle memory, in clock 2.
-    pub v0: Signal<In, Bits<15>>,
-    pub v1: Signal<In, Bits<15>>,
-    pub v2: Signal<In, Bits<15>>,
-    /// Column of the record.
-    pub n0: Signal<In, Bits<15>>,
-    /// Column of the record.
-    pub n1: Signal<In, Bits<15>>,
-    /// Column of the record.
-    pub n2: Signal<In, Bits<15>>,
+    pub record: Signal<In, Record>,
     /// Whether the record counts, in clock 2.
     pub again: Signal<In, Bit>,
     /// What became of its lock, in clock 3.
     pub took: Signal<In, Bit>,
     pub foreign: Signal<In, Bit>,
-    /// Coordinates of `v0..v2`, in clock 4.
-    pub position0: Signal<In, Bits<32>>,
-    pub position1: Signal<In, Bits<32>>,
-    pub position2: Signal<In, Bits<32>>,
+    /// The coordinates of its vertices, in clock 4.
+    pub stored_corners: Signal<In, Corners>,
     /// The record turned, in clock 5.
     pub turned: Signal<Out, Turned>,
-    /// The token of the record on the columns, for the delay to the verdict.
+    /// The visit whose record is there, for the delay to the verdict.
     pub token_at_record: Signal<Out, Token>,
-    /// Coordinates of its vertices, not turned, in clock 5.
-    pub r0: Signal<Out, Bits<32>>,
-    pub r1: Signal<Out, Bits<32>>,
-    pub r2: Signal<Out, Bits<32>>,
+    /// The coordinates of its vertices, not turned, in clock 5.
+    pub corners: Signal<Out, Corners>,
     token1: DFF<Token>,
     token2: DFF<Token>,
     token3: DFF<Token>,
@@ -72,12 +60,10 @@ pub struct VisitReader {
     /// The record as stored; `slot` is the one that will come first.
     found: DFF<Turned>,
     rotated: DFF<Turned>,
-    corner0: DFF<Bits<32>>,
-    corner1: DFF<Bits<32>>,
-    corner2: DFF<Bits<32>>,
-    first_slot: Signal<Local, Bits<2>>,
-    second_slot: Signal<Local, Bits<2>>,
-    third_slot: Signal<Local, Bits<2>>,
+    kept_corners: DFF<Corners>,
+    first_slot: Signal<Local, Slot>,
+    second_slot: Signal<Local, Slot>,
+    third_slot: Signal<Local, Slot>,
 }
 
 impl VisitReader {
@@ -90,7 +76,7 @@ impl VisitReader {
 impl Logic for VisitReader {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, token1, token2, token3, stored, found, rotated, corner0, corner1, corner2);
+        dff_setup!(self, clock, token1, token2, token3, stored, found, rotated, kept_corners);
         self.first_slot.next = 0.into();
         self.second_slot.next = 1.into();
         self.third_slot.next = 2.into();
@@ -100,12 +86,12 @@ impl Logic for VisitReader {
 
         // Clock 2: the record as it comes.
         self.token3.d.next = self.token2.q.val();
-        self.stored.d.next.v0 = self.v0.val();
-        self.stored.d.next.v1 = self.v1.val();
-        self.stored.d.next.v2 = self.v2.val();
-        self.stored.d.next.n0 = self.n0.val();
-        self.stored.d.next.n1 = self.n1.val();
-        self.stored.d.next.n2 = self.n2.val();
+        self.stored.d.next.v0 = self.record.val().v0;
+        self.stored.d.next.v1 = self.record.val().v1;
+        self.stored.d.next.v2 = self.record.val().v2;
+        self.stored.d.next.n0 = self.record.val().n0;
+        self.stored.d.next.n1 = self.record.val().n1;
+        self.stored.d.next.n2 = self.record.val().n2;
         self.stored.d.next.again = self.again.val();
 
         // Clock 3: the slot that comes first, the infinite vertex, and what became of the lock.
@@ -150,11 +136,7 @@ impl Logic for VisitReader {
         self.turned.next = self.rotated.q.val();
 
         // Clock 4, too: the corners as they come.
-        self.corner0.d.next = self.position0.val();
-        self.corner1.d.next = self.position1.val();
-        self.corner2.d.next = self.position2.val();
-        self.r0.next = self.corner0.q.val();
-        self.r1.next = self.corner1.q.val();
-        self.r2.next = self.corner2.q.val();
+        self.kept_corners.d.next = self.stored_corners.val();
+        self.corners.next = self.kept_corners.q.val();
     }
 }

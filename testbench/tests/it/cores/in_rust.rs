@@ -49,16 +49,16 @@ fn two_jobs_and_a_batch_clock_by_clock() {
         let inputs = Inputs { reset, ..Stalls { idle: 20, back_pressure: 20 }.inputs(rest, chance >> 8) };
         core.clock.next = false.into();
         core.reset.next = inputs.reset;
-        core.command_valid.next = inputs.command_valid;
-        core.command_data.next = u64::from(inputs.command_data).into();
-        core.response_ready.next = inputs.response_ready;
+        core.command.valid.next = inputs.command_valid;
+        core.command.data.next = u64::from(inputs.command_data).into();
+        core.response.ready.next = inputs.response_ready;
         settle(&mut core);
         let expected = model.outputs();
         if !reset {
-            let found = (core.command_ready.val(), core.response_valid.val(), core.response_data.val().to_u64());
+            let found = (core.command.ready.val(), core.response.valid.val(), core.response.data.val().to_u64());
             let said = (expected.command_ready, expected.response_valid, expected.response_data);
             assert_eq!(found, said, "clock {clock}: {}", model.describe());
-            let found = (core.response_both.val(), core.response_last.val());
+            let found = (core.response.both.val(), core.response.last.val());
             let said = (expected.response_both, expected.response_last);
             assert_eq!(found, said, "clock {clock}: {}", model.describe());
             assert_eq!(written(&core), expected.write, "clock {clock}: {}", model.describe());

@@ -128,9 +128,9 @@ fn faults_of_the_register_port_are_found() {
         ("writes = has_address$q & has_data$q & (~is_written$q);", "writes = has_address$q & has_data$q;"),
         ("reads = has_read$q & (~is_read$q);", "reads = has_read$q;"),
         ("if (write_is_known) begin", "if (read_is_known) begin"),
-        ("s_axi_wready = ~has_data$q;", "s_axi_wready = 1'b1;"),
+        ("s_axi$wready = ~has_data$q;", "s_axi$wready = 1'b1;"),
         // Answers are given, or nothing would be proven.
-        ("if (could_read) assert (s_axi_rvalid);", "if (could_read) assert (!s_axi_rvalid);"),
+        ("if (could_read) assert (s_axi$rvalid);", "if (could_read) assert (!s_axi$rvalid);"),
     ] {
         must_fail(&text, (PORT, false), fault);
     }

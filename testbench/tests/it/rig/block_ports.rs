@@ -1,55 +1,107 @@
 //! Ports of a block by name and as numbers: those of its Rust form, and those of its Verilated Verilog. Packed structures travel as
 //! one number.
 
+use std::collections::BTreeMap;
+
+use incircle_hdl::engine::{Arrival, EngineState};
 use incircle_hdl::engine::{
-    Attempt, Bundle, CommitJob, Deal, Entry, Plan, ReleaseJob, Token, Turned, Verdict, Write, WriteEnables,
+    Attempt, Beyond, Bundle, Case, CommitJob, CommitRequest, Committed, Completion, ContextState, Deal, Entry,
+    EntryWrite, Events, Follow, Following, Held, InnerWrite, LockClear, LockWrite, Outcome, Passed, Plan, PlanWrite,
+    Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead, SeedProgress, SoloPhase,
+    SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Token, Turned, Upcoming, Verdict, VisitEvents, Write,
+    WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
-use incircle_hdl::link::AnswerBeat;
+use incircle_hdl::link::types::{Activity, AnswerProgress, Clearing, Head, Request, TakenWord, Tally};
+use incircle_hdl::link::{AnswerBeat, CommandState};
+use incircle_hdl::mesh::{ReadRecord, Record};
+use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
+use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FrameHead, Lamps, Receipt, Session};
 use incircle_hdl::serial::Asked;
+use incircle_hdl::stream::{AnswerEvents, CommandEvents};
 use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
 
 /// Passes a block may take to settle: far more than its depth.
 const SETTLING_PASSES: usize = 100;
 
+/// The value of a whole port: the low 128 bits and the high ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Whole {
+    pub low: u128,
+    pub high: u128,
+}
+
+impl From<u128> for Whole {
+    fn from(low: u128) -> Self {
+        Self { low, high: 0 }
+    }
+}
+
+impl Whole {
+    /// 64 of the bits, the `place`-th of four.
+    fn quarter(self, place: u32) -> u64 {
+        let half = if place < 2 { self.low } else { self.high };
+        (half >> (64 * (place % 2))) as u64
+    }
+
+    /// The value with this quarter, which was zero.
+    fn with_quarter(mut self, place: u32, quarter: u64) -> Self {
+        let half = if place < 2 { &mut self.low } else { &mut self.high };
+        *half |= u128::from(quarter) << (64 * (place % 2));
+        self
+    }
+}
+
 /// A port value as a number.
 pub trait PortValue {
-    fn from_number(number: u128) -> Self;
-    fn to_number(self) -> u128;
+    fn from_number(number: Whole) -> Self;
+    fn to_number(self) -> Whole;
 }
 
 impl PortValue for bool {
-    fn from_number(number: u128) -> Self {
-        number != 0
+    fn from_number(number: Whole) -> Self {
+        number.low != 0
     }
-    fn to_number(self) -> u128 {
-        self.into()
+    fn to_number(self) -> Whole {
+        u128::from(self).into()
     }
 }
 
 /// For blocks with several clocks: they are inputs like others there.
 impl PortValue for Clock {
-    fn from_number(number: u128) -> Self {
-        (number != 0).into()
+    fn from_number(number: Whole) -> Self {
+        (number.low != 0).into()
     }
-    fn to_number(self) -> u128 {
-        self.clk.into()
+    fn to_number(self) -> Whole {
+        u128::from(self.clk).into()
     }
 }
 
 impl<const N: usize> PortValue for Bits<N> {
-    fn from_number(number: u128) -> Self {
-        let low = Bits::from(number as u64);
-        if N > 64 {
-            let high: Bits<N> = Bits::from((number >> 64) as u64);
-            low | high << 64
-        } else {
-            low
+    fn from_number(number: Whole) -> Self {
+        let mut bits = Bits::from(number.quarter(0));
+        for place in 1..N.div_ceil(64) as u32 {
+            let part: Self = Bits::from(number.quarter(place));
+            bits = bits | part << u64::from(64 * place);
         }
+        bits
     }
-    fn to_number(self) -> u128 {
-        self.to_u128()
+    fn to_number(self) -> Whole {
+        if N <= 128 {
+            return self.to_u128().into();
+        }
+        let quarter = |place: u32| self.get_bits::<64>((64 * place) as usize).to_u128() as u64;
+        (0..N.div_ceil(64) as u32).fold(Whole::default(), |whole, place| whole.with_quarter(place, quarter(place)))
+    }
+}
+
+impl PortValue for CommandState {
+    fn from_number(number: Whole) -> Self {
+        [Self::Command, Self::First, Self::Count, Self::Points, Self::Settle, Self::Answer][number.low as usize]
+    }
+    fn to_number(self) -> Whole {
+        (self as u128).into()
     }
 }
 
@@ -57,11 +109,11 @@ impl<const N: usize> PortValue for Bits<N> {
 macro_rules! packed_values {
     ($($structure:ty),*) => {$(
         impl PortValue for $structure {
-            fn from_number(number: u128) -> Self {
+            fn from_number(number: Whole) -> Self {
                 Self::unpacked(Bits::<{ <$structure as Synth>::BITS }>::from_number(number))
             }
-            fn to_number(self) -> u128 {
-                Bits::<{ <$structure as Synth>::BITS }>::from(self).to_u128()
+            fn to_number(self) -> Whole {
+                Bits::<{ <$structure as Synth>::BITS }>::from(self).to_number()
             }
         }
     )*};
@@ -80,34 +132,215 @@ packed_values!(
     Asked,
     AnswerBeat,
     Deal,
-    Plan
+    Plan,
+    Activity,
+    AnswerProgress,
+    Arrival,
+    Clearing,
+    EngineState,
+    Head,
+    Request,
+    TakenWord,
+    Tally,
+    Record,
+    AnswerEvents,
+    CommandEvents,
+    AnswerPlace,
+    BytePlace,
+    Contents,
+    FrameHead,
+    Lamps,
+    Receipt,
+    Session,
+    Beyond,
+    Case,
+    CommitRequest,
+    Committed,
+    Completion,
+    ContextState,
+    Corners,
+    EdgeFlags,
+    EntryWrite,
+    Events,
+    Follow,
+    Following,
+    Held,
+    InnerWrite,
+    LockClear,
+    LockWrite,
+    OrderFlags,
+    Outcome,
+    Passed,
+    PlanWrite,
+    Pointer,
+    Position,
+    Push,
+    ReadRecord,
+    RecordRead,
+    ReleaseRequest,
+    Released,
+    RingHead,
+    SeedProgress,
+    Signs,
+    SoloPhase,
+    SoloProgress,
+    SoloStart,
+    SoloTurn,
+    StarTriangle,
+    Start,
+    Step,
+    Upcoming,
+    VisitEvents
 );
 
-/// A block whose ports are reached by name.
+/// A block whose ports are reached by name: `reset`, and `command_valid` for the signal `valid` of the interface `command`.
 pub trait NamedPorts: Block {
-    fn set(&mut self, port: &str, number: impl Into<u128>);
-    fn get(&self, port: &str) -> u128;
+    fn set(&mut self, port: &str, number: Whole);
+    fn get(&self, port: &str) -> Whole;
+    /// What a port carries, if the block has the port.
+    fn layout(&self, port: &str) -> Option<TypeDescriptor>;
     fn set_clock(&mut self, high: bool);
 }
 
-/// Gives a block [`NamedPorts`]: its type, its inputs, its outputs, and `clock` if it has one. Before the type may stand generic
+/// What a signal carries.
+pub fn layout_of<D: Direction, T: Synth>(_: &Signal<D, T>) -> Option<TypeDescriptor> {
+    Some(T::descriptor())
+}
+
+/// Some bits of a port.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    pub port: String,
+    pub offset: u32,
+    pub width: u32,
+}
+
+impl Place {
+    fn mask(&self) -> u128 {
+        u128::MAX.checked_shr(128 - self.width.min(128)).unwrap_or(0)
+    }
+
+    /// These bits of the port's value; at most 128 of them.
+    pub fn part_of(&self, value: Whole) -> u128 {
+        let part = match self.offset {
+            0 => value.low,
+            1..128 => value.low >> self.offset | value.high << (128 - self.offset),
+            _ => value.high >> (self.offset - 128),
+        };
+        part & self.mask()
+    }
+
+    /// The port's value with these bits replaced.
+    pub fn put_into(&self, value: Whole, part: u128) -> Whole {
+        if self.width > 128 {
+            return Whole::from(part);
+        }
+        let moved = |bits: u128| match self.offset {
+            0 => Whole::from(bits),
+            1..128 => Whole { low: bits << self.offset, high: bits >> (128 - self.offset) },
+            _ => Whole { low: 0, high: bits << (self.offset - 128) },
+        };
+        let (hole, part) = (moved(self.mask()), moved(part & self.mask()));
+        Whole { low: value.low & !hole.low | part.low, high: value.high & !hole.high | part.high }
+    }
+}
+
+/// Names of ports as the tests write them, and of the fields of those that carry a structure: `record_v0`, or `v0` alone where no other
+/// port has that name and no other structure a field of it.
+pub struct Places(BTreeMap<String, Option<Place>>);
+
+impl Places {
+    /// The ports of a model, with what `layout` says that they carry.
+    pub fn new(model: &Model, layout: impl Fn(&str) -> Option<TypeDescriptor>) -> Self {
+        let ports: Vec<(String, u32)> =
+            model.description().ports().map(|port| (plain(port.name), port.width)).collect();
+        let (mut places, mut wholes) = (BTreeMap::new(), Vec::new());
+        for (port, _) in &ports {
+            for (field, offset, width) in layout(port).map(|layout| fields(&layout, 0)).unwrap_or_default() {
+                let place = Place { port: port.clone(), offset, width };
+                wholes.push((plain(&format!("{port}_{field}")), Some(place.clone())));
+                // By itself, and without the structures around it.
+                for (start, _) in
+                    std::iter::once((0, "")).chain(field.match_indices('.').map(|(at, dot)| (at + 1, dot)))
+                {
+                    let name = plain(&field[start..]);
+                    places.entry(name).and_modify(|place| *place = None).or_insert(Some(place.clone()));
+                }
+            }
+        }
+        let whole = |(port, width): (String, u32)| (port.clone(), Some(Place { port, offset: 0, width }));
+        places.extend(wholes);
+        places.extend(ports.into_iter().map(whole));
+        Self(places)
+    }
+
+    /// Where a name stands; it may be written with dots.
+    pub fn find(&self, name: &str) -> Place {
+        match self.0.get(&plain(name)) {
+            Some(Some(place)) => place.clone(),
+            Some(None) => panic!("{name} is a field of several structures"),
+            None => panic!("no port {name}; there are {:?}", self.0.keys()),
+        }
+    }
+}
+
+/// The name of a port as tests write it: members of an interface stand behind its name.
+pub fn plain(name: &str) -> String {
+    name.replace(['$', '.'], "_")
+}
+
+/// Names, places and widths of the fields of a structure, and of those of inner structures, behind the name of the field and a dot.
+fn fields(layout: &TypeDescriptor, start: u32) -> Vec<(String, u32, u32)> {
+    let TypeKind::Composite(outer) = &layout.kind else { return Vec::new() };
+    let mut found = Vec::new();
+    let mut offset = start;
+    for field in outer {
+        let width = width_of(&field.kind);
+        found.push((field.fieldname.clone(), offset, width));
+        let inner = fields(&field.kind, offset).into_iter();
+        found.extend(inner.map(|(name, offset, width)| (format!("{}.{name}", field.fieldname), offset, width)));
+        offset += width;
+    }
+    found
+}
+
+/// Bits of a value.
+fn width_of(layout: &TypeDescriptor) -> u32 {
+    match &layout.kind {
+        TypeKind::Bits(width) | TypeKind::Signed(width) => *width as u32,
+        TypeKind::Enum(states) => states.len().next_power_of_two().trailing_zeros(),
+        TypeKind::Composite(fields) => fields.iter().map(|field| width_of(&field.kind)).sum(),
+    }
+}
+
+/// Gives a block [`NamedPorts`]: its type, its inputs, its outputs, and `clock` if it has one. A signal of an interface is written
+/// with a dot: `command.valid`. Before the type may stand generic
 /// parameters in brackets, or none: `[]`.
 macro_rules! named_ports {
-    ([$($generics:tt)*] $block:ty, [$($input:ident),*], [$($output:ident),*] $(, $clock:ident)?) => {
+    ([$($generics:tt)*] $block:ty, [$($input:ident $(. $inner:ident)*),*], [$($output:ident $(. $outer:ident)*),*] $(, $clock:ident)?) => {
         impl<$($generics)*> $crate::rig::block_ports::NamedPorts for $block {
-            fn set(&mut self, port: &str, number: impl Into<u128>) {
+            fn set(&mut self, port: &str, number: $crate::rig::block_ports::Whole) {
                 use $crate::rig::block_ports::PortValue;
-                let number = number.into();
                 match port {
-                    $(stringify!($input) => self.$input.next = PortValue::from_number(number),)*
+                    $(concat!(stringify!($input) $(, "_", stringify!($inner))*) => {
+                        self.$input$(.$inner)*.next = PortValue::from_number(number);
+                    })*
                     _ => panic!("no input {port}"),
                 }
             }
-            fn get(&self, port: &str) -> u128 {
+            fn get(&self, port: &str) -> $crate::rig::block_ports::Whole {
                 use $crate::rig::block_ports::PortValue;
                 match port {
-                    $(stringify!($output) => self.$output.val().to_number(),)*
+                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => self.$output$(.$outer)*.val().to_number(),)*
                     _ => panic!("no output {port}"),
+                }
+            }
+            fn layout(&self, port: &str) -> Option<rust_hdl_core::prelude::TypeDescriptor> {
+                use $crate::rig::block_ports::layout_of;
+                match port {
+                    $(concat!(stringify!($input) $(, "_", stringify!($inner))*) => layout_of(&self.$input$(.$inner)*),)*
+                    $(concat!(stringify!($output) $(, "_", stringify!($outer))*) => layout_of(&self.$output$(.$outer)*),)*
+                    _ => None,
                 }
             }
             fn set_clock(&mut self, high: bool) {
@@ -128,14 +361,20 @@ pub fn settle(block: &mut impl Block, name: &str) {
 }
 
 /// Drives an input of the model of any width.
-pub fn set_number(model: &mut Model, port: PortId, number: u128) {
-    let words: Vec<u32> = (0..port.width().div_ceil(32)).map(|word| (number >> (32 * word)) as u32).collect();
+pub fn set_number(model: &mut Model, port: PortId, number: Whole) {
+    let word = |place: u32| (number.quarter(place / 2) >> (32 * (place % 2))) as u32;
+    let words: Vec<u32> = (0..port.width().div_ceil(32)).map(word).collect();
     model.set_wide(port, &words);
 }
 
 /// An output of the model as a number.
-pub fn number(model: &Model, port: PortId) -> u128 {
+pub fn number(model: &Model, port: PortId) -> Whole {
     let mut words = vec![0; port.width().div_ceil(32) as usize];
     model.get_wide(port, &mut words);
-    words.iter().rev().fold(0, |number, word| number << 32 | u128::from(*word))
+    let quarter =
+        |place: u32, word: u32| Whole::default().with_quarter(place / 2, u64::from(word) << (32 * (place % 2)));
+    (0..).zip(words).fold(Whole::default(), |whole, (place, word)| {
+        let part = quarter(place, word);
+        Whole { low: whole.low | part.low, high: whole.high | part.high }
+    })
 }

@@ -3,14 +3,14 @@
 //! A cycle: inputs are set, everything settles, outputs are compared, the clock rises. What an output shows in a cycle therefore
 //! follows from the inputs of that cycle and the edges before it.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::fmt::Debug;
 
 use incircle_testbench::blocks;
 use verilated::PortId;
 
 pub(crate) use crate::rig::block_ports::{named_ports, NamedPorts};
-use crate::rig::block_ports::{number, set_number, settle};
+use crate::rig::block_ports::{number, plain, set_number, settle, Place, Places, Whole};
 
 /// What a reference says of an output: a value, or nothing where the contract leaves it open.
 pub type Expected = Option<u128>;
@@ -36,25 +36,34 @@ impl<U: NamedPorts> Cosimulation<'_, U> {
         self.rust.connect_all();
         // Random registers show where an output depends on what nobody wrote.
         let mut model = blocks::randomized(self.name, 1);
-        let find = |port: &&str| model.port(port).unwrap_or_else(|error| panic!("{error}"));
-        let inputs: Vec<PortId> = self.inputs.iter().map(find).collect();
+        let places = Places::new(&model, |port| self.rust.layout(port));
+        let ids: BTreeMap<String, PortId> = model
+            .description()
+            .ports()
+            .map(|port| (plain(port.name), model.port(port.name).expect("a port")))
+            .collect();
+        let inputs: Vec<Place> = self.inputs.iter().map(|port| places.find(port)).collect();
+        let mut driven: BTreeMap<String, Whole> = BTreeMap::new();
         let parts: Vec<_> = self.outputs.iter().map(|output| part(output)).collect();
-        let outputs: Vec<PortId> = parts.iter().map(|(port, ..)| find(port)).collect();
+        let outputs: Vec<Place> = parts.iter().map(|(port, ..)| places.find(port)).collect();
         let is_clocked = model.port("clock").is_ok();
         for (cycle, values) in stimuli.into_iter().enumerate() {
             assert_eq!(values.len(), inputs.len(), "a value for each input");
-            for ((name, port), value) in self.inputs.iter().zip(&inputs).zip(&values) {
-                self.rust.set(name, *value);
-                set_number(&mut model, *port, (*value).into());
+            for (place, value) in inputs.iter().zip(&values) {
+                let whole = driven.entry(place.port.clone()).or_default();
+                *whole = place.put_into(*whole, (*value).into());
+                self.rust.set(&place.port, *whole);
+                set_number(&mut model, ids[&place.port], *whole);
             }
             self.rust.set_clock(false);
             settle(&mut self.rust, self.name);
             model.eval();
             let expected = reference(&values);
             assert_eq!(expected.len(), outputs.len(), "a value for each output");
-            for (((name, low, mask), port), expected) in parts.iter().zip(&outputs).zip(expected) {
+            for (((name, low, mask), place), expected) in parts.iter().zip(&outputs).zip(expected) {
                 if let Some(expected) = expected {
-                    let seen = (self.rust.get(name), number(&model, *port));
+                    let seen = (self.rust.get(&place.port), number(&model, ids[&place.port]));
+                    let seen = (place.part_of(seen.0), place.part_of(seen.1));
                     let seen = (seen.0 >> low & mask, seen.1 >> low & mask);
                     assert_eq!(
                         seen,

@@ -43,6 +43,7 @@ pub fn draw<U: NamedPorts>(name: &'static str, rust: U, stimuli: &Stimuli, clock
     }
     for clock in 0..clocks {
         let mut driven: BTreeMap<_, _> = inputs.iter().map(|input| (*input, 0)).collect();
+        driven.extend(stimuli.iter().map(|(_, input, _)| (*input, 0)));
         let now = stimuli.iter().filter(|(at, ..)| *at == clock);
         driven.extend(now.map(|(_, input, value)| (*input, *value)));
         for (input, value) in &driven {

@@ -14,8 +14,8 @@ use crate::rig::stepper::{named_ports, Stepper};
 
 named_ports!(
     SerialLink,
-    [reset, rx, command_ready, response_valid, response_data, response_both, response_last],
-    [tx, alive, busy, error, core_reset, command_valid, command_data, response_ready],
+    [reset, rx, command.ready, response.valid, response.data, response.both, response.last],
+    [tx, lamps, core_reset, command.valid, command.data, response.ready],
     clock
 );
 

@@ -7,12 +7,7 @@ use incircle_hdl::link::AnswerHead;
 use incircle_protocol::{answer_header, Opcode, Status};
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    AnswerHead,
-    [opcode, first, count, is_refused, records, collinear, stuck, some_refused],
-    [header, length, is_empty, is_read, is_packed],
-    clock
-);
+named_ports!(AnswerHead, [request, is_refused, records, collinear, stuck, some_refused], [head], clock);
 
 #[test]
 fn answer_heads_follow_the_protocol() {

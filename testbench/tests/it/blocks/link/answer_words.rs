@@ -9,10 +9,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     AnswerWords,
-    [
-        opcode, capacity, contexts, ring, arrived, refused, insertions, duplicates, records, index, counter, latency,
-        chooses
-    ],
+    [opcode, capacity, contexts, ring, tally, insertions, duplicates, records, index, counter, latency, chooses],
     [word],
     clock
 );

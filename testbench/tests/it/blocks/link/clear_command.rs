@@ -6,7 +6,7 @@ use incircle_hdl::link::ClearCommand;
 use incircle_protocol::{clear_word, command_starts_batch, command_word, Opcode, FIRST_ROUND, MAX_CONTEXTS};
 use incircle_testkit::SplitMix64;
 
-named_ports!(ClearCommand, [reset, built, accepts, word], [clears, deal, is_refused], clock);
+named_ports!(ClearCommand, [reset, built, taken], [clearing, deal], clock);
 
 const CLOCKS: usize = 8000;
 
@@ -34,7 +34,7 @@ fn clear_command_is_granted_or_refused() {
         let accepts = random.below(2) == 0;
         block.set("reset", reset);
         block.set("built", built);
-        block.set("accepts", accepts);
+        block.set("is_command", accepts);
         block.set("word", word);
         block.settle();
         if clock > 1 {

@@ -7,8 +7,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     CommandGate,
-    [is_command, is_argument, is_points, sweeps, none_is_left, came, start_is_open, stuck],
-    [ready, takes_command, takes_point, awaits_point]
+    [command.valid, command.data, state, sweeps, none_is_left, came, engine],
+    [command.ready, taken, awaits_point]
 );
 
 const ROUNDS: usize = 4000;
@@ -19,11 +19,9 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
     let mut block = Stepper::new("command_gate", CommandGate::default(), 1);
     for _ in 0..ROUNDS {
         let meaning = random.below(4);
-        let [sweeps, none_is_left, came, start_is_open, stuck] = [(); 5].map(|()| flip(&mut random));
+        let [valid, sweeps, none_is_left, came, start_is_open, stuck] = [(); 6].map(|()| flip(&mut random));
         for (port, value) in [
-            ("is_command", meaning == 0),
-            ("is_argument", meaning == 1),
-            ("is_points", meaning == 2),
+            ("command_valid", valid),
             ("sweeps", sweeps),
             ("none_is_left", none_is_left),
             ("came", came),
@@ -32,6 +30,10 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
         ] {
             block.set(port, value);
         }
+        let word = if flip(&mut random) { random.below(1 << 32) } else { 0 };
+        block.set("command_data", word);
+        // Its states in order: a command, two arguments, points, two without words.
+        block.set("state", [0, 1 + random.below(2), 3, 4 + random.below(2)][meaning as usize]);
         let is_undecided = start_is_open && !stuck;
         let ready = match meaning {
             0 => !sweeps,
@@ -40,9 +42,10 @@ fn command_gate_waits_for_the_point_before_and_the_first_triangle() {
             _ => false,
         };
         block.settle();
-        block.expect("ready", ready);
-        block.expect("takes_command", ready && meaning == 0);
-        block.expect("takes_point", ready && meaning == 2);
+        block.expect("command_ready", ready);
+        block.expect("taken_word", word);
+        block.expect("is_command", valid && ready && meaning == 0 && word != 0);
+        block.expect("is_point", valid && ready && meaning == 2);
         block.expect("awaits_point", meaning == 2 && !none_is_left);
     }
 }

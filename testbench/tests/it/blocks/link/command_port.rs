@@ -11,40 +11,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     CommandPort,
-    [
-        reset,
-        capacity,
-        built,
-        command_valid,
-        command_data,
-        sweeps,
-        start_is_open,
-        collinear,
-        stuck,
-        is_quiet,
-        responder_is_idle,
-        answer_ends,
-        answer_is_taken
-    ],
-    [
-        command_ready,
-        came,
-        came_id,
-        point,
-        clears,
-        deal,
-        is_refused,
-        answers,
-        opcode,
-        first,
-        count,
-        arrived,
-        refused,
-        some_refused,
-        inserting,
-        reading,
-        awaits_point
-    ],
+    [reset, capacity, built, command.valid, command.data, sweeps, engine, answer],
+    [command.ready, arrival, clearing, deal, answers, request, tally, activity],
     clock
 );
 
@@ -165,7 +133,7 @@ impl Rig {
             ("collinear", self.around.collinear),
             ("is_quiet", pins.is_quiet),
             ("stuck", self.around.stuck),
-            ("responder_is_idle", pins.responder_is_idle),
+            ("answer_is_idle", pins.responder_is_idle),
             ("answer_ends", pins.answer_ends),
             ("answer_is_taken", self.around.answer_is_taken),
             // The wrong way round first: nothing that is looked at then may depend on it.
@@ -192,7 +160,7 @@ impl Rig {
         let (id, point) = (reference.came.map(|point| point.0), reference.came.map(|point| point.1));
         block.expect("deal", reference.deal().bits());
         for (port, expected) in [
-            ("came_id", id),
+            ("arrival_id", id),
             ("point", point),
             ("opcode", reference.opcode.map(u32::from)),
             ("first", reference.first),

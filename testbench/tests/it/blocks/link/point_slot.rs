@@ -4,12 +4,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::link::PointSlot;
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    PointSlot,
-    [reset, clears, capacity, collinear, stuck, accepts, word],
-    [came, came_id, point, arrived, refused, some_refused],
-    clock
-);
+named_ports!(PointSlot, [reset, clears, capacity, engine, taken], [arrival, tally], clock);
 
 const CLOCKS: usize = 8000;
 
@@ -30,7 +25,7 @@ impl SlotReference {
         block.expect("refused", self.refused);
         block.expect("some_refused", self.refused > 0);
         if let (true, Some(point)) = (self.came, self.stored.last()) {
-            block.expect("came_id", self.stored.len() as u64 - 1);
+            block.expect("arrival_id", self.stored.len() as u64 - 1);
             block.expect("point", *point);
         }
     }
@@ -57,7 +52,7 @@ fn point_slot(capacity: u64) {
         let accepts = !reference.came && !clears && random.below(2) == 0;
         let word = random.below(1 << 32);
         for (port, value) in
-            [("reset", reset), ("clears", clears), ("collinear", collinear), ("stuck", stuck), ("accepts", accepts)]
+            [("reset", reset), ("clears", clears), ("collinear", collinear), ("stuck", stuck), ("is_point", accepts)]
         {
             block.set(port, value);
         }

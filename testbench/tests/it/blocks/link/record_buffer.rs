@@ -9,7 +9,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     RecordBuffer,
-    [reset, read_done, v0, v1, v2, n0, n1, n2, was_set, takes, takes_whole],
+    [reset, read_done, record, takes, takes_whole],
     [holds, word, is_at_last, vertex0, vertex1, vertex2],
     clock
 );

@@ -10,7 +10,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     RecordReads,
-    [reset, starts, first, count, is_packed, runs, read_done, v0, v1, v2, n0, n1, n2, was_set, takes],
+    [reset, starts, first, count, is_packed, runs, read_done, record, takes],
     [read, read_id, valid, beat],
     clock
 );

@@ -6,7 +6,7 @@ use incircle_hdl::link::RecordWords;
 use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
 use incircle_testkit::SplitMix64;
 
-named_ports!(RecordWords, [v0, v1, v2, n0, n1, n2, was_set], [word0, word1, word2]);
+named_ports!(RecordWords, [record], [word0, word1, word2]);
 
 const ROUNDS: usize = 4000;
 

@@ -10,42 +10,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Responder,
-    [
-        reset,
-        answers,
-        sweeps,
-        first,
-        count,
-        header,
-        length,
-        is_empty,
-        word,
-        is_read,
-        is_packed,
-        read_done,
-        v0,
-        v1,
-        v2,
-        n0,
-        n1,
-        n2,
-        was_set,
-        response_ready
-    ],
-    [
-        index,
-        index_ahead,
-        chooses,
-        read,
-        read_id,
-        response_valid,
-        response_data,
-        response_both,
-        response_last,
-        is_idle,
-        ends,
-        is_taken
-    ],
+    [reset, answers, sweeps, request, head, word, read_done, record, response.ready],
+    [index, index_ahead, chooses, read, read_id, response.valid, response.data, response.both, response.last, progress],
     clock
 );
 

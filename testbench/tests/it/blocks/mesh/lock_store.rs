@@ -6,7 +6,7 @@ use crate::rig::ids::id;
 use crate::rig::visit_model::Locks;
 use incircle_hdl::mesh::LockStore;
 
-named_ports!([] LockStore, [id, owner, takes, clear_id, clear_enable], [took, foreign, was_set], clock);
+named_ports!([] LockStore, [id, owner, takes, clear], [took, foreign, was_set], clock);
 
 const CYCLES: usize = 6_000;
 
@@ -107,7 +107,7 @@ fn lock_store(name: &str, id_bits: u32, context_bits: u32) {
     Cosimulation {
         name,
         rust: LockStore::new(id_bits as usize, context_bits as usize),
-        inputs: &["id", "owner", "takes", "clear_id", "clear_enable"],
+        inputs: &["id", "owner", "takes", "clear_id", "clear_valid"],
         outputs: &["took", "foreign", "was_set"],
     }
     .run(stimuli, |values| {
@@ -131,7 +131,7 @@ fn lock_store_ignores_what_is_above_its_shape() {
 fn lock_store_shows_the_wave_of_its_header() {
     const VISITS: [usize; 5] = [0, 1, 2, 4, 5];
     const KNOWN: [usize; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
-    let mut stimuli = vec![(4, "clear_id", 5), (4, "clear_enable", 1)];
+    let mut stimuli = vec![(4, "clear_id", 5), (4, "clear_valid", 1)];
     for (clock, owner) in VISITS.into_iter().zip([3, 4, 3, 4, 4]) {
         stimuli.extend([(clock, "id", 5), (clock, "owner", owner), (clock, "takes", 1)]);
     }
@@ -139,7 +139,7 @@ fn lock_store_shows_the_wave_of_its_header() {
         ("id", "id", 0, 15, When::At(&VISITS)),
         ("owner", "owner", 0, 5, When::At(&VISITS)),
         ("takes", "takes", 0, 1, When::Always),
-        ("clear_enable", "clear_enable", 0, 1, When::Always),
+        ("clear_enable", "clear_valid", 0, 1, When::Always),
         ("took", "took", 0, 1, When::At(&KNOWN)),
         ("foreign", "foreign", 0, 1, When::At(&KNOWN)),
     ];

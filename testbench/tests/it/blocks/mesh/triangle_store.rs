@@ -7,8 +7,7 @@ use crate::rig::ids::id;
 use crate::rig::structures::{pack, random, unpack, write, WRITE};
 use incircle_hdl::mesh::TriangleStore;
 
-named_ports!([] TriangleStore, [write, enables, read_id, vertices_id, links_id, read_locks, owner, clear_id, clear_enable],
-    [v0, v1, v2, n0, n1, n2, took, foreign, was_set], clock);
+named_ports!([] TriangleStore, [write, enables, read_id, vertices_id, links_id, read_locks, owner, clear], [record, took, foreign], clock);
 
 const CYCLES: usize = 6_000;
 
@@ -73,9 +72,19 @@ fn triangle_store(name: &str, id_bits: u32, vertex_bits: u32, context_bits: u32)
             "read_locks",
             "owner",
             "clear_id",
-            "clear_enable",
+            "clear_valid",
         ],
-        outputs: &["v0", "v1", "v2", "n0", "n1", "n2", "took", "foreign", "was_set"],
+        outputs: &[
+            "record_v0",
+            "record_v1",
+            "record_v2",
+            "record_n0",
+            "record_n1",
+            "record_n2",
+            "took",
+            "foreign",
+            "was_set",
+        ],
     }
     .run(triangle_stimuli(id_bits), |values| reference(values));
 }
@@ -111,8 +120,8 @@ fn triangle_store_shows_the_wave_of_its_header() {
         ("write.n1", "write", 80, 15, When::If("write")),
         ("read_id", "read_id", 0, 15, When::At(&READS)),
         ("read_locks", "read_locks", 0, 1, When::Always),
-        ("v0", "v0", 0, 15, When::At(&ANSWERS)),
-        ("n1", "n1", 0, 15, When::At(&ANSWERS)),
+        ("v0", "record_v0", 0, 15, When::At(&ANSWERS)),
+        ("n1", "record_n1", 0, 15, When::At(&ANSWERS)),
         ("took", "took", 0, 1, When::At(&KNOWN)),
         ("was_set", "was_set", 0, 1, When::At(&ANSWERS)),
     ];

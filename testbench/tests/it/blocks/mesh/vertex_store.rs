@@ -6,8 +6,7 @@ use crate::rig::drawing::{draw, When};
 use crate::rig::ids::id;
 use incircle_hdl::mesh::VertexStore;
 
-named_ports!([] VertexStore, [write_id, write_position, write_enable, id0, id1, id2, fetch_id],
-    [position0, position1, position2, fetched], clock);
+named_ports!([] VertexStore, [write, id0, id1, id2, fetch_id], [corners, fetched], clock);
 
 const CYCLES: usize = 6_000;
 
@@ -26,8 +25,8 @@ fn vertex_store(name: &str, id_bits: u32) {
     Cosimulation {
         name,
         rust: VertexStore::new(id_bits as usize),
-        inputs: &["write_id", "write_position", "write_enable", "id0", "id1", "id2", "fetch_id"],
-        outputs: &["position0", "position1", "position2", "fetched"],
+        inputs: &["write_id", "write_point", "write_came", "id0", "id1", "id2", "fetch_id"],
+        outputs: &["corners_r0", "corners_r1", "corners_r2", "fetched"],
     }
     .run(stimuli, |values| {
         let written = (values[2] == 1).then_some(values[0] as usize & last);
@@ -61,15 +60,14 @@ fn vertex_store_is_three_copies_in_block_ram() {
 
 #[test]
 fn vertex_store_shows_the_wave_of_its_header() {
-    let stimuli =
-        [(0, "write_enable", 1), (0, "write_id", 3), (0, "write_position", 42), (1, "id0", 3), (2, "fetch_id", 3)];
+    let stimuli = [(0, "write_came", 1), (0, "write_id", 3), (0, "write_point", 42), (1, "id0", 3), (2, "fetch_id", 3)];
     let lanes = [
-        ("write_enable", "write_enable", 0, 1, When::Always),
-        ("write_id", "write_id", 0, 15, When::If("write_enable")),
-        ("write_position", "write_position", 0, 32, When::If("write_enable")),
+        ("write_enable", "write_came", 0, 1, When::Always),
+        ("write_id", "write_id", 0, 15, When::If("write_came")),
+        ("write_position", "write_point", 0, 32, When::If("write_came")),
         ("id0", "id0", 0, 15, When::At(&[1])),
         ("fetch_id", "fetch_id", 0, 15, When::At(&[2])),
-        ("position0", "position0", 0, 32, When::At(&[3])),
+        ("position0", "corners_r0", 0, 32, When::At(&[3])),
         ("fetched", "fetched", 0, 32, When::At(&[4])),
     ];
     draw("vertex_store_14", VertexStore::new(14), &stimuli, 5, &lanes).assert_drawn_in("vertex_store");

@@ -4,8 +4,7 @@ use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Numbers};
 use crate::rig::visit_points::{bits_of, edge_flags, shown, signed, EDGE_FLAGS};
 use incircle_hdl::predicate::EdgeSigns;
 
-named_ports!([] EdgeSigns, [e0, e1, e2],
-    [e0_negative, e1_negative, e2_negative, e0_zero, e1_zero, e2_zero, e1_below_e0, e2_below_e0, e2_below_e1], clock);
+named_ports!([] EdgeSigns, [e0, e1, e2], [flags], clock);
 
 const CYCLES: usize = 10_000;
 

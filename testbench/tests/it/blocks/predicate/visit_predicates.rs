@@ -8,11 +8,7 @@ use crate::rig::visit_points::{
 use incircle_hdl::predicate::VisitPredicates;
 use incircle_testbench::gate::cell_count;
 
-named_ports!([] VisitPredicates, [r0, r1, r2, p],
-    [e0_negative, e1_negative, e2_negative, e0_zero, e1_zero, e2_zero, e1_below_e0, e2_below_e0, e2_below_e1,
-     incircle_positive, incircle_zero,
-     p_before_r0, p_before_r1, p_before_r2, p_equals_r0, p_equals_r1, p_equals_r2, r0_before_r1, r0_before_r2,
-     r1_before_r2], clock);
+named_ports!([] VisitPredicates, [corners, p], [signs], clock);
 
 const CYCLES: usize = 10_000;
 

@@ -9,7 +9,7 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     AnswerPacker,
     [reset, word_valid, word_data, starts, takes, ended],
-    [word_ready, is_due, is_last, number, part, byte_valid, byte_data, byte_is_last, awaits],
+    [word_ready, is_due, is_last, answer, byte_valid, byte_data, byte_is_last, awaits],
     clock
 );
 

@@ -6,7 +6,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     FrameBytes,
-    [part, index, ends_answer, header, greeting, word, answers, answer_part, payload_state, answer_state, sum_state],
+    [part, index, ends_answer, header, greeting, word, answer, payload_state, answer_state, sum_state],
     [byte_data],
     clock
 );
@@ -28,7 +28,7 @@ fn bytes_of_a_frame_come_from_their_parts() {
             ("header", header.into()),
             ("greeting", greeting.into()),
             ("word", word.into()),
-            ("answers", answers.into()),
+            ("answer_number", answers.into()),
             ("answer_part", answer_part.into()),
             ("payload_state", payload),
             ("answer_state", answer),

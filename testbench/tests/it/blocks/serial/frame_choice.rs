@@ -7,7 +7,7 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     FrameChoice,
     [is_idle, reply_is_due, reply_kind, answer_is_due, answer_is_last, holds, cuts],
-    [starts, starts_reply, starts_answer, kind, has_greeting, has_digest, has_answer, ends_answer],
+    [starts, starts_reply, starts_answer, kind, contents],
     clock
 );
 

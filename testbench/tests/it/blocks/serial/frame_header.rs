@@ -6,7 +6,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     FrameHeader,
-    [reset, starts, session, expected, answers, free, is_open, is_refused, is_busy, drops, digest, kind, index],
+    [reset, starts, open, answers, receipt, is_refused, is_busy, drops, kind, index],
     [byte_data, digest_taken],
     clock
 );
@@ -24,7 +24,7 @@ fn header_says_what_was_true_when_the_frame_began() {
         let index = random.below(7) as usize;
         let reset = clock == 0;
         for (port, value) in [
-            ("session", session.into()),
+            ("open_number", session.into()),
             ("expected", expected.into()),
             ("answers", answers.into()),
             ("kind", kind.into()),

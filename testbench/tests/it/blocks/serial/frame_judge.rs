@@ -5,12 +5,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::serial::{Asked, FrameJudge};
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    FrameJudge,
-    [reset, session, kind, number, length, header_comes, comes, is_sound, is_open, open_session, expected, free],
-    [takes_payload, asked],
-    clock
-);
+named_ports!(FrameJudge, [reset, head, header_comes, comes, is_sound, open, free], [takes_payload, asked], clock);
 
 /// A header, and the state of the link that it meets.
 #[derive(Clone, Copy, Debug)]
@@ -108,10 +103,10 @@ fn judge_says_what_a_frame_asks_for() {
             for (port, value) in [
                 ("session", case.session.into()),
                 ("kind", case.kind.into()),
-                ("number", case.number.into()),
+                ("head_number", case.number.into()),
                 ("length", case.length),
                 ("is_open", case.is_open.into()),
-                ("open_session", case.open_session.into()),
+                ("open_number", case.open_session.into()),
                 ("expected", case.expected.into()),
                 ("free", case.free),
                 ("reset", (run == 0 && clock < 2).into()),

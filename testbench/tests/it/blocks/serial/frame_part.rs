@@ -3,7 +3,7 @@
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::serial::FramePart;
 
-named_ports!(FramePart, [part, index, word_byte_is_last], [is_last], clock);
+named_ports!(FramePart, [at, word_byte_is_last], [is_last], clock);
 
 #[test]
 fn parts_of_a_frame_end_where_the_page_says() {

@@ -8,7 +8,7 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     FrameReader,
     [reset, data_valid, data, frame_ends, is_broken],
-    [session, kind, number, length, header_comes, payload_valid, payload, value, comes, is_sound],
+    [head, header_comes, payload_valid, payload, value, comes, is_sound],
     clock
 );
 

@@ -8,22 +8,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     FrameSender,
-    [
-        reset,
-        starts,
-        has_greeting,
-        has_digest,
-        has_answer,
-        ends_answer,
-        cuts,
-        byte_data,
-        sum_is_busy,
-        word_byte_valid,
-        word_byte_is_last,
-        data_ready,
-        ended
-    ],
-    [part, index, loads, loads_word, data_valid, data, ends, is_cut, answer_ended, is_idle],
+    [reset, starts, contents, cuts, byte_data, sum_is_busy, word_byte_valid, word_byte_is_last, data_ready, ended],
+    [at, loads, loads_word, data_valid, data, ends, is_cut, answer_ended, is_idle],
     clock
 );
 

@@ -5,12 +5,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::serial::SessionState;
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    SessionState,
-    [reset, asked, session, fails],
-    [is_open, number, expected, saw_gap, forgets, settles],
-    clock
-);
+named_ports!(SessionState, [reset, asked, session, fails], [open, saw_gap, forgets, settles], clock);
 
 /// The session as the page has it.
 #[derive(Default)]

@@ -19,11 +19,8 @@ struct Receiving {
 
 impl Receiving {
     fn new() -> Self {
-        let mut this = Self {
-            block: Stepper::new("serial_uart_receiver", UartReceiver::default(), 2),
-            bytes: Vec::new(),
-            noise: 0,
-        };
+        let mut this =
+            Self { block: Stepper::new("serial_uart_receiver", UartReceiver::new(), 2), bytes: Vec::new(), noise: 0 };
         this.block.set("step", MAX_STEP);
         this.block.set("reset", true);
         for _ in 0..8 {

@@ -14,7 +14,7 @@ const TURN: u64 = 1 << 24;
 #[test]
 fn transmitter_sends_bytes_without_a_gap_or_when_they_come() {
     let mut random = SplitMix64::new(6);
-    let mut block = Stepper::new("serial_uart_transmitter", UartTransmitter::default(), 2);
+    let mut block = Stepper::new("serial_uart_transmitter", UartTransmitter::new(), 2);
     block.set("byte_valid", false);
     block.set("byte_data", 0u8);
     block.set("step", MAX_STEP);

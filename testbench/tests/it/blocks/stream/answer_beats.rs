@@ -12,7 +12,7 @@ named_ports!([const W: usize] AnswerBeats<W>,
 
 fn collects<const W: usize>(name: &'static str) {
     let mut random = SplitMix64::new(4);
-    let mut block = Stepper::new(name, AnswerBeats::<W>::default(), 1);
+    let mut block = Stepper::new(name, AnswerBeats::<W>::new(), 1);
     let (mut half, mut expected): (Option<u64>, VecDeque<(u128, bool)>) = Default::default();
     let mut passed = 0;
     for clock in 0..12_000 {

@@ -8,8 +8,7 @@ use incircle_hdl::stream::AnswerPairs;
 use incircle_testkit::SplitMix64;
 
 named_ports!([] AnswerPairs,
-    [reset, response_valid, response_data, response_both, response_last, is_stalled],
-    [response_ready, pair_valid, pair_data, pair_last, is_held], clock);
+    [reset, response.valid, response.data, response.both, response.last, is_stalled], [response.ready, pair_valid, pair_data, pair_last, is_held], clock);
 
 /// Words that are offered: one or two, and whether the answer ends with them.
 type Offer = (u32, Option<u32>, bool);

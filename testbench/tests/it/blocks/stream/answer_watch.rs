@@ -7,8 +7,7 @@ use incircle_protocol::{answer_header, Opcode, Status};
 use incircle_testkit::SplitMix64;
 
 named_ports!([const W: usize] AnswerWatch<W>,
-    [reset, resets, m_axis_tvalid, m_axis_tready, m_axis_tdata, m_axis_tlast],
-    [took, waited, ended, failed, header], clock);
+    [reset, resets, m_axis_tvalid, m_axis_tready, m_axis_tdata, m_axis_tlast], [events], clock);
 
 #[test]
 fn failed_answers_are_seen() {

@@ -30,7 +30,7 @@ fn buffers<const P: usize, const D: usize>(name: &'static str) {
     for (seed, periods) in PERIODS.into_iter().enumerate() {
         let mut random = SplitMix64::new(seed as u64);
         let mut clocks = Clocks::new(periods, seed as u64);
-        let mut block = Stepper::new(name, AsyncFifo::<P, D>::default(), seed as u32);
+        let mut block = Stepper::new(name, AsyncFifo::<P, D>::new(), seed as u32);
         let (writer, reader) = (Pace([1, 4]), Pace([4, 1]));
         // Entries with the reader's edges since they were taken.
         let mut entries: VecDeque<(u64, usize)> = VecDeque::new();
@@ -115,7 +115,7 @@ fn the_smallest_fifo_too() {
 fn an_entry_passes_at_every_clock_of_the_slower_side() {
     for (periods, seed) in [([8000, 8000], 1), ([8000, 9000], 2), ([9000, 8000], 3), ([8000, 30_000], 4)] {
         let mut clocks = Clocks::new(periods, seed);
-        let mut block = Stepper::new("stream_fifo_8x8", AsyncFifo::<4, 8>::default(), 1);
+        let mut block = Stepper::new("stream_fifo_8x8", AsyncFifo::<4, 8>::new(), 1);
         let slower = usize::from(periods[1] > periods[0]);
         let (mut edges, mut passed) = (0u64, 0u64);
         for time in 0..4000 {

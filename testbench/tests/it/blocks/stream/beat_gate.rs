@@ -5,7 +5,7 @@ use crate::rig::stream_bits::set_bits;
 use incircle_hdl::stream::BeatGate;
 use incircle_testkit::SplitMix64;
 
-named_ports!([const K: usize] BeatGate<K>, [reset, s_axis_tvalid, s_axis_tkeep, is_full], [push, took, waited, dropped], clock);
+named_ports!([const K: usize] BeatGate<K>, [reset, s_axis_tvalid, s_axis_tkeep, is_full], [push, events], clock);
 
 #[test]
 fn only_whole_beats_are_pushed() {

@@ -8,11 +8,11 @@ use incircle_hdl::stream::BeatWords;
 use incircle_testkit::SplitMix64;
 
 named_ports!([const W: usize] BeatWords<W>,
-    [reset, beat_valid, beat_data, command_ready], [takes, command_valid, command_data, is_held], clock);
+    [reset, beat_valid, beat_data, command.ready], [takes, command.valid, command.data, is_held], clock);
 
 fn cuts<const W: usize>(name: &'static str) {
     let mut random = SplitMix64::new(2);
-    let mut block = Stepper::new(name, BeatWords::<W>::default(), 1);
+    let mut block = Stepper::new(name, BeatWords::<W>::new(), 1);
     let mut held: VecDeque<u32> = VecDeque::new();
     let mut words = 0;
     for clock in 0..8000 {
@@ -54,7 +54,7 @@ fn beats_are_cut_into_words() {
 
 #[test]
 fn beat_words_show_the_wave_of_their_header() {
-    let mut block = Stepper::new("stream_beat_words_64", BeatWords::<64>::default(), 1);
+    let mut block = Stepper::new("stream_beat_words_64", BeatWords::<64>::new(), 1);
     let mut wave = Wave::default();
     let mut beats: VecDeque<u32> = [1, 3].into();
     for clock in 0..9 {

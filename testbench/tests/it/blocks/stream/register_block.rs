@@ -10,15 +10,11 @@ use incircle_protocol::{
 use incircle_testkit::SplitMix64;
 
 named_ports!([] RegisterBlock,
-    [reset, s_axi_awvalid, s_axi_awaddr, s_axi_wvalid, s_axi_wdata, s_axi_wstrb, s_axi_bready,
-     s_axi_arvalid, s_axi_araddr, s_axi_rready, resets, core_runs, is_busy, took_command, command_waited, dropped,
-     took_answer, answer_waited, answer_ended, failed, header],
-    [s_axi_awready, s_axi_wready, s_axi_bvalid, s_axi_bresp, s_axi_arready, s_axi_rvalid, s_axi_rdata, s_axi_rresp,
-     asks_reset], clock);
+    [reset, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, resets, core_runs, is_busy, commands, answers], [s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp, asks_reset], clock);
 
 /// Events of a clock, by port.
 const EVENTS: [&str; 7] =
-    ["took_command", "command_waited", "dropped", "took_answer", "answer_waited", "answer_ended", "failed"];
+    ["commands_took", "commands_waited", "dropped", "answers_took", "answers_waited", "answers_ended", "failed"];
 
 /// The register block with a master, and what its registers must hold.
 struct Block {

@@ -5,10 +5,7 @@ use incircle_hdl::stream::RegisterPort;
 use incircle_testkit::SplitMix64;
 
 named_ports!([] RegisterPort,
-    [reset, s_axi_awvalid, s_axi_awaddr, s_axi_wvalid, s_axi_wdata, s_axi_wstrb, s_axi_bready,
-     s_axi_arvalid, s_axi_araddr, s_axi_rready, write_is_known, read_data, read_is_known],
-    [s_axi_awready, s_axi_wready, s_axi_bvalid, s_axi_bresp, s_axi_arready, s_axi_rvalid, s_axi_rdata, s_axi_rresp,
-     write_enable, write_address, write_data, write_bytes, read_enable, read_address], clock);
+    [reset, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, write_is_known, read_data, read_is_known], [s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp, write_enable, write_address, write_data, write_bytes, read_enable, read_address], clock);
 
 /// What a master has under way on one channel: an offer stays until it is taken.
 fn channel<T: Copy>(offered: &mut Option<T>, ready: bool, one_in: u64, random: &mut SplitMix64, new: T) {

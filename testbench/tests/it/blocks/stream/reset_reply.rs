@@ -9,7 +9,7 @@ named_ports!([] ResetReply, [request], [resets, reply, beat], clock);
 #[test]
 fn the_core_is_held_in_reset_and_says_so() {
     let mut random = SplitMix64::new(2);
-    let mut block = Stepper::new("stream_reset_reply", ResetReply::default(), 1);
+    let mut block = Stepper::new("stream_reset_reply", ResetReply::new(), 1);
     let mut requests = vec![true; 9];
     let mut request = true;
     let mut beats = Vec::new();

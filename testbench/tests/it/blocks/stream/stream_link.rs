@@ -11,13 +11,7 @@ use incircle_protocol::{
 use incircle_testkit::SplitMix64;
 
 named_ports!([const W: usize, const K: usize, const E: usize] StreamLink<W, K, E>,
-    [bus_clock, bus_reset_n, s_axis_tvalid, s_axis_tdata, s_axis_tkeep, m_axis_tready,
-     s_axi_awvalid, s_axi_awaddr, s_axi_wvalid, s_axi_wdata, s_axi_wstrb, s_axi_bready,
-     s_axi_arvalid, s_axi_araddr, s_axi_rready,
-     core_clock, command_ready, response_valid, response_data, response_both, response_last],
-    [s_axis_tready, m_axis_tvalid, m_axis_tdata, m_axis_tkeep, m_axis_tlast,
-     s_axi_awready, s_axi_wready, s_axi_bvalid, s_axi_bresp, s_axi_arready, s_axi_rvalid, s_axi_rdata, s_axi_rresp,
-     core_reset, command_valid, command_data, response_ready]);
+    [bus_clock, bus_reset_n, s_axis.tvalid, s_axis.tdata, s_axis.tkeep, m_axis.tready, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, core_clock, command.ready, response.valid, response.data, response.both, response.last], [s_axis.tready, m_axis.tvalid, m_axis.tdata, m_axis.tkeep, m_axis.tlast, s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp, core_reset, command.valid, command.data, response.ready]);
 
 fn rig(beat_bits: usize, periods: [u64; 2], seed: u64) -> Rig<Verilog> {
     let name = if beat_bits == 64 { "stream_link_64" } else { "stream_link_128" };

@@ -7,13 +7,13 @@
 pub mod bundles;
 mod wave;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use incircle_testbench::blocks;
 use verilated::{Model, PortId};
 
 pub(crate) use crate::rig::block_ports::{named_ports, NamedPorts};
-use crate::rig::block_ports::{number, set_number, settle};
+use crate::rig::block_ports::{number, plain, set_number, settle, Places, Whole};
 pub use wave::{Cell, Wave};
 
 /// Both forms of a block, and the clocks that have passed.
@@ -21,7 +21,12 @@ pub struct Stepper<U> {
     name: &'static str,
     rust: U,
     model: Model,
-    ports: BTreeMap<&'static str, PortId>,
+    ports: BTreeMap<String, PortId>,
+    places: Places,
+    /// The inputs as they were set last.
+    inputs: BTreeMap<String, Whole>,
+    /// Inputs that have been set since the block settled last.
+    changed: BTreeSet<String>,
     clocks: usize,
 }
 
@@ -32,8 +37,9 @@ impl<U: NamedPorts> Stepper<U> {
         rust.connect_all();
         let model = blocks::randomized(name, seed);
         let ports = model.description().ports();
-        let ports = ports.map(|port| (port.name, model.port(port.name).expect("a port it lists"))).collect();
-        Self { name, rust, model, ports, clocks: 0 }
+        let ports = ports.map(|port| (plain(port.name), model.port(port.name).expect("a port it lists"))).collect();
+        let places = Places::new(&model, |port| rust.layout(port));
+        Self { name, rust, model, ports, places, inputs: BTreeMap::new(), changed: BTreeSet::new(), clocks: 0 }
     }
 
     /// Clocks that have passed.
@@ -41,14 +47,25 @@ impl<U: NamedPorts> Stepper<U> {
         self.clocks
     }
 
+    /// Sets an input, or a field of one that carries a structure.
     pub fn set(&mut self, port: &str, number: impl Into<u128>) {
-        let number = number.into();
-        self.rust.set(port, number);
-        set_number(&mut self.model, self.ports[port], number);
+        let place = self.places.find(port);
+        let whole = self.inputs.entry(place.port.clone()).or_default();
+        *whole = place.put_into(*whole, number.into());
+        self.changed.insert(place.port);
+    }
+
+    fn drive(&mut self) {
+        for port in std::mem::take(&mut self.changed) {
+            let whole = self.inputs[&port];
+            self.rust.set(&port, whole);
+            set_number(&mut self.model, self.ports[&port], whole);
+        }
     }
 
     /// Brings the outputs up to date with the inputs.
     pub fn settle(&mut self) {
+        self.drive();
         self.rust.set_clock(false);
         settle(&mut self.rust, self.name);
         self.model.eval();
@@ -104,6 +121,7 @@ impl<U: NamedPorts> Stepper<U> {
 
     /// A rising edge.
     pub fn edge(&mut self) {
+        self.drive();
         self.rust.set_clock(true);
         settle(&mut self.rust, self.name);
         self.model.clock();
@@ -111,6 +129,8 @@ impl<U: NamedPorts> Stepper<U> {
     }
 
     fn both(&self, port: &str) -> (u128, u128) {
-        (self.rust.get(port), number(&self.model, self.ports[port]))
+        let place = self.places.find(port);
+        let whole = (self.rust.get(&place.port), number(&self.model, self.ports[&place.port]));
+        (place.part_of(whole.0), place.part_of(whole.1))
     }
 }

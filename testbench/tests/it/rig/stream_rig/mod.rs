@@ -10,7 +10,7 @@ use incircle_testbench::blocks;
 use incircle_testkit::SplitMix64;
 use verilated::{Model, PortId};
 
-use crate::rig::block_ports::{number, set_number};
+use crate::rig::block_ports::{number, plain, set_number};
 use crate::rig::stepper::{NamedPorts, Stepper};
 pub use bus::Bus;
 pub use stand_in::{answer, command, StandIn};
@@ -82,7 +82,7 @@ impl<U: NamedPorts> Pins for Stepper<U> {
 /// The Verilog alone: fast.
 pub struct Verilog {
     model: Model,
-    ports: BTreeMap<&'static str, PortId>,
+    ports: BTreeMap<String, PortId>,
 }
 
 impl Verilog {
@@ -90,7 +90,7 @@ impl Verilog {
     pub fn new(name: &str, seed: u32) -> Self {
         let model = blocks::randomized(name, seed);
         let ports = model.description().ports();
-        let ports = ports.map(|port| (port.name, model.port(port.name).expect("a port it lists"))).collect();
+        let ports = ports.map(|port| (plain(port.name), model.port(port.name).expect("a port it lists"))).collect();
         Self { model, ports }
     }
 }
@@ -98,10 +98,10 @@ impl Verilog {
 impl Pins for Verilog {
     fn set(&mut self, port: &'static str, value: u128) {
         let port = self.ports[port];
-        set_number(&mut self.model, port, value & (u128::MAX >> (128 - port.width())));
+        set_number(&mut self.model, port, (value & (u128::MAX >> (128 - port.width()))).into());
     }
     fn get(&self, port: &'static str) -> u128 {
-        number(&self.model, self.ports[port])
+        number(&self.model, self.ports[port]).low
     }
     fn settle(&mut self) {
         self.model.eval();

@@ -9,22 +9,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     AttemptLists,
-    [done, token, turned, attempt, after, p, since, is_root, settles, finds_inner, succeeds, fails, stops_at_root],
-    [
-        entry_enable,
-        entry_place,
-        entry,
-        inner_enable,
-        inner_place,
-        inner_id,
-        lock_enable,
-        lock_place,
-        lock_id,
-        commit_enable,
-        commit_job,
-        release_enable,
-        release_job
-    ]
+    [visit, attempt, after, p, since, found, step, fails, stops_at_root],
+    [entry, inner, lock, commit, releases]
 );
 
 const ROUNDS: usize = 6000;
@@ -45,25 +31,25 @@ fn attempt_lists_add_what_was_found_and_hand_over_what_was_counted() {
         block.set("after", after.packed());
         block.set("p", p);
         block.set("since", since);
-        let ports = ["done", "is_root", "settles", "finds_inner", "succeeds", "fails", "stops_at_root"];
+        let ports = ["is_done", "is_root", "settles", "finds_inner", "succeeds", "fails", "stops_at_root"];
         let flags = ports.map(|_| flip(&mut random));
         let [done, is_root, settles, finds_inner, succeeds, fails, stops_at_root] = flags;
         for (port, value) in ports.into_iter().zip(flags) {
             block.set(port, value);
         }
         block.settle();
-        block.expect("entry_enable", settles);
+        block.expect("entry_valid", settles);
         block.expect("entry_place", token.x);
-        block.expect("entry", Edge { a: v2, u: token.u, slot, f: token.f, after: token.after }.entry());
-        block.expect("inner_enable", finds_inner);
+        block.expect("entry_entry", Edge { a: v2, u: token.u, slot, f: token.f, after: token.after }.entry());
+        block.expect("inner_valid", finds_inner);
         block.expect("inner_place", before.inners);
         block.expect("inner_id", token.f);
-        block.expect("lock_enable", done && lock.took);
+        block.expect("lock_valid", done && lock.took);
         block.expect("lock_place", if is_root { 0 } else { before.logged });
         block.expect("lock_id", token.u);
-        block.expect("commit_enable", succeeds);
+        block.expect("commit_valid", succeeds);
         block.expect("commit_job", commit_job(token.owner, p, before.inners, after.logged, since));
-        block.expect("release_enable", fails || stops_at_root);
-        block.expect("release_job", release_job(token.owner, if stops_at_root { 1 } else { after.logged }));
+        block.expect("releases_valid", fails || stops_at_root);
+        block.expect("releases_job", release_job(token.owner, if stops_at_root { 1 } else { after.logged }));
     }
 }

@@ -6,7 +6,7 @@ use incircle_hdl::engine::AttemptPoints;
 use incircle_protocol::SMALL;
 use incircle_testkit::SplitMix64;
 
-named_ports!(AttemptPoints, [takes, taker, taken_id, now, owner], [p, since], clock);
+named_ports!(AttemptPoints, [start, now, owner], [p, since], clock);
 
 const ROUNDS: usize = 6000;
 
@@ -24,7 +24,7 @@ fn attempt_points_show_the_wave_of_their_header() {
             _ => [random.below(4), random.below(1 << 15), random.below(1 << 22), random.below(4)],
         };
         block.set("takes", takes);
-        for (port, value) in [("taker", taker), ("taken_id", taken_id), ("now", now), ("owner", owner)] {
+        for (port, value) in [("start_owner", taker), ("start_id", taken_id), ("now", now), ("owner", owner)] {
             block.set(port, value);
         }
         block.settle();

@@ -6,11 +6,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::engine::AttemptStep;
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    AttemptStep,
-    [attempt, is_last, edge_was_passed, entry_bit, took, is_test, splits, repeats, gives_up, overflows],
-    [after, is_over, succeeds, finds_inner, passes_root]
-);
+named_ports!(AttemptStep, [held, took, found], [after, step]);
 
 const ROUNDS: usize = 6000;
 

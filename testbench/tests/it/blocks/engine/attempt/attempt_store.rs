@@ -7,12 +7,7 @@ use incircle_hdl::engine::AttemptStore;
 use incircle_protocol::SMALL;
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    AttemptStore,
-    [ring, early_owner, early_entry, owner, f_entry, opens, is_test, splits, repeats, passes_root, after],
-    [attempt, is_last, is_full, edge_was_passed, entry_bit],
-    clock
-);
+named_ports!(AttemptStore, [ring, early_token, token, found, step, after], [held], clock);
 
 const ROUNDS: usize = 6000;
 
@@ -35,9 +30,12 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
         let is_test = !opens && (splits || random.below(4) > 0);
         // No other visit of a context that opens is out.
         let early_owner = if opens && next_owner == owner { (owner + 1) % 4 } else { next_owner };
-        for (port, value) in
-            [("early_owner", early_owner), ("early_entry", early_entry), ("owner", owner), ("f_entry", f_entry)]
-        {
+        for (port, value) in [
+            ("early_token_owner", early_owner),
+            ("early_token_f_entry", early_entry),
+            ("token_owner", owner),
+            ("token_f_entry", f_entry),
+        ] {
             block.set(port, value);
         }
         let mut after = before.unwrap_or_default();

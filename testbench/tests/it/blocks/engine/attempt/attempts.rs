@@ -13,60 +13,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Attempts,
-    [
-        ring,
-        early_done,
-        early_token,
-        early_turned,
-        token,
-        turned,
-        verdict,
-        seeded,
-        busy,
-        waiter_valid,
-        waiter,
-        takes,
-        taker,
-        taken_id,
-        now
-    ],
-    [
-        asks,
-        may_ask,
-        bundle,
-        is_done,
-        owner,
-        sleeps,
-        keeps,
-        root_enable,
-        root,
-        entry_enable,
-        entry_place,
-        entry,
-        inner_enable,
-        inner_place,
-        inner_id,
-        lock_enable,
-        lock_place,
-        lock_id,
-        commit_enable,
-        commit_job,
-        release_enable,
-        release_job,
-        asks_to_wait,
-        waits,
-        stops_waiting,
-        overflows,
-        duplicate,
-        looks,
-        walk_visit,
-        root_visit,
-        test,
-        revisit,
-        gives_up,
-        retries,
-        cavity_triangles
-    ],
+    [ring, early, visit, seeded, contexts, start, now],
+    [is_done, follow, outcome, looks, entry, inner, lock, commit, releases, events],
     clock
 );
 
@@ -171,8 +119,8 @@ impl Rig {
         };
         let id = self.random.below(1 << 15);
         self.block.set("takes", takes);
-        self.block.set("taker", owner);
-        self.block.set("taken_id", id);
+        self.block.set("start_owner", owner);
+        self.block.set("start_id", id);
         self.block.set("now", self.now);
         if takes {
             let life = &mut self.lives[owner as usize];
@@ -236,8 +184,8 @@ impl Rig {
         let next = self.announce(upcoming);
         let announced = std::mem::replace(&mut self.announced, next);
         let seen = announced.map(|Announced { done, turned, around }| {
-            self.block.set("token", done.visit.token());
-            self.block.set("turned", turned);
+            self.block.set("visit_token", done.visit.token());
+            self.block.set("visit_turned", turned);
             self.block.set("verdict", done.finding.verdict());
             let outcome = self.lives[done.visit.owner as usize].context.complete(&done, &around);
             (done, outcome)
@@ -297,7 +245,7 @@ impl Rig {
             ("gives up a test", outcome.gives_up && done.visit.rotates),
             ("takes the token", outcome.asks_to_wait && self.waiter.is_none()),
             ("locks while it drains", done.lock.took && outcome.entry.is_none() && outcome.push.is_none() && !is_root),
-            ("overflows", outcome.overflows),
+            ("outcome_overflows", outcome.overflows),
             ("duplicates of walks", outcome.duplicate && !is_root),
             ("duplicates of roots", outcome.duplicate && is_root),
             ("retries", outcome.retries),
@@ -354,15 +302,15 @@ fn compare(block: &Stepper<Attempts>, seen: Option<&(Completion, Outcome)>) {
         ("sleeps", outcome.sleeps),
         ("keeps", outcome.keeps),
         ("root_enable", outcome.root.is_some()),
-        ("entry_enable", outcome.entry.is_some()),
-        ("inner_enable", outcome.inner.is_some()),
-        ("lock_enable", outcome.lock.is_some()),
-        ("commit_enable", outcome.commit.is_some()),
-        ("release_enable", outcome.release.is_some()),
+        ("entry_valid", outcome.entry.is_some()),
+        ("inner_valid", outcome.inner.is_some()),
+        ("lock_valid", outcome.lock.is_some()),
+        ("commit_valid", outcome.commit.is_some()),
+        ("releases_valid", outcome.release.is_some()),
         ("asks_to_wait", outcome.asks_to_wait),
         ("waits", outcome.revisit && !is(false, false)),
         ("stops_waiting", outcome.stops_waiting),
-        ("overflows", outcome.overflows),
+        ("outcome_overflows", outcome.overflows),
         ("duplicate", outcome.duplicate),
         ("looks", outcome.looks),
         ("walk_visit", is(false, false) && !outcome.looks),
@@ -375,17 +323,17 @@ fn compare(block: &Stepper<Attempts>, seen: Option<&(Completion, Outcome)>) {
         block.expect(port, value);
     }
     let expect = |port, value: Option<u128>| value.into_iter().for_each(|value| block.expect(port, value));
-    expect("owner", visit.map(|visit| visit.owner.into()));
+    expect("outcome_owner", visit.map(|visit| visit.owner.into()));
     expect("root", outcome.root.map(Into::into));
     expect("entry_place", outcome.entry.map(|(place, _)| place.into()));
-    expect("entry", outcome.entry.map(|(_, edge)| edge.entry()));
+    expect("entry_entry", outcome.entry.map(|(_, edge)| edge.entry()));
     expect("inner_place", outcome.inner.map(|(place, _)| place.into()));
     expect("inner_id", outcome.inner.map(|(_, id)| id.into()));
     expect("lock_place", outcome.lock.map(|(place, _)| place.into()));
     expect("lock_id", outcome.lock.map(|(_, id)| id.into()));
     expect("commit_job", outcome.commit);
     expect("cavity_triangles", outcome.commit.map(|_| outcome.triangles.into()));
-    expect("release_job", outcome.release);
+    expect("releases_job", outcome.release);
     if let Some((visits, bundle)) = outcome.push {
         // Fields of visits that are not made are open.
         let mask = (1 << [57, 78, 93][visits - 1]) - 1;
@@ -418,7 +366,7 @@ fn attempts_show_the_wave_of_their_header() {
     let target = (4..rig.targets.len()).find(is_small).expect("a small cavity");
     let context = &mut rig.lives[1].context;
     (context.target, context.p, context.since) = (target, 7, 3);
-    for (port, value) in [("takes", 1u64), ("taker", 1), ("taken_id", 7), ("now", 3)] {
+    for (port, value) in [("takes", 1u64), ("start_owner", 1), ("start_id", 7), ("now", 3)] {
         rig.block.set(port, value);
     }
     rig.clock(None);

@@ -6,7 +6,7 @@ use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::NextVisits;
 use incircle_testkit::SplitMix64;
 
-named_ports!(NextVisits, [early_token, early_turned, walks_on, locates, walk_next, entry], [bundle], clock);
+named_ports!(NextVisits, [early_token, early_turned, found, walk_next, entry], [bundle], clock);
 
 const ROUNDS: usize = 6000;
 

@@ -6,33 +6,7 @@ use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::VisitCase;
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    VisitCase,
-    [early_done, early_token, early_turned, seeded, is_busy, is_waiter, verdict, drains, is_full],
-    [
-        is_walk,
-        is_root,
-        is_test,
-        looks,
-        repeats,
-        waits,
-        walks_on,
-        locates,
-        opens,
-        retries,
-        splits,
-        settles,
-        overflows,
-        gives_up_root,
-        gives_up,
-        walk_duplicate,
-        root_duplicate,
-        is_done,
-        asks,
-        may_ask
-    ],
-    clock
-);
+named_ports!(VisitCase, [early, seeded, is_busy, is_waiter, verdict, drains, is_full], [found], clock);
 
 /// Outputs of `VisitCase` of which at most one is high.
 const CASES: [&str; 13] = [

@@ -11,26 +11,7 @@ use incircle_hdl::engine::Commit;
 use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    Commit,
-    [
-        reset,
-        head_valid,
-        head,
-        head_is_last,
-        head_shares,
-        head_job,
-        inner_enable,
-        inner_owner,
-        inner_place,
-        inner_id,
-        solo_inserts,
-        seeds,
-        clears
-    ],
-    [takes, write, ends, job, hint, fresh, records, is_at_work],
-    clock
-);
+named_ports!(Commit, [reset, head, head_job, inner, fresh], [takes, takes_fresh, write, committed, is_at_work], clock);
 
 const LONGEST: Config = Config { ring: MAX_RING, contexts: MAX_CONTEXTS, ..TINY };
 
@@ -120,7 +101,6 @@ struct Shown {
     ends: bool,
     write: Option<u128>,
     fresh: u64,
-    records: u64,
 }
 
 /// The commit, and the rings that come to it.
@@ -163,28 +143,22 @@ impl CommitRig {
     /// Offers the next entry, and lists an inner triangle of the first ring, else of the second.
     fn set_inputs(&mut self, drive: Drive) {
         let block = &mut self.block;
-        for (port, value) in [
-            ("reset", drive.reset),
-            ("solo_inserts", drive.solo_inserts),
-            ("seeds", drive.seeds),
-            ("clears", drive.clears),
-        ] {
-            block.set(port, value);
-        }
+        block.set("reset", drive.reset);
+        block.set("fresh", self.count.fresh);
         let head = self.rings.front().filter(|ring| ring.inner.len() == self.listed[0]);
         self.is_offered = head.is_some() && (self.is_offered || drive.offers);
         let shares = head.is_some_and(|ring| ring.shares(self.taken)) && self.is_offered;
         let edge = head.map(|ring| ring.in_order()[self.taken]).filter(|_| self.is_offered);
         block.set("head_valid", edge.is_some());
-        block.set("head", Edge { after: 0, ..edge.unwrap_or_default() }.entry());
+        block.set("head_entry", Edge { after: 0, ..edge.unwrap_or_default() }.entry());
         block.set("head_is_last", edge.is_some_and(|edge| edge.after == 0));
         block.set("head_shares", shares);
         block.set("head_job", head.map_or(0, Ring::job));
-        block.set("inner_enable", false);
+        block.set("inner_valid", false);
         let reader = self.work.as_ref().map(|(ring, _)| ring.owner);
         for (ring, listed) in self.rings.iter().zip(&mut self.listed) {
             if let Some(id) = ring.inner.get(*listed).filter(|_| drive.lists && reader != Some(ring.owner)) {
-                block.set("inner_enable", true);
+                block.set("inner_valid", true);
                 block.set("inner_owner", ring.owner);
                 block.set("inner_place", *listed as u64);
                 block.set("inner_id", *id);
@@ -213,8 +187,7 @@ impl CommitRig {
         self.set_inputs(drive);
         let (act, takes) = self.act();
         let ends = act.is_some_and(|act| act.ends);
-        let (fresh, records) = (self.count.fresh, self.count.records);
-        let shown = Shown { head_valid: self.is_offered, takes, ends, write: self.made, fresh, records };
+        let shown = Shown { head_valid: self.is_offered, takes, ends, write: self.made, fresh: self.count.fresh };
         let block = &mut self.block;
         block.settle();
         if block.clocks() > 0 {
@@ -222,9 +195,8 @@ impl CommitRig {
             if self.is_offered {
                 block.expect("takes", takes);
             }
-            block.expect("ends", ends);
-            block.expect("fresh", fresh);
-            block.expect("records", records);
+            block.expect("committed_valid", ends);
+            block.expect("takes_fresh", act.is_some_and(|act| act.takes_fresh));
             block.expect("is_at_work", self.work.is_some());
             match self.made {
                 Some(write) => block.expect("write", write),
@@ -232,7 +204,7 @@ impl CommitRig {
             }
         }
         if let Some((ring, _)) = self.work.as_ref().filter(|_| ends) {
-            block.expect("job", ring.job());
+            block.expect("committed_job", ring.job());
             block.expect("hint", ring.entries[0].f);
         }
         block.edge();
@@ -369,7 +341,6 @@ fn commit_shows_the_wave_of_its_header() {
             ("write.vertices", Cell::Bit(write.is_some_and(|write| write >> 16 & 1 == 1))),
             ("write.id", write.map_or(Cell::Open, |write| Cell::Number(write >> 1 & 0x7fff))),
             ("fresh", number(shown.fresh)),
-            ("records", number(shown.records)),
         ]);
     }
     wave.assert_drawn_in("commit");

@@ -5,12 +5,7 @@ use incircle_hdl::engine::InnerList;
 use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    InnerList,
-    [enable, owner, place, id, restarts, reader, inners, steps],
-    [is_used_up, is_awaited, inner_id],
-    clock
-);
+named_ports!(InnerList, [inner, restarts, reader, inners, steps], [is_used_up, is_awaited, inner_id], clock);
 
 const LONGEST: Config = Config { ring: MAX_RING, contexts: MAX_CONTEXTS, ..TINY };
 
@@ -51,7 +46,7 @@ impl ListRig {
         let (is_awaited, can_step) = (self.is_awaited(), self.can_step());
         let block = &mut self.block;
         let (owner, id) = joins.unwrap_or_default();
-        block.set("enable", joins.is_some());
+        block.set("inner_valid", joins.is_some());
         block.set("owner", owner as u64);
         block.set("place", self.lists[owner].len() as u64 % 64);
         block.set("id", id);

@@ -8,23 +8,7 @@ use incircle_hdl::engine::Release;
 use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    Release,
-    [
-        reset,
-        last_id,
-        lock_enable,
-        lock_owner,
-        lock_place,
-        lock_id,
-        commit_enable,
-        commit_job,
-        failure_enable,
-        failure_job
-    ],
-    [sweeps, clear_enable, clear_id, released, released_owner],
-    clock
-);
+named_ports!(Release, [reset, last_id, lock, commit, failure], [sweeps, clear, released], clock);
 
 const LONGEST: Config = Config { ring: MAX_RING, contexts: MAX_CONTEXTS, ..TINY };
 
@@ -93,12 +77,12 @@ fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference,
     let (owner, place, id) = drive.lock.unwrap_or((1, 2, 0x5a5a & last_id));
     block.set("reset", drive.reset);
     block.set("last_id", last_id);
-    block.set("lock_enable", drive.lock.is_some());
+    block.set("lock_valid", drive.lock.is_some());
     block.set("lock_owner", owner);
     block.set("lock_place", place);
     block.set("lock_id", id);
     for (enable, port, job) in
-        [("commit_enable", "commit_job", &drive.ring), ("failure_enable", "failure_job", &drive.failure)]
+        [("commit_valid", "commit_job", &drive.ring), ("failure_valid", "failure_job", &drive.failure)]
     {
         block.set(enable, job.is_some());
         block.set(port, job.as_ref().map_or(0xfff, |(owner, ids)| release_job(*owner, ids.len() as u64)));
@@ -107,8 +91,8 @@ fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference,
     let shown = reference.shown();
     if block.clocks() > 0 {
         block.expect("sweeps", !reference.to_sweep.is_empty());
-        block.expect("clear_enable", shown.is_some());
-        block.expect("released", shown.is_some_and(|lock| lock.last_of.is_some()));
+        block.expect("clear_valid", shown.is_some());
+        block.expect("released_valid", shown.is_some_and(|lock| lock.last_of.is_some()));
     }
     if let Some(lock) = shown {
         block.expect("clear_id", lock.id);

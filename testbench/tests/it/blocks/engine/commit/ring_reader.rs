@@ -10,12 +10,7 @@ use incircle_hdl::engine::RingReader;
 use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    RingReader,
-    [reset, entry_enable, entry_owner, entry_place, entry, job_enable, job, takes],
-    [head_valid, head, head_is_last, head_shares, head_job],
-    clock
-);
+named_ports!(RingReader, [reset, entry, commit, takes], [head, head_job], clock);
 
 /// An entry in its place in the order.
 #[derive(Clone, Copy, Debug, Default)]
@@ -111,12 +106,12 @@ impl ReaderRig {
         let block = &mut self.block;
         let (owner, place, edge) = drive.entry.unwrap_or((7, 5, Edge { a: 0x1234, after: 1, ..Edge::default() }));
         block.set("reset", drive.reset);
-        block.set("entry_enable", drive.entry.is_some());
+        block.set("entry_valid", drive.entry.is_some());
         block.set("entry_owner", owner);
         block.set("entry_place", place);
-        block.set("entry", edge.entry());
-        block.set("job_enable", drive.finished.is_some());
-        block.set("job", drive.finished.as_ref().map_or(0, Ring::job));
+        block.set("entry_entry", edge.entry());
+        block.set("commit_valid", drive.finished.is_some());
+        block.set("commit_job", drive.finished.as_ref().map_or(0, Ring::job));
         block.set("takes", drive.takes);
         block.settle();
         let head = self.reference.head();
@@ -124,7 +119,7 @@ impl ReaderRig {
             block.expect("head_valid", head.is_some());
         }
         if let Some(item) = head {
-            block.expect("head", item.entry);
+            block.expect("head_entry", item.entry);
             block.expect("head_is_last", item.is_last);
             block.expect("head_shares", item.shares);
             if item.is_first {

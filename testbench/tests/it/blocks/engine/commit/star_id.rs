@@ -7,7 +7,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     StarId,
-    [head, head_shares, first, current_is_last, inner_id, inner_is_used_up, fresh],
+    [head, first, current_is_last, inner_id, inner_is_used_up, fresh],
     [ahead, id, is_inner, is_fresh]
 );
 
@@ -25,7 +25,7 @@ fn star_id_takes_an_id_that_nobody_has() {
         });
         let [closes, has_gone, used_up] = [(); 3].map(|()| random.below(2) == 1);
         let (inner, fresh) = (random.below(1 << 15), random.below(1 << 15));
-        for (port, edge) in [("head", head), ("first", first)] {
+        for (port, edge) in [("head_entry", head), ("first", first)] {
             block.set(port, edge.entry());
         }
         block.set("head_shares", has_gone);

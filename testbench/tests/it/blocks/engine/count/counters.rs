@@ -8,37 +8,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Counters,
-    [
-        reset,
-        clears,
-        inserting,
-        waiting,
-        reading,
-        is_issuing,
-        is_writing,
-        is_committing,
-        is_releasing,
-        walk_visit,
-        root_visit,
-        test,
-        solo_test,
-        revisit,
-        gives_up,
-        retries,
-        takes_token,
-        overflows,
-        flip,
-        cavity_ends,
-        cavity_triangles,
-        seeds,
-        commit_ends,
-        since,
-        solo_inserts,
-        duplicate,
-        solo_duplicate,
-        refused,
-        select
-    ],
+    [reset, clears, inserting, waiting, reading, events, refused, select],
     [value, insertions, duplicates, now, latency_comes, latency],
     clock
 );

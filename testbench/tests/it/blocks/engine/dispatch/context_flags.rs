@@ -7,40 +7,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     ContextFlags,
-    [
-        reset,
-        clears,
-        all,
-        owner,
-        sleeps,
-        keeps,
-        hands_over,
-        asks_to_wait,
-        waits,
-        stops_waiting,
-        overflows,
-        starts,
-        starter,
-        released,
-        released_owner,
-        commit_ends,
-        commit_owner,
-        solo_ends
-    ],
-    [
-        asleep,
-        keeping,
-        busy,
-        began,
-        hinted,
-        waiter_valid,
-        waiter,
-        is_urgent,
-        solo_valid,
-        solo_owner,
-        all_rest,
-        takes_token
-    ],
+    [reset, clears, all, outcome, start, released, committed, solo_ends],
+    [contexts, takes_token],
     clock
 );
 
@@ -155,19 +123,19 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
         ("waits", events.waits),
         ("stops_waiting", events.stops_waiting),
         ("overflows", events.overflows),
-        ("starts", events.starter.is_some()),
-        ("released", events.released.is_some()),
-        ("commit_ends", events.committed.is_some()),
+        ("start_valid", events.starter.is_some()),
+        ("released_valid", events.released.is_some()),
+        ("committed_valid", events.committed.is_some()),
         ("solo_ends", events.solo_ends),
     ] {
         block.set(port, value);
     }
     // A context that nothing happens to is named all the same.
     let other = events.owner ^ 1;
-    block.set("owner", events.owner);
-    block.set("starter", events.starter.unwrap_or(other));
+    block.set("outcome_owner", events.owner);
+    block.set("start_owner", events.starter.unwrap_or(other));
     block.set("released_owner", events.released.unwrap_or(other));
-    block.set("commit_owner", events.committed.unwrap_or(other));
+    block.set("committed_job_owner", events.committed.unwrap_or(other));
     block.settle();
     if block.clocks() > 0 {
         block.expect("asleep", reference.set(|flags| flags.asleep));

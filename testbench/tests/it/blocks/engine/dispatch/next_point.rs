@@ -5,11 +5,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::engine::NextPoint;
 use incircle_protocol::MAX_CONTEXTS;
 
-named_ports!(
-    NextPoint,
-    [deal, turn, third, taker, taken, took_seed, taken_dealt],
-    [first, first_dealt, taken_is_dealt, after_taken, first_record]
-);
+named_ports!(NextPoint, [deal, pointer, passed], [first, first_dealt, following]);
 
 #[test]
 fn next_point_deals_every_vertex_to_one_context() {
@@ -21,14 +17,14 @@ fn next_point_deals_every_vertex_to_one_context() {
         for turn in 0..contexts {
             block.set("turn", turn);
             block.set("third", 3 * turn + 2);
-            block.set("taker", turn);
+            block.set("passed_owner", turn);
             let vertices: Vec<u64> = deal.dealt(turn).take_while(|vertex| *vertex < 450).collect();
             for (place, pair) in vertices.windows(2).filter(|pair| pair[0] < 400).enumerate() {
-                block.set("taken", pair[0]);
+                block.set("passed_id", pair[0]);
                 let is_seed = deal.is_batch && place == 0;
-                block.set("took_seed", is_seed);
+                block.set("passed_is_seed", is_seed);
                 // Of others it is anything.
-                block.set("taken_dealt", if is_seed { pair[1] } else { pair[1] % 128 });
+                block.set("passed_dealt", if is_seed { pair[1] } else { pair[1] % 128 });
                 block.settle();
                 if place == 0 {
                     block.expect("first", vertices[0] | u64::from(deal.is_batch) << 15);
@@ -36,8 +32,8 @@ fn next_point_deals_every_vertex_to_one_context() {
                 if is_seed {
                     block.expect("first_dealt", pair[1]);
                 }
-                block.expect("taken_is_dealt", pair[0] >= 16);
-                block.expect("after_taken", pair[1]);
+                block.expect("following_is_dealt", pair[0] >= 16);
+                block.expect("following_id", pair[1]);
                 block.expect("first_record", if deal.is_batch { 4 * turn } else { 0 });
                 owners[pair[0] as usize] += 1;
             }
@@ -46,12 +42,12 @@ fn next_point_deals_every_vertex_to_one_context() {
         let triples = if deal.is_batch { contexts as usize } else { 1 };
         let waits = |id: usize| id < 3 * triples && id % 3 != 2;
         assert!((0..400).all(|id| owners[id] == usize::from(!waits(id))), "{deal:?}: {owners:?}");
-        block.set("took_seed", false);
+        block.set("passed_is_seed", false);
         for id in (1 << 14) - 40..1 << 14 {
-            block.set("taken", id as u64);
+            block.set("passed_id", id as u64);
             block.settle();
-            block.expect("taken_is_dealt", true);
-            block.expect("after_taken", id as u64 + contexts);
+            block.expect("following_is_dealt", true);
+            block.expect("following_id", id as u64 + contexts);
         }
     }
 }

@@ -6,12 +6,7 @@ use incircle_hdl::engine::PlanTable;
 use incircle_protocol::LARGE;
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    PlanTable,
-    [deal, turn, third, is_planned, taker, taken, took_seed, taken_dealt, takes, owner, planned],
-    [due, first_dealt, taken_is_dealt, after_taken, first_record],
-    clock
-);
+named_ports!(PlanTable, [deal, pointer, is_planned, passed, write], [due, first_dealt, following], clock);
 
 /// One job after the other in one table, of which nothing is cleared.
 #[test]
@@ -28,7 +23,7 @@ fn plan_table_knows_what_each_context_takes_next() {
             block.set("turn", turn);
             block.set("third", 3 * turn + 2);
             block.set("is_planned", step >= deal.contexts);
-            block.set("takes", false);
+            block.set("write_valid", false);
             block.settle();
             block.expect("due", next | u64::from(is_seed) << 15);
             // Some context takes its vertex while the pointer stands at another one, or at itself.
@@ -38,17 +33,17 @@ fn plan_table_knows_what_each_context_takes_next() {
                 let (taken, first_dealt) = (rests[owner as usize].next().expect("one"), 3 * deal.contexts + owner);
                 let is_seed = deal.is_batch && taken == 3 * owner + 2;
                 let after = *rests[owner as usize].peek().expect("points have no end");
-                for (port, value) in [("taker", owner), ("taken", taken), ("taken_dealt", first_dealt)] {
+                for (port, value) in [("passed_owner", owner), ("passed_id", taken), ("passed_dealt", first_dealt)] {
                     block.set(port, value);
                 }
-                block.set("took_seed", is_seed);
+                block.set("passed_is_seed", is_seed);
                 block.settle();
-                block.expect("taken_is_dealt", taken >= 16);
-                block.expect("after_taken", after);
-                block.set("planned", after);
+                block.expect("following_is_dealt", taken >= 16);
+                block.expect("following_id", after);
+                block.set("write_id", after);
             }
-            block.set("owner", owner);
-            block.set("takes", takes);
+            block.set("write_owner", owner);
+            block.set("write_valid", takes);
             block.settle();
             block.edge();
         }

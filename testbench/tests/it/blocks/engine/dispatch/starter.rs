@@ -10,34 +10,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Starter,
-    [
-        reset,
-        clears,
-        deal,
-        arrived,
-        came,
-        seeded,
-        asleep,
-        keeping,
-        busy,
-        began,
-        hinted,
-        solo_valid,
-        solo_owner,
-        solo_is_at_work,
-        all_rest,
-        is_urgent,
-        waiter,
-        is_done,
-        is_blocked,
-        root_enable,
-        root_owner,
-        root,
-        hint_enable,
-        hint_owner,
-        hint
-    ],
-    [starts, owner, u, takes, taken_id, solo_starts, solo_p],
+    [reset, clears, deal, arrived, came, seeded, contexts, solo_is_at_work, is_done, is_blocked, outcome, committed],
+    [start, solo_start],
     clock
 );
 
@@ -206,7 +180,7 @@ impl Rig {
             ("is_done", inputs.is_done),
             ("is_blocked", inputs.is_blocked),
             ("root_enable", root.is_some()),
-            ("hint_enable", hint.is_some()),
+            ("committed_valid", hint.is_some()),
         ] {
             self.block.set(port, value);
         }
@@ -221,9 +195,9 @@ impl Rig {
             ("busy", self.set(|life| life.busy)),
             ("began", self.set(|life| life.began)),
             ("hinted", self.set(|life| life.hint.is_some())),
-            ("root_owner", root.0),
+            ("outcome_owner", root.0),
             ("root", root.1),
-            ("hint_owner", hint.0),
+            ("committed_job_owner", hint.0),
             ("hint", hint.1),
         ] {
             self.block.set(port, value);
@@ -240,15 +214,15 @@ impl Rig {
         let mut seen = Seen { waits: wanted.is_some() && (inputs.is_done || lacks_port), ..Seen::default() };
         self.block.settle();
         if self.block.clocks() > 0 {
-            self.block.expect("starts", start.is_some());
+            self.block.expect("start_valid", start.is_some());
             self.block.expect("takes", start.is_some_and(|(vertex, _)| vertex.is_some()));
             if let Some(candidate) = self.candidate {
-                self.block.expect("owner", candidate.sight.context);
+                self.block.expect("start_owner", candidate.sight.context);
                 self.expect_alone(inputs, candidate);
             }
             if let Some((vertex, u)) = start {
-                self.block.expect("u", u);
-                vertex.into_iter().for_each(|vertex| self.block.expect("taken_id", vertex));
+                self.block.expect("start_u", u);
+                vertex.into_iter().for_each(|vertex| self.block.expect("start_id", vertex));
             }
             seen.starts = start.is_some();
             seen.takes = start.and_then(|(vertex, _)| vertex);
@@ -263,10 +237,10 @@ impl Rig {
     fn expect_alone(&self, inputs: &Inputs, candidate: Candidate) {
         let may_start = inputs.solo && inputs.all_rest && !inputs.solo_is_at_work;
         let starts = may_start && candidate.is_alone;
-        self.block.expect("solo_starts", starts);
+        self.block.expect("solo_start_valid", starts);
         if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.keeps) {
-            self.block.expect("solo_p", last);
-            self.block.expect("u", candidate.u);
+            self.block.expect("solo_start_p", last);
+            self.block.expect("start_u", candidate.u);
         }
     }
 

@@ -5,7 +5,7 @@ use crate::rig::ids::LAST_ID;
 use crate::rig::structures::{pack, WRITE};
 use incircle_hdl::engine::SeedWrites;
 
-named_ports!([] SeedWrites, [step, turns_left, infinite, first_vertex, first_record], [write]);
+named_ports!([] SeedWrites, [step, first_vertex, first_record, turns_left, infinite], [write]);
 
 #[test]
 fn seed_writes_are_the_first_triangle_and_its_ghosts() {

@@ -9,8 +9,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Seeder,
-    [reset, clears, infinite, deal, came, came_id, arrived, looks, verdict],
-    [seeded, start_is_open, collinear, has_no_start, seeds, write],
+    [reset, clears, infinite, deal, arrival, arrived, looks, verdict],
+    [progress, start_is_open, collinear, write],
     clock
 );
 
@@ -136,7 +136,7 @@ fn set_seed_inputs(block: &mut Stepper<Seeder>, reference: &SeedReference, input
     block.set("clears", inputs.clears);
     block.set("came", inputs.came.is_some());
     // Without `came` it is anything.
-    block.set("came_id", inputs.came.unwrap_or(3 * reference.job));
+    block.set("arrival_id", inputs.came.unwrap_or(3 * reference.job));
     block.set("arrived", inputs.arrived);
     block.set("looks", inputs.looks);
     block.set("verdict", inputs.finding.verdict());

@@ -7,12 +7,7 @@ use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::Solo;
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    Solo,
-    [reset, starts, owner, p, start, records, done, token, turned, verdict],
-    [push, bundle, write, tests, flips, ends, inserts, is_at_work],
-    clock
-);
+named_ports!(Solo, [reset, start, records, visit], [push, write, progress], clock);
 
 /// A write as it stands on the port.
 fn packed(written: Written) -> u128 {
@@ -93,7 +88,7 @@ impl Rig {
     /// Answers the visit that is due, from the mesh as the writes have left it.
     fn set_completion(&mut self, mesh: &Mesh, job: &Job, seen: &mut Seen) {
         let due = self.visit.filter(|(_, clocks)| *clocks == 0);
-        self.block.set("done", due.is_some());
+        self.block.set("visit_done", due.is_some());
         let mut finding = self.noise();
         let Some((visit, _)) = due else {
             self.block.set("verdict", finding.verdict());
@@ -120,14 +115,14 @@ impl Rig {
 
     /// The rest of the inputs: what is taken at `starts` is noise at all other times.
     fn set_job(&mut self, starts: bool, job: &Job, mesh: &Mesh) {
-        self.block.set("starts", starts);
+        self.block.set("start_valid", starts);
         let [owner, p, start] = match starts {
             true => [job.owner, mesh.points.len() as u64 - 1, job.path[0]],
             false => [self.random.below(32), self.random.below(1 << 15), self.random.below(1 << 15)],
         };
-        self.block.set("owner", owner);
-        self.block.set("p", p);
-        self.block.set("start", start);
+        self.block.set("start_owner", owner);
+        self.block.set("start_p", p);
+        self.block.set("start_u", start);
     }
 
     /// One clock; `mesh` takes the write that is seen.
@@ -153,7 +148,7 @@ impl Rig {
         if let Some((_, clocks)) = &mut self.visit {
             *clocks -= 1;
         }
-        if self.block.is("push") {
+        if self.block.is("push_valid") {
             self.expect_visit(job, seen);
             let delay = self.delay.0 + self.random.below(self.delay.1 + 1) as usize;
             let visit = Visit::of_bundle(self.block.get("bundle"));

@@ -5,7 +5,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::engine::SoloVisit;
 use incircle_testkit::SplitMix64;
 
-named_ports!(SoloVisit, [owner, is_locate, is_mend, is_second, is_fetch, root_id, root, id, outer, back], [bundle]);
+named_ports!(SoloVisit, [owner, phase, is_second, root_id, root, triangle], [bundle]);
 
 const ROUNDS: usize = 4000;
 

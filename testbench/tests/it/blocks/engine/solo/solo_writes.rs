@@ -5,36 +5,7 @@ use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::engine::SoloWrites;
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    SoloWrites,
-    [
-        split1,
-        split2,
-        split3,
-        flip1,
-        flip2,
-        mend1,
-        mend2,
-        is_test,
-        p,
-        second,
-        third,
-        root_id,
-        root,
-        id,
-        a,
-        b,
-        outer,
-        after,
-        preceding,
-        apex,
-        apex_after_a,
-        apex_before_b,
-        visited,
-        slot
-    ],
-    [write]
-);
+named_ports!(SoloWrites, [turn, is_test, p, second, third, root_id, root, triangle, beyond, visited, slot], [write]);
 
 /// A finding that no write may depend on.
 const LOCKED: LockFinding = LockFinding { took: true, foreign: true, again: true };
@@ -45,7 +16,7 @@ const IDS: [&str; 13] = [
     "second",
     "third",
     "root_id",
-    "id",
+    "triangle_id",
     "a",
     "b",
     "outer",

@@ -8,7 +8,7 @@ use crate::rig::drawing::{draw, When};
 use crate::rig::structures::{bundle, pack, random, unpack, BUNDLE, TOKEN};
 use incircle_hdl::engine::Issue;
 
-named_ports!([] Issue, [reset, push, bundle, read, read_id], [token_valid, token, vertices_id, links_id, read_valid], clock);
+named_ports!([] Issue, [reset, push, read], [token_valid, token, vertices_id, links_id, read_valid], clock);
 
 const CYCLES: usize = 6_000;
 
@@ -64,7 +64,7 @@ fn issue_makes_one_visit_a_clock_in_order() {
     Cosimulation {
         name: "issue_5",
         rust: Issue::new(5),
-        inputs: &["reset", "push", "bundle", "read", "read_id"],
+        inputs: &["reset", "push_valid", "push_bundle", "read_valid", "read_id"],
         outputs: &["token_valid", "token", "read_valid", "token[40+:15]", "vertices_id", "links_id"],
     }
     .run(stimuli, |values| {
@@ -93,19 +93,19 @@ fn issue_makes_one_visit_a_clock_in_order() {
 #[test]
 fn issue_shows_the_wave_of_its_header() {
     let stimuli = [
-        (1, "push", 1),
-        (1, "bundle", bundle(&[1, 2, 3])),
-        (2, "push", 1),
-        (2, "bundle", bundle(&[4])),
-        (6, "read", 1),
+        (1, "push_valid", 1),
+        (1, "push_bundle", bundle(&[1, 2, 3])),
+        (2, "push_valid", 1),
+        (2, "push_bundle", bundle(&[4])),
+        (6, "read_valid", 1),
         (6, "read_id", 9),
     ];
     let lanes = [
-        ("push", "push", 0, 1, When::Always),
-        ("bundle.x", "bundle", 9, 6, When::If("push")),
+        ("push", "push_valid", 0, 1, When::Always),
+        ("bundle.x", "push_bundle", 9, 6, When::If("push_valid")),
         ("token_valid", "token_valid", 0, 1, When::Always),
         ("token.x", "token", 7, 6, When::If("token_valid")),
-        ("read", "read", 0, 1, When::Always),
+        ("read", "read_valid", 0, 1, When::Always),
         ("read_valid", "read_valid", 0, 1, When::Always),
         ("token.u", "token", 40, 15, When::If("read_valid")),
     ];

@@ -5,12 +5,7 @@ use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::PushPort;
 use incircle_testkit::SplitMix64;
 
-named_ports!(
-    PushPort,
-    [reset, asks, may_ask, follows, starts, starter, u, is_alone, solo_asks, solo],
-    [push, bundle],
-    clock
-);
+named_ports!(PushPort, [reset, follow, start, is_alone, solo], [push], clock);
 
 const ROUNDS: usize = 6000;
 
@@ -34,19 +29,19 @@ fn push_clock(block: &mut Stepper<PushPort>, asking: &Asking, shown: Option<Visi
         ("reset", asking.reset),
         ("may_ask", asking.may_ask),
         ("asks", asking.asks),
-        ("starts", asking.starts),
+        ("start_valid", asking.starts),
         ("is_alone", asking.is_alone),
-        ("solo_asks", asking.solo_asks),
+        ("solo_valid", asking.solo_asks),
     ] {
         block.set(port, value);
     }
-    block.set("follows", asking.follows.bundle(3, 1, 2, 3));
-    block.set("starter", asking.starter.owner);
-    block.set("u", asking.starter.u);
-    block.set("solo", asking.solo.bundle(1, 0, 0, 0));
+    block.set("follow_bundle", asking.follows.bundle(3, 1, 2, 3));
+    block.set("start_owner", asking.starter.owner);
+    block.set("start_u", asking.starter.u);
+    block.set("solo_bundle", asking.solo.bundle(1, 0, 0, 0));
     block.settle();
     if block.clocks() > 0 {
-        block.expect("push", shown.is_some());
+        block.expect("push_valid", shown.is_some());
     }
     if let Some(visit) = shown {
         // A walk's visit has no entry.
@@ -59,8 +54,8 @@ fn push_clock(block: &mut Stepper<PushPort>, asking: &Asking, shown: Option<Visi
             9
         };
         let mask = (1 << bits) - 1;
-        block.expect_masked("bundle", mask, visit.bundle(visits, 1, 2, 3) & mask);
-        block.expect_masked("bundle", 0x7fff << 42, u128::from(visit.u) << 42);
+        block.expect_masked("push_bundle", mask, visit.bundle(visits, 1, 2, 3) & mask);
+        block.expect_masked("push_bundle", 0x7fff << 42, u128::from(visit.u) << 42);
     }
     block.edge();
     match (asking.reset, asking.asks, asking.starts, asking.solo_asks) {

@@ -5,10 +5,7 @@ use crate::rig::cosimulation::{named_ports, Cosimulation, Numbers};
 use crate::rig::visit_model::{incircle, orientation, verdict_parts, Point, VERDICT_PARTS};
 use incircle_hdl::engine::VerdictLogic;
 
-named_ports!([] VerdictLogic,
-    [turned, e0_negative, e1_negative, e2_negative, e0_zero, e1_zero, e2_zero, e1_below_e0, e2_below_e0, e2_below_e1,
-     incircle_positive, incircle_zero, p_before_r0, p_before_r1, p_before_r2, p_equals_r0, p_equals_r1, p_equals_r2,
-     r0_before_r1, r0_before_r2, r1_before_r2], [verdict]);
+named_ports!([] VerdictLogic, [turned, signs], [verdict]);
 
 const CYCLES: usize = 6_000;
 

@@ -8,7 +8,7 @@ use crate::rig::structures::{pack, TURNED};
 use crate::rig::visit_model::{verdict_parts, word, Record, VERDICT_PARTS};
 use incircle_hdl::engine::VisitJudge;
 
-named_ports!([] VisitJudge, [r0, r1, r2, p, turned], [verdict], clock);
+named_ports!([] VisitJudge, [corners, p, turned], [verdict], clock);
 
 const CYCLES: usize = 6_000;
 
@@ -32,7 +32,7 @@ fn visit_judge_answers_ten_clocks_after_the_corners() {
     Cosimulation {
         name: "visit_judge",
         rust: VisitJudge::default(),
-        inputs: &["r0", "r1", "r2", "p", "turned"],
+        inputs: &["corners_r0", "corners_r1", "corners_r2", "p", "turned"],
         outputs: &VERDICT_PARTS,
     }
     .run(stimuli, |_| {
@@ -54,11 +54,17 @@ fn visit_judge_answers_ten_clocks_after_the_corners() {
 fn visit_judge_shows_the_wave_of_its_header() {
     let mut turned = [0; 13];
     turned[3] = 9;
-    let stimuli = [(0, "r0", 2), (0, "r1", 6), (0, "r2", 4), (0, "p", 6), (10, "turned", pack(TURNED, turned))];
+    let stimuli = [
+        (0, "corners_r0", 2),
+        (0, "corners_r1", 6),
+        (0, "corners_r2", 4),
+        (0, "p", 6),
+        (10, "turned", pack(TURNED, turned)),
+    ];
     let lanes = [
-        ("r0", "r0", 0, 32, When::At(&[0])),
-        ("r1", "r1", 0, 32, When::At(&[0])),
-        ("r2", "r2", 0, 32, When::At(&[0])),
+        ("r0", "corners_r0", 0, 32, When::At(&[0])),
+        ("r1", "corners_r1", 0, 32, When::At(&[0])),
+        ("r2", "corners_r2", 0, 32, When::At(&[0])),
         ("p", "p", 0, 32, When::At(&[0])),
         ("turned.n0", "turned", 45, 15, When::At(&[10])),
         ("walk_next", "verdict", 5, 15, When::At(&[10])),

@@ -15,29 +15,26 @@ use crate::rig::visit_model::{point, verdict_parts, word, Locks, Point, Record, 
 use incircle_hdl::engine::VisitPipeline;
 use incircle_protocol::{infinite_vertex, Config, SMALL, TINY};
 
-named_ports!([] VisitPipeline,
-    [reset, infinite, records, push, bundle, position_owner, position, position_enable, read, read_id, write, enables,
-     vertex_id, vertex_position, vertex_enable, fetch_id, clear_id, clear_enable],
-    [is_issuing, done, token, turned, verdict, read_done, v0, v1, v2, n0, n1, n2, was_set, fetched], clock);
+named_ports!([] VisitPipeline, [reset, infinite, records, push, position, read, write, enables, arrival, fetch_id, clear], [is_issuing, visit, early, read_out, fetched], clock);
 
 const INPUTS: [&str; 18] = [
     "reset",
     "infinite",
     "records",
-    "push",
-    "bundle",
+    "push_valid",
+    "push_bundle",
     "position_owner",
-    "position",
-    "position_enable",
-    "read",
+    "position_point",
+    "position_valid",
+    "read_valid",
     "read_id",
     "write",
-    "vertex_id",
-    "vertex_position",
-    "vertex_enable",
+    "arrival_id",
+    "arrival_point",
+    "arrival_came",
     "fetch_id",
     "clear_id",
-    "clear_enable",
+    "clear_valid",
     "enables",
 ];
 
@@ -45,19 +42,19 @@ const INPUTS: [&str; 18] = [
 /// parts of `VERDICT_PARTS`.
 const OUTPUTS: [&str; 18] = [
     "is_issuing",
-    "done",
-    "token",
-    "turned[0+:92]",
-    "turned[92+:3]",
-    "turned[95+:3]",
-    "read_done",
-    "v0",
-    "v1",
-    "v2",
-    "n0",
-    "n1",
-    "n2",
-    "was_set",
+    "visit_done",
+    "visit_token",
+    "visit_turned[0+:92]",
+    "visit_turned[92+:3]",
+    "visit_turned[95+:3]",
+    "read_out_valid",
+    "read_out_record_v0",
+    "read_out_record_v1",
+    "read_out_record_v2",
+    "read_out_record_n0",
+    "read_out_record_n1",
+    "read_out_record_n2",
+    "read_out_record_was_set",
     "fetched",
     VERDICT_PARTS[0],
     VERDICT_PARTS[1],
@@ -463,17 +460,17 @@ fn visit_pipeline_of_a_small_core() {
 
 #[test]
 fn visit_pipeline_shows_the_wave_of_its_header() {
-    let stimuli = [(0, "push", 1), (0, "bundle", bundle(&[1, 2])), (19, "read", 1)];
+    let stimuli = [(0, "push_valid", 1), (0, "push_bundle", bundle(&[1, 2])), (19, "read_valid", 1)];
     let lanes = [
-        ("push", "push", 0, 1, When::Always),
-        ("bundle.owner", "bundle", 2, 5, When::If("push")),
-        ("bundle.x", "bundle", 9, 6, When::If("push")),
+        ("push", "push_valid", 0, 1, When::Always),
+        ("bundle.owner", "push_bundle", 2, 5, When::If("push_valid")),
+        ("bundle.x", "push_bundle", 9, 6, When::If("push_valid")),
         ("is_issuing", "is_issuing", 0, 1, When::Always),
-        ("done", "done", 0, 1, When::Always),
-        ("token.owner", "token", 0, 5, When::If("done")),
-        ("token.x", "token", 7, 6, When::If("done")),
-        ("read", "read", 0, 1, When::Always),
-        ("read_done", "read_done", 0, 1, When::Always),
+        ("done", "visit_done", 0, 1, When::Always),
+        ("token.owner", "visit_token", 0, 5, When::If("visit_done")),
+        ("token.x", "visit_token", 7, 6, When::If("visit_done")),
+        ("read", "read_valid", 0, 1, When::Always),
+        ("read_done", "read_out_valid", 0, 1, When::Always),
     ];
     let pipeline = VisitPipeline::new(TINY);
     draw("visit_pipeline_tiny", pipeline, &stimuli, 24, &lanes).assert_drawn_in("visit_pipeline");

@@ -6,9 +6,7 @@ use crate::rig::structures::{pack, random, unpack, TOKEN};
 use crate::rig::visit_model::Record;
 use incircle_hdl::engine::VisitReader;
 
-named_ports!([] VisitReader,
-    [infinite, token, v0, v1, v2, n0, n1, n2, took, foreign, again, position0, position1, position2],
-    [turned, token_at_record, r0, r1, r2], clock);
+named_ports!([] VisitReader, [infinite, token, record, again, took, foreign, stored_corners], [turned, token_at_record, corners], clock);
 
 const CYCLES: usize = 6_000;
 
@@ -56,20 +54,20 @@ fn visit_reader_turns_record_and_corners() {
         inputs: &[
             "infinite",
             "token",
-            "v0",
-            "v1",
-            "v2",
-            "n0",
-            "n1",
-            "n2",
+            "record_v0",
+            "record_v1",
+            "record_v2",
+            "record_n0",
+            "record_n1",
+            "record_n2",
             "took",
             "foreign",
             "again",
-            "position0",
-            "position1",
-            "position2",
+            "stored_corners_r0",
+            "stored_corners_r1",
+            "stored_corners_r2",
         ],
-        outputs: &["token_at_record", "turned", "r0", "r1", "r2"],
+        outputs: &["token_at_record", "turned", "corners_r0", "corners_r1", "corners_r2"],
     }
     .run(stimuli, |values| {
         past.push(values.to_vec());
@@ -97,26 +95,26 @@ fn visit_reader_shows_the_wave_of_its_header() {
     // Through link 1, so that vertex 1 comes first.
     let stimuli = [
         (0, "token", pack(TOKEN, [0, 1, 0, 0, 0, 0, 30, 5])),
-        (2, "v0", 11),
-        (2, "v1", 12),
-        (2, "n1", 30),
+        (2, "record_v0", 11),
+        (2, "record_v1", 12),
+        (2, "record_n1", 30),
         (2, "again", 1),
         (3, "took", 1),
-        (4, "position0", 51),
+        (4, "stored_corners_r0", 51),
     ];
     let lanes = [
         ("token.f", "token", 25, 15, When::At(&[0])),
-        ("n1", "n1", 0, 15, When::At(&[2])),
-        ("v0", "v0", 0, 15, When::At(&[2])),
-        ("v1", "v1", 0, 15, When::At(&[2])),
+        ("n1", "record_n1", 0, 15, When::At(&[2])),
+        ("v0", "record_v0", 0, 15, When::At(&[2])),
+        ("v1", "record_v1", 0, 15, When::At(&[2])),
         ("again", "again", 0, 1, When::Always),
         ("took", "took", 0, 1, When::Always),
         ("turned.v0", "turned", 0, 15, When::At(&[5])),
         ("turned.slot", "turned", 90, 2, When::At(&[5])),
         ("turned.again", "turned", 94, 1, When::At(&[5])),
         ("turned.took", "turned", 92, 1, When::At(&[5])),
-        ("position0", "position0", 0, 32, When::At(&[4])),
-        ("r0", "r0", 0, 32, When::At(&[5])),
+        ("position0", "stored_corners_r0", 0, 32, When::At(&[4])),
+        ("r0", "corners_r0", 0, 32, When::At(&[5])),
     ];
     let reader = VisitReader::default();
     draw("visit_reader", reader, &stimuli, 7, &lanes).assert_drawn_in("visit_reader");

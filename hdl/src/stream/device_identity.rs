@@ -1,0 +1,107 @@
+//! The registers that say what the device is: constants.
+//!
+//! Latency: none.
+
+use super::axi::RegisterIndex;
+use crate::link::types::Word;
+use incircle_protocol::{
+    Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
+};
+use rust_hdl_core::prelude::*;
+
+use crate::leaf::Parameter;
+
+/// Registers of constants; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct DeviceIdentity {
+    /// The register that is read.
+    pub index: Signal<In, RegisterIndex>,
+    /// Its value, 0 if it is none of these, and whether it is one.
+    pub value: Signal<Out, Word>,
+    pub is_known: Signal<Out, Bit>,
+    magic: Parameter<Word>,
+    stream_version: Parameter<Word>,
+    protocol_version: Parameter<Word>,
+    core_version: Parameter<Word>,
+    coord_bits: Parameter<Word>,
+    capacity: Parameter<Word>,
+    contexts: Parameter<Word>,
+    ring: Parameter<Word>,
+    beat_bits: Parameter<Word>,
+    fifo_beats: Parameter<Word>,
+}
+
+// The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+const _: () = {
+    let mut index = 0;
+    while index < 10 {
+        assert!(
+            StreamRegister::ALL[index].offset() == 4 * index as u32,
+            "the offsets of this block follow the protocol"
+        );
+        index += 1;
+    }
+};
+
+impl DeviceIdentity {
+    /// The registers of a core of this configuration, behind streams of so many bits a beat.
+    pub fn new(config: Config, beat_bits: usize) -> Self {
+        let word = |value: u32| Parameter::new(Bits::from(u64::from(value)));
+        Self {
+            magic: word(MAGIC),
+            stream_version: word(STREAM_VERSION),
+            protocol_version: word(PROTOCOL_VERSION),
+            core_version: word(CORE_VERSION),
+            coord_bits: word(CORE_COORD_BITS),
+            capacity: word(config.points),
+            contexts: word(config.contexts),
+            ring: word(config.ring),
+            beat_bits: word(beat_bits as u32),
+            fifo_beats: word(STREAM_FIFO_BEATS),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for DeviceIdentity {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.is_known.next = true;
+        match self.index.val().index() {
+            0 => {
+                self.value.next = self.magic.val();
+            }
+            1 => {
+                self.value.next = self.stream_version.val();
+            }
+            2 => {
+                self.value.next = self.protocol_version.val();
+            }
+            3 => {
+                self.value.next = self.core_version.val();
+            }
+            4 => {
+                self.value.next = self.coord_bits.val();
+            }
+            5 => {
+                self.value.next = self.capacity.val();
+            }
+            6 => {
+                self.value.next = self.contexts.val();
+            }
+            7 => {
+                self.value.next = self.ring.val();
+            }
+            8 => {
+                self.value.next = self.beat_bits.val();
+            }
+            9 => {
+                self.value.next = self.fifo_beats.val();
+            }
+            _ => {
+                self.value.next = 0.into();
+                self.is_known.next = false;
+            }
+        }
+    }
+}
