@@ -33,7 +33,7 @@ fn with_properties(verilog: &str, name: &str, properties: &str) -> String {
 /// A FIFO with pointers of `P` bits, so of `2^(P - 1)` entries, with its properties. They look into the memory and the
 /// synchronisers, so these show what they hold.
 fn fifo<const P: usize>() -> String {
-    let mut fifo = AsyncFifo::<P, 2>::default();
+    let mut fifo = AsyncFifo::<P, 2>::new();
     fifo.connect_all();
     let mut text = export::verilog(&fifo, FIFO).expect("a sound FIFO");
     let last = P - 1;
