@@ -36,7 +36,7 @@ fn main() {
     let only = std::env::var("INCIRCLE_ONLY").unwrap_or_default();
     let is_wanted = |name: &str| only.is_empty() || only.split(',').any(|prefix| name.starts_with(prefix));
     let mut builder = Builder::new();
-    for (name, verilog) in incircle_hdl::export::blocks().into_iter().filter(|(name, _)| is_wanted(name)) {
+    for (name, verilog) in incircle_blocks::blocks().into_iter().filter(|(name, _)| is_wanted(name)) {
         let verilog = without_initial_values(&verilog);
         let block = |model: &str, text| ModelSource::new(model, &name, text).trace(true).random_initial_state(true);
         if let Some(with_primitives) = cells::with_primitives(&name, &verilog) {

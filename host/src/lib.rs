@@ -16,71 +16,50 @@
 //! With a device that stays open, and choices for the job:
 //!
 //! ```
-//! use incircle::{Device, Options, Order, Point};
+//! use incircle::{Device, Options, Order, Point, Solution};
 //!
 //! let points: Vec<Point> = (0..100).map(|k| Point::new(k * k % 83, k * 7 % 89)).collect();
 //! let mut device = Device::open("model?coord-bits=12")?;
 //! let mut session = device.session()?;
 //! assert_eq!(session.identity().coord_bits, 12);
-//! let options = Options { order: Order::Hilbert, ..Options::default() };
-//! let mesh = session.triangulate_with(&points, &options)?;
-//! assert_eq!(mesh.triangles.len(), 2 * mesh.report.distinct - 2 - mesh.hull.len());
+//! let options = Options::default().order(Order::Hilbert);
+//! let Solution { mesh, report, .. } = session.triangulate_with(&points, &options)?;
+//! assert_eq!(mesh.triangles.len(), 2 * report.distinct - 2 - mesh.hull.len());
+//! assert_eq!(mesh, incircle::triangulate(&points)?);
 //! # Ok::<(), incircle::Error>(())
 //! ```
 //!
 //! Floating-point values pass [`quantize`] first, which reports what it did.
 #![warn(missing_docs)]
 
-mod assemble;
-mod batch;
-mod clock;
-mod counters;
-mod cpu;
+mod commands;
 mod device;
-mod edges;
 mod error;
-mod fault;
-mod hierarchy;
-mod hilbert;
-mod link;
-mod mesh;
-mod model;
-mod options;
-pub mod order;
-mod pages;
-pub mod pcie;
-mod point;
-mod prepare;
+mod job;
+mod limit;
 pub mod quantize;
-mod report;
-pub mod serial;
-mod session;
-mod sort;
-mod transport;
-pub mod verify;
+pub mod transports;
 
-pub use clock::ClockTransport;
-pub use counters::{Counters, Latencies};
-pub use device::Device;
-pub use error::{Error, ErrorKind, Shown};
-pub use fault::DeviceFault;
-pub use hierarchy::Hierarchy;
+pub use device::{Device, DeviceAddress, Session};
+pub use error::{DeviceFault, Error, ErrorKind, Shown, TransportError};
+pub use incircle_geometry::verify::{self, verify, VerifyError, VerifySummary};
+pub use incircle_geometry::{orient2d, predicate, Duplicate, Mesh, Order, Point, UnknownOrder, EMPTY, MAX_POINTS};
 pub use incircle_protocol::{Config, Identity};
-pub use mesh::{Duplicate, Mesh, EMPTY};
-pub use model::ModelTransport;
-pub use options::{Options, Order, Progress, ProgressListener, Stage, INSERT_CHUNK};
-pub use point::Point;
-pub use quantize::{Quantization, Quantize};
-pub use report::Report;
-pub use session::{Session, MAX_POINTS};
-pub use transport::{Pace, Transport, TransportError};
-pub use verify::{verify, VerifyError, VerifySummary};
+pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, Solution, Stage};
+pub use quantize::{quantize, Quantization, Quantize};
+pub use transports::{pcie, serial, Transport};
+
+/// Orders of insertion: the same set always gives the same order, whatever the order of the input. The orders by name are [`Order`].
+pub mod order {
+    pub use crate::job::deal::{brio_hilbert_dealt, deal};
+    pub use incircle_geometry::order::{brio_hilbert, hilbert, random, Order, Rounds, UnknownOrder};
+}
 
 /// Triangulates in this process with the fast engine: coordinates up to 31 bits, default [`Options`], all processors for large sets.
 ///
 /// # Errors
 /// A coordinate of more than 31 bits, more than [`MAX_POINTS`] points, or a job that takes longer than
 /// [`Options::default_timeout`].
-pub fn triangulate<P: Into<Point> + Copy>(points: &[P]) -> Result<Mesh, Error> {
-    Device::cpu(None).session()?.triangulate(points)
+pub fn triangulate<P: Into<Point> + Copy>(points: &(impl AsRef<[P]> + ?Sized)) -> Result<Mesh, Error> {
+    Device::cpu(None).session()?.triangulate(points).map(|solution| solution.mesh)
 }

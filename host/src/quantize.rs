@@ -1,9 +1,8 @@
 //! From floating-point values to grid points: one named step that reports what it did. Nothing is rounded silently.
 
-use crate::device::check_coord_bits;
 use crate::error::Error;
-use crate::point::Point;
-use crate::session::MAX_POINTS;
+use crate::limit::check_coord_bits;
+use incircle_geometry::{Point, MAX_POINTS};
 
 /// How values are laid onto the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,10 @@
-//! Commands and the headers of their answers.
+//! Commands, how they are written as words and read from them, and what their answers begin with.
 
-/// What the host can ask. The opcode stands in the top byte of a command word; the rest is zero but where said.
+use crate::counters::{COUNTER_WORDS, LATENCY_BUCKETS};
+use crate::layout::{Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS};
+use crate::status::Status;
+
+/// The number of a command. The opcode stands in the top byte of a command word; the rest is zero but where said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Opcode {
@@ -93,4 +97,286 @@ pub const fn answer_opcode(header: u32) -> u8 {
 /// The status byte of an answer.
 pub const fn answer_status(header: u32) -> u8 {
     (header >> 16) as u8
+}
+
+/// Words in front of the payload of an answer: its header, and the number of payload words.
+pub const ANSWER_HEAD_WORDS: usize = 2;
+
+/// Most words of a command in front of its points.
+pub const COMMAND_HEAD_WORDS: usize = 3;
+
+/// A command with its arguments. `P` is what holds the points of an `Insert`: a slice or a list of words, as
+/// [`Layout::point_to_words`] packs them, or `()` where they are elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Command<P> {
+    /// [`Opcode::Hello`].
+    Hello,
+    /// [`Opcode::Clear`].
+    Clear {
+        /// Contexts that work from now on; 0 is all the device has.
+        contexts: u32,
+        /// Each of them works on a mesh of its own.
+        is_batch: bool,
+    },
+    /// [`Opcode::Insert`].
+    Insert {
+        /// How many points.
+        count: u32,
+        /// The words of the points.
+        points: P,
+    },
+    /// [`Opcode::Read`].
+    Read(RecordRange),
+    /// [`Opcode::Counters`].
+    Counters,
+    /// [`Opcode::Latencies`].
+    Latencies,
+    /// [`Opcode::Triangles`].
+    Triangles(RecordRange),
+}
+
+/// Triangle records that follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RecordRange {
+    /// The first record.
+    pub first: u32,
+    /// How many records.
+    pub count: u32,
+}
+
+impl<P> Command<P> {
+    /// The number of the command.
+    pub const fn opcode(&self) -> Opcode {
+        match self {
+            Self::Hello => Opcode::Hello,
+            Self::Clear { .. } => Opcode::Clear,
+            Self::Insert { .. } => Opcode::Insert,
+            Self::Read(_) => Opcode::Read,
+            Self::Counters => Opcode::Counters,
+            Self::Latencies => Opcode::Latencies,
+            Self::Triangles(_) => Opcode::Triangles,
+        }
+    }
+
+    /// The command without its points.
+    pub const fn bare(&self) -> Command<()> {
+        match self {
+            Self::Hello => Command::Hello,
+            Self::Clear { contexts, is_batch } => Command::Clear { contexts: *contexts, is_batch: *is_batch },
+            Self::Insert { count, .. } => Command::Insert { count: *count, points: () },
+            Self::Read(range) => Command::Read(*range),
+            Self::Counters => Command::Counters,
+            Self::Latencies => Command::Latencies,
+            Self::Triangles(range) => Command::Triangles(*range),
+        }
+    }
+
+    /// The same command with its points in another form.
+    pub fn map<Q>(self, form: impl FnOnce(P) -> Q) -> Command<Q> {
+        match self {
+            Self::Hello => Command::Hello,
+            Self::Clear { contexts, is_batch } => Command::Clear { contexts, is_batch },
+            Self::Insert { count, points } => Command::Insert { count, points: form(points) },
+            Self::Read(range) => Command::Read(range),
+            Self::Counters => Command::Counters,
+            Self::Latencies => Command::Latencies,
+            Self::Triangles(range) => Command::Triangles(range),
+        }
+    }
+
+    /// The words in front of the points, and how many there are.
+    pub const fn head(&self) -> ([u32; COMMAND_HEAD_WORDS], usize) {
+        let word = command_word(self.opcode());
+        match self {
+            Self::Clear { contexts, is_batch: false } => ([clear_word(*contexts), 0, 0], 1),
+            Self::Clear { contexts, is_batch: true } => ([batch_word(*contexts), 0, 0], 1),
+            Self::Insert { count, .. } => ([word, *count, 0], 2),
+            Self::Read(range) | Self::Triangles(range) => ([word, range.first, range.count], 3),
+            Self::Hello | Self::Counters | Self::Latencies => ([word, 0, 0], 1),
+        }
+    }
+
+    /// Words of points that belong behind the head.
+    pub const fn point_words(&self, layout: Layout) -> u64 {
+        match self {
+            Self::Insert { count, .. } => *count as u64 * layout.point_words as u64,
+            _ => 0,
+        }
+    }
+
+    /// Words of the payload of the answer, if the device does what it is asked for. Other answers have none, or that of `Insert`.
+    pub const fn payload_words(&self, layout: Layout) -> u64 {
+        match self {
+            Self::Hello => IDENTITY_WORDS as u64,
+            Self::Clear { .. } => 0,
+            Self::Insert { .. } => INSERT_REPORT_WORDS as u64,
+            Self::Read(range) => range.count as u64 * layout.record_words as u64,
+            Self::Counters => COUNTER_WORDS as u64,
+            Self::Latencies => LATENCY_BUCKETS as u64,
+            Self::Triangles(range) => layout.packed_words(range.count),
+        }
+    }
+}
+
+impl<P: AsRef<[u32]>> Command<P> {
+    /// An `Insert` of points in these words.
+    pub fn insert(points: P, layout: Layout) -> Self {
+        Self::Insert { count: (points.as_ref().len() / layout.point_words) as u32, points }
+    }
+
+    /// The same command, whose points stay where they are.
+    pub fn borrowed(&self) -> Command<&[u32]> {
+        self.bare().map(|()| self.points())
+    }
+
+    /// The words of the points.
+    pub fn points(&self) -> &[u32] {
+        match self {
+            Self::Insert { points, .. } => points.as_ref(),
+            _ => &[],
+        }
+    }
+
+    /// Words of the whole command.
+    pub fn words(&self) -> usize {
+        self.head().1 + self.points().len()
+    }
+
+    /// Appends the words of the whole command.
+    pub fn encode(&self, words: &mut impl Extend<u32>) {
+        let (head, count) = self.head();
+        words.extend(head.into_iter().take(count));
+        words.extend(self.points().iter().copied());
+    }
+}
+
+/// What an answer begins with that is no error: the header, and the number of payload words.
+pub const fn answer_head(opcode: Opcode, payload_words: u32) -> [u32; ANSWER_HEAD_WORDS] {
+    [answer_header(opcode as u8, Status::Ok), payload_words]
+}
+
+/// Reads the heads of commands from a stream, word by word. Whoever reads an `Insert` takes its points from the stream before the next word
+/// comes here.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CommandReader {
+    words: [u32; COMMAND_HEAD_WORDS],
+    count: usize,
+}
+
+impl CommandReader {
+    /// Takes the next word. Gives a command when its head is whole; an opcode that is none is an error, and the next word begins a command.
+    pub fn take(&mut self, word: u32) -> Option<Result<Command<()>, u8>> {
+        if self.count == 0 && word == PADDING {
+            return None;
+        }
+        self.words[self.count] = word;
+        self.count += 1;
+        let read = Self::read(&self.words[..self.count])?;
+        self.count = 0;
+        Some(read)
+    }
+
+    fn read(words: &[u32]) -> Option<Result<Command<()>, u8>> {
+        let (&word, arguments) = words.split_first()?;
+        let number = command_opcode(word);
+        let Some(opcode) = Opcode::from_u8(number) else {
+            return Some(Err(number));
+        };
+        Some(Ok(match (opcode, arguments) {
+            (Opcode::Hello, _) => Command::Hello,
+            (Opcode::Clear, _) => {
+                Command::Clear { contexts: command_contexts(word), is_batch: command_starts_batch(word) }
+            }
+            (Opcode::Counters, _) => Command::Counters,
+            (Opcode::Latencies, _) => Command::Latencies,
+            (Opcode::Insert, &[count]) => Command::Insert { count, points: () },
+            (Opcode::Read, &[first, count]) => Command::Read(RecordRange { first, count }),
+            (Opcode::Triangles, &[first, count]) => Command::Triangles(RecordRange { first, count }),
+            (Opcode::Insert | Opcode::Read | Opcode::Triangles, _) => return None,
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    const NARROW: Layout = Layout { point_words: 1, record_words: 3 };
+    const WIDE: Layout = Layout { point_words: 2, record_words: 6 };
+    const RANGE: RecordRange = RecordRange { first: 7, count: 11 };
+
+    fn commands(layout: Layout) -> [Command<Vec<u32>>; 9] {
+        [
+            Command::Hello,
+            Command::Clear { contexts: 3, is_batch: false },
+            Command::Clear { contexts: 255, is_batch: true },
+            Command::insert(vec![0x0400_0000, 0, 5, 6], layout),
+            Command::insert(vec![], layout),
+            Command::Read(RANGE),
+            Command::Counters,
+            Command::Latencies,
+            Command::Triangles(RANGE),
+        ]
+    }
+
+    fn words(command: &Command<Vec<u32>>) -> Vec<u32> {
+        let mut words = Vec::new();
+        command.encode(&mut words);
+        words
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        for layout in [NARROW, WIDE] {
+            for command in commands(layout) {
+                let (words, points) = (words(&command), command.points().len());
+                assert_eq!((words.len(), points as u64), (command.words(), command.point_words(layout)));
+                let mut reader = CommandReader::default();
+                let heads = [PADDING].iter().chain(&words[..words.len() - points]);
+                let read: Vec<_> = heads.filter_map(|&word| reader.take(word)).collect();
+                assert_eq!(read, [Ok(command.bare())]);
+                assert_eq!(command.borrowed().map(<[u32]>::to_vec), command);
+            }
+        }
+    }
+
+    #[test]
+    fn every_command_has_the_words_of_the_page() {
+        let page: [&[u32]; 9] = [
+            &[0x0100_0000],
+            &[0x0200_0003],
+            &[0x0200_01ff],
+            &[0x0300_0000, 4, 0x0400_0000, 0, 5, 6],
+            &[0x0300_0000, 0],
+            &[0x0400_0000, 7, 11],
+            &[0x0500_0000],
+            &[0x0600_0000],
+            &[0x0700_0000, 7, 11],
+        ];
+        assert_eq!(commands(NARROW).map(|command| words(&command)), page);
+        assert_eq!(words(&commands(WIDE)[3])[..2], [0x0300_0000, 2]);
+    }
+
+    #[test]
+    fn every_answer_has_its_length() {
+        let lengths = |layout| commands(layout).map(|command| command.payload_words(layout));
+        assert_eq!(lengths(NARROW), [7, 0, 0, 5, 5, 33, 25, 128, 17]);
+        assert_eq!(lengths(WIDE), [7, 0, 0, 5, 5, 66, 25, 128, 33]);
+        let all = RecordRange { first: 0, count: u32::MAX };
+        let commands = [Command::<()>::Read(all), Command::Triangles(all)];
+        assert_eq!(commands.map(|command| command.payload_words(WIDE)), [6, 3].map(|ids| ids * u64::from(u32::MAX)));
+        assert_eq!(answer_head(Opcode::Read, 9), [0x0400_0000, 9]);
+    }
+
+    #[test]
+    fn an_unknown_opcode_has_no_arguments() {
+        let mut reader = CommandReader::default();
+        assert_eq!(reader.take(0x2a00_0000), Some(Err(42)));
+        assert_eq!(reader.take(1), Some(Err(0)));
+        assert_eq!(reader.take(0x0100_0000), Some(Ok(Command::Hello)));
+    }
 }

@@ -127,12 +127,21 @@ impl Layout {
     /// Words of the payload of a `Triangles` answer for this many records, if 32 bits can say it. Narrow: ids of 16 bits without gaps, the
     /// low half of a word first; an odd last half is zero. Wide: a word an id.
     pub const fn triangles_words(self, records: u32) -> Option<u32> {
-        let ids = 3 * records as u64;
-        let words = if self.record_words == 3 { ids.div_ceil(2) } else { ids };
+        let words = self.packed_words(records);
         if words <= u32::MAX as u64 {
             Some(words as u32)
         } else {
             None
+        }
+    }
+
+    /// The same, also where 32 bits cannot say it.
+    pub(crate) const fn packed_words(self, records: u32) -> u64 {
+        let ids = 3 * records as u64;
+        if self.record_words == 3 {
+            ids.div_ceil(2)
+        } else {
+            ids
         }
     }
 

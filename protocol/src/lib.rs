@@ -4,7 +4,8 @@
 //! Every command is answered by a header word, a word that counts the payload words, and the payload.
 //! `protocol/README.md` describes the same in prose with an example exchange.
 //!
-//! This crate has no dependencies and holds no logic beyond packing and unpacking words.
+//! This crate has no dependencies and holds no logic beyond packing and unpacking words: a [`Command`] knows its words and the length of
+//! its answer, and what a device does with it stands elsewhere.
 #![no_std]
 
 mod command;
@@ -16,8 +17,9 @@ mod status;
 mod stream;
 
 pub use command::{
-    answer_header, answer_opcode, answer_status, batch_word, clear_word, command_contexts, command_opcode,
-    command_starts_batch, command_word, Opcode, CLEAR_BATCH, PADDING,
+    answer_head, answer_header, answer_opcode, answer_status, batch_word, clear_word, command_contexts, command_opcode,
+    command_starts_batch, command_word, Command, CommandReader, Opcode, RecordRange, ANSWER_HEAD_WORDS, CLEAR_BATCH,
+    COMMAND_HEAD_WORDS, PADDING,
 };
 pub use config::{
     patience, Config, ConfigError, FIRST_ROUND, FULL, LARGE, MAX_CONTEXTS, MAX_MODEL_POINTS, MAX_POINTS, MAX_RING,

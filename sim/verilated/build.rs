@@ -3,7 +3,7 @@
 // A package cannot be its own build dependency, so the build side comes in as source. Not all of it is used here.
 #[allow(dead_code)]
 #[path = "src/build/mod.rs"]
-mod build;
+pub mod build;
 
 use build::{BuildError, Builder, ModelSource, Verilator};
 

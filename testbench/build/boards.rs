@@ -2,8 +2,9 @@
 
 use std::fs;
 
+use incircle_blocks::QUICK_LINK;
 use incircle_hdl::board::BOARDS;
-use incircle_hdl::export::{self, QUICK_LINK};
+use incircle_hdl::export;
 use incircle_protocol::TINY;
 
 /// Name of the module around each top, which gives all boards the same pins; lamps are 1 when lit.

@@ -4,7 +4,7 @@ use verilated::Model;
 
 verilated::include_models!();
 
-/// The block of this name with zero state; see `incircle_hdl::export::blocks`.
+/// The block of this name with zero state; see `incircle_blocks::blocks`.
 ///
 /// # Panics
 /// With the list of blocks, if none has this name.

@@ -18,16 +18,13 @@ mod workshop;
 pub use error::BoardError;
 pub use flow::{build, Clock, Request};
 pub use mapping::mapping;
-pub use pll::Pll;
+pub use pll::{Pll, MHZ};
 pub use report::{Attempt, Bitstream, Cells, Parts, Report, Seed, Serial, Summary, Versions};
 pub use table::{documents, held_text, pages, renew_tables};
 pub use tools::Origin;
 
 use incircle_protocol::{Config, LinkConfig, FULL, SILENCE_MS, SMALL};
 use std::path::{Path, PathBuf};
-
-/// Hz in a MHz.
-pub const MHZ: u32 = 1_000_000;
 
 /// MHz between two clocks that are tried.
 const CLOCK_STEP: u32 = 5;

@@ -2,7 +2,8 @@
 //!
 //! Limits: Lattice, ECP5 and ECP5-5G Family Data Sheet, sysCLOCK PLL timing. `constraints/ecp5/clock.v` says what the dividers do.
 
-use super::MHZ;
+/// Hz in a MHz.
+pub const MHZ: u32 = 1_000_000;
 
 const LEAST_COMPARED_HZ: u64 = 10 * MHZ as u64;
 const LEAST_VCO_HZ: u64 = 400 * MHZ as u64;

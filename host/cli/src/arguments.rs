@@ -5,16 +5,15 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use incircle::pcie::CardAddress;
 use incircle::serial::Address;
-use incircle::{Order, Quantize};
+use incircle::{DeviceAddress, Options, Order, ProgressListener, Quantize};
 use incircle_testkit::Distribution;
 
-use crate::commands::bench_orders::Way;
+use crate::failure::{failure_of, Failure};
 use crate::formats::{MeshFormat, PointFormat};
 use crate::values::{
     backend_parser, distribution_parser, mhz_from, order_parser, port_from, quantize_from, readable_format_parser,
-    seconds_from, way_parser,
+    seconds_from,
 };
 
 /// Exact Delaunay triangulation: one canonical answer, in software or hardware
@@ -74,10 +73,11 @@ pub struct GridArguments {
 pub struct BackendArguments {
     /// Who triangulates: 'cpu', the fast engine on the processor; 'model', the software model of the core; 'clock', its model clock by
     /// clock; 'sim', the core's Verilog in Verilator (needs a build with `--features sim`); 'serial:PORT', a board, such as
-    /// serial:/dev/ttyUSB0 or serial:/dev/ttyUSB0?baud=12000000; 'pcie:N', the card N in a PCIe slot, or pcie:DIR (default: 'triangulate' takes 'cpu', or 'model' if --order or
+    /// serial:/dev/ttyUSB0 or serial:/dev/ttyUSB0?baud=12000000; 'pcie:N', the card N in a PCIe slot, or pcie:DIR. Choices follow a question
+    /// mark: cpu?threads=2, model?coord-bits=20&capacity=5000, clock?config=full (default: 'triangulate' takes 'cpu', or 'model' if --order or
     /// --contexts is given; others take 'model')
     #[arg(long, value_parser = backend_parser())]
-    pub backend: Option<BackendChoice>,
+    pub backend: Option<DeviceAddress>,
     /// Threads of the back end 'cpu' (default: as many as there are processors, fewer for small sets)
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroU32>,
@@ -87,14 +87,10 @@ pub struct BackendArguments {
 }
 
 impl BackendArguments {
-    /// The back end asked for, or else the software model.
-    pub fn choice(&self) -> &BackendChoice {
-        self.backend.as_ref().unwrap_or(&BackendChoice::Model)
-    }
-
-    /// The same, or, if no back end is asked for, with this one.
-    pub fn or(&self, backend: BackendChoice) -> Self {
-        Self { backend: Some(self.backend.clone().unwrap_or(backend)), ..self.clone() }
+    /// The back end asked for, or else this one.
+    pub fn or(&self, default: &str) -> Result<DeviceAddress, Failure> {
+        let default = || default.parse().map_err(|error| failure_of(&error));
+        self.backend.clone().map_or_else(default, Ok)
     }
 }
 
@@ -117,6 +113,11 @@ impl JobArguments {
     /// The order asked for, or else the best.
     pub fn order(&self) -> Order {
         self.order.unwrap_or_default()
+    }
+
+    /// The choices for a job, of which this listener hears how far it is.
+    pub fn options<'a>(&self, listener: ProgressListener<'a>) -> Options<'a> {
+        Options::default().timeout(self.timeout).order(self.order()).contexts(self.contexts).progress(listener)
     }
 
     /// What is asked of a job makes sense only for devices that insert one point after the other.
@@ -205,46 +206,9 @@ pub struct GenerateArguments {
     pub output: PathBuf,
 }
 
-/// What else `bench` measures.
-#[derive(Debug, Subcommand)]
-pub enum BenchCommand {
-    /// Compare orders of insertion: time to order, walk steps, tests and cavity of an insertion, cycles of the core, time in all
-    Orders(OrdersArguments),
-}
-
-/// Arguments of `bench orders`.
-#[derive(Debug, Args)]
-pub struct OrdersArguments {
-    /// The sets (default: the five distributions of the literature, and two sets on which plain curves fail)
-    #[arg(value_name = "SET", value_parser = distribution_parser())]
-    pub sets: Vec<Distribution>,
-    /// Points of a set, several numbers with commas; cycles are counted up to 16384
-    #[arg(short, value_name = "N", value_delimiter = ',', default_values_t = [4096])]
-    pub n: Vec<u32>,
-    /// Orders, several with commas (default: random, every curve, rounds along every curve, rounds with guides, points as they arrive)
-    #[arg(long = "order", value_name = "ORDER", value_delimiter = ',', value_parser = way_parser())]
-    pub orders: Vec<Way>,
-    /// Bits of a coordinate; cycles are counted up to 16
-    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
-    pub coord_bits: u32,
-    /// Seed of the sets: the same seed gives the same points on every machine
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// Write the figures as CSV, too
-    #[arg(long, value_name = "FILE.csv")]
-    pub csv: Option<PathBuf>,
-    /// Draw walk steps and time, too
-    #[arg(long, value_name = "FILE.svg")]
-    pub plot: Option<PathBuf>,
-}
-
 /// Arguments of `bench`.
 #[derive(Debug, Args)]
-#[command(args_conflicts_with_subcommands = true)]
 pub struct BenchArguments {
-    /// Something else than sets.
-    #[command(subcommand)]
-    pub command: Option<BenchCommand>,
     /// The sets (default: the five distributions of the literature, and the lattice)
     #[arg(value_name = "SET", value_parser = distribution_parser())]
     pub sets: Vec<Distribution>,
@@ -298,23 +262,6 @@ pub struct CompletionsArguments {
     /// The shell
     #[arg(value_enum)]
     pub shell: clap_complete::Shell,
-}
-
-/// The back ends.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum BackendChoice {
-    /// The fast engine: divide and conquer on the processor.
-    Cpu,
-    /// The software model.
-    Model,
-    /// The core's model, clock by clock: answers, records and cycle counts of the core, without Verilator.
-    Clock,
-    /// The core's Verilog in Verilator.
-    Sim,
-    /// A board at a serial port.
-    Serial(Address),
-    /// A card in a PCIe slot.
-    Pcie(CardAddress),
 }
 
 /// The named configurations of the core.

@@ -1,23 +1,19 @@
 //! Back ends: from names to devices.
 
+use std::num::NonZeroU32;
 use std::path::Path;
 use std::time::Duration;
 
 use incircle::pcie::{CardAddress, CardRegisters, PcieTransport};
 use incircle::serial::{Address, SerialTransport};
-use incircle::{Device, Point, MAX_POINTS};
-use incircle_protocol::{Config, Greeting, CORE_COORD_BITS, NAMED};
+use incircle::{Device, DeviceAddress, Error, Point, MAX_POINTS};
+use incircle_protocol::{Config, Greeting, CORE_COORD_BITS, LARGE, NAMED};
 
-use crate::arguments::{BackendArguments, BackendChoice, ConfigName, JobArguments};
-use crate::failure::{Exit, Failure};
-use crate::grid::failure_of;
+use crate::arguments::{BackendArguments, ConfigName, JobArguments};
+use crate::failure::{failure_of, Exit, Failure};
 
 /// Fewest points a model is made for.
 const LEAST_CAPACITY: usize = 4;
-
-/// Points of one `Insert` command to a core that is simulated or predicted: a whole job, because the end of each command waits
-/// until nothing is in flight. Progress and interrupts come between commands; a job takes a second or two.
-const CORE_INSERT_CHUNK: usize = 16_384;
 
 /// Time for greeting a board, opening its session and finding a rate, in the time of the link.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(12);
@@ -53,8 +49,6 @@ pub struct Backend {
     pub board: Option<Board>,
     /// What the registers of a card say, if it is one.
     pub card: Option<CardRegisters>,
-    /// Points of one `Insert` command.
-    pub insert_chunk: usize,
 }
 
 impl Backend {
@@ -92,89 +86,125 @@ impl Backend {
     }
 }
 
+/// A back end that is not open yet.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// Where it is, or what it is to be.
+    pub address: DeviceAddress,
+    /// Threads of the engine on the processor.
+    threads: Option<NonZeroU32>,
+    /// The configuration of a core, where one is asked for.
+    pub config: Option<Config>,
+}
+
+impl Choice {
+    /// The back end that the arguments ask for, or else the one at `default`. An address and an argument may not both choose the same.
+    pub fn of(arguments: &BackendArguments, default: &str) -> Result<Self, Failure> {
+        let address = arguments.or(default)?;
+        let asked = arguments.config.map(ConfigName::config);
+        let (threads, config) = match address {
+            DeviceAddress::Cpu { threads } => (once(threads, arguments.threads, "threads")?, asked),
+            DeviceAddress::Clock { config } | DeviceAddress::Sim { config } => {
+                (arguments.threads, once(config, asked, "config")?)
+            }
+            _ => (arguments.threads, asked),
+        };
+        let choice = Self { address, threads, config };
+        if choice.threads.is_some() && !matches!(choice.address, DeviceAddress::Cpu { .. }) {
+            return Err(Failure::usage("--threads is for the engine on the processor: it needs --backend cpu"));
+        }
+        if choice.config.is_some() && !choice.is_core() {
+            return Err(Failure::usage(
+                "--config chooses a configuration of the core: it needs --backend clock or --backend sim",
+            ));
+        }
+        Ok(choice)
+    }
+
+    /// A core in simulation, which is as large as we choose it.
+    pub fn is_core(&self) -> bool {
+        matches!(self.address, DeviceAddress::Clock { .. } | DeviceAddress::Sim { .. })
+    }
+
+    /// It runs in this process and is timed, not counted in cycles.
+    pub fn is_software(&self) -> bool {
+        matches!(self.address, DeviceAddress::Cpu { .. } | DeviceAddress::Model { .. })
+    }
+}
+
+/// What an address and an argument choose together.
+fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Option<T>, Failure> {
+    if in_address.is_some() && argument.is_some() {
+        return Err(Failure::usage(format!("the address of the back end and --{name} both choose: leave one out")));
+    }
+    Ok(in_address.or(argument))
+}
+
 /// Opens the back end for these points, or, without points, as large as it gets. A core is taken in the configuration
 /// asked for, or else in the smallest that holds the distinct points. Its waveform goes to the file `trace`; other back
 /// ends have none. A board is greeted, which takes no longer than `timeout`, and is what it is.
 pub fn open(
-    choice: &BackendArguments,
+    choice: &Choice,
     coord_bits: u32,
     points: Option<&[Point]>,
     trace: Option<&Path>,
     timeout: Option<Duration>,
 ) -> Result<Backend, Failure> {
-    let room = points.map(|points| match choice.choice() {
-        BackendChoice::Cpu | BackendChoice::Model | BackendChoice::Serial(_) | BackendChoice::Pcie(_) => points.len(),
-        BackendChoice::Clock | BackendChoice::Sim => count_distinct(points),
-    });
+    let room = points.map(|points| if choice.is_core() { count_distinct(points) } else { points.len() });
     open_with_room(choice, coord_bits, room, trace, timeout)
 }
 
 /// As [`open`], for jobs of up to `room` points: all of them for the model, distinct ones for a core.
 pub fn open_with_room(
-    choice: &BackendArguments,
+    choice: &Choice,
     coord_bits: u32,
     room: Option<usize>,
     trace: Option<&Path>,
     timeout: Option<Duration>,
 ) -> Result<Backend, Failure> {
-    if choice.threads.is_some() && *choice.choice() != BackendChoice::Cpu {
-        return Err(Failure::usage("--threads is for the engine on the processor: it needs --backend cpu"));
-    }
-    let (device, name, config) = match choice.choice() {
-        BackendChoice::Serial(address) => return open_serial(choice, address, timeout),
-        BackendChoice::Pcie(address) => return open_card(choice, address),
-        BackendChoice::Cpu => {
-            check_no_config(choice)?;
-            (Device::cpu(choice.threads), "cpu", None)
+    let (device, config) = match &choice.address {
+        DeviceAddress::Serial(address) => return open_serial(address, timeout),
+        DeviceAddress::Pcie(address) => return open_card(address),
+        DeviceAddress::Cpu { .. } => (Ok(Device::cpu(choice.threads)), None),
+        &DeviceAddress::Model { coord_bits: bits, capacity } => {
+            (open_model(bits.unwrap_or(coord_bits), capacity, room.unwrap_or(MAX_POINTS)), None)
         }
-        BackendChoice::Model => (open_model(choice, coord_bits, room.unwrap_or(MAX_POINTS))?, "model", None),
-        BackendChoice::Clock => {
+        DeviceAddress::Clock { .. } => {
             let config = config_for(choice, coord_bits, room)?;
-            (Device::clock_model(config).map_err(|error| failure_of(&error))?, "clock", Some(config))
+            (Device::clock_model(config), Some(config))
         }
-        BackendChoice::Sim => {
+        DeviceAddress::Sim { .. } => {
             check_sim()?;
             let config = config_for(choice, coord_bits, room)?;
-            (open_sim(config, trace)?, "sim", Some(config))
+            (Ok(open_sim(config, trace)?), Some(config))
         }
+        other => (Device::at(other), None),
     };
-    let insert_chunk = if config.is_some() { CORE_INSERT_CHUNK } else { incircle::INSERT_CHUNK };
-    Ok(Backend { device, name, config, board: None, card: None, insert_chunk })
+    let device = device.map_err(|error| failure_of(&error))?;
+    Ok(Backend { device, name: choice.address.name(), config, board: None, card: None })
 }
 
-fn check_no_config(choice: &BackendArguments) -> Result<(), Failure> {
-    if choice.config.is_some() {
-        return Err(Failure::usage(
-            "--config chooses a configuration of the core: it needs --backend clock or --backend sim",
-        ));
-    }
-    Ok(())
-}
-
-fn open_serial(choice: &BackendArguments, address: &Address, timeout: Option<Duration>) -> Result<Backend, Failure> {
-    check_no_config(choice)?;
+fn open_serial(address: &Address, timeout: Option<Duration>) -> Result<Backend, Failure> {
     let mut transport = SerialTransport::open(address).map_err(|error| failure_of(&error))?;
     let most = timeout.map_or(CONNECT_TIMEOUT, |timeout| CONNECT_TIMEOUT.min(timeout / address.slow.max(1)));
     transport.connect(most).map_err(|error| failure_of(&error))?;
     let rate = transport.rate();
     let board = transport.greeting().map(|&greeting| Board { greeting, rate, slow: address.slow });
     let device = Device::from_transport(Box::new(transport));
-    Ok(Backend { device, name: "serial", config: None, board, card: None, insert_chunk: incircle::INSERT_CHUNK })
+    Ok(Backend { device, name: "serial", config: None, board, card: None })
 }
 
-fn open_card(choice: &BackendArguments, address: &CardAddress) -> Result<Backend, Failure> {
-    check_no_config(choice)?;
+fn open_card(address: &CardAddress) -> Result<Backend, Failure> {
     let mut transport = PcieTransport::open(address).map_err(|error| failure_of(&error))?;
     let card = Some(transport.registers().map_err(|error| failure_of(&error))?);
     let device = Device::from_transport(Box::new(transport));
-    Ok(Backend { device, name: "pcie", config: None, board: None, card, insert_chunk: CORE_INSERT_CHUNK })
+    Ok(Backend { device, name: "pcie", config: None, board: None, card })
 }
 
-fn open_model(choice: &BackendArguments, coord_bits: u32, points: usize) -> Result<Device, Failure> {
-    check_no_config(choice)?;
-    let capacity = points.clamp(LEAST_CAPACITY, MAX_POINTS);
-    let capacity = u32::try_from(capacity).unwrap_or(u32::MAX);
-    Device::model(coord_bits, capacity).map_err(|error| failure_of(&error))
+/// A model for so many points, unless its address says how many it holds.
+fn open_model(coord_bits: u32, capacity: Option<u32>, points: usize) -> Result<Device, Error> {
+    let enough = points.clamp(LEAST_CAPACITY, MAX_POINTS);
+    Device::model(coord_bits, capacity.unwrap_or_else(|| u32::try_from(enough).unwrap_or(u32::MAX)))
 }
 
 /// Comes before all that is said about configurations: without the core none of it would help.
@@ -199,7 +229,7 @@ fn open_sim(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
 }
 
 /// The configuration for a job of so many distinct points, or why there is none; without a job the one asked for, or the largest.
-fn config_for(choice: &BackendArguments, coord_bits: u32, distinct: Option<usize>) -> Result<Config, Failure> {
+fn config_for(choice: &Choice, coord_bits: u32, distinct: Option<usize>) -> Result<Config, Failure> {
     if coord_bits > CORE_COORD_BITS {
         return Err(Failure::new(
             Exit::Capacity,
@@ -210,14 +240,14 @@ fn config_for(choice: &BackendArguments, coord_bits: u32, distinct: Option<usize
         ));
     }
     let Some(distinct) = distinct else {
-        return Ok(choice.config.unwrap_or(ConfigName::Large).config());
+        return Ok(choice.config.unwrap_or(LARGE));
     };
     let holds = |config: &Config| config.points as usize >= distinct;
     let smallest = NAMED.into_iter().find(holds);
-    let config = choice.config.map_or(smallest, |name| Some(name.config()));
+    let config = choice.config.or(smallest);
     config.filter(holds).ok_or_else(|| {
         let all = NAMED.map(|config| format!("{} {}", config.name, config.points)).join(", ");
-        let asked = choice.config.map_or("any core", |name| name.config().name);
+        let asked = choice.config.map_or("any core", |config| config.name);
         let advice = match smallest {
             Some(config) => format!("--config {} or --backend model", config.name),
             None => "--backend model".to_owned(),

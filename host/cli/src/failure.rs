@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use incircle::{Error, ErrorKind};
+
 /// The exit codes of the command; scripts rely on the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -63,6 +65,21 @@ impl fmt::Display for Failure {
 }
 
 impl std::error::Error for Failure {}
+
+/// The exit code of a library error.
+pub fn failure_of(error: &Error) -> Failure {
+    let exit = match error.kind() {
+        ErrorKind::BadInput => Exit::Input,
+        ErrorKind::BadChoice => Exit::Usage,
+        ErrorKind::DeviceNotFound => Exit::NoDevice,
+        ErrorKind::Link => Exit::Link,
+        ErrorKind::Capacity => Exit::Capacity,
+        ErrorKind::Cancelled => return Failure::new(Exit::Interrupted, "interrupted: nothing was written"),
+        // Timeouts, wrong answers, and whatever is added later.
+        _ => Exit::Device,
+    };
+    Failure::new(exit, printable(&error.to_string()))
+}
 
 /// Characters of a wrong value that a message quotes.
 const QUOTED: usize = 40;

@@ -1,10 +1,10 @@
 //! From the values of a file to points of the grid.
 
 use incircle::quantize::{integers, quantize};
-use incircle::{Error, ErrorKind, Point, Quantization, Quantize, Shown};
+use incircle::{Error, Point, Quantization, Quantize, Shown};
 
 use crate::arguments::GridArguments;
-use crate::failure::{printable, Exit, Failure};
+use crate::failure::{failure_of, Failure};
 use crate::points::PointTable;
 
 /// Points on the grid, and how they came there.
@@ -52,19 +52,4 @@ fn refuse(error: &Error, table: &PointTable, quantized: bool) -> Failure {
         None => "give --quantize fit".to_owned(),
     };
     Failure::input(format!("{place}: {shown} is outside 0 to {last} ({coord_bits} bits): {advice}"))
-}
-
-/// The exit code of a library error.
-pub fn failure_of(error: &Error) -> Failure {
-    let exit = match error.kind() {
-        ErrorKind::BadInput => Exit::Input,
-        ErrorKind::BadChoice => Exit::Usage,
-        ErrorKind::DeviceNotFound => Exit::NoDevice,
-        ErrorKind::Link => Exit::Link,
-        ErrorKind::Capacity => Exit::Capacity,
-        ErrorKind::Cancelled => return Failure::new(Exit::Interrupted, "interrupted: nothing was written"),
-        // Timeouts, wrong answers, and whatever is added later.
-        _ => Exit::Device,
-    };
-    Failure::new(exit, printable(&error.to_string()))
 }

@@ -75,5 +75,7 @@ fn verb(stage: Stage) -> &'static str {
         Stage::Insert => "inserting",
         Stage::Read => "reading",
         Stage::Assemble => "assembling",
+        // Stages that are added later.
+        other => other.name(),
     }
 }

@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::time::Instant;
 
-use incircle::{Device, Transport, TransportError};
-use incircle_protocol::Config;
+use incircle::transports::{receive_in_pieces, AnswerHead, Capabilities, DeviceClocks};
+use incircle::{Device, ErrorKind, Transport, TransportError};
+use incircle_protocol::{Command, Config};
 use incircle_sim::{SimDevice, SimError};
 
 use crate::failure::{printable, Exit, Failure};
@@ -29,7 +30,8 @@ struct SimTransport {
     name: &'static str,
 }
 
-impl Transport for SimTransport {
+impl SimTransport {
+    /// Hands the core a word after the other.
     fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
         let wanted = words.len();
         let mut sent = 0;
@@ -38,45 +40,59 @@ impl Transport for SimTransport {
             match self.device.send(rest, SLICE) {
                 Ok(()) => return Ok(()),
                 Err(SimError::Timeout { done, .. }) => sent += done,
-                Err(error) => return Err(TransportError::Other(error.to_string())),
+                Err(error) => return Err(TransportError::other(ErrorKind::Link, error)),
             }
             go_on(deadline, sent, wanted)?;
         }
     }
 
-    fn receive(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError> {
+    /// Fills the whole of `words` with the next words of the core.
+    fn fill(&mut self, words: &mut [u32], deadline: Instant) -> Result<(), TransportError> {
         let wanted = words.len();
         loop {
             match self.device.receive(words, SLICE) {
                 Ok(()) => return Ok(()),
                 // What has come is kept by the device for the next call.
                 Err(SimError::Timeout { done, .. }) => go_on(deadline, done, wanted)?,
-                Err(error) => return Err(TransportError::Other(error.to_string())),
+                Err(error) => return Err(TransportError::other(ErrorKind::Link, error)),
             }
         }
     }
+}
 
-    fn answer_clock(&self) -> Option<u64> {
-        self.device.answer_clock()
-    }
-
-    fn clocks(&self) -> Option<u64> {
-        Some(self.device.clocks())
-    }
-
-    fn takes_ahead(&self) -> bool {
-        true
-    }
-
+impl Transport for SimTransport {
     fn name(&self) -> String {
         format!("sim:{}", self.name)
+    }
+
+    fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError> {
+        let mut words = Vec::with_capacity(commands.iter().map(Command::words).sum());
+        commands.iter().for_each(|command| command.encode(&mut words));
+        self.send(&words, deadline)
+    }
+
+    fn receive(
+        &mut self,
+        head: AnswerHead,
+        payload: &mut [u32],
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        receive_in_pieces(head, payload, |words| self.fill(words, deadline))
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        Capabilities { takes_ahead: true, ..Capabilities::default() }
+    }
+
+    fn clocks(&self) -> Option<DeviceClocks> {
+        Some(DeviceClocks { now: self.device.clocks(), answer: self.device.answer_clock() })
     }
 }
 
 /// Ends the call at the deadline, and when the user interrupts.
 fn go_on(deadline: Instant, done: usize, wanted: usize) -> Result<(), TransportError> {
     if interrupt::raised() {
-        return Err(TransportError::Other("interrupted".to_owned()));
+        return Err(TransportError::other(ErrorKind::Link, "interrupted"));
     }
     if Instant::now() >= deadline {
         return Err(TransportError::Timeout { done, wanted });

@@ -3,21 +3,37 @@
 use std::time::Duration;
 
 use clap::ValueEnum;
-use incircle::pcie::CardAddress;
 use incircle::serial::Address;
-use incircle::{Order, Quantize};
+use incircle::{DeviceAddress, Error, Order, Quantize};
 use incircle_testkit::Distribution;
 
-use crate::arguments::BackendChoice;
-use crate::commands::bench_orders::Way;
 use crate::formats::MeshFormat;
 
-/// An order by its name.
+/// An order by its name. Help and completions show the names.
 pub fn order_parser() -> impl clap::builder::TypedValueParser<Value = Order> {
-    use clap::builder::{PossibleValuesParser, TypedValueParser};
-    let names = PossibleValuesParser::new(Order::ALL.map(Order::name));
-    // Only names of orders come through, so the default is never taken.
-    names.map(|name| Order::named(&name).unwrap_or_default())
+    OrderParser
+}
+
+#[derive(Clone)]
+struct OrderParser;
+
+impl clap::builder::TypedValueParser for OrderParser {
+    type Value = Order;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &std::ffi::OsStr,
+    ) -> Result<Order, clap::Error> {
+        clap::builder::StringValueParser::new()
+            .try_map(|name| name.parse::<Order>())
+            .parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = clap::builder::PossibleValue> + '_>> {
+        Some(Box::new(Order::ALL.map(Order::name).into_iter().map(clap::builder::PossibleValue::new)))
+    }
 }
 
 /// A point set by its name. Help shows the names and what the sets are.
@@ -27,16 +43,8 @@ pub fn distribution_parser() -> impl clap::builder::TypedValueParser<Value = Dis
     PossibleValuesParser::new(Distribution::ALL.map(named)).try_map(|name| name.parse::<Distribution>())
 }
 
-/// A way to insert points, for `bench orders`.
-pub fn way_parser() -> impl clap::builder::TypedValueParser<Value = Way> {
-    use clap::builder::{PossibleValuesParser, TypedValueParser};
-    let names = PossibleValuesParser::new(Way::names());
-    // Only names of ways come through, so the last is never taken.
-    names.map(|name| Way::named(&name).unwrap_or(Way::Hierarchy))
-}
-
 /// A back end by its name or its address. Help and completions show the names.
-pub fn backend_parser() -> impl clap::builder::TypedValueParser<Value = BackendChoice> {
+pub fn backend_parser() -> impl clap::builder::TypedValueParser<Value = DeviceAddress> {
     BackendParser
 }
 
@@ -44,41 +52,28 @@ pub fn backend_parser() -> impl clap::builder::TypedValueParser<Value = BackendC
 struct BackendParser;
 
 impl clap::builder::TypedValueParser for BackendParser {
-    type Value = BackendChoice;
+    type Value = DeviceAddress;
 
     fn parse_ref(
         &self,
         command: &clap::Command,
         argument: Option<&clap::Arg>,
         value: &std::ffi::OsStr,
-    ) -> Result<BackendChoice, clap::Error> {
+    ) -> Result<DeviceAddress, clap::Error> {
         clap::builder::StringValueParser::new().try_map(|text| backend_from(&text)).parse_ref(command, argument, value)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = clap::builder::PossibleValue> + '_>> {
-        Some(Box::new(
-            ["cpu", "model", "clock", "sim", "serial:PORT", "pcie:N"]
-                .into_iter()
-                .map(clap::builder::PossibleValue::new),
-        ))
+        Some(Box::new(DeviceAddress::FORMS.into_iter().map(clap::builder::PossibleValue::new)))
     }
 }
 
-fn backend_from(text: &str) -> Result<BackendChoice, String> {
-    match text {
-        "cpu" => Ok(BackendChoice::Cpu),
-        "model" => Ok(BackendChoice::Model),
-        "clock" => Ok(BackendChoice::Clock),
-        "sim" => Ok(BackendChoice::Sim),
-        _ => {
-            let serial = Address::parse(text).map(|address| address.map(BackendChoice::Serial));
-            let card = || CardAddress::parse(text).map(|address| address.map(BackendChoice::Pcie));
-            serial.or_else(card).unwrap_or_else(|| {
-                Err("there are 'cpu', 'model', 'clock', 'sim', 'serial:PORT', such as serial:/dev/ttyUSB0, and 'pcie:N', such as pcie:0"
-                    .to_owned())
-            })
-        }
-    }
+/// An address of a device; the sentence of a bad one is told without the address.
+fn backend_from(text: &str) -> Result<DeviceAddress, String> {
+    text.parse().map_err(|error| match error {
+        Error::Address { reason, .. } => reason,
+        other => other.to_string(),
+    })
 }
 
 /// A serial port, with or without choices behind it.
@@ -132,6 +127,8 @@ pub fn mhz_from(text: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use incircle::pcie::CardAddress;
+    use incircle_protocol::FULL;
 
     #[test]
     fn quantisation_is_read() {
@@ -146,12 +143,23 @@ mod tests {
     #[test]
     fn back_ends_are_names_or_addresses() {
         let serial = Address { port: "/dev/x".to_owned(), baud: 115_200, slow: 9 };
-        assert_eq!(backend_from("clock"), Ok(BackendChoice::Clock));
-        assert_eq!(backend_from("serial:/dev/x?baud=115200&slow=9"), Ok(BackendChoice::Serial(serial.clone())));
+        assert_eq!(backend_from("clock"), Ok(DeviceAddress::Clock { config: None }));
+        assert_eq!(backend_from("clock?config=full"), Ok(DeviceAddress::Clock { config: Some(FULL) }));
+        assert_eq!(backend_from("serial:/dev/x?baud=115200&slow=9"), Ok(DeviceAddress::Serial(serial.clone())));
         assert_eq!(port_from("/dev/x?baud=115200&slow=9"), Ok(serial.clone()));
         assert_eq!(port_from("serial:/dev/x?baud=115200&slow=9"), Ok(serial));
-        assert_eq!(backend_from("pcie:1"), Ok(BackendChoice::Pcie(CardAddress::of_number(1))));
-        for bad in ["", "serial:", "serial", "/dev/x", "serial:/dev/x?baud=fast", "pcie", "pcie:", "pcie:999"] {
+        assert_eq!(backend_from("pcie:1"), Ok(DeviceAddress::Pcie(CardAddress::of_number(1))));
+        for bad in [
+            "",
+            "serial:",
+            "serial",
+            "/dev/x",
+            "serial:/dev/x?baud=fast",
+            "pcie",
+            "pcie:",
+            "pcie:999",
+            "clock?config=9",
+        ] {
             assert!(backend_from(bad).is_err(), "{bad}");
         }
     }

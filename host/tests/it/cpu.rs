@@ -5,15 +5,13 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use crate::common::{by, by_model, Random};
-use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Stage};
+use incircle::{Device, Error, ErrorKind, Options, Point, Solution, Stage};
 
 /// Widest coordinate.
 const MAX: u32 = (1 << 31) - 1;
 
-fn same(one: &Mesh, other: &Mesh) {
-    assert!(one.triangles == other.triangles, "triangles differ");
-    assert!(one.hull == other.hull, "hulls differ");
-    assert_eq!(one.duplicates, other.duplicates);
+fn same(one: &Solution, other: &Solution) {
+    assert!(one.mesh == other.mesh, "the meshes differ");
 }
 
 #[test]
@@ -87,13 +85,13 @@ fn collinear_and_tiny_sets_are_answers() {
     for (x, y) in lines {
         for count in 0..40 {
             let points: Vec<Point> = (0..count).map(|k| k * 17 % 41).map(|k| Point::new(k * x, 300 - k * y)).collect();
-            let mesh = by("cpu", &points);
-            assert!(mesh.is_collinear());
-            same(&mesh, &by_model(&points));
+            let solution = by("cpu", &points);
+            assert!(solution.mesh.is_collinear());
+            same(&solution, &by_model(&points));
         }
     }
     let equal = by("cpu", &[Point::new(MAX, MAX); 50_000]);
-    assert_eq!((equal.hull.as_slice(), equal.duplicates.len()), ([0].as_slice(), 49_999));
+    assert_eq!((equal.mesh.hull.as_slice(), equal.mesh.duplicates.len()), ([0].as_slice(), 49_999));
 }
 
 #[test]
@@ -107,7 +105,7 @@ fn progress_covers_the_stages_and_cancels_anywhere() {
             calls.borrow_mut().push(progress);
             ControlFlow::Continue(())
         };
-        let options = Options { progress: Some(&listen), ..Options::default() };
+        let options = Options::default().progress(&listen);
         let expected = session.triangulate_with(&points, &options).expect("a mesh");
         let calls = calls.into_inner();
         for stage in [Stage::Order, Stage::Insert, Stage::Assemble] {
@@ -121,7 +119,7 @@ fn progress_covers_the_stages_and_cancels_anywhere() {
                 0 => ControlFlow::Break(()),
                 _ => ControlFlow::Continue(()),
             };
-            let options = Options { progress: Some(&listen), ..Options::default() };
+            let options = Options::default().progress(&listen);
             let error = session.triangulate_with(&points, &options).expect_err("cancelled");
             assert_eq!(error.kind(), ErrorKind::Cancelled);
         }
@@ -134,7 +132,7 @@ fn a_passed_deadline_is_a_timeout_and_no_more() {
     let points = Random(25).points(5000, 1 << 16);
     let mut device = Device::cpu(None);
     let mut session = device.session().expect("a session");
-    let options = Options { timeout: Some(Duration::from_nanos(1)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_nanos(1));
     let error = session.triangulate_with(&points, &options).expect_err("too late");
     assert_eq!(error.kind(), ErrorKind::Timeout);
     assert!(session.triangulate(&points).is_ok());
@@ -146,7 +144,7 @@ fn wrong_choices_are_named() {
     let mut session = device.session().expect("a session");
     assert_eq!((session.identity().contexts, session.identity().coord_bits), (2, 31));
     for asked in [0, 3] {
-        let options = Options { contexts: Some(asked), ..Options::default() };
+        let options = Options::default().contexts(asked);
         let error = session.triangulate_with(&[Point::new(1, 1)], &options).expect_err("no such thread");
         assert!(matches!(error, Error::Contexts { contexts: 2, .. }), "{error}");
     }

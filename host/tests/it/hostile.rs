@@ -4,14 +4,14 @@ use std::time::Duration;
 
 use crate::common::liar::Liar;
 use crate::common::Random;
-use incircle::{Device, DeviceFault, Error, ErrorKind, Mesh, Options, Point, VerifyError};
+use incircle::{Device, DeviceFault, Error, ErrorKind, Options, Point, Solution, VerifyError};
 use incircle_protocol::{answer_header, Opcode, Status};
 
 fn points() -> Vec<Point> {
     Random(11).points(40, 1 << 8)
 }
 
-fn run(liar: Liar) -> Result<Mesh, Error> {
+fn run(liar: Liar) -> Result<Solution, Error> {
     let mut device = Device::from_transport(Box::new(liar));
     let mut session = device.session()?;
     session.triangulate(&points())
@@ -240,8 +240,8 @@ fn a_well_formed_mesh_of_another_kind_is_left_to_the_validator() {
     let mut device = Device::from_transport(Box::new(liar.with_links()));
     let mut session = device.session().expect("greeted");
     let points = [(0, 0), (10, 1), (19, 16), (1, 9)].map(Point::from);
-    let mesh = session.triangulate(&points).expect("well formed");
-    let found = mesh.verify().expect_err("not Delaunay");
+    let solution = session.triangulate(&points).expect("well formed");
+    let found = solution.mesh.verify().expect_err("not Delaunay");
     assert!(matches!(found, VerifyError::NotDelaunay { .. }), "{found}");
 }
 
@@ -275,7 +275,7 @@ fn a_slow_device_does_not_pass_its_deadline_unnoticed() {
     liar.silent_for = Duration::from_millis(30);
     let mut device = Device::from_transport(Box::new(liar));
     let mut session = device.session().expect("greeted");
-    let options = Options { timeout: Some(Duration::from_millis(20)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_millis(20));
     let error = session.triangulate_with(&points(), &options).expect_err("too slow");
     assert_eq!(error.kind(), ErrorKind::Timeout);
 }
@@ -302,8 +302,8 @@ fn noise_in_any_word_never_panics() {
         let liar = Liar::new(bits, lie);
         match run(if target == Opcode::Read as u32 { liar.with_links() } else { liar }) {
             // A lie about a link, a counter or a version leaves the mesh right; any other is found by the validator.
-            Ok(mesh) if mesh.triangles == honest.triangles => {}
-            Ok(mesh) => assert!(mesh.verify().is_err()),
+            Ok(solution) if solution.mesh.triangles == honest.mesh.triangles => {}
+            Ok(solution) => assert!(solution.mesh.verify().is_err()),
             Err(_) => wrong += 1,
         }
     }

@@ -3,7 +3,6 @@
 mod common;
 
 mod cpu;
-mod hierarchy;
 mod hostile;
 mod oracle;
 mod quantize;

@@ -1,20 +1,24 @@
 //! The core, clock by clock: what every root port of the Verilog says at every clock.
 //!
-//! One [`ClockModel::clock`] is one rising edge. Every block of the core has its file here with the same registers, as a
-//! small `Copy` struct. An edge takes a copy of all registers as they were, derives the wires from it, and lets
+//! One [`ClockModel::clock`] is one rising edge. The parts of the core stand here in files of their own, each a small `Copy` struct
+//! with the registers that decide what the root ports say and when; a part here may be several blocks there, and has fewer registers than
+//! they, since nothing is pipelined but in time. An edge takes a copy of all registers as they were, derives the wires from it, and lets
 //! each block compute its next state from that copy, so no order of evaluation matters, as in hardware. What is pipelined
 //! there (memories, predicates) is computed at the clock its record is read and handed over when the hardware is done.
 //! Nothing is shared with the hardware but the protocol.
 
 mod answer;
 mod attempts;
+mod beat;
 mod command_port;
 mod commit;
+mod commit_job;
 mod contexts;
 mod counters;
 mod defect;
 mod memory;
 mod pipeline;
+mod ports;
 mod record_reads;
 mod release;
 mod responder;
@@ -25,95 +29,18 @@ mod starter;
 mod watchdog;
 mod wires;
 
-use attempts::{Outcome, Tables};
-use command_port::CommandPort;
-use commit::Commit;
-use contexts::Contexts;
-use counters::{Counters, Latencies};
+use attempts::Tables;
+use counters::Latencies;
 use incircle_protocol::{Config, ConfigError};
 use memory::Memory;
-use pipeline::{Bundle, Pipeline};
+use pipeline::Pipeline;
 use release::Release;
-use responder::Responder;
 use ring::RingReader;
-use seeder::Seeder;
-use solo::Solo;
-use starter::Starter;
-use watchdog::{Progress, Watchdog};
+use wires::Registers;
 
 pub use defect::Defect;
 pub use memory::Write;
-
-/// What drives the core before a clock edge.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Synchronous reset, active high.
-    pub reset: bool,
-    /// A command word is offered.
-    pub command_valid: bool,
-    /// The word.
-    pub command_data: u32,
-    /// The host takes an answer word.
-    pub response_ready: bool,
-}
-
-/// What the core shows before a clock edge. All outputs are functions of registers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The core takes a command word.
-    pub command_ready: bool,
-    /// An answer word is offered, or two.
-    pub response_valid: bool,
-    /// The word in the low half, the one that follows it in the high; holds the last while none is offered.
-    pub response_data: u64,
-    /// There is one that follows it.
-    pub response_both: bool,
-    /// The last word of the answer is among them.
-    pub response_last: bool,
-    /// The write port of the triangle memory (simulation builds).
-    pub write: Write,
-}
-
-impl Outputs {
-    /// The answer words that are offered, in their order.
-    pub fn answer_words(&self) -> impl Iterator<Item = u32> {
-        let words = usize::from(self.response_valid) * (1 + usize::from(self.response_both));
-        [self.response_data as u32, (self.response_data >> 32) as u32].into_iter().take(words)
-    }
-}
-
-/// The registers of the core, but those of the visit pipeline, the ring reader and the lock release.
-#[derive(Clone, Copy, Debug, Default)]
-struct Registers {
-    command: CommandPort,
-    responder: Responder,
-    contexts: Contexts,
-    /// The contexts as they were a clock ago: part of what a visit means is decided ahead.
-    noted: Contexts,
-    starter: Starter,
-    seeder: Seeder,
-    commit: Commit,
-    solo: Solo,
-    progress: Progress,
-    watchdog: Watchdog,
-    counters: Counters,
-    /// The counters as they were a clock ago: the hardware counts an event a clock after it.
-    counted: Counters,
-    /// What the visit that completed in the clock before leads to: contexts take note of it in this clock.
-    outcome: Option<Outcome>,
-    /// The bundle that enters the queue in this clock.
-    push: Option<Bundle>,
-    write: Write,
-}
-
-impl Registers {
-    fn after_reset(config: Config) -> Self {
-        let mut registers = Self::default();
-        registers.command.contexts = config.contexts;
-        registers.contexts.reset(config.contexts);
-        registers
-    }
-}
+pub use ports::{Inputs, Outputs};
 
 /// The core at a clock.
 #[derive(Clone, Debug)]

@@ -47,7 +47,8 @@ impl fmt::Display for ModelError {
 
 impl std::error::Error for ModelError {}
 
-/// What the next words mean.
+/// What the next words mean. They are read here anew, not by the protocol's `CommandReader`: the core's own reading is compared with this one, so
+/// it shares no code with a host that writes commands.
 #[derive(Clone, Copy, Debug)]
 enum Awaited {
     Command,
@@ -71,8 +72,6 @@ pub struct CommandModel {
     layout: Layout,
     mesh: Mesh,
     awaited: Awaited,
-    /// Guides of the next points, the nearest last.
-    guides: Vec<u32>,
     /// First word of a point that takes two and was cut off by the end of a piece.
     half_point: Option<u32>,
     answers: VecDeque<u32>,
@@ -105,7 +104,6 @@ impl CommandModel {
             layout: Layout::of(coord_bits, capacity),
             mesh: Mesh::new(capacity, ring_capacity),
             awaited: Awaited::Command,
-            guides: Vec::new(),
             half_point: None,
             answers: VecDeque::new(),
             reading: (Range::Records, 0, 0),
@@ -118,14 +116,6 @@ impl CommandModel {
     pub fn with_contexts(mut self, contexts: u32) -> Self {
         self.identity.contexts = contexts.clamp(1, 255);
         self
-    }
-
-    /// Names for each of the next points a vertex at which the search for it begins, by number of arrival: see
-    /// [`Mesh::insert_near`]. It replaces what was named before and is forgotten at the next `Clear`. The
-    /// words say nothing of it: it is for hosts in the same process.
-    pub fn guide(&mut self, guides: &[u32]) {
-        self.guides.clear();
-        self.guides.extend(guides.iter().rev());
     }
 
     /// The mesh as it stands.
@@ -239,7 +229,6 @@ impl CommandModel {
                     0 => self.identity.contexts,
                     asked => asked,
                 };
-                self.guides.clear();
                 self.mesh.clear_for(jobs);
                 self.answer(opcode, Status::Ok, &[]);
             }
@@ -288,10 +277,7 @@ impl CommandModel {
                 }
             };
             let point = Point { x: x & mask, y: y & mask };
-            match self.guides.pop() {
-                Some(guide) => self.mesh.insert_near(point, guide),
-                None => self.mesh.insert(point),
-            };
+            self.mesh.insert(point);
             left -= 1;
         }
         self.await_points(left);

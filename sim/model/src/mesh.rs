@@ -1,44 +1,17 @@
 //! The triangulation as the core stores it, and insertion into it, one point after the other.
 
+mod approach;
 mod cavity;
-mod guides;
+mod record;
 mod solo;
+mod star;
 mod walk;
 
 use crate::predicate::{orient2d, Point};
+pub use approach::Approach;
 use cavity::Cavity;
-pub use guides::Approach;
-use guides::Guides;
 use incircle_protocol::infinite_vertex;
-
-/// A triangle record: vertex ids counter-clockwise; `n[k]` is the record across the edge opposite `v[k]`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Record {
-    /// Vertex ids; one of them is the infinite vertex in a ghost.
-    pub v: [u32; 3],
-    /// Neighbour record ids.
-    pub n: [u32; 3],
-}
-
-impl Record {
-    /// The slot whose link equals `id`; the triangulation of a sphere has at most one.
-    #[inline]
-    pub fn slot_of(&self, id: u32) -> usize {
-        // Branch-free: links differ, and the callers follow links that lead back.
-        usize::from(self.n[1] == id) | usize::from(self.n[2] == id) << 1
-    }
-
-    /// Vertices and links rotated so that slot `s` comes first.
-    #[inline]
-    pub fn rotated(&self, s: usize) -> Record {
-        let turn = |c: [u32; 3]| match s {
-            0 => c,
-            1 => [c[1], c[2], c[0]],
-            _ => [c[2], c[0], c[1]],
-        };
-        Record { v: turn(self.v), n: turn(self.n) }
-    }
-}
+pub use record::Record;
 
 /// Records of a first triangle and its ghosts.
 const SEED_RECORDS: u32 = 4;
@@ -83,7 +56,6 @@ pub struct Mesh {
     collinear: bool,
     counts: Counts,
     cavity: Cavity,
-    guides: Guides,
 }
 
 impl Mesh {
@@ -98,7 +70,6 @@ impl Mesh {
             collinear: false,
             counts: Counts::default(),
             cavity: Cavity::new(ring_capacity),
-            guides: Guides::default(),
         }
     }
 
@@ -116,7 +87,6 @@ impl Mesh {
         self.starts = (0..jobs.max(1)).map(|job| SEED_RECORDS * job).collect();
         self.collinear = false;
         self.counts = Counts::default();
-        self.guides.clear();
     }
 
     /// All records, by id; empty before the third point.
@@ -144,11 +114,6 @@ impl Mesh {
 
     /// Inserts one point. The search for it begins where the last one ended.
     pub fn insert(&mut self, p: Point) -> Insertion {
-        self.insert_from(p, None)
-    }
-
-    #[inline]
-    fn insert_from(&mut self, p: Point, guide: Option<u32>) -> Insertion {
         let Some(id) = self.arrive(p) else {
             return Insertion::Refused;
         };
@@ -156,7 +121,7 @@ impl Mesh {
         match id.checked_sub(3 * jobs) {
             None if id % 3 != 2 => Insertion::Inserted,
             None => self.seed(id - 2),
-            Some(place) => self.insert_vertex(id, p, guide, (place % jobs) as usize),
+            Some(place) => self.insert_vertex(id, p, (place % jobs) as usize),
         }
     }
 
@@ -169,7 +134,6 @@ impl Mesh {
         let id = self.counts.arrived;
         self.counts.arrived += 1;
         self.points.push(p);
-        self.guides.add_vertex();
         Some(id)
     }
 
@@ -190,15 +154,12 @@ impl Mesh {
             Record { v: [a, c, inf], n: [id(1), id(3), id(0)] },
             Record { v: [b, a, inf], n: [id(2), id(1), id(0)] },
         ]);
-        let triangle = self.records.len() as u32 - SEED_RECORDS;
-        self.guides.note(triangle, [a, b, c]);
         self.counts.insertions += 3;
         Insertion::Inserted
     }
 
-    fn insert_vertex(&mut self, id: u32, p: Point, guide: Option<u32>, job: usize) -> Insertion {
-        let start = self.guided_start(guide).unwrap_or(self.starts[job]);
-        let root = self.locate(p, start);
+    fn insert_vertex(&mut self, id: u32, p: Point, job: usize) -> Insertion {
+        let root = self.locate(p, self.starts[job]);
         self.starts[job] = root;
         self.insert_in(id, p, root)
     }
@@ -210,7 +171,6 @@ impl Mesh {
         let falls_onto = |&v: &u32| v != self.infinite && self.points[v as usize] == p;
         if record.v.iter().any(falls_onto) {
             self.counts.duplicates += 1;
-            self.guides.note(root, [id]);
             return Insertion::Duplicate;
         }
         if self.grow(root, p) {
@@ -219,7 +179,6 @@ impl Mesh {
             self.counts.overflows += 1;
             self.insert_alone(id, p, root);
         }
-        self.note_star(root);
         self.counts.insertions += 1;
         Insertion::Inserted
     }

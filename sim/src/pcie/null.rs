@@ -5,24 +5,14 @@ use std::collections::VecDeque;
 use incircle_model::serial::core_identity;
 use incircle_model::stream::{BusError, Given};
 use incircle_protocol::{
-    answer_header, command_opcode, Config, Identity, InsertReport, Layout, Opcode, Status, StreamRegister,
-    COUNTER_WORDS, LATENCY_BUCKETS, PADDING, STREAM_FIFO_BEATS, STREAM_STATUS_RUNS, STREAM_VERSION,
+    answer_header, Command, CommandReader, Config, Identity, InsertReport, Layout, Opcode, Status, StreamRegister,
+    STREAM_FIFO_BEATS, STREAM_STATUS_RUNS, STREAM_VERSION,
 };
 
 use super::beats::Beats;
 
 /// Bytes of a word.
 const WORD: usize = 4;
-
-/// What the next word is.
-#[derive(Clone, Copy, Debug)]
-enum Awaited {
-    Command,
-    Points,
-    Coordinates(usize),
-    First(Opcode),
-    Count(Opcode),
-}
 
 /// An answer, or what is left of it.
 #[derive(Debug)]
@@ -38,7 +28,9 @@ pub struct NullDevice {
     identity: Identity,
     layout: Layout,
     beat: usize,
-    awaited: Awaited,
+    commands: CommandReader,
+    /// Words of points that are still to come of the `Insert` under way.
+    left: Option<u64>,
     /// Points since the last `Clear`.
     points: u32,
     answers: VecDeque<Answer>,
@@ -52,7 +44,8 @@ impl NullDevice {
             layout: Layout::of(identity.coord_bits, identity.capacity),
             identity,
             beat: if beat_bits >= 128 { 16 } else { 8 },
-            awaited: Awaited::Command,
+            commands: CommandReader::default(),
+            left: None,
             points: 0,
             answers: VecDeque::new(),
         }
@@ -68,30 +61,26 @@ impl NullDevice {
         self.answers.push_back(Answer { zeros: bytes - WORD * head.len(), head });
     }
 
-    fn begin(&mut self, word: u32) -> Awaited {
-        match Opcode::from_u8(command_opcode(word)) {
-            None if word == PADDING => {}
-            Some(Opcode::Insert) => return Awaited::Points,
-            Some(opcode @ (Opcode::Read | Opcode::Triangles)) => return Awaited::First(opcode),
-            Some(Opcode::Hello) => self.answer(Opcode::Hello, &self.identity.to_words(), 0),
-            Some(Opcode::Clear) => {
+    /// Does what a command asks for. Of an `Insert` the points are still to come.
+    fn begin(&mut self, command: Command<()>) {
+        match command {
+            Command::Hello => self.answer(Opcode::Hello, &self.identity.to_words(), 0),
+            Command::Clear { .. } => {
                 self.points = 0;
                 self.answer(Opcode::Clear, &[], 0);
             }
-            Some(Opcode::Counters) => self.answer(Opcode::Counters, &[], COUNTER_WORDS),
-            Some(Opcode::Latencies) => self.answer(Opcode::Latencies, &[], LATENCY_BUCKETS),
-            None => self.answers.push_back(Answer {
-                head: [answer_header(command_opcode(word), Status::UnknownOpcode)].into(),
-                zeros: self.beat - WORD,
-            }),
+            Command::Insert { count, .. } => {
+                self.points = self.points.wrapping_add(count);
+                self.left = Some(command.point_words(self.layout));
+            }
+            Command::Read(_) | Command::Triangles(_) | Command::Counters | Command::Latencies => {
+                self.answer(command.opcode(), &[], command.payload_words(self.layout) as usize);
+            }
         }
-        Awaited::Command
     }
 
-    fn await_points(&mut self, left: usize) -> Awaited {
-        if left > 0 {
-            return Awaited::Coordinates(left);
-        }
+    /// All points of an `Insert` have come.
+    fn report(&mut self) {
         let report = InsertReport {
             arrived: self.points,
             inserted: self.points,
@@ -99,39 +88,39 @@ impl NullDevice {
             ..InsertReport::default()
         };
         self.answer(Opcode::Insert, &report.to_words(), 0);
-        Awaited::Command
     }
 
-    fn read_out(&mut self, opcode: Opcode, records: u32) -> Awaited {
-        let words = match opcode {
-            Opcode::Triangles => self.layout.triangles_words(records).unwrap_or(0) as usize,
-            _ => records as usize * self.layout.record_words,
-        };
-        self.answer(opcode, &[], words);
-        Awaited::Command
+    /// Takes points, as many bytes as are there; gives what is behind them.
+    fn take_points<'b>(&mut self, left: u64, bytes: &'b [u8]) -> &'b [u8] {
+        let here = left.min((bytes.len() / WORD) as u64);
+        self.left = Some(left - here).filter(|&left| left > 0);
+        if self.left.is_none() {
+            self.report();
+        }
+        // No more than there is, which is in memory.
+        &bytes[here as usize * WORD..]
     }
 }
 
 impl Beats for NullDevice {
     fn take(&mut self, bytes: &[u8]) -> usize {
         let mut rest = bytes;
-        while let Some((word, after)) = rest.split_first_chunk() {
-            rest = after;
-            let word = u32::from_le_bytes(*word);
-            self.awaited = match self.awaited {
-                Awaited::Command => self.begin(word),
-                Awaited::Points => {
-                    self.points = self.points.wrapping_add(word);
-                    self.await_points(word as usize * self.layout.point_words)
-                }
-                Awaited::Coordinates(left) => {
-                    let here = left.min(1 + rest.len() / WORD);
-                    rest = &rest[(here - 1) * WORD..];
-                    self.await_points(left - here)
-                }
-                Awaited::First(opcode) => Awaited::Count(opcode),
-                Awaited::Count(opcode) => self.read_out(opcode, word),
+        loop {
+            if let Some(left) = self.left {
+                rest = self.take_points(left, rest);
+            }
+            let Some((word, after)) = rest.split_first_chunk() else {
+                break;
             };
+            rest = after;
+            match self.commands.take(u32::from_le_bytes(*word)) {
+                Some(Ok(command)) => self.begin(command),
+                Some(Err(opcode)) => self.answers.push_back(Answer {
+                    head: [answer_header(opcode, Status::UnknownOpcode)].into(),
+                    zeros: self.beat - WORD,
+                }),
+                None => {}
+            }
         }
         bytes.len()
     }
@@ -173,7 +162,7 @@ impl Beats for NullDevice {
     fn write(&mut self, offset: u32, _: u32) -> Result<(), BusError> {
         if offset == StreamRegister::Control.offset() {
             self.answers.clear();
-            (self.awaited, self.points) = (Awaited::Command, 0);
+            (self.commands, self.left, self.points) = (CommandReader::default(), None, 0);
         }
         Ok(())
     }

@@ -4,14 +4,26 @@
 //! - [`SplitMix64`]: the random generator. The same seed gives the same numbers on every machine.
 //! - [`generate`]: point sets by name, those of `incircle generate`.
 //! - [`delaunay`]: the canonical Delaunay triangulation by its definition, slow and plain.
+//! - [`words`] and [`Batch`]: point sets as a device takes them, with [`Random32`], whose seeds tests know.
+//! - [`canonical`]: the check of a mesh from a device, and its form without ids.
+//! - [`exchange_steps`]: the exchange that the page of the serial protocol shows.
 //!
 //! A point is a pair of coordinates, `[u32; 2]`, or a type that turns into one.
 #![warn(missing_docs)]
 
+mod batch;
+mod canonical;
+mod exchange;
 mod oracle;
 mod random;
+mod random32;
 mod sets;
+pub mod words;
 
+pub use batch::Batch;
+pub use canonical::{canonical, Canonical, StoredRecord};
+pub use exchange::exchange_steps;
 pub use oracle::{conflicts, delaunay, orient2d};
 pub use random::SplitMix64;
+pub use random32::Random32;
 pub use sets::{generate, Distribution, GenerateError, UnknownName, BITS};

@@ -4,10 +4,7 @@ use std::time::{Duration, Instant};
 
 use incircle::pcie::{CardAddress, PcieTransport};
 use incircle::{Error, Transport, TransportError};
-use incircle_protocol::{
-    clear_word, command_word, Config, Layout, Opcode, CORE_COORD_BITS, COUNTER_WORDS, INSERT_REPORT_WORDS,
-    LATENCY_BUCKETS,
-};
+use incircle_protocol::{answer_head, Command, Config, Layout, Opcode, RecordRange, CORE_COORD_BITS};
 use incircle_sim::pcie::{Beats, CardFaultSpec, DirectoryError, NullDevice};
 
 use super::{MemoryCard, MountedCard};
@@ -97,30 +94,26 @@ pub fn driver_cost(way: Way, jobs: Jobs) -> Result<DriverCost, DriverCostError> 
 impl Jobs {
     fn run(self, mut transport: PcieTransport) -> Result<DriverCost, DriverCostError> {
         let Self { count, points, config, read_out } = self;
-        let mut insert = vec![command_word(Opcode::Insert), points];
-        insert.extend((0..points).map(|point| point.wrapping_mul(0x9e37_79b9)));
-        let records = (2 * points).saturating_sub(2);
+        let words: Vec<u32> = (0..points).map(|point| point.wrapping_mul(0x9e37_79b9)).collect();
         let layout = Layout::of(CORE_COORD_BITS, config.points);
-        let payload = match read_out {
-            Opcode::Triangles => layout.triangles_words(records).unwrap_or(0) as usize,
-            _ => records as usize * layout.record_words,
-        };
-        let mut answer = vec![0; payload.max(LATENCY_BUCKETS)];
+        let records = RecordRange { first: 0, count: (2 * points).saturating_sub(2) };
+        let commands = [
+            Command::Clear { contexts: 0, is_batch: false },
+            Command::insert(&words[..], layout),
+            if read_out == Opcode::Triangles { Command::Triangles(records) } else { Command::Read(records) },
+            Command::Counters,
+            Command::Latencies,
+        ];
+        let lengths = commands.map(|command| command.payload_words(layout) as usize);
+        let mut answer = vec![0; lengths.into_iter().max().unwrap_or(0)];
         let mut times = Vec::with_capacity(count);
         for _ in 0..count {
             let begun = Instant::now();
-            for (command, words) in [
-                (&[clear_word(0)][..], 0),
-                (&insert[..], INSERT_REPORT_WORDS),
-                (&[command_word(read_out), 0, records][..], payload),
-                (&[command_word(Opcode::Counters)][..], COUNTER_WORDS),
-                (&[command_word(Opcode::Latencies)][..], LATENCY_BUCKETS),
-            ] {
+            for (command, length) in commands.iter().zip(lengths) {
                 let deadline = Instant::now() + LIMIT;
-                let mut head = [0; 2];
-                transport.send(command, deadline)?;
-                transport.receive(&mut head, deadline)?;
-                transport.receive(&mut answer[..words], deadline)?;
+                let head = answer_head(command.opcode(), length as u32);
+                transport.submit(std::slice::from_ref(command), deadline)?;
+                transport.receive(head, &mut answer[..length], deadline)?;
             }
             times.push(begun.elapsed().as_secs_f64() * 1e9 / f64::from(points));
         }

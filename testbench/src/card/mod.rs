@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::Arc;
 
-use incircle::pcie::{CardFiles, RegisterFile};
+use incircle::transports::parts::{CardFiles, RegisterFile};
 use incircle_sim::pcie::{Beats, Card, CardDirectory, CardFaultSpec, DirectoryError, Errno};
 
 /// Names of directories, so that no two are one.

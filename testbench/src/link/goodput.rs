@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::time::Duration;
 
-use incircle_protocol::{answer_status, clear_word, command_word, Config, Opcode, Status, FULL};
+use incircle_protocol::{answer_status, Command, Config, RecordRange, Status, FULL};
 use incircle_sim::faults::FaultSpec;
 
 use super::virtual_line::VirtualLine;
@@ -65,19 +65,19 @@ pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2],
     if line.rate() != rate {
         return Err(format!("the link runs at {} bits per second, not {rate}", line.rate()).into());
     }
-    line.ask(&[clear_word(0)], LIMIT)?;
-    let mut insert = vec![command_word(Opcode::Insert), u32::try_from(points)?];
-    insert.extend(super::jobs::random_points(points, 1).iter().map(|point| point.x | (point.y << 16)));
+    line.ask(&Command::<[u32; 0]>::Clear { contexts: 0, is_batch: false }, LIMIT)?;
+    let words: Vec<u32> = super::jobs::random_points(points, 1).iter().map(|point| point.x | (point.y << 16)).collect();
+    let insert = Command::Insert { count: u32::try_from(points)?, points: words };
     let begun = line.now();
     let report = line.ask(&insert, LIMIT)?;
     let status = report.first().map(|&header| answer_status(header));
     if status != Some(Status::Ok as u8) && status != Some(Status::Full as u8) {
         return Err(format!("the core answers with status {status:?}").into());
     }
-    let to_device = Goodput { rate, way: Way::Points, bytes: 4 * insert.len(), time: line.now() - begun };
+    let to_device = Goodput { rate, way: Way::Points, bytes: 4 * insert.words(), time: line.now() - begun };
     let records = report.get(6).copied().unwrap_or(0);
     let begun = line.now();
-    let answer = line.ask(&[command_word(Opcode::Read), 0, records], LIMIT)?;
+    let answer = line.ask(&Command::<[u32; 0]>::Read(RecordRange { first: 0, count: records }), LIMIT)?;
     let to_host = Goodput { rate, way: Way::Records, bytes: 4 * answer.len(), time: line.now() - begun };
     line.close();
     Ok([to_device, to_host])

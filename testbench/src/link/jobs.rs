@@ -13,8 +13,5 @@ pub fn random_points(count: usize, seed: u64) -> Vec<Point> {
 
 /// The two say the same, byte for byte.
 pub fn is_one_mesh(one: &Mesh, other: &Mesh) -> bool {
-    one.triangles == other.triangles
-        && one.hull == other.hull
-        && one.duplicates == other.duplicates
-        && one.points == other.points
+    one == other
 }

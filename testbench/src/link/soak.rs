@@ -142,8 +142,8 @@ fn run_job(
 }
 
 fn mesh_of(device: &mut Device, points: &[incircle::Point]) -> Result<incircle::Mesh, Error> {
-    let options = Options { timeout: Some(Duration::from_secs(3600)), ..Options::default() };
-    device.session_within(Duration::from_secs(3600))?.triangulate_with(points, &options)
+    let options = Options::default().timeout(Duration::from_secs(3600));
+    device.session_within(Duration::from_secs(3600))?.triangulate_with(points, &options).map(|solution| solution.mesh)
 }
 
 #[cfg(test)]

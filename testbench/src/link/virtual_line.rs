@@ -5,8 +5,10 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use incircle::serial::{Engine, Params, Statistics};
+use incircle::transports::parts::{Params, SerialProtocol, Statistics};
+use incircle::transports::{receive_in_pieces, AnswerHead, Capabilities};
 use incircle::{Transport, TransportError};
+use incircle_protocol::Command;
 use incircle_sim::faults::{FaultSpec, Proxy};
 use incircle_sim::serial::Board;
 
@@ -15,7 +17,7 @@ const SLICE: u64 = 80;
 
 /// Driver, line and board.
 pub struct VirtualLine {
-    engine: Engine,
+    engine: SerialProtocol,
     board: Box<dyn Board>,
     proxy: Proxy,
     /// Nanoseconds that a byte takes each way, besides its bits.
@@ -33,7 +35,7 @@ impl VirtualLine {
     /// A driver that wishes for `rate`, before a board; each round trip takes `trip` besides the bits.
     pub fn new(board: Box<dyn Board>, rate: u32, trip: Duration, faults: &FaultSpec) -> Self {
         Self {
-            engine: Engine::new(Params::with_rate(rate)),
+            engine: SerialProtocol::new(Params::with_rate(rate)),
             board,
             proxy: Proxy::new(faults),
             delay: (trip.as_nanos() / 2) as u64,
@@ -67,7 +69,7 @@ impl VirtualLine {
 
     /// Another driver in the place of this one, without a goodbye: as after the program was killed.
     pub fn restart_host(&mut self, rate: u32, session: u8) {
-        self.engine = Engine::new(Params { session, ..Params::with_rate(rate) });
+        self.engine = SerialProtocol::new(Params { session, ..Params::with_rate(rate) });
         self.to_device.clear();
         self.wakes_at = Some(0);
     }
@@ -86,10 +88,10 @@ impl VirtualLine {
     ///
     /// # Errors
     /// The time passed, or the engine gives up.
-    pub fn ask(&mut self, command: &[u32], limit: Duration) -> Result<Vec<u32>, TransportError> {
+    pub fn ask(&mut self, command: &Command<impl AsRef<[u32]>>, limit: Duration) -> Result<Vec<u32>, TransportError> {
         let now = self.now();
-        self.engine.ask(command, now)?;
-        self.drive(now + limit, Engine::take_answer)
+        self.engine.ask(command.borrowed(), now)?;
+        self.drive(now + limit, SerialProtocol::take_answer)
     }
 
     /// Says goodbye.
@@ -103,7 +105,7 @@ impl VirtualLine {
     fn drive<T>(
         &mut self,
         deadline: Duration,
-        mut ready: impl FnMut(&mut Engine) -> Option<T>,
+        mut ready: impl FnMut(&mut SerialProtocol) -> Option<T>,
     ) -> Result<T, TransportError> {
         self.wakes_at = Some(0);
         loop {
@@ -179,14 +181,9 @@ impl VirtualTransport {
     }
 }
 
-impl Transport for VirtualTransport {
-    fn send(&mut self, words: &[u32], _deadline: Instant) -> Result<(), TransportError> {
-        self.taken = 0;
-        self.answer = self.line.borrow_mut().ask(words, self.limit)?;
-        Ok(())
-    }
-
-    fn receive(&mut self, words: &mut [u32], _deadline: Instant) -> Result<(), TransportError> {
+impl VirtualTransport {
+    /// Hands on the next words of the answer.
+    fn hand_on(&mut self, words: &mut [u32]) -> Result<(), TransportError> {
         let rest = self.answer.get(self.taken..).unwrap_or_default();
         let next = rest.get(..words.len());
         let next = next.ok_or(TransportError::Closed { done: rest.len(), wanted: words.len() })?;
@@ -194,12 +191,31 @@ impl Transport for VirtualTransport {
         self.taken += words.len();
         Ok(())
     }
+}
 
+impl Transport for VirtualTransport {
     fn name(&self) -> String {
         "virtual line".to_owned()
     }
 
-    fn packs_records(&self) -> bool {
-        false
+    fn submit(&mut self, commands: &[Command<&[u32]>], _deadline: Instant) -> Result<(), TransportError> {
+        for command in commands {
+            self.taken = 0;
+            self.answer = self.line.borrow_mut().ask(command, self.limit)?;
+        }
+        Ok(())
+    }
+
+    fn receive(
+        &mut self,
+        head: AnswerHead,
+        payload: &mut [u32],
+        _deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        receive_in_pieces(head, payload, |words| self.hand_on(words))
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        Capabilities { packs_records: false, ..Capabilities::default() }
     }
 }

@@ -6,18 +6,23 @@
 //! Ratios are medians over the repetitions of times taken next to each other, so that what else the machine does touches both; objects
 //! also have the processor's time on the calling thread ("busy"), which others disturb less.
 
+mod arguments;
 mod contestant;
 mod error;
+mod field;
+mod outcome;
 mod points;
 mod process;
 mod table;
 
 use std::io::Write;
 
-use clap::Parser;
 use incircle_testkit::SplitMix64;
 
-use contestant::{Contestant, Run};
+use contestant::Contestant;
+use outcome::Outcome;
+
+pub use arguments::Arguments;
 pub use error::PeerError;
 pub use points::Set;
 
@@ -28,55 +33,12 @@ const OTHERS: u64 = 1 << 63;
 /// Fewest and most repetitions unless their number is given.
 const REPETITIONS: std::ops::RangeInclusive<usize> = 3..=101;
 
-/// Triangulators beside each other: nanoseconds per point, medians
-#[derive(Debug, Parser)]
-#[command(name = "peers")]
-pub struct Arguments {
-    /// The sets (default: the five distributions of the literature, the lattice, and the airports of the world)
-    #[arg(long, value_name = "SET", value_delimiter = ',')]
-    dist: Vec<Set>,
-    /// Numbers of points, each at least 3: not all peers take fewer
-    #[arg(short, value_name = "N", value_delimiter = ',', default_values_t = [1000, 16_384, 65_536, 1_000_000],
-        value_parser = clap::value_parser!(u32).range(3..))]
-    n: Vec<u32>,
-    /// Bits of a coordinate
-    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
-    bits: u32,
-    /// Repetitions, each with fresh points (default: 3 to 101, fewer for more points)
-    #[arg(long, value_name = "R")]
-    repetitions: Option<usize>,
-    /// Seed of the first repetition
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Leave out what each does just before, untimed: other points of the same set, so that it finds memory at hand
-    #[arg(long)]
-    cold: bool,
-    /// Print one JSON object a line for each set and number of points
-    #[arg(long)]
-    json: bool,
-}
-
-/// What all repetitions of one set gave.
-struct Outcome {
-    set: Set,
-    bits: u32,
-    cold: bool,
-    /// Points of a repetition; distinct ones of the last.
-    points: usize,
-    distinct: usize,
-    /// The share of the ordering in our time, one thread.
-    order_share: Vec<f64>,
-    names: Vec<&'static str>,
-    /// For each contestant, its run in each repetition.
-    runs: Vec<Vec<Run>>,
-}
-
 /// Runs the comparison and prints it, a row or an object for each set and number of points.
 ///
 /// # Errors
 /// A set that cannot be made, or a contestant that fails.
 pub fn compare(arguments: &Arguments) -> Result<(), PeerError> {
-    let (mut contestants, missing) = contestant::all(arguments.bits)?;
+    let (mut contestants, missing) = field::all(arguments.bits)?;
     let names: Vec<_> = contestants.iter().map(|contestant| contestant.name()).collect();
     let mut out = std::io::stdout().lock();
     if !arguments.json {
@@ -138,7 +100,9 @@ fn measure(
 
 #[cfg(test)]
 mod tests {
+    use super::contestant::Run;
     use super::*;
+    use clap::Parser;
     use incircle::Point;
     use std::cell::RefCell;
     use std::rc::Rc;

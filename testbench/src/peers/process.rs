@@ -8,17 +8,11 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use incircle::Point;
 
-use super::contestant::{Contestant, Run};
+use super::contestant::{Contestant, Missing, Run};
 use super::error::PeerError;
 
 const CGAL_SOURCE: &str = include_str!("cgal.cpp");
 const TRIANGLE_SOURCE: &str = include_str!("triangle.py");
-
-/// A peer that is not there, and why.
-pub(super) struct Missing {
-    pub(super) name: &'static str,
-    pub(super) reason: String,
-}
 
 /// A program that runs.
 pub(super) struct Process {

@@ -2,9 +2,9 @@
 
 use serde_json::{json, Map, Value};
 
-use super::contestant::Run;
-use super::process::Missing;
-use super::{Arguments, Outcome};
+use super::arguments::Arguments;
+use super::contestant::{Missing, Run};
+use super::outcome::Outcome;
 
 /// Widths of the set and of a column.
 const SET: usize = 16;

@@ -1,15 +1,14 @@
 //! `incircle bench --batch`: many jobs in one call, from the first word in to the last triangle out.
 
-use incircle::{Options, Point, Session};
+use incircle::{Point, Session, Solution};
 use incircle_protocol::FULL;
 use incircle_testkit::Distribution;
 use serde_json::{json, Value};
 
-use crate::arguments::{BackendChoice, BenchArguments};
-use crate::backend;
-use crate::commands::bench::{is_software, points_of, sets_of, timed, DEFAULT_MHZ, SOFTWARE_RUNS};
-use crate::failure::{counted, Failure};
-use crate::grid::failure_of;
+use crate::arguments::BenchArguments;
+use crate::backend::{self, Choice};
+use crate::commands::bench_sets::{points_of, sets_of, timed, DEFAULT_BACKEND, DEFAULT_MHZ, SOFTWARE_RUNS};
+use crate::failure::{counted, failure_of, Failure};
 use crate::output;
 use crate::progress::Meter;
 
@@ -67,10 +66,12 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
             arguments.n
         )));
     }
+    let choice = Choice::of(&arguments.backend, DEFAULT_BACKEND)?;
+    let runs = if choice.is_software() { SOFTWARE_RUNS } else { 1 };
     let mut backend = backend::open_with_room(
-        &arguments.backend,
+        &choice,
         arguments.coord_bits,
-        Some(room(arguments)),
+        Some(room(&choice, arguments)),
         None,
         arguments.job.timeout,
     )?;
@@ -88,7 +89,7 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
     };
     let mut rows = Vec::new();
     for set in sets_of(arguments) {
-        let measured = measure(&mut session, set, jobs, arguments)?;
+        let measured = measure(&mut session, set, jobs, runs, arguments)?;
         if !arguments.json {
             let header = if rows.is_empty() { table.header() } else { String::new() };
             output::print(&format!("{header}{}\n", table.row(&measured)))?;
@@ -102,9 +103,8 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
 }
 
 /// Points that the back end must hold: those of a job. A core that is not chosen is the one for a board, not the smallest that holds a job.
-fn room(arguments: &BenchArguments) -> usize {
-    let is_core = matches!(arguments.backend.choice(), BackendChoice::Clock | BackendChoice::Sim);
-    let least = if is_core && arguments.backend.config.is_none() { FULL.points } else { 0 };
+fn room(choice: &Choice, arguments: &BenchArguments) -> usize {
+    let least = if choice.is_core() && choice.config.is_none() { FULL.points } else { 0 };
     arguments.n.max(least) as usize
 }
 
@@ -112,11 +112,11 @@ fn measure(
     session: &mut Session<'_>,
     set: Distribution,
     jobs: u32,
+    runs: usize,
     arguments: &BenchArguments,
 ) -> Result<Measured, Failure> {
     let points = |job: u32| points_of(set, arguments.n, arguments.seed.wrapping_add(job.into()), arguments);
     let jobs = (0..jobs).map(points).collect::<Result<Vec<_>, _>>()?;
-    let runs = if is_software(arguments) { SOFTWARE_RUNS } else { 1 };
     let mut best = run_once(session, set, &jobs, arguments)?;
     for _ in 1..runs {
         let next = run_once(session, set, &jobs, arguments)?;
@@ -135,34 +135,28 @@ fn run_once(
 ) -> Result<Measured, Failure> {
     let meter = Meter::new(false);
     let listener = |progress| meter.hear(progress);
-    let options = Options {
-        timeout: arguments.job.timeout,
-        order: arguments.job.order(),
-        progress: Some(&listener),
-        contexts: arguments.job.contexts,
-        ..Options::default()
-    };
+    let options = arguments.job.options(&listener);
     let before = session.clocks();
-    let (meshes, seconds) = timed(|| session.triangulate_batch(jobs, &options))?;
+    let (solutions, seconds) = timed(|| session.triangulate_batch(jobs, &options))?;
     // None at all where no job has reached the core.
     let cycles = session.clocks().zip(before).map(|(after, before)| after - before).filter(|&cycles| cycles > 0);
-    let distinct = meshes.iter().map(|mesh| mesh.report.distinct).sum();
-    let triangles = meshes.iter().map(|mesh| mesh.report.triangles).sum();
-    let (longest, engine) = (longest_of(&meshes), engine_of(&meshes));
+    let distinct = solutions.iter().map(|solution| solution.report.distinct).sum();
+    let triangles = solutions.iter().map(|solution| solution.report.triangles).sum();
+    let (longest, engine) = (longest_of(&solutions), engine_of(&solutions));
     Ok(Measured { set, distinct, triangles, cycles, longest, engine, seconds })
 }
 
 /// Clocks of the longest job; none where jobs shared the memory.
-fn longest_of(meshes: &[incircle::Mesh]) -> Option<u64> {
-    let of_device = meshes.iter().filter(|mesh| !mesh.report.collinear);
-    let clocks: Option<Vec<u64>> = of_device.map(|mesh| mesh.report.clocks).collect();
+fn longest_of(solutions: &[Solution]) -> Option<u64> {
+    let of_device = solutions.iter().filter(|solution| !solution.report.collinear);
+    let clocks: Option<Vec<u64>> = of_device.map(|solution| solution.report.clocks).collect();
     clocks?.into_iter().max()
 }
 
 /// Clocks of all insertions; none where they are not counted for each job.
-fn engine_of(meshes: &[incircle::Mesh]) -> Option<u64> {
-    let of_device = meshes.iter().filter(|mesh| !mesh.report.collinear);
-    let cycles = |mesh: &incircle::Mesh| mesh.report.counters.map(|counters| counters.insert_cycles);
+fn engine_of(solutions: &[Solution]) -> Option<u64> {
+    let of_device = solutions.iter().filter(|solution| !solution.report.collinear);
+    let cycles = |solution: &Solution| solution.report.counters.map(|counters| counters.insert_cycles);
     of_device.map(cycles).sum::<Option<u64>>().filter(|&cycles| cycles > 0)
 }
 

@@ -1,19 +1,18 @@
 //! `incircle info`: what a back end says of itself.
 
+use incircle::DeviceAddress;
 use incircle_protocol::CORE_COORD_BITS;
 
-use crate::arguments::{BackendArguments, BackendChoice, InfoArguments};
-use crate::backend::{self, Board};
-use crate::failure::{counted, Failure};
-use crate::grid::failure_of;
+use crate::arguments::{BackendArguments, InfoArguments};
+use crate::backend::{self, Board, Choice};
+use crate::failure::{counted, failure_of, Failure};
 use crate::output;
 
 /// Runs the subcommand: opens the back end, greets it and prints its identity.
 pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
-    let port = arguments.port.clone();
-    let port =
-        port.map(|port| BackendArguments { backend: Some(BackendChoice::Serial(port)), threads: None, config: None });
-    let mut backend = backend::open(port.as_ref().unwrap_or(&arguments.backend), CORE_COORD_BITS, None, None, None)?;
+    let port = arguments.port.clone().map(DeviceAddress::Serial);
+    let asked = BackendArguments { backend: port.or(arguments.backend.backend.clone()), ..arguments.backend.clone() };
+    let mut backend = backend::open(&Choice::of(&asked, "model")?, CORE_COORD_BITS, None, None, None)?;
     let card = backend.card.map_or(String::new(), |registers| registers.to_string());
     let board = backend.board.map_or(String::new(), about_board);
     let session = backend.device.session().map_err(|error| failure_of(&error))?;

@@ -2,7 +2,7 @@
 
 pub mod bench;
 pub mod bench_batch;
-pub mod bench_orders;
+mod bench_sets;
 pub mod completions;
 pub mod devices;
 pub mod generate;

@@ -3,13 +3,13 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use incircle::{Mesh, Options};
+use incircle::{DeviceAddress, Mesh, Solution};
 
-use crate::arguments::{BackendChoice, TriangulateArguments};
-use crate::backend::{self, Backend};
-use crate::failure::{counted, Failure};
+use crate::arguments::TriangulateArguments;
+use crate::backend::{self, Backend, Choice};
+use crate::failure::{counted, failure_of, Failure};
 use crate::formats::{extension, MeshFormat, MeshView};
-use crate::grid::{self, failure_of, Laid};
+use crate::grid::{self, Laid};
 use crate::output::{self, Output, Written};
 use crate::points::PointTable;
 use crate::progress::Meter;
@@ -20,7 +20,9 @@ use crate::{interrupt, source};
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let format = format_of(arguments)?;
     let output = prepare_mesh(arguments)?;
-    let trace = prepare_trace(arguments, &output)?;
+    let default = if arguments.job.wants_insertion() { "model" } else { "cpu" };
+    let choice = Choice::of(&arguments.backend, default)?;
+    let trace = prepare_trace(arguments, &choice, &output)?;
     let mut watch = Watch::start();
     let table = source::read_points(&arguments.points, arguments.from)?;
     watch.ended("load");
@@ -29,9 +31,8 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
         grid::lay(&table, &arguments.grid).map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
     watch.ended("quantise");
     let trace = trace.map(Output::reserve).transpose()?;
-    let default = if arguments.job.wants_insertion() { BackendChoice::Model } else { BackendChoice::Cpu };
     let mut backend = backend::open(
-        &arguments.backend.or(default),
+        &choice,
         arguments.grid.coord_bits,
         Some(&points),
         trace.as_ref().and_then(Written::part),
@@ -40,11 +41,10 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     backend.check_job(&arguments.job)?;
     tell_if_long(&backend, points.len(), arguments);
     watch.ended("open");
-    let mesh = triangulate(&mut backend, &points, arguments)?;
-    watch.stages.extend(&mesh.report.stages);
-    drop(points);
+    let Solution { mesh, report: about, .. } = triangulate(&mut backend, points, arguments)?;
+    watch.stages.extend(&about.stages);
     let bits = arguments.grid.coord_bits;
-    let mut report = RunReport::new(&mesh.report, &backend, bits, quantization.as_ref());
+    let mut report = RunReport::new(&about, &backend, bits, quantization.as_ref());
     // The simulation ends here, which completes its waveform.
     drop(backend);
     watch.since = Instant::now();
@@ -66,11 +66,11 @@ fn prepare_mesh(arguments: &TriangulateArguments) -> Result<Output, Failure> {
 }
 
 /// Where the waveform goes, if one is asked for; checked before the work.
-fn prepare_trace(arguments: &TriangulateArguments, mesh: &Output) -> Result<Option<Output>, Failure> {
+fn prepare_trace(arguments: &TriangulateArguments, choice: &Choice, mesh: &Output) -> Result<Option<Output>, Failure> {
     let Some(path) = &arguments.trace else {
         return Ok(None);
     };
-    if *arguments.backend.choice() != BackendChoice::Sim {
+    if !matches!(choice.address, DeviceAddress::Sim { .. }) {
         return Err(Failure::usage("--trace records the simulated core: it needs --backend sim"));
     }
     let trace = Output::prepare(path, Some(&arguments.points))?;
@@ -122,25 +122,19 @@ fn format_of(arguments: &TriangulateArguments) -> Result<MeshFormat, Failure> {
 
 fn triangulate(
     backend: &mut Backend,
-    points: &[incircle::Point],
+    points: Vec<incircle::Point>,
     arguments: &TriangulateArguments,
-) -> Result<Mesh, Failure> {
+) -> Result<Solution, Failure> {
     let meter = Meter::new(arguments.quiet);
     let listener = |progress| meter.hear(progress);
-    let options = Options {
-        timeout: arguments.job.timeout,
-        order: arguments.job.order(),
-        progress: Some(&listener),
-        contexts: arguments.job.contexts,
-        insert_chunk: backend.insert_chunk,
-    };
-    let mesh = interrupt::working(|| {
+    let options = arguments.job.options(&listener);
+    let solution = interrupt::working(|| {
         let session = backend.device.session();
-        session.and_then(|mut session| session.triangulate_with(points, &options))
+        session.and_then(|mut session| session.triangulate_owned(points, &options))
     });
     // Comes first, because an interrupt may show as any error.
     interrupt::check()?;
-    mesh.map_err(|error| failure_of(&error))
+    solution.map_err(|error| failure_of(&error))
 }
 
 /// The mesh goes out with the coordinates that came in, not with those of the grid.

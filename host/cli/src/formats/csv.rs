@@ -10,7 +10,7 @@ use std::io::{self, Write};
 use csv::{ByteRecord, Reader, ReaderBuilder};
 
 use crate::failure::{counted, Failure};
-use crate::formats::MeshView;
+use crate::formats::mesh_view::MeshView;
 use crate::points::{Place, PointTable};
 use crate::text;
 

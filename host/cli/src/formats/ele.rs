@@ -6,7 +6,8 @@
 use std::io::{self, Write};
 
 use crate::failure::{counted, Exit, Failure};
-use crate::formats::{triangle, MeshView};
+use crate::formats::mesh_view::MeshView;
+use crate::formats::triangle;
 use crate::points::Place;
 use crate::text;
 

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
 
 use crate::failure::{one_line, Failure};
-use crate::formats::MeshView;
+use crate::formats::mesh_view::MeshView;
 use crate::points::PointTable;
 
 /// Reads points.

@@ -8,7 +8,8 @@ use std::io::{self, Write};
 use serde_json::Value;
 
 use crate::failure::{quoted, Failure};
-use crate::formats::{geojson, MeshView};
+use crate::formats::geojson;
+use crate::formats::mesh_view::MeshView;
 use crate::points::PointTable;
 
 /// Reads the list `points`, pairs of finite numbers; all else in the object is left out. An object without it, or with the

@@ -5,6 +5,7 @@ pub mod curve;
 pub mod ele;
 pub mod geojson;
 pub mod json;
+mod mesh_view;
 pub mod node;
 pub mod obj;
 pub mod ply;
@@ -19,6 +20,8 @@ use clap::ValueEnum;
 
 use crate::failure::Failure;
 use crate::points::PointTable;
+
+pub use mesh_view::MeshView;
 
 /// Formats that points are read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -136,26 +139,6 @@ impl MeshFormat {
                 "a mesh can be read back from ele, obj, ply, json and csv only: write it in one of them",
             )),
         }
-    }
-}
-
-/// A mesh and the points it is of, as writers see it.
-#[derive(Clone, Copy, Debug)]
-pub struct MeshView<'a> {
-    /// All input points, with the coordinates of the input file.
-    pub points: &'a [[f64; 2]],
-    /// Counter-clockwise triples of indices into `points`.
-    pub triangles: &'a [[u32; 3]],
-    /// The hull, counter-clockwise; without triangles the distinct points along their line.
-    pub hull: &'a [u32],
-    /// Pairs (duplicate, the lowest index with the same place).
-    pub duplicates: &'a [[u32; 2]],
-}
-
-impl MeshView<'_> {
-    /// The coordinates of a vertex. Vertices that do not exist (there are none in a mesh of the library) are the origin.
-    pub fn position(&self, vertex: u32) -> [f64; 2] {
-        self.points.get(vertex as usize).copied().unwrap_or_default()
     }
 }
 

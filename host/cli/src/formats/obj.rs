@@ -7,7 +7,7 @@
 use std::io::{self, Write};
 
 use crate::failure::{counted, quoted, Failure};
-use crate::formats::MeshView;
+use crate::formats::mesh_view::MeshView;
 use crate::points::{Place, PointTable};
 use crate::text;
 

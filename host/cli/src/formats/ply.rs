@@ -11,7 +11,7 @@ use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 
 use crate::failure::{counted, one_line, quoted, Failure};
-use crate::formats::MeshView;
+use crate::formats::mesh_view::MeshView;
 use crate::points::PointTable;
 use crate::text;
 

@@ -8,7 +8,7 @@
 use std::io::{self, Write};
 
 use crate::failure::counted;
-use crate::formats::MeshView;
+use crate::formats::mesh_view::MeshView;
 
 /// Canvas units along the longer side of the points' bounding box.
 const CANVAS: f64 = 20_000.0;

@@ -4,7 +4,7 @@
 
 use std::io::{self, Write};
 
-use crate::formats::MeshView;
+use crate::formats::mesh_view::MeshView;
 
 /// VTK's number of the triangle among the cell types.
 const VTK_TRIANGLE: u8 = 5;

@@ -8,7 +8,6 @@ use crate::common::batches::{alone, bare, batch, check_cancelled};
 use crate::common::card::{MemoryCard, Mischief};
 use crate::common::mock::Mock;
 use crate::common::Random;
-use incircle::order::BrioDc;
 use incircle::pcie::PcieTransport;
 use incircle::{Device, Error, ErrorKind, Options, Order, Point, Progress, Stage};
 use incircle_model::stream::ModelCore;
@@ -43,24 +42,10 @@ fn watched_card(beat_bits: u32, mischief: Mischief) -> (Device, MemoryCard) {
 fn frames_go_in_any_order() {
     let jobs = mixed(&mut Random(78), 12);
     let right = alone(&jobs);
-    for order in [Order::Input, Order::Random, Order::BrioDc(BrioDc::Linear)] {
+    for order in [Order::Input, Order::Random, Order::Hilbert] {
         let (mut device, _) = Mock::watched(true, true, (0, 0));
-        let options = Options { order, ..Options::default() };
+        let options = Options::default().order(order);
         assert!(batch(&mut device, &jobs, &options).expect("meshes") == right, "{order:?}");
-    }
-}
-
-#[test]
-fn guides_are_kept_in_a_batch() {
-    let jobs: Vec<Vec<Point>> = [40, 3000].map(|count| Random(79).points(count, 1 << 16)).into();
-    let options = Options { order: Order::BrioDc(BrioDc::Linear), ..Options::default() };
-    let walks = |mesh: &incircle::Mesh| mesh.report.counters.expect("counted").walk_visits;
-    let mut device = Device::model(16, 4096).expect("possible");
-    let mut session = device.session().expect("a sound device");
-    let meshes = session.triangulate_batch(&jobs, &options).expect("meshes");
-    for (mesh, job) in meshes.iter().zip(&jobs) {
-        let alone = session.triangulate_with(job, &options).expect("a mesh");
-        assert_eq!(walks(mesh), walks(&alone));
     }
 }
 
@@ -71,7 +56,7 @@ fn every_kind_of_link_carries_frames() {
     for (takes_ahead, packs_records) in [(true, true), (true, false), (false, true), (false, false)] {
         for contexts in [None, Some(1), Some(2)] {
             let (mut device, most_ahead) = Mock::watched(takes_ahead, packs_records, (0, 0));
-            let options = Options { contexts, ..Options::default() };
+            let options = Options::default().contexts(contexts);
             assert!(batch(&mut device, &jobs, &options).expect("meshes") == right, "{takes_ahead}, {contexts:?}");
             // The next one is under way, and no more than that.
             assert_eq!(most_ahead.get(), 1 + usize::from(takes_ahead));
@@ -162,7 +147,7 @@ fn progress_never_goes_back() {
             told.borrow_mut().push((progress.stage == Stage::Insert, progress.done, progress.total));
             ControlFlow::Continue(())
         };
-        let options = Options { progress: Some(&listener), ..Options::default() };
+        let options = Options::default().progress(&listener);
         batch(&mut device, &jobs, &options).expect("meshes");
         let told = told.into_inner();
         assert!(told.is_sorted() && told.iter().all(|&(_, done, total)| done <= total), "{told:?}");
@@ -201,7 +186,7 @@ fn a_transfer_that_fails_once_costs_no_frame() {
 #[test]
 fn a_card_that_is_lost_ends_the_batch_with_the_job() {
     let jobs: Vec<Vec<Point>> = (0..6).map(|_| Random(77).points(400, 1 << 16)).collect();
-    let options = Options { timeout: Some(Duration::from_secs(20)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_secs(20));
     // Four reads to a frame, behind that of the greeting. The one of this number may be the last that brings something, or bring nothing.
     for number in 1..24 {
         let mut lost = card(64, Mischief { gone: Some(number), ..Mischief::default() });
@@ -215,7 +200,7 @@ fn a_card_that_is_lost_ends_the_batch_with_the_job() {
     }
     let error = batch(&mut card(64, Mischief { silent: Some(6), ..Mischief::default() }), &jobs, &options);
     assert!(error.expect_err("silence").to_string().contains("errno 512"));
-    let options = Options { timeout: Some(Duration::from_millis(20)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_millis(20));
     let error = batch(&mut card(64, Mischief { silent: Some(1), ..Mischief::default() }), &jobs, &options);
     let error = error.expect_err("silence");
     assert!(matches!(&error, Error::InJob { job: 0, .. }) && error.kind() == ErrorKind::Timeout, "{error}");

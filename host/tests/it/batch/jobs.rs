@@ -30,7 +30,7 @@ fn every_device_gives_every_job_its_mesh() {
         let jobs = mixed(&mut random, 60, 120);
         let right = alone(&jobs);
         for order in [Order::BrioHilbert, Order::Hilbert, Order::Input] {
-            let options = Options { contexts, order, ..Options::default() };
+            let options = Options::default().contexts(contexts).order(order);
             let is_quick = order == Order::BrioHilbert;
             let devices = [
                 Some(Device::model(16, 4096).expect("possible")).filter(|_| contexts != Some(2)),
@@ -84,7 +84,7 @@ fn errors_name_the_job() {
     let error = batch(&mut device, &jobs, &Options::default()).expect_err("outside the grid");
     assert_eq!(error.kind(), ErrorKind::BadInput);
     assert!(error.to_string().starts_with("job 7 of the batch: point "), "{error}");
-    let options = Options { contexts: Some(5), ..Options::default() };
+    let options = Options::default().contexts(5);
     let error = batch(&mut device, &jobs, &options).expect_err("one context");
     assert_eq!(error.kind(), ErrorKind::BadChoice);
 }

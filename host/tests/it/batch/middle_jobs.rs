@@ -4,7 +4,7 @@
 use crate::common::batches::{alone, bare, batch};
 use crate::common::mock::Mock;
 use crate::common::Random;
-use incircle::{Device, Error, Mesh, Options, Point};
+use incircle::{Device, Error, Options, Point, Solution};
 use incircle_protocol::{Config, FULL, SMALL};
 use proptest::prelude::*;
 
@@ -29,7 +29,7 @@ fn distinct(random: &mut Random, count: usize) -> Vec<Point> {
 }
 
 /// A job that had the whole memory has its counters.
-fn is_frame(mesh: &Mesh) -> bool {
+fn is_frame(mesh: &Solution) -> bool {
     mesh.report.counters.is_some()
 }
 
@@ -147,7 +147,7 @@ proptest! {
             random.points(count, if is_crowded { 20 } else { 1 << 16 })
         };
         let jobs: Vec<Vec<Point>> = raw.into_iter().map(job).collect();
-        let options = Options { contexts: Some(contexts), ..Options::default() };
+        let options = Options::default().contexts(contexts);
         let mut device = Mock::device(takes_ahead, true, (0, 0));
         prop_assert!(batch(&mut device, &jobs, &options).expect("meshes") == alone(&jobs));
     }

@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Progress, Stage};
+use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Progress, Solution, Stage};
 
 /// The mesh without its report.
-pub fn bare(mesh: Mesh) -> Mesh {
-    Mesh { report: Default::default(), ..mesh }
+pub fn bare(solution: Solution) -> Mesh {
+    solution.mesh
 }
 
 /// Every job alone, by the engine in this process.
@@ -27,7 +27,7 @@ pub fn check_cancelled(device: &mut Device, jobs: &[Vec<Point>], right: &[Mesh],
         Progress { stage: Stage::Insert, done, .. } if done >= patience => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     };
-    let options = Options { progress: Some(&listener), ..Options::default() };
+    let options = Options::default().progress(&listener);
     let mut session = device.session().expect("a session");
     let error = session.triangulate_batch(jobs, &options).expect_err("cancelled");
     assert_eq!(error.kind(), ErrorKind::Cancelled, "{patience}: {error}");

@@ -4,7 +4,7 @@ use std::io::{self, Read, Write};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
 
-use incircle::pcie::{CardFiles, RegisterFile};
+use incircle::transports::parts::{CardFiles, RegisterFile};
 use incircle_model::stream::{ModelCore, StreamModel};
 use incircle_protocol::{Config, StreamRegister};
 

@@ -2,15 +2,17 @@
 
 use std::time::{Duration, Instant};
 
-use incircle::{ModelTransport, Transport, TransportError};
-use incircle_protocol::{command_opcode, Opcode};
+use incircle::transports::{receive_in_pieces, AnswerHead, Capabilities};
+use incircle::{Transport, TransportError};
+use incircle_model::CommandModel;
+use incircle_protocol::{Command, Opcode};
 
 /// What a lying device does with an answer: opcode, header and length, payload.
 type Lie = Box<dyn FnMut(Opcode, &mut Vec<u32>)>;
 
 /// A real model whose answers pass through a liar.
 pub struct Liar {
-    model: ModelTransport,
+    model: CommandModel,
     lie: Lie,
     answer: Vec<u32>,
     pub silent_for: Duration,
@@ -20,7 +22,7 @@ pub struct Liar {
 impl Liar {
     pub fn new(coord_bits: u32, lie: impl FnMut(Opcode, &mut Vec<u32>) + 'static) -> Self {
         Self {
-            model: ModelTransport::new(coord_bits, 64).expect("a model"),
+            model: CommandModel::new(coord_bits, 64, 32).expect("a model"),
             lie: Box::new(lie),
             answer: Vec::new(),
             silent_for: Duration::ZERO,
@@ -34,20 +36,8 @@ impl Liar {
     }
 }
 
-impl Transport for Liar {
-    fn send(&mut self, words: &[u32], deadline: Instant) -> Result<(), TransportError> {
-        self.model.send(words, deadline)?;
-        let mut answer = vec![0; 2];
-        self.model.receive(&mut answer, deadline)?;
-        answer.resize(2 + answer[1] as usize, 0);
-        self.model.receive(&mut answer[2..], deadline)?;
-        let opcode = Opcode::from_u8(command_opcode(words[0])).expect("the host knows its opcodes");
-        (self.lie)(opcode, &mut answer);
-        self.answer.extend(answer);
-        Ok(())
-    }
-
-    fn receive(&mut self, words: &mut [u32], _deadline: Instant) -> Result<(), TransportError> {
+impl Liar {
+    fn fill(&mut self, words: &mut [u32]) -> Result<(), TransportError> {
         std::thread::sleep(self.silent_for);
         let wanted = words.len();
         if self.answer.len() < wanted {
@@ -58,12 +48,36 @@ impl Transport for Liar {
         }
         Ok(())
     }
+}
 
+impl Transport for Liar {
     fn name(&self) -> String {
         "liar".to_owned()
     }
 
-    fn packs_records(&self) -> bool {
-        self.packs
+    fn submit(&mut self, commands: &[Command<&[u32]>], _: Instant) -> Result<(), TransportError> {
+        for command in commands {
+            let mut words = Vec::new();
+            command.encode(&mut words);
+            self.model.send(&words);
+            let mut answer = vec![0; 2];
+            // A model to which wrong points were sent waits for more.
+            if self.model.receive(&mut answer) < answer.len() {
+                return Err(TransportError::Closed { done: 0, wanted: 2 });
+            }
+            answer.resize(2 + answer[1] as usize, 0);
+            assert_eq!(self.model.receive(&mut answer[2..]), answer.len() - 2);
+            (self.lie)(command.opcode(), &mut answer);
+            self.answer.extend(answer);
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, head: AnswerHead, payload: &mut [u32], _: Instant) -> Result<AnswerHead, TransportError> {
+        receive_in_pieces(head, payload, |words| self.fill(words))
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        Capabilities { packs_records: self.packs, ..Capabilities::default() }
     }
 }

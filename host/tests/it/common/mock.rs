@@ -4,9 +4,10 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::time::Instant;
 
+use incircle::transports::{receive_in_pieces, AnswerHead, Capabilities};
 use incircle::{Device, Transport, TransportError};
 use incircle_model::CommandModel;
-use incircle_protocol::{answer_opcode, command_opcode, Opcode};
+use incircle_protocol::{answer_opcode, Command, Opcode};
 
 /// The model for 512 points, behind a link that refuses what its kind must not carry. One word of its answers is a lie.
 pub struct Mock {
@@ -38,18 +39,8 @@ impl Mock {
     }
 }
 
-impl Transport for Mock {
-    fn send(&mut self, words: &[u32], _: Instant) -> Result<(), TransportError> {
-        assert!(self.takes_ahead || self.open == 0, "one command at a time");
-        self.open += 1;
-        self.ahead += usize::from(command_opcode(words[0]) == Opcode::Clear as u8);
-        self.most_ahead.set(self.most_ahead.get().max(self.ahead));
-        self.model.send(words);
-        Ok(())
-    }
-
-    fn receive(&mut self, words: &mut [u32], _: Instant) -> Result<(), TransportError> {
-        self.open = 0;
+impl Mock {
+    fn fill(&mut self, words: &mut [u32]) -> Result<(), TransportError> {
         let wanted = words.len();
         let mut done = 0;
         while done < wanted {
@@ -58,24 +49,39 @@ impl Transport for Mock {
                 more => done += more,
             }
         }
-        // No payload has two words, so this is a header.
-        self.ahead -= usize::from(wanted == 2 && answer_opcode(words[0]) == Opcode::Clear as u8);
         if let Some(word) = self.lie.0.checked_sub(self.received).and_then(|place| words.get_mut(place)) {
             *word ^= self.lie.1;
         }
         self.received += wanted;
         Ok(())
     }
+}
 
-    fn takes_ahead(&self) -> bool {
-        self.takes_ahead
-    }
-
-    fn packs_records(&self) -> bool {
-        self.packs_records
-    }
-
+impl Transport for Mock {
     fn name(&self) -> String {
         "mock".to_owned()
+    }
+
+    fn submit(&mut self, commands: &[Command<&[u32]>], _: Instant) -> Result<(), TransportError> {
+        assert!(self.takes_ahead || self.open + commands.len() == 1, "one command at a time");
+        self.open += commands.len();
+        self.ahead += commands.iter().filter(|command| matches!(command, Command::Clear { .. })).count();
+        self.most_ahead.set(self.most_ahead.get().max(self.ahead));
+        let mut words = Vec::new();
+        commands.iter().for_each(|command| command.encode(&mut words));
+        self.model.send(&words);
+        Ok(())
+    }
+
+    fn receive(&mut self, head: AnswerHead, payload: &mut [u32], _: Instant) -> Result<AnswerHead, TransportError> {
+        self.open = 0;
+        let came = receive_in_pieces(head, payload, |words| self.fill(words))?;
+        self.ahead -= usize::from(answer_opcode(head[0]) == Opcode::Clear as u8);
+        Ok(came)
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        let Self { takes_ahead, packs_records, .. } = *self;
+        Capabilities { takes_ahead, packs_records, ..Capabilities::default() }
     }
 }

@@ -8,7 +8,7 @@ pub mod liar;
 pub mod mock;
 pub mod rig;
 
-use incircle::{Device, Mesh, Point};
+use incircle::{Device, Point, Solution};
 use incircle_testkit::SplitMix64;
 
 /// The kit's random numbers with bounds of 32 bits, by their remainder: the seeds of many tests stand for these numbers.
@@ -32,14 +32,22 @@ impl Random {
 }
 
 /// The mesh by the software model, as narrow as the points allow.
-pub fn by_model(points: &[Point]) -> Mesh {
+pub fn by_model(points: &[Point]) -> Solution {
     let used = points.iter().fold(0, |all, point| all | point.x | point.y);
     let address = if used >> 16 == 0 { "model" } else { "model?coord-bits=31" };
     by(address, points)
 }
 
+/// The mesh by the engine in this process.
+pub fn by_engine(points: &[Point]) -> Solution {
+    let mut device = Device::cpu(None);
+    let mesh = device.session().and_then(|mut session| session.triangulate(points)).expect("a mesh");
+    assert_right(&mesh);
+    mesh
+}
+
 /// The mesh by the device at this address.
-pub fn by(address: &str, points: &[Point]) -> Mesh {
+pub fn by(address: &str, points: &[Point]) -> Solution {
     let mut device = Device::open(address).expect("a device in this process");
     let mesh = device.session().and_then(|mut session| session.triangulate(points)).expect("a mesh");
     assert_right(&mesh);
@@ -53,13 +61,13 @@ pub fn brute_force(points: &[Point]) -> Vec<[u32; 3]> {
 }
 
 /// The mesh passes the validator, and its counts agree with its lists.
-pub fn assert_right(mesh: &Mesh) {
-    mesh.verify().unwrap_or_else(|error| panic!("{error}"));
-    let report = &mesh.report;
-    assert_eq!(report.points, mesh.points.len());
-    assert_eq!(report.triangles, mesh.triangles.len());
-    assert_eq!(report.hull, mesh.hull.len());
-    assert_eq!(report.duplicates, mesh.duplicates.len());
+pub fn assert_right(solution: &Solution) {
+    solution.mesh.verify().unwrap_or_else(|error| panic!("{error}"));
+    let report = &solution.report;
+    assert_eq!(report.points, solution.mesh.points.len());
+    assert_eq!(report.triangles, solution.mesh.triangles.len());
+    assert_eq!(report.hull, solution.mesh.hull.len());
+    assert_eq!(report.duplicates, solution.mesh.duplicates.len());
     assert_eq!(report.distinct + report.duplicates, report.points);
-    assert_eq!(report.collinear, mesh.is_collinear());
+    assert_eq!(report.collinear, solution.mesh.is_collinear());
 }

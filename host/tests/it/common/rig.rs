@@ -5,8 +5,11 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use incircle::serial::{Engine, Params, SerialFault};
+use incircle::serial::SerialFault;
+use incircle::transports::parts::{Params, SerialProtocol};
+use incircle::transports::{receive_in_pieces, AnswerHead, Capabilities};
 use incircle::{Transport, TransportError};
+use incircle_protocol::Command;
 
 use super::board::Board;
 use super::Random;
@@ -34,7 +37,7 @@ pub enum Fate {
 pub type Faults = Box<dyn FnMut(bool, usize) -> Fate>;
 
 pub struct Rig {
-    pub engine: Engine,
+    pub engine: SerialProtocol,
     pub board: Board,
     pub now: Duration,
     pub delay: Duration,
@@ -64,7 +67,7 @@ pub struct Rig {
 impl Rig {
     pub fn new(params: Params, fifo: u32) -> Self {
         Self {
-            engine: Engine::new(params),
+            engine: SerialProtocol::new(params),
             board: Board::new(fifo),
             now: Duration::from_secs(5),
             delay: Duration::from_micros(500),
@@ -160,7 +163,7 @@ impl Rig {
     }
 
     /// Runs until the engine is through; false if the time is over before.
-    pub fn run(&mut self, until: Duration, mut done: impl FnMut(&mut Engine) -> bool) -> bool {
+    pub fn run(&mut self, until: Duration, mut done: impl FnMut(&mut SerialProtocol) -> bool) -> bool {
         loop {
             if self.reset_at.is_some_and(|at| at <= self.now) {
                 self.reset_at = None;
@@ -213,8 +216,8 @@ impl Rig {
     }
 
     /// A command and its answer.
-    pub fn ask(&mut self, command: &[u32]) -> Result<Vec<u32>, TransportError> {
-        self.engine.ask(command, self.now)?;
+    pub fn ask(&mut self, command: &Command<impl AsRef<[u32]>>) -> Result<Vec<u32>, TransportError> {
+        self.engine.ask(command.borrowed(), self.now)?;
         self.finish()
     }
 
@@ -232,26 +235,29 @@ impl Rig {
 }
 
 impl Transport for Rig {
-    fn send(&mut self, words: &[u32], _: Instant) -> Result<(), TransportError> {
-        let result = self.ask(words);
-        if let Err(TransportError::Serial(fault)) = &result {
-            self.last_fault = Some(fault.clone());
+    fn name(&self) -> String {
+        "rig".to_owned()
+    }
+
+    fn submit(&mut self, commands: &[Command<&[u32]>], _: Instant) -> Result<(), TransportError> {
+        let [command] = commands else { panic!("one command at a time") };
+        let result = self.ask(command);
+        if let Some(fault) = result.as_ref().err().and_then(TransportError::fault) {
+            self.last_fault = Some(SerialFault::clone(fault));
         }
         self.answer = result?.into();
         Ok(())
     }
 
-    fn receive(&mut self, words: &mut [u32], _: Instant) -> Result<(), TransportError> {
-        assert!(self.answer.len() >= words.len());
-        words.fill_with(|| self.answer.pop_front().expect("enough"));
-        Ok(())
+    fn receive(&mut self, head: AnswerHead, payload: &mut [u32], _: Instant) -> Result<AnswerHead, TransportError> {
+        receive_in_pieces(head, payload, |words| {
+            assert!(self.answer.len() >= words.len());
+            words.fill_with(|| self.answer.pop_front().expect("enough"));
+            Ok(())
+        })
     }
 
-    fn name(&self) -> String {
-        "rig".to_owned()
-    }
-
-    fn packs_records(&self) -> bool {
-        false
+    fn capabilities(&self) -> Capabilities {
+        Capabilities { packs_records: false, ..Capabilities::default() }
     }
 }

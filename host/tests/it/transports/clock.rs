@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
-use crate::common::{assert_right, Random};
+use crate::common::{assert_right, by_model, Random};
 use incircle::{triangulate, Device, Error, ErrorKind, Options, Order, Point};
 use incircle_protocol::{Config, FIRST_ROUND, LARGE, NAMED, SMALL};
 
 fn with_contexts(contexts: u32) -> Options<'static> {
-    Options { contexts: Some(contexts), ..Options::default() }
+    Options::default().contexts(contexts)
 }
 
 #[test]
@@ -18,16 +18,16 @@ fn contexts_change_the_time_and_not_the_mesh() {
     let mut session = device.session().expect("a session");
     let mut cycles = Vec::new();
     for contexts in [1, 2, 4, 8] {
-        let mesh = session.triangulate_with(&points, &with_contexts(contexts)).expect("a mesh");
-        assert_right(&mesh);
-        assert_eq!((&mesh.triangles, &mesh.hull), (&expected.triangles, &expected.hull));
-        assert_eq!((mesh.report.contexts, mesh.report.backend.as_str()), (contexts, "clock:large"));
-        cycles.push(mesh.report.cycles_per_insertion().expect("there is a clock"));
+        let solution = session.triangulate_with(&points, &with_contexts(contexts)).expect("a mesh");
+        assert_right(&solution);
+        assert_eq!((&solution.mesh.triangles, &solution.mesh.hull), (&expected.triangles, &expected.hull));
+        assert_eq!((solution.report.contexts, solution.report.backend.as_str()), (contexts, "clock:large"));
+        cycles.push(solution.report.cycles_per_insertion().expect("there is a clock"));
     }
     assert!(cycles.windows(2).all(|pair| pair[1] < 0.85 * pair[0]), "{cycles:?}");
     let all = session.triangulate(&points).expect("a mesh");
     assert_eq!(all.report.contexts, LARGE.contexts);
-    assert_eq!(all.triangles, expected.triangles);
+    assert_eq!(all.mesh.triangles, expected.triangles);
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn counters_and_latencies_agree() {
 #[test]
 fn the_software_model_has_no_latencies() {
     let points = Random(24).points(100, 1 << 16);
-    let report = triangulate(&points).expect("a mesh").report;
+    let report = by_model(&points).report;
     assert_eq!((report.latencies, report.contexts), (None, 1));
 }
 
@@ -81,9 +81,9 @@ fn hard_sets_on_every_configuration() {
             for order in Order::BASIC {
                 let count = 1 + random.below(config.points.min(200)) as usize;
                 let points = random.points(count, side);
-                let mesh = session.triangulate_with(&points, &Options { order, ..Options::default() }).expect("a mesh");
-                assert_right(&mesh);
-                assert_eq!(mesh.triangles, triangulate(&points).expect("a mesh").triangles);
+                let solution = session.triangulate_with(&points, &Options::default().order(order)).expect("a mesh");
+                assert_right(&solution);
+                assert_eq!(solution.mesh.triangles, triangulate(&points).expect("a mesh").triangles);
             }
         }
     }
@@ -111,7 +111,7 @@ fn a_passed_deadline_is_a_timeout() {
     let points = Random(27).points(1000, 1 << 16);
     let mut device = Device::clock_model(SMALL).expect("the clock model");
     let mut session = device.session().expect("a session");
-    let options = Options { timeout: Some(Duration::from_millis(2)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_millis(2));
     let error = session.triangulate_with(&points, &options).expect_err("too late");
     assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
 }

@@ -4,17 +4,15 @@ use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::common::{assert_right, by_model, Random};
-use incircle::order::BrioDc;
-use incircle::{triangulate, Device, Error, ErrorKind, Mesh, Options, Order, Point, Stage};
+use crate::common::{assert_right, by_engine, by_model, Random};
+use incircle::{triangulate, Device, Error, ErrorKind, Options, Order, Point, Solution, Stage};
 
 /// By the model, and by the engine in this process, which must agree.
-fn mesh_of(points: &[Point]) -> Mesh {
-    let mesh = by_model(points);
-    let other = triangulate(points).expect("a mesh");
-    assert_right(&other);
-    assert_eq!((&mesh.triangles, &mesh.hull, &mesh.duplicates), (&other.triangles, &other.hull, &other.duplicates));
-    mesh
+fn solved(points: &[Point]) -> Solution {
+    let solution = by_model(points);
+    let other = by_engine(points);
+    assert_eq!(solution.mesh, other.mesh);
+    solution
 }
 
 #[test]
@@ -22,7 +20,7 @@ fn random_points_at_every_width() {
     let mut random = Random(3);
     for bits in [1, 2, 4, 8, 12, 16, 17, 24, 31] {
         for count in [1, 3, 10, 300, 3000] {
-            mesh_of(&random.points(count, 1 << bits));
+            solved(&random.points(count, 1 << bits));
         }
     }
 }
@@ -30,12 +28,12 @@ fn random_points_at_every_width() {
 #[test]
 fn lattices_and_boxes_with_duplicates() {
     let lattice: Vec<Point> = (0..2500).map(|k| Point::new(k / 50 * 3, k % 50 * 3)).collect();
-    assert_eq!(mesh_of(&lattice).triangles.len(), 2 * 49 * 49);
+    assert_eq!(solved(&lattice).mesh.triangles.len(), 2 * 49 * 49);
     let rotated: Vec<Point> =
         (0..2500).map(|k| (k / 50, k % 50)).map(|(i, j)| Point::new(200 + 3 * i - 2 * j, 2 * i + 3 * j)).collect();
-    assert_eq!(mesh_of(&rotated).triangles.len(), 2 * 49 * 49);
+    assert_eq!(solved(&rotated).mesh.triangles.len(), 2 * 49 * 49);
     let mut random = Random(4);
-    let heavy = mesh_of(&random.points(5000, 32));
+    let heavy = solved(&random.points(5000, 32));
     assert!(heavy.report.duplicates > 3900);
 }
 
@@ -51,48 +49,48 @@ fn circles_parabolas_and_chains() {
         })
         .map(|(x, y)| Point::new((x + radius) as u32, (y + radius) as u32))
         .collect();
-    let mesh = mesh_of(&circle);
-    assert_eq!(mesh.hull.len(), mesh.report.distinct);
-    assert!(mesh.report.distinct >= 100);
+    let solution = solved(&circle);
+    assert_eq!(solution.mesh.hull.len(), solution.report.distinct);
+    assert!(solution.report.distinct >= 100);
     let parabola: Vec<Point> = (0..250).map(|k| Point::new(k, k * k)).collect();
-    assert_eq!(mesh_of(&parabola).triangles.len(), 248);
+    assert_eq!(solved(&parabola).mesh.triangles.len(), 248);
     let chains: Vec<Point> = (0..400).map(|k| Point::new(k / 2 * 3, if k % 2 == 0 { 0 } else { 60_000 })).collect();
-    assert_eq!(mesh_of(&chains).triangles.len(), 398);
+    assert_eq!(solved(&chains).mesh.triangles.len(), 398);
 }
 
 #[test]
 fn degenerate_inputs_are_answers() {
-    assert_eq!(mesh_of(&[]).hull, []);
-    assert_eq!(mesh_of(&[(7, 7).into()]).hull, [0]);
-    assert_eq!(mesh_of(&[(7, 7).into(), (7, 7).into(), (1, 1).into()]).hull, [2, 0]);
+    assert_eq!(solved(&[]).mesh.hull, []);
+    assert_eq!(solved(&[(7, 7).into()]).mesh.hull, [0]);
+    assert_eq!(solved(&[(7, 7).into(), (7, 7).into(), (1, 1).into()]).mesh.hull, [2, 0]);
     let line: Vec<Point> = (0..100).map(|k| Point::new(k * 37 % 100 * 2, k * 37 % 100)).collect();
-    let mesh = mesh_of(&line);
-    assert!(mesh.is_collinear() && mesh.report.counters.is_none());
-    assert_eq!(mesh.hull.len(), 100);
+    let solution = solved(&line);
+    assert!(solution.mesh.is_collinear() && solution.report.counters.is_none());
+    assert_eq!(solution.mesh.hull.len(), 100);
 }
 
 #[test]
 fn orders_chunks_and_input_order_do_not_change_the_mesh() {
     let points = Random(5).points(700, 300);
-    let expected = mesh_of(&points);
+    let expected = solved(&points);
     let mut device = Device::open("model").expect("the model");
     let mut session = device.session().expect("a session");
     for order in Order::ALL {
         for insert_chunk in [0, 3, 64, 100_000] {
-            let options = Options { order, insert_chunk, ..Options::default() };
-            let mesh = session.triangulate_with(&points, &options).expect("a mesh");
-            assert_eq!(mesh.triangles, expected.triangles);
-            assert_eq!(mesh.hull, expected.hull);
-            assert_eq!(mesh.report.order, order.name());
+            let options = Options::default().order(order).insert_chunk(insert_chunk);
+            let solution = session.triangulate_with(&points, &options).expect("a mesh");
+            assert_eq!(solution.mesh.triangles, expected.mesh.triangles);
+            assert_eq!(solution.mesh.hull, expected.mesh.hull);
+            assert_eq!(solution.report.order, order.name());
         }
     }
 }
 
 #[test]
 fn half_edges_and_neighbours_agree() {
-    let mesh = mesh_of(&Random(6).points(500, 1 << 16));
-    let halfedges = mesh.halfedges();
-    let neighbors = mesh.neighbors();
+    let solution = solved(&Random(6).points(500, 1 << 16));
+    let halfedges = solution.mesh.halfedges();
+    let neighbors = solution.mesh.neighbors();
     let mut open = 0;
     for (halfedge, &twin) in halfedges.iter().enumerate() {
         let opposite = neighbors[halfedge / 3][(halfedge % 3 + 2) % 3];
@@ -104,7 +102,7 @@ fn half_edges_and_neighbours_agree() {
             assert_eq!(opposite, Some(twin / 3));
         }
     }
-    assert_eq!(open, mesh.hull.len());
+    assert_eq!(open, solution.mesh.hull.len());
 }
 
 #[test]
@@ -143,7 +141,7 @@ fn progress_covers_all_stages_and_cancels_anywhere() {
         calls.borrow_mut().push(progress);
         ControlFlow::Continue(())
     };
-    let options = Options { progress: Some(&listen), insert_chunk: 500, ..Options::default() };
+    let options = Options::default().progress(&listen).insert_chunk(500);
     let expected = session.triangulate_with(&points, &options).expect("a mesh");
     let calls = calls.into_inner();
     for stage in [Stage::Order, Stage::Insert, Stage::Read, Stage::Assemble] {
@@ -156,12 +154,12 @@ fn progress_covers_all_stages_and_cancels_anywhere() {
             0 => ControlFlow::Break(()),
             _ => ControlFlow::Continue(()),
         };
-        let options = Options { progress: Some(&listen), insert_chunk: 500, ..Options::default() };
+        let options = Options::default().progress(&listen).insert_chunk(500);
         let error = session.triangulate_with(&points, &options).expect_err("cancelled");
         assert_eq!(error.kind(), ErrorKind::Cancelled);
     }
     let again = session.triangulate(&points).expect("the session is still good");
-    assert_eq!(again.triangles, expected.triangles);
+    assert_eq!(again.mesh.triangles, expected.mesh.triangles);
 }
 
 #[test]
@@ -169,7 +167,7 @@ fn a_passed_deadline_is_a_timeout() {
     let points = Random(9).points(5000, 1 << 16);
     let mut device = Device::open("model").expect("the model");
     let mut session = device.session().expect("a session");
-    let options = Options { timeout: Some(Duration::from_nanos(1)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_nanos(1));
     let error = session.triangulate_with(&points, &options).expect_err("too late");
     assert_eq!(error.kind(), ErrorKind::Timeout);
     let error = session.triangulate(&points).expect_err("the link is out of step");
@@ -178,7 +176,7 @@ fn a_passed_deadline_is_a_timeout() {
 
 #[test]
 fn pairs_arrays_and_vectors_are_points() {
-    let expected = mesh_of(&[Point::new(0, 0), Point::new(9, 0), Point::new(0, 9)]).triangles;
+    let expected = solved(&[Point::new(0, 0), Point::new(9, 0), Point::new(0, 9)]).mesh.triangles;
     assert_eq!(expected, [[0, 1, 2]]);
     let pairs = [(0, 0), (9, 0), (0, 9)];
     let arrays = pairs.map(|(x, y)| [x, y]);
@@ -187,39 +185,15 @@ fn pairs_arrays_and_vectors_are_points() {
     assert_eq!(triangulate(&arrays).expect("arrays").triangles, expected);
     let mut device = Device::open("model").expect("the model");
     let mut session = device.session().expect("a session");
-    assert_eq!(session.triangulate(&vectors).expect("vectors").triangles, expected);
+    assert_eq!(session.triangulate(&vectors).expect("vectors").mesh.triangles, expected);
 }
 
 #[test]
 fn counters_count_the_insertions() {
     let points = Random(10).points(1000, 1 << 16);
-    let mesh = mesh_of(&points);
+    let mesh = solved(&points);
     let counters = mesh.report.counters.expect("the device was asked");
     assert_eq!(counters.insertions as usize, mesh.report.distinct);
     assert_eq!((counters.duplicates, counters.refused), (0, 0));
     assert!(counters.walk_visits > 0 && counters.tests > 0);
-}
-
-#[test]
-fn guides_shorten_walks_whatever_the_points_and_change_nothing_else() {
-    let mut random = Random(12);
-    let even = random.points(4000, 1 << 24);
-    let long: Vec<Point> = random.points(4000, 1 << 20).iter().map(|p| Point::new(p.x, p.y >> 12)).collect();
-    let clusters: Vec<Point> = (0..4000u32)
-        .map(|k| Point::new(k % 7 * 1_000_003 + random.below(300), k % 11 * 777_777 + random.below(300)))
-        .collect();
-    let mut device = Device::open("model?coord-bits=24").expect("the model");
-    let mut session = device.session().expect("a session");
-    // In a thin strip and at the rims of clusters vertices have many triangles, and a walk goes round them.
-    for (points, most) in [(even, 2.9), (long, 4.5), (clusters, 4.5)] {
-        let mut walk = |order| {
-            let options = Options { order, insert_chunk: 1000, ..Options::default() };
-            let mesh = session.triangulate_with(&points, &options).expect("a mesh");
-            let counters = mesh.report.counters.expect("counters of the model");
-            (mesh.triangles, f64::from(counters.walk_visits) / f64::from(counters.insertions))
-        };
-        let (plain, guided) = (walk(Order::BrioHilbert), walk(Order::BrioDc(BrioDc::Linear)));
-        assert!(guided.1 < most && guided.1 < plain.1, "{} and {} triangles a walk", guided.1, plain.1);
-        assert_eq!(guided.0, plain.0);
-    }
 }

@@ -4,10 +4,16 @@ use std::time::{Duration, Instant};
 
 use crate::common::card::{MemoryCard, Mischief};
 use incircle::pcie::{PcieFault, PcieTransport};
-use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Transport, TransportError};
-use incircle_protocol::{command_word, Opcode, StreamRegister, SMALL};
+use incircle::transports::AnswerHead;
+use incircle::{Device, Error, ErrorKind, Mesh, Options, Point, Solution, Transport, TransportError};
+use incircle_protocol::{
+    answer_head, Command, Opcode, RecordRange, StreamRegister, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS,
+    SMALL,
+};
 use proptest::prelude::*;
 
+/// What the answer to a greeting begins with.
+const HELLO: AnswerHead = answer_head(Opcode::Hello, IDENTITY_WORDS as u32);
 /// Deadline of a job.
 const LIMIT: Duration = Duration::from_secs(20);
 
@@ -20,8 +26,8 @@ fn transport(beat_bits: u32, mischief: Mischief) -> Result<PcieTransport, Error>
     PcieTransport::new("pcie:memory".to_owned(), MemoryCard::new(SMALL, beat_bits, mischief).files())
 }
 
-fn triangulate(transport: PcieTransport, points: &[Point]) -> Result<Mesh, Error> {
-    let options = Options { timeout: Some(LIMIT), ..Options::default() };
+fn triangulate(transport: PcieTransport, points: &[Point]) -> Result<Solution, Error> {
+    let options = Options::default().timeout(LIMIT);
     Device::from_transport(Box::new(transport)).session_within(LIMIT)?.triangulate_with(points, &options)
 }
 
@@ -36,15 +42,15 @@ fn assert_is_right(mesh: &Mesh, points: &[Point]) {
 fn another_mesh_is_not_taken_for_the_right_one() {
     let points = points(300, 3);
     let mesh = triangulate(transport(64, Mischief::default()).unwrap(), &points).unwrap();
-    assert_is_right(&mesh, &[&points[..299], &[Point::new(9, 9)]].concat());
+    assert_is_right(&mesh.mesh, &[&points[..299], &[Point::new(9, 9)]].concat());
 }
 
 /// The job must end with the right mesh.
 fn must_be_right(beat_bits: u32, mischief: Mischief, what: &str) {
     let points = points(300, 3);
     let transport = transport(beat_bits, mischief).unwrap();
-    let mesh = triangulate(transport, &points).unwrap_or_else(|error| panic!("{what}: {error}"));
-    assert_eq!(mesh.triangles, incircle::triangulate(&points).unwrap().triangles, "{what}");
+    let solution = triangulate(transport, &points).unwrap_or_else(|error| panic!("{what}: {error}"));
+    assert_eq!(solution.mesh.triangles, incircle::triangulate(&points).unwrap().triangles, "{what}");
 }
 
 /// The job must end with this kind of error, in time.
@@ -72,8 +78,8 @@ fn a_session_does_job_after_job() {
     let mut session = device.session().unwrap();
     for count in [0, 2, 3, 5, 1024, 100] {
         let points = points(count, 7);
-        let mesh = session.triangulate(&points).unwrap();
-        assert_eq!(mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
+        let solution = session.triangulate(&points).unwrap();
+        assert_eq!(solution.mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
     }
     let error = session.triangulate(&points(1025, 7)).expect_err("too many");
     assert_eq!(error.kind(), ErrorKind::Capacity);
@@ -96,8 +102,8 @@ fn a_reset_between_reads_costs_no_job() {
         let card = transport(64, Mischief { reset: Some(number), ..Mischief::default() }).unwrap();
         let points = points(300, 3);
         // The command under way was forgotten, or the records before it, and the job was done once more.
-        let mesh = triangulate(card, &points).unwrap_or_else(|error| panic!("read {number}: {error}"));
-        assert_eq!(mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
+        let solution = triangulate(card, &points).unwrap_or_else(|error| panic!("read {number}: {error}"));
+        assert_eq!(solution.mesh.triangles, incircle::triangulate(&points).unwrap().triangles);
     }
 }
 
@@ -146,7 +152,7 @@ fn registers_that_no_sound_card_has_are_refused() {
     let lie = Mischief { register: Some((Of::Capacity, 100_000)), ..Mischief::default() };
     let points = points(300, 3);
     match triangulate(transport(64, lie).unwrap(), &points) {
-        Ok(mesh) => assert_is_right(&mesh, &points),
+        Ok(mesh) => assert_is_right(&mesh.mesh, &points),
         Err(error) => assert!(matches!(error.kind(), ErrorKind::Device | ErrorKind::Link), "{error}"),
     }
 }
@@ -160,33 +166,51 @@ fn an_answer_without_an_end_is_refused() {
     )
     .unwrap();
     let deadline = Instant::now() + LIMIT;
-    transport.send(&[command_word(Opcode::Hello)], deadline).unwrap();
-    let error = transport.receive(&mut [0; 9], deadline).expect_err("too long");
-    assert!(matches!(error, TransportError::Pcie(PcieFault::Endless { announced: 2, .. })), "{error}");
-    let error = transport.send(&[command_word(Opcode::Hello)], deadline).expect_err("the fault stays");
+    transport.submit(&[Command::Hello], deadline).unwrap();
+    let error = transport.receive(HELLO, &mut [0; IDENTITY_WORDS], deadline).expect_err("too long");
+    assert!(matches!(error.fault(), Some(PcieFault::Endless { announced: 2, .. })), "{error}");
+    let error = transport.submit(&[Command::Hello], deadline).expect_err("the fault stays");
     assert!(error.to_string().contains("an answer of 2 words"), "{error}");
     assert!(matches!(transport.recover(deadline), Ok(false)));
 }
 
 #[test]
-fn commands_may_be_sent_ahead_and_in_pieces() {
+fn commands_may_be_sent_ahead_and_end_within_a_beat() {
     let mut transport = transport(128, Mischief::default()).unwrap();
     let deadline = Instant::now() + LIMIT;
-    // Whole commands, then one that is cut within a beat.
-    let words: Vec<u32> =
-        [vec![command_word(Opcode::Latencies); 300], vec![command_word(Opcode::Insert), 3, 0, 4]].concat();
-    transport.send(&words, deadline).unwrap();
-    transport.send(&[4 << 16, command_word(Opcode::Hello)], deadline).unwrap();
-    let mut answer = [0; 130];
-    for _ in 0..300 {
-        transport.receive(&mut answer, deadline).unwrap();
-        assert_eq!(answer[..2], [0x0600_0000, 128]);
+    // Commands that share beats, the last of which is not full; then one that begins a beat.
+    let insert = Command::Insert { count: 3, points: &[0, 4, 4 << 16][..] };
+    let commands: Vec<_> = std::iter::repeat_n(Command::Latencies, 301).chain([insert]).collect();
+    transport.submit(&commands, deadline).unwrap();
+    transport.submit(&[Command::Hello], deadline).unwrap();
+    let head = answer_head(Opcode::Latencies, LATENCY_BUCKETS as u32);
+    for _ in 0..301 {
+        assert_eq!(transport.receive(head, &mut [0; LATENCY_BUCKETS], deadline).unwrap(), head);
     }
-    let mut rest = [0; 7 + 9];
-    transport.receive(&mut rest, deadline).unwrap();
-    assert_eq!(rest[..8], [0x0300_0000, 5, 3, 3, 0, 0, 4, 0x0100_0000]);
-    let error = transport.receive(&mut [0], deadline).expect_err("nothing is due");
-    assert!(matches!(error, TransportError::Closed { done: 0, wanted: 1 }), "{error}");
+    let (head, mut report) = (answer_head(Opcode::Insert, INSERT_REPORT_WORDS as u32), [0; INSERT_REPORT_WORDS]);
+    assert_eq!(transport.receive(head, &mut report, deadline).unwrap(), head);
+    assert_eq!(report, [3, 3, 0, 0, 4]);
+    assert_eq!(transport.receive(HELLO, &mut [0; IDENTITY_WORDS], deadline).unwrap(), HELLO);
+    let error = transport.receive(HELLO, &mut [], deadline).expect_err("nothing is due");
+    assert!(matches!(error, TransportError::Closed { done: 0, wanted: 2 }), "{error}");
+}
+
+#[test]
+fn an_answer_to_another_command_is_that_of_a_card_that_was_reset() {
+    let deadline = Instant::now() + LIMIT;
+    for (awaited, command) in [
+        (answer_head(Opcode::Counters, 25), Command::Hello),
+        // It has no such records any more.
+        (answer_head(Opcode::Read, 3), Command::Read(RecordRange { first: 0, count: 1 })),
+    ] {
+        let mut transport = transport(64, Mischief::default()).unwrap();
+        transport.submit(&[command], deadline).unwrap();
+        let error = transport.receive(awaited, &mut [0; 25], deadline).expect_err("out of step");
+        assert_eq!(error.fault(), Some(&PcieFault::Forgotten), "{error}");
+        assert!(transport.recover(deadline).unwrap());
+        transport.submit(&[Command::Hello], deadline).unwrap();
+        assert_eq!(transport.receive(HELLO, &mut [0; IDENTITY_WORDS], deadline).unwrap(), HELLO);
+    }
 }
 
 #[test]
@@ -194,10 +218,10 @@ fn deadlines_are_kept() {
     // The card itself would be silent for ten minutes.
     let patience = Some(Duration::from_secs(600));
     let mut transport = transport(64, Mischief { silent: Some(0), patience, ..Mischief::default() }).unwrap();
-    transport.send(&[command_word(Opcode::Hello)], Instant::now() + LIMIT).unwrap();
+    transport.submit(&[Command::Hello], Instant::now() + LIMIT).unwrap();
     let begun = Instant::now();
-    let error = transport.receive(&mut [0], begun + Duration::from_millis(60)).expect_err("silence");
-    assert!(matches!(error, TransportError::Timeout { done: 0, wanted: 1 }), "{error}");
+    let error = transport.receive(HELLO, &mut [], begun + Duration::from_millis(60)).expect_err("silence");
+    assert!(matches!(error, TransportError::Timeout { done: 0, wanted: 2 }), "{error}");
     assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
 }
 
@@ -217,7 +241,7 @@ proptest! {
         let result = triangulate(card, &points);
         prop_assert!(result.is_err() || from == 5, "{result:?}");
         if let Ok(mesh) = result {
-            assert_is_right(&mesh, &points);
+            assert_is_right(&mesh.mesh, &points);
         }
     }
 }

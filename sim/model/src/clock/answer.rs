@@ -2,7 +2,7 @@
 //! two to a word, or three to a counter.
 
 use super::counters::Latencies;
-use super::Registers;
+use super::wires::Registers;
 use incircle_protocol as protocol;
 use protocol::{answer_header, Config, Identity, InsertReport, Opcode, Status};
 

@@ -3,12 +3,12 @@
 //! A visit that completes belongs to one context, and the state of that context's attempt is read, changed and written back in the
 //! same clock. Nothing else changes it, so no two visits ever meet at it.
 
+use super::commit_job::CommitJob;
+use super::defect::Defect;
 use super::memory::{Entry, Memory};
 use super::pipeline::{Bundle, Completion};
 use super::release::ReleaseJob;
-use super::ring::CommitJob;
-use super::wires::Wires;
-use super::{Defect, Registers};
+use super::wires::{Registers, Wires};
 use incircle_protocol::Config;
 
 /// One insertion's cavity, from the visit that locks its root.

@@ -1,7 +1,6 @@
 //! Takes command words: opcodes, arguments, and points one at a time.
 
-use super::wires::Wires;
-use super::Registers;
+use super::wires::{Registers, Wires};
 use incircle_protocol::{command_contexts, command_opcode, command_starts_batch, Config, Opcode, FIRST_ROUND, PADDING};
 
 /// What the next word means, or what is awaited.

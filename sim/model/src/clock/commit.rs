@@ -1,8 +1,9 @@
 //! The commit: one pass over a finished ring writes the star of the new point.
 
+use super::commit_job::CommitJob;
 use super::memory::{Entry, Memory, Write};
-use super::ring::{CommitJob, Head};
-use super::Registers;
+use super::ring::Head;
+use super::wires::Registers;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum State {

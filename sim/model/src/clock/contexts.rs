@@ -1,8 +1,8 @@
 //! Which context sleeps, keeps its point, or has writes or locks to get rid of; the waiting token; the turn to be alone.
 
 use super::attempts::Outcome;
-use super::wires::Wires;
-use super::{Defect, Registers};
+use super::defect::Defect;
+use super::wires::{Registers, Wires};
 
 /// A bit per context.
 pub(super) type Set = u32;

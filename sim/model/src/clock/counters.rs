@@ -3,8 +3,7 @@
 use super::command_port::State as CommandState;
 use super::commit::State as CommitState;
 use super::pipeline::Pipeline;
-use super::wires::Wires;
-use super::Registers;
+use super::wires::{Registers, Wires};
 use incircle_protocol::{latency_bucket, Counter, COUNTER_WORDS, LATENCY_BITS, LATENCY_BUCKETS};
 
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,7 +1,7 @@
 //! The memories, and the registered write port of the triangle memory.
 
-use super::wires::Wires;
-use super::{Defect, Registers};
+use super::defect::Defect;
+use super::wires::{Registers, Wires};
 use crate::mesh::Record;
 use crate::predicate::Point;
 use incircle_protocol::{infinite_vertex, triangle_capacity, Config, Layout};

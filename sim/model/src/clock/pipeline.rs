@@ -1,8 +1,8 @@
 //! The visit pipeline: bundle queue, issue, record and vertex reads, predicates, verdict. One visit a clock, in order.
 
+use super::defect::Defect;
 use super::memory::Memory;
-use super::wires::Wires;
-use super::{Defect, Registers};
+use super::wires::{Registers, Wires};
 use crate::mesh::Record;
 use crate::predicate::{finite_conflict, ghost_conflict, orient2d};
 use std::collections::VecDeque;

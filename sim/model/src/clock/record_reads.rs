@@ -1,6 +1,6 @@
 //! The payload of a read-out: reads records, one at a time for their words, or one a clock for their vertices alone.
 
-use super::responder::Beat;
+use super::beat::Beat;
 use incircle_protocol::NARROW_ID_BITS;
 
 /// Beats that may wait while more records are asked for.

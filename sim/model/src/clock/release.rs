@@ -1,8 +1,8 @@
 //! Releases the locks of finished and failed attempts, one a clock. After reset it clears the whole lock memory.
 
+use super::defect::Defect;
 use super::memory::Memory;
 use super::wires::Wires;
-use super::Defect;
 use incircle_protocol::{triangle_capacity, Config};
 use std::collections::VecDeque;
 

@@ -1,31 +1,12 @@
 //! Sends answers: header and length in one beat, then the payload.
 
 use super::answer::Answer;
+use super::beat::Beat;
 use super::command_port::State as CommandState;
 use super::counters::Latencies;
 use super::record_reads::{Event, RecordReads};
-use super::wires::Wires;
-use super::Registers;
+use super::wires::{Registers, Wires};
 use incircle_protocol::{Config, Opcode};
-
-/// What passes at one edge of the answer stream.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Beat {
-    pub low: u32,
-    /// The word that follows it.
-    pub high: u32,
-    /// There is one.
-    pub both: bool,
-    /// The last word of the answer is among them.
-    pub last: bool,
-}
-
-impl Beat {
-    /// One word, and not the last.
-    pub(super) fn of(word: u32) -> Self {
-        Self { low: word, ..Self::default() }
-    }
-}
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum State {

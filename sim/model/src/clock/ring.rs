@@ -1,22 +1,9 @@
 //! Reads finished boundary rings in their order, an entry a clock, one ring after the other.
 
 use super::attempts::Outcome;
+use super::commit_job::CommitJob;
 use super::memory::{Entry, Memory};
 use std::collections::VecDeque;
-
-/// A finished ring, to be committed.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct CommitJob {
-    pub context: usize,
-    /// The new vertex.
-    pub p: u32,
-    /// Inner triangles.
-    pub inners: u32,
-    /// Locks in the log.
-    pub locks: u32,
-    /// When the point was taken.
-    pub since: u32,
-}
 
 /// An entry on its way.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,7 @@
 //! The first triangle and its three ghosts; in a batch one after the other for each job.
 
 use super::memory::Write;
-use super::wires::Wires;
-use super::Registers;
+use super::wires::{Registers, Wires};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Seeder {

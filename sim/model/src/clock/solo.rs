@@ -3,8 +3,7 @@
 use super::attempts::Tables;
 use super::memory::{Memory, Write};
 use super::pipeline::{Bundle, Completion};
-use super::wires::Wires;
-use super::Registers;
+use super::wires::{Registers, Wires};
 use crate::mesh::Record;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

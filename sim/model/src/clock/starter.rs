@@ -1,10 +1,10 @@
 //! Wakes sleeping contexts: a pointer goes round them, a context a clock, and starts a walk where one is due.
 
 use super::attempts::Tables;
+use super::defect::Defect;
 use super::memory::Memory;
 use super::pipeline::Bundle;
-use super::wires::Wires;
-use super::{Defect, Registers};
+use super::wires::{Registers, Wires};
 use incircle_protocol::FIRST_ROUND;
 
 /// Rounds of the pointer per round in which contexts that backed off may try again.

@@ -1,7 +1,6 @@
 //! Counts down what is left to do, and notices that nothing is finished any more.
 
-use super::wires::Wires;
-use super::Registers;
+use super::wires::{Registers, Wires};
 use incircle_protocol::{patience, Config};
 
 #[derive(Clone, Copy, Debug, Default)]

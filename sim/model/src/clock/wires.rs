@@ -1,15 +1,61 @@
-//! What blocks show each other within a clock: functions of registers and inputs.
+//! What blocks show each other within a clock: their registers as they were, and the wires, functions of registers and
+//! inputs.
 //!
-//! The one module that may stand in a circle of imports: every block reads these wires and drives some of them, with
-//! types of its own, as the blocks of the core do. `testbench/tests/it/project/import_circles` allows no other.
+//! The one module that may stand in a circle of imports: every block reads these registers and wires and owns some of
+//! them, with types of its own, as the blocks of the core do. `testbench/tests/it/project/import_circles` allows no
+//! other.
 
 use super::attempts::{Around, Outcome};
-use super::command_port::State as CommandState;
+use super::command_port::{CommandPort, State as CommandState};
+use super::commit::Commit;
+use super::commit_job::CommitJob;
+use super::contexts::Contexts;
+use super::counters::Counters;
+use super::memory::Write;
 use super::pipeline::{Bundle, Completion};
-use super::ring::{CommitJob, Head};
-use super::starter::Start;
-use super::{ClockModel, Inputs};
+use super::ports::Inputs;
+use super::responder::Responder;
+use super::ring::Head;
+use super::seeder::Seeder;
+use super::solo::Solo;
+use super::starter::{Start, Starter};
+use super::watchdog::{Progress, Watchdog};
+use super::ClockModel;
 use crate::predicate::Point;
+use incircle_protocol::Config;
+
+/// The registers of the core, but those of the visit pipeline, the ring reader and the lock release.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Registers {
+    pub command: CommandPort,
+    pub responder: Responder,
+    pub contexts: Contexts,
+    /// The contexts as they were a clock ago: part of what a visit means is decided ahead.
+    pub noted: Contexts,
+    pub starter: Starter,
+    pub seeder: Seeder,
+    pub commit: Commit,
+    pub solo: Solo,
+    pub progress: Progress,
+    pub watchdog: Watchdog,
+    pub counters: Counters,
+    /// The counters as they were a clock ago: the hardware counts an event a clock after it.
+    pub counted: Counters,
+    /// What the visit that completed in the clock before leads to: contexts take note of it in this clock.
+    pub outcome: Option<Outcome>,
+    /// The bundle that enters the queue in this clock.
+    pub push: Option<Bundle>,
+    pub write: Write,
+}
+
+impl Registers {
+    pub(super) fn after_reset(config: Config) -> Self {
+        let mut registers = Self::default();
+        registers.command.contexts = config.contexts;
+        registers.contexts.reset(config.contexts);
+        registers
+    }
+}
 
 /// The wires of one clock.
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,4 @@
-//! The cavity of an insertion and its replacement (Bowyer 1981, Watson 1981).
+//! The cavity of an insertion (Bowyer 1981, Watson 1981).
 //!
 //! The boundary is a singly linked ring of entries, split in place:
 //! ```text
@@ -12,44 +12,43 @@
 //! ```
 //! Tests are carried out in the order in which they arose, as the core's token queue does.
 
-use super::{Mesh, Record};
-use crate::predicate::Point;
+use super::record::Record;
 
 /// A final edge of the boundary: from `a` to the next entry's `a`, with `p` on its left.
 #[derive(Clone, Copy, Debug, Default)]
-struct Entry {
-    a: u32,
+pub(super) struct Entry {
+    pub(super) a: u32,
     /// The triangle outside, which stays, and the slot of its link to `f`.
-    u: u32,
-    slot: u8,
+    pub(super) u: u32,
+    pub(super) slot: u8,
     /// The cavity triangle behind the edge.
-    f: u32,
-    next: u8,
+    pub(super) f: u32,
+    pub(super) next: u8,
 }
 
 /// A test to be made: is `u`, before the edge of entry `x`, in conflict?
 #[derive(Clone, Copy, Debug)]
-struct Test {
-    x: u8,
-    next: u8,
+pub(super) struct Test {
+    pub(super) x: u8,
+    pub(super) next: u8,
     /// The entry that was allocated when `f` joined the cavity, 0 for the root: names `f` in `half_open`.
-    f_entry: u8,
-    f: u32,
-    u: u32,
+    pub(super) f_entry: u8,
+    pub(super) f: u32,
+    pub(super) u: u32,
 }
 
 /// Scratch memory of an insertion.
 #[derive(Clone, Debug)]
 pub(super) struct Cavity {
     capacity: u8,
-    entries: Vec<Entry>,
-    count: u8,
-    queue: Vec<Test>,
+    pub(super) entries: Vec<Entry>,
+    pub(super) count: u8,
+    pub(super) queue: Vec<Test>,
     /// Bit `y`: one of the two edges that entry `y`'s cavity triangle brought has been passed. The root brought three
     /// edges and uses bits 0 and 1.
     half_open: u64,
     /// Cavity triangles without a boundary edge.
-    inner: Vec<u32>,
+    pub(super) inner: Vec<u32>,
 }
 
 impl Cavity {
@@ -65,7 +64,7 @@ impl Cavity {
         }
     }
 
-    fn start(&mut self, root: u32, n: [u32; 3]) {
+    pub(super) fn start(&mut self, root: u32, n: [u32; 3]) {
         self.queue.clear();
         self.inner.clear();
         self.half_open = 0;
@@ -76,7 +75,7 @@ impl Cavity {
     }
 
     /// Passes through the edge of `test`: the ring grows by one entry. False if it has no room.
-    fn split(&mut self, test: Test, u: &Record) -> bool {
+    pub(super) fn split(&mut self, test: Test, u: &Record) -> bool {
         if self.count == self.capacity {
             return false;
         }
@@ -101,85 +100,5 @@ impl Cavity {
             return false;
         }
         true
-    }
-}
-
-impl Mesh {
-    /// Finds the cavity of `p`, located in `root`. False if its boundary has more entries than the list.
-    pub(super) fn grow(&mut self, root: u32, p: Point) -> bool {
-        let mut cavity = std::mem::replace(&mut self.cavity, Cavity::new(0));
-        cavity.start(root, self.records[root as usize].n);
-        let mut done = 0;
-        let mut fits = true;
-        while fits && done < cavity.queue.len() {
-            let test = cavity.queue[done];
-            done += 1;
-            let record = &self.records[test.u as usize];
-            let slot = record.slot_of(test.f);
-            let u = record.rotated(slot);
-            if self.in_conflict(&u, p) {
-                fits = cavity.split(test, &u);
-            } else {
-                cavity.entries[usize::from(test.x)] =
-                    Entry { a: u.v[2], u: test.u, slot: slot as u8, f: test.f, next: test.next };
-            }
-        }
-        // Tests already under way when the list overflows run out, and are counted.
-        self.counts.tests += cavity.queue.len() as u32;
-        self.cavity = cavity;
-        fits
-    }
-
-    /// Replaces the cavity by the star of `p`: one record per boundary entry.
-    ///
-    /// An entry's record takes the id of the cavity triangle behind it, unless the entry before or the first one did;
-    /// then it takes an inner triangle's id, and the last two take new ones.
-    pub(super) fn commit(&mut self, p: u32) {
-        let cavity = std::mem::replace(&mut self.cavity, Cavity::new(0));
-        self.counts.cavity_triangles += u32::from(cavity.count) - 2;
-        let mut inner = cavity.inner.iter();
-        let mut fresh = |records: &mut Vec<Record>| {
-            inner.next().copied().unwrap_or_else(|| {
-                records.push(Record::default());
-                records.len() as u32 - 1
-            })
-        };
-        let first = cavity.entries[0];
-        let first_id = first.f;
-        let (mut entry, mut id) = (cavity.entries[usize::from(first.next)], 0);
-        let second_a = entry.a;
-        let mut second_id = 0;
-        let (mut before_f, mut before_id) = (first.f, first_id);
-        let mut at_second = true;
-        // `entry` runs from the second to the last; its record needs the id of the one after it.
-        let mut is_last = first.next == 0;
-        let mut pending = None::<(Entry, u32, u32)>;
-        while !is_last {
-            id = if entry.f == before_f || entry.f == first.f { fresh(&mut self.records) } else { entry.f };
-            if at_second {
-                second_id = id;
-                at_second = false;
-            }
-            if let Some((ahead, ahead_id, back)) = pending {
-                self.write_star(p, ahead, ahead_id, entry.a, id, back);
-            }
-            pending = Some((entry, id, before_id));
-            (before_f, before_id) = (entry.f, id);
-            is_last = entry.next == 0;
-            entry = cavity.entries[usize::from(entry.next)];
-        }
-        if let Some((last, last_id, back)) = pending {
-            self.write_star(p, last, last_id, first.a, first_id, back);
-        }
-        self.write_star(p, first, first_id, second_a, second_id, id);
-        self.cavity = cavity;
-    }
-
-    /// Writes the record of one entry, and the link of the triangle outside unless it is right already.
-    fn write_star(&mut self, p: u32, entry: Entry, id: u32, b: u32, after: u32, before: u32) {
-        self.records[id as usize] = Record { v: [p, entry.a, b], n: [entry.u, after, before] };
-        if id != entry.f {
-            self.records[entry.u as usize].n[usize::from(entry.slot)] = id;
-        }
     }
 }

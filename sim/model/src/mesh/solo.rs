@@ -1,7 +1,8 @@
 //! Insertion in constant state, for cavities too large for the boundary list: split the located triangle, then flip
 //! once round the star (Lawson's flips, in the order of the star).
 
-use super::{Mesh, Record};
+use super::record::Record;
+use super::Mesh;
 use crate::predicate::Point;
 
 /// The star triangle at work: `v = (p, a, b)`, `n = (outer, after, before)`.

@@ -15,11 +15,10 @@ mod clock {
 }
 
 mod mesh {
-    mod guides;
+    mod approach;
     mod insertion;
 }
 
 mod serial {
-    mod exchange;
     mod page;
 }

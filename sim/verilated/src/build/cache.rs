@@ -3,8 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::verilator::{BuildError, Verilator};
-use super::{runtime, shim, verilator, write, ModelSource, Optimisation};
+use super::error::BuildError;
+use super::file::write;
+use super::source::{ModelSource, Optimisation};
+use super::verilator::Verilator;
+use super::{runtime, shim, verilator};
 
 /// The object files of the model. Built in a fresh folder unless the folder holds them already, made from the same
 /// text with the same tool and options.

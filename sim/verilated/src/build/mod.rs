@@ -1,92 +1,23 @@
 //! The build side: Verilog in, a static library and a Rust table of models out.
 
 mod cache;
+mod error;
+mod file;
 mod runtime;
 mod shim;
+mod source;
 mod verilator;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Mutex;
 
+use file::write;
+
+pub use error::BuildError;
 pub use runtime::compile_runtime;
-pub use verilator::{BuildError, Verilator};
-
-/// How hard the C++ compiler works on a model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Optimisation {
-    /// `-O1`: compiled in a second; for blocks that are tested over thousands of clocks.
-    Quick,
-    /// `-O2`, and Verilator's `-O3`; for whole cores that run millions of clocks.
-    Fast,
-}
-
-/// One model to build.
-#[derive(Clone, Debug)]
-pub struct ModelSource {
-    name: String,
-    top: String,
-    verilog: String,
-    trace: bool,
-    random_initial_state: bool,
-    optimisation: Optimisation,
-}
-
-impl ModelSource {
-    /// The module `top` of this Verilog text, as the model `name`: no trace, zero initial state, quick to compile.
-    ///
-    /// `name` becomes a Rust function and part of C++ names: it starts with a lower-case letter, and holds lower-case letters,
-    /// digits and single underscores; anything else is an error of [`Builder::try_compile`].
-    pub fn new(name: &str, top: &str, verilog: impl Into<String>) -> Self {
-        Self {
-            name: name.to_string(),
-            top: top.to_string(),
-            verilog: verilog.into(),
-            trace: false,
-            random_initial_state: false,
-            optimisation: Optimisation::Quick,
-        }
-    }
-
-    /// The module `top` of a Verilog file, as the model `name`; the build script runs again when the file changes.
-    ///
-    /// # Errors
-    /// The file cannot be read.
-    pub fn file(name: &str, top: &str, path: impl AsRef<Path>) -> Result<Self, BuildError> {
-        let path = path.as_ref();
-        println!("cargo:rerun-if-changed={}", path.display());
-        let verilog =
-            std::fs::read_to_string(path).map_err(|source| BuildError::File { path: path.to_path_buf(), source })?;
-        Ok(Self::new(name, top, verilog))
-    }
-
-    /// Whether the model can write VCD waveforms. Costs compile time and some speed, also while no trace is open.
-    pub fn trace(mut self, on: bool) -> Self {
-        self.trace = on;
-        self
-    }
-
-    /// Whether registers and memories can start with random contents (`Model::randomized`); without it they
-    /// start as zero whatever the seed.
-    pub fn random_initial_state(mut self, on: bool) -> Self {
-        self.random_initial_state = on;
-        self
-    }
-
-    /// How hard the C++ compiler works.
-    pub fn optimisation(mut self, level: Optimisation) -> Self {
-        self.optimisation = level;
-        self
-    }
-
-    fn check_name(&self) -> Result<(), BuildError> {
-        let valid = self.name.starts_with(|c: char| c.is_ascii_lowercase())
-            && self.name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
-            && !self.name.contains("__")
-            && self.name != "find";
-        valid.then_some(()).ok_or_else(|| BuildError::Name { name: self.name.clone() })
-    }
-}
+pub use source::{ModelSource, Optimisation};
+pub use verilator::Verilator;
 
 /// Collects models, then builds them all.
 #[derive(Debug, Default)]
@@ -188,8 +119,4 @@ fn build_all(
 
 fn cargo_variable(name: &'static str) -> Result<String, BuildError> {
     std::env::var(name).map_err(|_| BuildError::NotABuildScript { variable: name })
-}
-
-fn write(path: &Path, text: &str) -> Result<(), BuildError> {
-    std::fs::write(path, text).map_err(|source| BuildError::File { path: path.to_path_buf(), source })
 }

@@ -1,6 +1,7 @@
 //! The C++ compiler with the flags that Verilator's headers expect, and Verilator's own runtime.
 
-use super::verilator::{BuildError, Verilator};
+use super::error::BuildError;
+use super::verilator::Verilator;
 
 /// A compiler for everything that includes `verilated.h`.
 pub(super) fn compiler(verilator: &Verilator) -> cc::Build {

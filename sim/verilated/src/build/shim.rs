@@ -1,6 +1,6 @@
 //! The text between a Verilated class and Rust: ports read from Verilator's header, C++ and Rust written.
 
-use super::verilator::BuildError;
+use super::error::BuildError;
 
 /// The C++ that all shims share.
 pub(super) const HEADER: &str = include_str!("../shim.hpp");

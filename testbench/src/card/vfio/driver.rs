@@ -1,13 +1,13 @@
 //! A driver in user space for the card behind its socket: it finds the windows, switches DMA and messages on, and maps memory.
 
 use std::io;
-use std::os::fd::{AsRawFd, OwnedFd};
+use std::os::fd::AsRawFd;
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use incircle::pcie::{CardFiles, RegisterFile};
+use incircle::transports::parts::{CardFiles, RegisterFile};
 use rustix::event::{eventfd, EventfdFlags};
 use vfio_bindings::bindings::vfio::{
     VFIO_IRQ_SET_ACTION_MASK, VFIO_IRQ_SET_ACTION_TRIGGER, VFIO_IRQ_SET_ACTION_UNMASK, VFIO_IRQ_SET_DATA_EVENTFD,
@@ -16,103 +16,14 @@ use vfio_bindings::bindings::vfio::{
 use vfio_user::{Client, Error};
 
 use super::channel::Way;
-use super::numbers::{CHANNELS, DEVICE, VENDOR};
-use super::places::{find, read, read_config, start, write, write_config, Places};
-use super::transfers::{Answers, Commands, DmaMemory, Transfers};
-
-/// Why the driver does not start.
-#[derive(Debug, thiserror::Error)]
-pub enum DriverError {
-    /// Nobody answers at the socket.
-    #[error("the card does not answer: {0}: check that it is served")]
-    Socket(#[from] Error),
-    /// It is another device.
-    #[error("this is device {vendor:04x}:{device:04x}, not {VENDOR:04x}:{DEVICE:04x}: choose another card")]
-    Other {
-        /// Who made it.
-        vendor: u16,
-        /// Which it is.
-        device: u16,
-    },
-    /// The bridge is not there, or lacks something.
-    #[error("the card has no {0}: check how its bridge was made")]
-    Lacks(&'static str),
-    /// The system refuses.
-    #[error("memory or events cannot be had: {0}: check limits of the system")]
-    System(#[from] io::Error),
-}
+use super::error::DriverError;
+use super::link::Link;
+use super::numbers::CHANNELS;
+use super::places::{find, read, read_config, start, write, write_config};
+use super::transfers::{Answers, Commands, Transfers};
 
 /// The open card, for all that use it.
 pub struct VfioDriver(Arc<Link>);
-
-/// The connection. An access is a message and its answer, so one waits for the other.
-pub struct Link {
-    client: Mutex<Client>,
-    places: Places,
-    events: [OwnedFd; CHANNELS],
-    /// Where memory is mapped that the card may reach.
-    mapped: Mutex<Vec<u64>>,
-    ranges: AtomicU32,
-    untold: AtomicU32,
-}
-
-impl Link {
-    fn lock(&self) -> MutexGuard<'_, Client> {
-        self.client.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Reads a register of the bridge. A card that is gone reads as all ones.
-    pub fn dma(&self, offset: u32) -> u32 {
-        read(&mut self.lock(), self.places.dma, offset.into())
-    }
-
-    /// Writes it. To a card that is gone that does nothing.
-    pub fn set_dma(&self, offset: u32, value: u32) {
-        write(&mut self.lock(), self.places.dma, offset.into(), value);
-    }
-
-    /// The event of a channel.
-    pub fn event(&self, way: Way) -> &OwnedFd {
-        &self.events[way as usize]
-    }
-
-    fn mapped(&self) -> MutexGuard<'_, Vec<u64>> {
-        self.mapped.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// A multiple of 4 GiB that nobody else is given.
-    pub fn new_range(&self) -> u64 {
-        u64::from(self.ranges.fetch_add(1, Ordering::Relaxed) + 1) << 32
-    }
-
-    /// Lets the card reach memory.
-    ///
-    /// # Errors
-    /// The card is gone.
-    pub fn map(&self, memory: &DmaMemory) -> Result<(), Error> {
-        self.lock().dma_map(0, memory.address(), memory.size(), memory.file().as_raw_fd())?;
-        self.mapped().push(memory.address());
-        Ok(())
-    }
-
-    /// Takes it back, if it can be reached: the crate's client would wait without end for the rest of a refusal.
-    ///
-    /// # Errors
-    /// The card is gone.
-    pub fn unmap(&self, memory: &DmaMemory) -> Result<(), Error> {
-        let place = self.mapped().iter().position(|&address| address == memory.address());
-        let Some(place) = place else {
-            return Ok(());
-        };
-        self.mapped().swap_remove(place);
-        self.lock().dma_unmap(memory.address(), memory.size())
-    }
-
-    /// Counts the end of a run that no message told.
-    pub fn count_untold(&self) {
-        self.untold.fetch_add(1, Ordering::Relaxed);
-    }
-}
 
 impl VfioDriver {
     /// Opens the card at a socket.

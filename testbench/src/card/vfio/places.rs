@@ -3,7 +3,7 @@
 use vfio_bindings::bindings::vfio::{VFIO_PCI_BAR5_REGION_INDEX, VFIO_PCI_CONFIG_REGION_INDEX};
 use vfio_user::Client;
 
-use super::driver::DriverError;
+use super::error::DriverError;
 use super::numbers::{
     block, channel, config, interrupts, status, ALL_ONES, CHANNELS, DEVICE, ENTRY_BYTES, ENTRY_CONTROL, VENDOR,
 };

@@ -1,19 +1,18 @@
 //! Transfers by a channel: memory for them, descriptors, a run, and the wait for its message.
 
-use std::fs::File;
 use std::io::{self, Read, Write};
 use std::os::fd::OwnedFd;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use rustix::event::{poll, PollFd, PollFlags, Timespec};
-use vm_memory::{FileOffset, MmapRegion, VolatileMemory};
 
 use super::channel::Way;
 use super::descriptor::{Descriptor, Written};
-use super::driver::{DriverError, Link};
+use super::dma_memory::DmaMemory;
+use super::error::DriverError;
+use super::link::Link;
 use super::numbers::{block, channel, descriptors, status, ALL_ONES, RUN};
-use super::shared_memory;
 
 /// Bytes of a page.
 const PAGE: usize = 4096;
@@ -33,59 +32,6 @@ const ERESTARTSYS: i32 = 512;
 
 fn failed(errno: i32) -> io::Error {
     io::Error::from_raw_os_error(errno)
-}
-
-/// Memory that the card may be let reach.
-#[derive(Debug)]
-pub struct DmaMemory {
-    address: u64,
-    file: File,
-    memory: MmapRegion,
-}
-
-impl DmaMemory {
-    /// So many bytes, of zeros, which the card is to find at this address.
-    ///
-    /// # Errors
-    /// The system has none.
-    pub fn new(address: u64, bytes: usize) -> io::Result<Self> {
-        let file = shared_memory(bytes as u64)?;
-        let memory = MmapRegion::from_file(FileOffset::new(file.try_clone()?, 0), bytes).map_err(io::Error::other)?;
-        Ok(Self { address, file, memory })
-    }
-
-    /// Where the card finds it.
-    pub fn address(&self) -> u64 {
-        self.address
-    }
-
-    /// Its bytes.
-    pub fn size(&self) -> u64 {
-        self.memory.size() as u64
-    }
-
-    /// What it is a mapping of.
-    pub fn file(&self) -> &File {
-        &self.file
-    }
-
-    /// Writes from a place on.
-    ///
-    /// # Errors
-    /// Some of it lies behind the end.
-    pub fn write(&self, place: usize, bytes: &[u8]) -> io::Result<()> {
-        self.memory.get_slice(place, bytes.len()).map_err(io::Error::other)?.copy_from(bytes);
-        Ok(())
-    }
-
-    /// Reads from a place on.
-    ///
-    /// # Errors
-    /// Some of it lies behind the end.
-    pub fn read(&self, place: usize, bytes: &mut [u8]) -> io::Result<()> {
-        self.memory.get_slice(place, bytes.len()).map_err(io::Error::other)?.copy_to(bytes);
-        Ok(())
-    }
 }
 
 /// A channel of the card, with memory for what goes through it. While it lives it is the only user of its channel.
@@ -134,7 +80,7 @@ impl Transfers {
     pub fn describe(&self, all: &[Descriptor]) -> io::Result<()> {
         for (place, descriptor) in all.iter().enumerate() {
             let at = place * Descriptor::BYTES;
-            let next = self.memory.address + (at + Descriptor::BYTES) as u64;
+            let next = self.memory.address() + (at + Descriptor::BYTES) as u64;
             self.memory.write(at, &Descriptor { next, ..*descriptor }.to_bytes())?;
         }
         Ok(())
@@ -197,7 +143,7 @@ impl Transfers {
 
     /// A run over the descriptors that were put down.
     fn run(&self) -> io::Result<()> {
-        self.begin(self.memory.address);
+        self.begin(self.memory.address());
         let ended = self.wait();
         self.end();
         if ended? & status::ERRORS == 0 {
@@ -236,7 +182,7 @@ impl Write for Commands {
                 completes: is_last,
                 ends: is_last,
                 length: piece.len() as u32,
-                source: transfers.memory.address + at as u64,
+                source: transfers.memory.address() + at as u64,
                 ..Descriptor::default()
             });
         }
@@ -266,8 +212,8 @@ impl Read for Answers {
             stops: true,
             completes: true,
             length: count as u32,
-            source: memory.address + WRITTEN as u64,
-            destination: memory.address + PAGE as u64,
+            source: memory.address() + WRITTEN as u64,
+            destination: memory.address() + PAGE as u64,
             ..Descriptor::default()
         }])?;
         transfers.run()?;

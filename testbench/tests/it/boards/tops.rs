@@ -1,7 +1,7 @@
 //! The boards' tops in simulation, with a tiny device behind them: reset waits for the PLL, and pins lead where they must.
 
+use incircle_blocks::QUICK_LINK;
 use incircle_hdl::board::BOARDS;
-use incircle_hdl::export::QUICK_LINK;
 use incircle_protocol::{FIRST_RATE, LINK_MAGIC};
 use incircle_testbench::blocks;
 use verilated::{Model, PortId};

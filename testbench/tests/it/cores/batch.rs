@@ -2,14 +2,12 @@
 //! idle and back-pressure, jobs of several lengths, lists that overflow, three points on a line, and resets. That every job gets the mesh
 //! it gets alone is shown of the model (`sim/model/tests/it/clock/batch.rs`); here the reports are compared with the model by commands as well.
 
-use crate::rig::common::batches::Batch;
-use crate::rig::common::Random;
-use incircle_cli::generate::SplitMix64;
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{
     Config, Counter, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, SMALL, TINY,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Stalls};
+use incircle_testkit::{Batch, Random32, SplitMix64};
 
 struct Rig {
     pair: Lockstep,
@@ -51,7 +49,7 @@ impl Rig {
 
 /// So many batches of all kinds; about every fourth has three points on a line somewhere.
 fn run_all(rig: &mut Rig, batches: u32, most: u32, seed: u64) {
-    let mut random = Random(seed);
+    let mut random = Random32(seed);
     for turn in 0..batches as usize {
         let asked = random.below(rig.config.contexts + 1);
         let jobs = if asked == 0 { rig.config.contexts } else { asked };
@@ -97,7 +95,7 @@ fn sixteen_jobs() {
 fn resets_in_mid_batch() {
     let config = Config { contexts: 16, ..SMALL };
     let mut rig = Rig::new("core_small_sixteen", config, 54);
-    let mut random = Random(54);
+    let mut random = Random32(54);
     for turn in 0..20 {
         let points = Batch::random(&mut random, 16, 20, true).points();
         let job = Job::batch_of(&points, points.len(), 16, config);

@@ -6,9 +6,9 @@
 //! memory shows in every decision only), and all answers are compared with the model by commands, which knows no clock.
 
 use crate::rig::lockstep::{ordered, word, Rig};
-use incircle_cli::generate::{Distribution, SplitMix64};
 use incircle_protocol::{clear_word, command_word, Config, Counter, Opcode, FULL, LARGE, PADDING, SMALL, TINY};
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls, FAULTS};
+use incircle_testkit::{Distribution, SplitMix64};
 use std::path::PathBuf;
 
 const RING9: Config = Config { ring: 9, ..SMALL };

@@ -5,9 +5,9 @@
 //! `testbench/cells` states. Timing is not: place and route answers for that.
 
 use crate::rig::lockstep::{ordered, word, Rig};
-use incircle_cli::generate::{Distribution, SplitMix64};
 use incircle_protocol::{Counter, SMALL};
 use incircle_testbench::lockstep::{Job, Stalls};
+use incircle_testkit::{Distribution, SplitMix64};
 
 const NETLIST: &str = "netlist_small";
 

@@ -1,10 +1,10 @@
 //! The watchdog in the whole core: core and model both take a context's own locks for those of another one, so a job hangs in both, and both must
 //! say so in the same clock, refuse what comes then, and be mended by reset. Cores in which some block does not hear of it are caught.
 
-use incircle_cli::generate::SplitMix64;
 use incircle_model::{Defect, Inputs};
 use incircle_protocol::{answer_status, command_word, patience, Opcode, Status, INSERT_REPORT_WORDS, SMALL};
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
+use incircle_testkit::SplitMix64;
 
 /// A core with faults behind switches, see `src/lockstep/faults.rs`.
 const FAULTY: &str = "faulty_core_small";

@@ -1,11 +1,10 @@
 //! Every exported block passes the gate, each in a folder of its own.
 
-use incircle_hdl::export;
 use incircle_testbench::gate;
 
 #[test]
 fn every_block_passes_lint_and_synthesis() {
-    let blocks = export::blocks();
+    let blocks = incircle_blocks::blocks();
     assert!(!blocks.is_empty());
     let failures: Vec<_> = blocks
         .iter()

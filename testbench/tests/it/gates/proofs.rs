@@ -1,7 +1,6 @@
 //! The FIFO between two clocks, the AXI4-Lite port and the clocks of the counters are proven: for every sequence of inputs, and of edges of two clocks, of any length. So that this says
 //! something, faults are put in, and must be found.
 
-use incircle_hdl::export;
 use incircle_testbench::gate::{self, GateError};
 
 const FIFO: &str = "stream_fifo_4x2";
@@ -17,7 +16,7 @@ fn replace(text: &str, old: &str, new: &str) -> String {
 }
 
 fn block(name: &str) -> String {
-    let blocks = export::blocks();
+    let blocks = incircle_blocks::blocks();
     blocks.into_iter().find(|block| block.0 == name).expect("a block of this name").1
 }
 

@@ -4,10 +4,10 @@ use std::collections::VecDeque;
 
 use crate::rig::serial_host::{cobs, host_frame, Heard, Listener};
 use crate::rig::serial_rig::{answer_of, payload, Pins, Rig, Verilog};
-use incircle_cli::generate::SplitMix64;
-use incircle_hdl::export::QUICK_LINK;
+use incircle_blocks::QUICK_LINK;
 use incircle_model::serial::{core_identity, Passed, SerialModel, WordDevice};
 use incircle_protocol::{HostFrame, MAX_STEP, PHASE_BITS, SMALL, STATUS_BUSY};
+use incircle_testkit::SplitMix64;
 
 /// Clocks of a silent line after which nothing more comes by itself.
 const QUIET: usize = 600;

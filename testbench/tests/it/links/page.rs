@@ -1,12 +1,12 @@
 //! The exchange in `protocol/SERIAL.md` is what the Verilated device says at its pins.
 
-#[path = "../../../../sim/model/tests/it/serial/exchange.rs"]
-mod serial_exchange;
-
 use incircle_model::serial::FromDevice;
 use incircle_protocol::{rate_step, SMALL, STATUS_BUSY};
 use incircle_sim::serial::{Board, PinBoard, Symbol};
-use serial_exchange::steps;
+use incircle_testkit::exchange_steps;
+
+/// The page.
+const PAGE: &str = include_str!("../../../../protocol/SERIAL.md");
 
 /// The rate that the page shows.
 const RATE: u32 = 3_000_000;
@@ -24,7 +24,7 @@ fn the_device_says_what_the_page_shows() {
     let mut board = PinBoard::new(SMALL).expect("it was translated");
     let clock_hz = board.link().clock_hz;
     let step = rate_step(RATE, clock_hz).expect("a rate").to_le_bytes();
-    for (number, (sent, expected)) in steps().into_iter().enumerate() {
+    for (number, (sent, expected)) in exchange_steps(PAGE).into_iter().enumerate() {
         sent.iter().for_each(|&byte| board.send(Symbol::of(byte)));
         let (mut said, mut silent) = (Vec::new(), 0);
         // Ten bytes at the first rate.

@@ -3,7 +3,8 @@
 
 use std::time::{Duration, Instant};
 
-use incircle::pcie::{calls_left_behind, PcieTransport};
+use incircle::pcie::PcieTransport;
+use incircle::transports::parts::calls_left_behind;
 use incircle::{Device, Error, ErrorKind, Mesh, Options, Point};
 use incircle_model::stream::{ModelCore, StreamModel};
 use incircle_protocol::SMALL;
@@ -51,8 +52,8 @@ fn opened_with(way: Way, device: Box<dyn Beats>, faults: &str) -> (Option<Mounte
 }
 
 fn triangulate(device: &mut Device, points: &[Point]) -> Result<Mesh, Error> {
-    let options = Options { timeout: Some(LIMIT), ..Options::default() };
-    device.session_within(LIMIT)?.triangulate_with(points, &options)
+    let options = Options::default().timeout(LIMIT);
+    device.session_within(LIMIT)?.triangulate_with(points, &options).map(|solution| solution.mesh)
 }
 
 /// A job with these faults.
@@ -70,7 +71,7 @@ fn must_be_right(way: Way, beat_bits: u32, faults: &str, seed: u64) {
 /// The job must end with an error that says this, in time.
 fn must_fail(way: Way, faults: &str, kinds: &[ErrorKind], sentence: &str) {
     let begun = Instant::now();
-    let error = job(way, 64, faults, &random_points(600, 2)).map(|mesh| mesh.report).expect_err(faults);
+    let error = job(way, 64, faults, &random_points(600, 2)).map(drop).expect_err(faults);
     assert!(kinds.contains(&error.kind()), "{way:?}, {faults}: {:?}: {error}", error.kind());
     assert!(error.to_string().contains(sentence), "{way:?}, {faults}: {error}");
     assert!(begun.elapsed() < LIMIT, "{way:?}, {faults}: {error}");
@@ -132,13 +133,15 @@ fn a_reset_in_mid_job_gives_the_right_mesh_or_says_so() {
         for after in [40, 100, 1000, 2000, 2500, 4000, 9000] {
             let faults = format!("reset={after}");
             let points = random_points(600, after);
-            let options = Options { timeout: Some(Duration::from_secs(5)), ..Options::default() };
+            let options = Options::default().timeout(Duration::from_secs(5));
             let (_card, device) = opened(way, 64, &faults);
             let mut device = device.unwrap();
             let result =
                 device.session_within(LIMIT).and_then(|mut session| session.triangulate_with(&points, &options));
             match result {
-                Ok(mesh) => assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()), "{way:?}, {faults}"),
+                Ok(solution) => {
+                    assert!(is_one_mesh(&solution.mesh, &incircle::triangulate(&points).unwrap()), "{way:?}, {faults}")
+                }
                 Err(error) => {
                     let kinds = [ErrorKind::Link, ErrorKind::Device, ErrorKind::Timeout];
                     assert!(kinds.contains(&error.kind()), "{way:?}, {faults}: {error}");
@@ -180,8 +183,8 @@ fn a_session_does_job_after_job_through_files() {
     let mut session = device.session().unwrap();
     for (seed, count) in (1..).zip([3, 1000, 10, 0, 700]) {
         let points = random_points(count, seed);
-        let mesh = session.triangulate(&points).unwrap();
-        assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()));
+        let solution = session.triangulate(&points).unwrap();
+        assert!(is_one_mesh(&solution.mesh, &incircle::triangulate(&points).unwrap()));
     }
 }
 
@@ -213,7 +216,7 @@ fn a_call_that_hangs_is_left_behind_in_time_and_keeps_its_card() {
     let (card, mut device) = (card.unwrap(), device.unwrap());
     let before = calls_left_behind();
     let begun = Instant::now();
-    let options = Options { timeout: Some(Duration::from_secs(1)), ..Options::default() };
+    let options = Options::default().timeout(Duration::from_secs(1));
     let result = device.session().unwrap().triangulate_with(&random_points(600, 2), &options);
     let error = result.expect_err("the call hangs");
     assert!(matches!(error.kind(), ErrorKind::Timeout | ErrorKind::Link), "{error}");
@@ -232,11 +235,11 @@ fn jobs_at_the_pins(way: Way, beat_bits: u32, faults: &str) {
     let mut device = device.unwrap();
     let mut session = device.session_within(LIMIT).unwrap();
     assert_eq!(session.identity().contexts, SMALL.contexts);
-    let options = Options { timeout: Some(LIMIT), ..Options::default() };
+    let options = Options::default().timeout(LIMIT);
     for (seed, count) in (1..).zip([3, 1000, 200]) {
         let points = random_points(count, seed);
-        let mesh = session.triangulate_with(&points, &options).unwrap_or_else(|error| panic!("{faults}: {error}"));
-        assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()), "{faults}");
+        let solution = session.triangulate_with(&points, &options).unwrap_or_else(|error| panic!("{faults}: {error}"));
+        assert!(is_one_mesh(&solution.mesh, &incircle::triangulate(&points).unwrap()), "{faults}");
     }
 }
 

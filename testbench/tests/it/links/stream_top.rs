@@ -1,12 +1,12 @@
 //! Whole devices at their AXI ports, with random stalls on all channels and clocks at ratios of 1:4 to 4:1, against the software model.
 
 use crate::rig::stream_rig::{Rig, Verilog, PERIODS};
-use incircle_cli::generate::SplitMix64;
 use incircle_model::CommandModel;
 use incircle_protocol::{
     answer_header, clear_word, command_word, Config, Opcode, Status, StreamRegister, CONTROL_RESET, CORE_COORD_BITS,
     SMALL, STREAM_STATUS_BUSY, STREAM_STATUS_RUNS, TINY,
 };
+use incircle_testkit::SplitMix64;
 
 /// Clock edges that a job may take.
 const PATIENCE: usize = 3_000_000;

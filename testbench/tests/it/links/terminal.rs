@@ -22,8 +22,8 @@ fn served(detail: Detail, faults: &str) -> Served {
 
 /// Opens, greets, does the job, closes.
 fn triangulate(address: &str, points: &[Point]) -> Result<Mesh, Error> {
-    let options = Options { timeout: Some(LIMIT), ..Options::default() };
-    Device::open(address)?.session_within(LIMIT)?.triangulate_with(points, &options)
+    let options = Options::default().timeout(LIMIT);
+    Device::open(address)?.session_within(LIMIT)?.triangulate_with(points, &options).map(|solution| solution.mesh)
 }
 
 /// The job must end with the right mesh.
@@ -165,8 +165,8 @@ fn two_clients_at_once_are_told() {
     assert_eq!(error.kind(), ErrorKind::DeviceNotFound, "{error}");
     assert!(error.to_string().contains("another program uses it"), "{error}");
     let points = random_points(50, 4);
-    let mesh = session.triangulate(&points).unwrap();
-    assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()));
+    let solution = session.triangulate(&points).unwrap();
+    assert!(is_one_mesh(&solution.mesh, &incircle::triangulate(&points).unwrap()));
     drop(first);
     must_be_right(&address, 50, 5, "after the first client");
 }

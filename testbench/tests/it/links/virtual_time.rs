@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use incircle_protocol::{command_word, Opcode, FIRST_RATE, SMALL};
+use incircle_protocol::{Command, FIRST_RATE, SMALL};
 use incircle_sim::faults::FaultSpec;
 use incircle_testbench::link::{measure, soak, Detail, Soak, VirtualLine, RATES, TARGET};
 
@@ -41,10 +41,9 @@ fn jobs_without_bits_survive_every_fault_of_the_line() {
 }
 
 /// Points as an `Insert` with `count` of them.
-fn insert(count: u32) -> Vec<u32> {
-    let mut words = vec![command_word(Opcode::Insert), count];
-    words.extend((0..count).map(|j| ((j * 7919) & 0xffff) | (((j * 104_729) & 0xffff) << 16)));
-    words
+fn insert(count: u32) -> Command<Vec<u32>> {
+    let points = (0..count).map(|j| ((j * 7919) & 0xffff) | (((j * 104_729) & 0xffff) << 16));
+    Command::Insert { count, points: points.collect() }
 }
 
 #[test]

@@ -3,4 +3,5 @@
 mod dependencies;
 mod documents;
 mod import_circles;
+mod mirror;
 mod rules;

@@ -1,10 +1,10 @@
 //! The answers of a core as `incircle-protocol` states them, for the blocks that put them together.
 
-use incircle_cli::generate::SplitMix64;
 use incircle_protocol::{
     Identity, InsertReport, Layout, Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS, LATENCY_BUCKETS,
     MAGIC, MAX_CONTEXTS, PROTOCOL_VERSION,
 };
+use incircle_testkit::SplitMix64;
 
 /// True that many times in a hundred.
 pub fn percent(random: &mut SplitMix64, times: u64) -> bool {

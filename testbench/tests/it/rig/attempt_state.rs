@@ -1,9 +1,7 @@
 //! The state of an attempt in plain numbers.
 
-#![allow(dead_code)] // Every test that includes this uses a part of it.
-
 use super::stepper::bundles::pack;
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 
 /// An attempt's state.
 #[derive(Clone, Copy, Debug, Default)]

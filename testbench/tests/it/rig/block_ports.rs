@@ -1,8 +1,6 @@
 //! Ports of a block by name and as numbers: those of its Rust form, and those of its Verilated Verilog. Packed structures travel as
 //! one number.
 
-#![allow(dead_code)] // Every test that includes this uses a part of it.
-
 use std::collections::BTreeMap;
 
 use incircle_hdl::engine::{Arrival, EngineState};
@@ -318,7 +316,6 @@ fn width_of(layout: &TypeDescriptor) -> u32 {
 /// Gives a block [`NamedPorts`]: its type, its inputs, its outputs, and `clock` if it has one. A signal of an interface is written
 /// with a dot: `command.valid`. Before the type may stand generic
 /// parameters in brackets, or none: `[]`.
-#[allow(unused_macros)] // As above.
 macro_rules! named_ports {
     ([$($generics:tt)*] $block:ty, [$($input:ident $(. $inner:ident)*),*], [$($output:ident $(. $outer:ident)*),*] $(, $clock:ident)?) => {
         impl<$($generics)*> $crate::rig::block_ports::NamedPorts for $block {

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::rig::flip_mesh::{Mesh, Point, Record};
 use crate::rig::stepper::bundles::{commit_job, release_job, Edge, Finding, LockFinding, Visit};
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 
 /// A point to insert: where it is, the triangles that hold it, and those that it removes.
 #[derive(Clone, Debug)]

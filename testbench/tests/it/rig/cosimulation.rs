@@ -9,7 +9,6 @@ use std::fmt::Debug;
 use incircle_testbench::blocks;
 use verilated::PortId;
 
-#[allow(unused_imports)] // Every test that includes this uses a part of it.
 pub(crate) use crate::rig::block_ports::{named_ports, NamedPorts};
 use crate::rig::block_ports::{number, plain, set_number, settle, Place, Places, Whole};
 
@@ -18,7 +17,7 @@ pub type Expected = Option<u128>;
 
 /// A block to compare, and the names of its inputs (without the clock) and outputs.
 pub struct Cosimulation<'a, U> {
-    /// Its name in `incircle_hdl::export::blocks`.
+    /// Its name in `incircle_blocks::blocks`.
     pub name: &'a str,
     pub rust: U,
     pub inputs: &'a [&'a str],
@@ -94,10 +93,8 @@ fn part(output: &str) -> (&str, u32, u128) {
 }
 
 /// Values that come out a number of clocks after they went in.
-#[allow(dead_code, reason = "blocks without a pipeline need none")]
 pub struct Delay<T>(VecDeque<Option<T>>);
 
-#[allow(dead_code, reason = "blocks without a pipeline need none")]
 impl<T> Delay<T> {
     pub fn new(edges: usize) -> Self {
         Self((0..edges).map(|_| None).collect())

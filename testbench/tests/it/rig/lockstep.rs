@@ -1,16 +1,14 @@
 //! Runs jobs on a pair of core and model, compares the answers with the model by commands, and on a mismatch leaves a waveform.
 
 use incircle::Point;
-use incircle_cli::generate::{generate, Distribution, SplitMix64};
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{
-    command_word, Config, Counter, Layout, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS,
-    LATENCY_BUCKETS,
+    command_word, infinite_vertex, Config, Counter, Layout, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS,
+    INSERT_REPORT_WORDS, LATENCY_BUCKETS,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
+use incircle_testkit::{canonical, generate, Distribution, SplitMix64, StoredRecord};
 use std::path::PathBuf;
-
-use super::common::mesh_check;
 
 /// A point as its word.
 pub fn word(x: u64, y: u64) -> u32 {
@@ -69,7 +67,6 @@ impl Rig {
     }
 
     /// Out of the state that an ECP5 has after configuration.
-    #[allow(dead_code, reason = "only netlists have that state")]
     pub fn configured(name: &'static str, config: Config) -> Self {
         Self { pair: Lockstep::configured(name, config), ..Self::new(name, config, 1) }
     }
@@ -120,10 +117,14 @@ impl Rig {
             assert_eq!(vertices, layout.record_from_words(record).0, "vertices of record {place}");
         }
         let mesh = |words: &[u32]| {
-            let records: Vec<[u32; 3]> = words[records + 2..latencies].chunks(3).map(|r| [r[0], r[1], r[2]]).collect();
+            let stored = words[records + 2..latencies].chunks(3).map(|words| {
+                let (vertices, links) = layout.record_from_words(words);
+                StoredRecord { vertices, links, is_locked: words[0] >> 31 != 0 }
+            });
             let arrived = &points[..points.len().min(self.config.points as usize)];
-            let canonical = || mesh_check::canonical(&records, arrived, self.config.points);
-            (!records.is_empty()).then(|| canonical().unwrap_or_else(|fault| panic!("{}: {fault}", self.name)))
+            let infinite = infinite_vertex(self.config.points);
+            (stored.len() != 0)
+                .then(|| canonical(stored, arrived, infinite).unwrap_or_else(|fault| panic!("{}: {fault}", self.name)))
         };
         assert_eq!(mesh(answers), mesh(expected), "the core and the model clock by clock agree, the mesh is wrong");
         let counters = answers.len() - COUNTER_WORDS;

@@ -24,7 +24,3 @@ pub mod structures;
 pub mod vertex_beats;
 pub mod visit_model;
 pub mod visit_points;
-
-#[path = "../../../../sim/model/tests/it/common/mod.rs"]
-#[allow(dead_code, reason = "the model's own tests use the rest")]
-pub mod common;

@@ -1,10 +1,8 @@
 //! Finished rings of random cavities, grown as a cavity grows: a triangle joins behind one edge of the boundary and brings two.
 
-#![allow(dead_code)] // Every test that includes this uses a part of it.
-
 use std::collections::{btree_map::Entry, BTreeMap};
 
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 
 use crate::rig::stepper::bundles::{commit_job, Edge};
 

@@ -1,7 +1,5 @@
 //! The host's side of a serial link in plain code: check sum, framing, frames, and the line bit by bit.
 
-#![allow(dead_code)] // Every test that includes this uses a part of it.
-
 use std::collections::VecDeque;
 
 /// The check sum of Ethernet and zip, a bit at a time.
@@ -147,11 +145,6 @@ impl Talker {
 
     pub fn is_silent(&self) -> bool {
         self.bits.is_empty() && self.left <= 0.0
-    }
-
-    /// Bits that wait.
-    pub fn waiting(&self) -> usize {
-        self.bits.len()
     }
 
     /// The line in the next clock.

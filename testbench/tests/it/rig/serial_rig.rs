@@ -1,14 +1,12 @@
 //! A serial link at its pins, with a host on the line and a stand-in for the core.
 
-#![allow(dead_code)] // Every test that includes this uses a part of it.
-
 use std::collections::{BTreeMap, VecDeque};
 
-use incircle_cli::generate::SplitMix64;
-use incircle_hdl::export::QUICK_LINK;
+use incircle_blocks::QUICK_LINK;
 use incircle_hdl::serial::SerialLink;
 use incircle_protocol::{DeviceFrame, HostFrame, FIRST_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN};
 use incircle_testbench::blocks;
+use incircle_testkit::SplitMix64;
 use verilated::{Model, PortId};
 
 use crate::rig::serial_host::{cobs, crc32, host_frame, Heard, Listener, Talker};

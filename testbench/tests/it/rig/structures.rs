@@ -1,5 +1,4 @@
 //! The structures that travel between blocks, as numbers: said here a second time, so that a field that moves is noticed.
-#![allow(dead_code, reason = "each test uses the structures of its blocks")]
 
 /// Widths of the fields, the lowest first.
 pub type Layout<const N: usize> = [u32; N];
@@ -12,8 +11,6 @@ pub const BUNDLE: Layout<13> = [1, 1, 5, 1, 1, 6, 6, 6, 15, 15, 6, 15, 15];
 pub const TURNED: Layout<13> = [15, 15, 15, 15, 15, 15, 2, 1, 1, 1, 1, 1, 1];
 /// conflict, located, `falls_onto_corner`, `is_left`, `is_straight`, `walk_next`.
 pub const VERDICT: Layout<6> = [1, 1, 1, 1, 1, 15];
-/// a, u, slot, f, after.
-pub const ENTRY: Layout<5> = [15, 15, 2, 15, 6];
 /// valid, id, vertices, link0, link1, link2, v0, v1, v2, n0, n1, n2.
 pub const WRITE: Layout<12> = [1, 15, 1, 1, 1, 1, 15, 15, 15, 15, 15, 15];
 

@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{NamedPorts, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
+use incircle_testkit::SplitMix64;
 
 /// The layout of the largest core.
 pub const LAYOUT: Layout = Layout::of(CORE_COORD_BITS, MAX_POINTS);

@@ -1,6 +1,5 @@
 //! What a visit finds out, from the geometry alone. Shares no formula with the hardware: orientation is a sum over the corners,
 //! incircle the 3 x 3 determinant of the lifted points, the walk a minimum, the tie a minimum of four points.
-#![allow(dead_code, reason = "each test uses a part of it")]
 
 use crate::rig::structures::{pack, TURNED, VERDICT};
 

@@ -149,3 +149,21 @@ pub fn run_visits<U: NamedPorts>(
 pub fn signed(value: u64, bits: u32) -> i128 {
     i128::from(((value << (64 - bits)) as i64) >> (64 - bits))
 }
+
+/// The inputs of a product of two vectors.
+pub const DIFFERENCE_PORTS: [&str; 4] = ["a_x", "a_y", "b_x", "b_y"];
+
+/// Differences of coordinates as 18 bits, and what they stand for.
+fn difference(numbers: &mut Numbers) -> u64 {
+    let value = match numbers.next() % 4 {
+        0 => [0, 1, -1, LARGEST, -LARGEST][(numbers.next() % 5) as usize],
+        _ => numbers.bits(16) as i64 - numbers.bits(16) as i64,
+    };
+    bits_of(value.into(), 18) as u64
+}
+
+/// Values for [`DIFFERENCE_PORTS`]: differences of coordinates.
+pub fn difference_stimuli() -> Vec<Vec<u64>> {
+    let mut numbers = Numbers::new(13);
+    (0..CYCLES).map(|_| (0..4).map(|_| difference(&mut numbers)).collect()).collect()
+}

@@ -1,7 +1,7 @@
 //! The back end `clock` gives the meshes of the back end `model`, whatever the set, the order and the number of contexts.
 
 use crate::common::Scratch;
-use incircle::{Device, Mesh, Options, Order, Point, Session};
+use incircle::{Device, Options, Order, Point, Session, Solution};
 use incircle_protocol::{Config, LARGE};
 use incircle_testkit::{generate, Distribution};
 use serde_json::Value;
@@ -9,8 +9,8 @@ use serde_json::Value;
 /// Contexts that are tried.
 const CONTEXTS: [u32; 6] = [1, 2, 4, 8, 16, 24];
 
-fn triangulate(session: &mut Session<'_>, points: &[Point], order: Order, contexts: Option<u32>) -> Mesh {
-    let options = Options { order, contexts, ..Options::default() };
+fn triangulate(session: &mut Session<'_>, points: &[Point], order: Order, contexts: Option<u32>) -> Solution {
+    let options = Options::default().order(order).contexts(contexts);
     session.triangulate_with(points, &options).expect("a mesh")
 }
 
@@ -24,16 +24,16 @@ fn compare(config: Config, count: usize) {
         let points = generate(set, count, 16, 2).expect("the bits are possible");
         let points: Vec<Point> = points.into_iter().map(Point::from).collect();
         let expected = triangulate(&mut model, &points, Order::default(), None);
-        expected.verify().unwrap_or_else(|error| panic!("{set}: {error}"));
+        expected.mesh.verify().unwrap_or_else(|error| panic!("{set}: {error}"));
         for order in Order::BASIC {
             for contexts in CONTEXTS {
-                let mesh = triangulate(&mut clock, &points, order, Some(contexts));
+                let solution = triangulate(&mut clock, &points, order, Some(contexts));
                 let what = format!("{set}, {order:?}, {contexts} contexts");
-                assert!(mesh.triangles == expected.triangles, "{what}");
-                assert_eq!(mesh.hull, expected.hull, "{what}");
-                assert_eq!(mesh.duplicates, expected.duplicates, "{what}");
-                let counters = mesh.report.counters.expect("the device was asked");
-                assert_eq!(counters.insertions as usize, mesh.report.distinct, "{what}");
+                assert!(solution.mesh.triangles == expected.mesh.triangles, "{what}");
+                assert_eq!(solution.mesh.hull, expected.mesh.hull, "{what}");
+                assert_eq!(solution.mesh.duplicates, expected.mesh.duplicates, "{what}");
+                let counters = solution.report.counters.expect("the device was asked");
+                assert_eq!(counters.insertions as usize, solution.report.distinct, "{what}");
                 assert!(counters.insert_cycles > 0, "{what}");
             }
         }
@@ -142,6 +142,33 @@ fn it_says_what_it_is() {
     let run = scratch.run("info --backend clock --config full").ok();
     assert!(run.stdout.contains("back end clock\n"), "{run:?}");
     assert!(run.stdout.contains("coordinates of 16 bits\n8192 points\n16 insertions at once\n"), "{run:?}");
+}
+
+#[test]
+fn an_address_chooses_what_an_argument_chooses() {
+    let scratch = Scratch::new();
+    scratch.run("generate parabola -n 9 -o p.csv").ok();
+    let config = |backend: &str| {
+        let run = scratch.run(&format!("triangulate p.csv -o m.ele --json --backend {backend}")).ok();
+        let report: Value = serde_json::from_str(&run.stdout).expect("the report is JSON");
+        report["config"].clone()
+    };
+    assert_eq!((config("clock"), config("clock?config=full")), ("small".into(), "full".into()));
+    let run = scratch.run("info --backend cpu?threads=1").ok();
+    assert!(run.stdout.contains("\n1 thread\n"), "{run:?}");
+    let run = scratch.run("info --backend model?coord-bits=20&capacity=99").ok();
+    assert!(run.stdout.contains("coordinates of 20 bits\n99 points\n"), "{run:?}");
+    for (bad, sentence) in [
+        ("clock?config=full --config full", "both choose"),
+        ("cpu?threads=1 --threads 1", "both choose"),
+        ("clock?config=huge", "there are tiny, small, full, large"),
+        ("clock?threads=2", "\"config\" is known"),
+        ("model --config full", "it needs --backend clock"),
+    ] {
+        // Some are refused as values of the argument, before the command begins, in a form of their own.
+        let run = scratch.run(&format!("info --backend {bad}"));
+        assert!(run.code == Some(2) && run.stdout.is_empty() && run.stderr.contains(sentence), "{bad}: {run:?}");
+    }
 }
 
 #[test]

@@ -80,11 +80,9 @@ fn orders_are_drawn_and_points_written_in_them() {
     scratch.run("generate lattice -n 64 --order hilbert -o order.svg").ok();
     let drawing = scratch.read("order.svg");
     assert!(drawing.starts_with("<svg ") && drawing.contains("64 points, lattice, in the order hilbert"), "{drawing}");
-    scratch.run("generate kuzmin -n 64 --order briodc-linear -o guided.svg").ok();
-    assert!(scratch.read("guided.svg").contains("64 points, kuzmin, in the order briodc-linear"));
     scratch.run("generate lattice -n 64 -o order2.svg").fails(2, &["--order", ".csv"]);
     scratch.run("generate uniform -n 500 -o p.csv").ok();
-    scratch.run("generate uniform -n 500 --order brio-squarified-peano -o q.csv").ok();
+    scratch.run("generate uniform -n 500 --order brio-hilbert -o q.csv").ok();
     let lines = |name: &str| {
         let mut lines: Vec<String> = scratch.read(name).lines().map(str::to_owned).collect();
         let in_file = lines.clone();
@@ -94,5 +92,19 @@ fn orders_are_drawn_and_points_written_in_them() {
     let ((sorted, plain), (sorted_too, ordered)) = (lines("p.csv"), lines("q.csv"));
     assert_eq!(sorted, sorted_too);
     assert_ne!(plain, ordered);
-    assert_eq!(scratch.run("generate uniform -n 5 --order zigzag -o p.csv").code, Some(2));
+}
+
+/// The names of the product's orders, and where the others are.
+#[test]
+fn orders_of_other_names_are_refused_with_the_names_that_there_are() {
+    let scratch = Scratch::new();
+    for name in ["zigzag", "briodc-linear", "brio-squarified-peano"] {
+        for call in [format!("generate uniform -n 5 --order {name} -o p.csv"), format!("bench --order {name}")] {
+            let run = scratch.run(&call);
+            assert_eq!(run.code, Some(2), "{run:?}");
+            for part in [name, "'brio-hilbert'", "'hilbert'", "'input'", "'random'", "incircle-research"] {
+                assert!(run.stderr.contains(part), "no {part:?} in {run:?}");
+            }
+        }
+    }
 }

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use crate::common::board::{cobs_decode, crc32, crc32_more, frame, greeting};
 use crate::common::heap;
-use incircle::serial::{Engine, Params};
-use incircle_protocol::{command_word, Opcode};
+use incircle::transports::parts::{Params, SerialProtocol};
+use incircle_protocol::{Command, RecordRange};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
@@ -100,27 +100,22 @@ fn event() -> impl Strategy<Value = Event> {
     ]
 }
 
-fn command() -> impl Strategy<Value = Vec<u32>> {
+fn command() -> impl Strategy<Value = Command<Vec<u32>>> {
     prop_oneof![
-        Just(vec![command_word(Opcode::Hello)]),
-        Just(vec![command_word(Opcode::Clear)]),
-        Just(vec![command_word(Opcode::Counters)]),
-        Just(vec![command_word(Opcode::Latencies)]),
-        (0u32..3000).prop_map(|count| {
-            let mut words = vec![command_word(Opcode::Insert), count];
-            words.extend(0..count);
-            words
-        }),
-        (any::<u16>(), 0u32..3000).prop_map(|(first, count)| vec![command_word(Opcode::Read), u32::from(first), count]),
+        Just(Command::Hello),
+        Just(Command::Clear { contexts: 0, is_batch: false }),
+        Just(Command::Counters),
+        Just(Command::Latencies),
+        (0u32..3000).prop_map(insert),
+        (any::<u16>(), 0u32..3000).prop_map(|(first, count)| read(u32::from(first), count)),
     ]
 }
 
 /// Words that its answer may have.
-fn most_words(command: &[u32]) -> usize {
-    if command.len() == 3 && command[0] == command_word(Opcode::Read) {
-        2 + 3 * command[2] as usize
-    } else {
-        LONGEST
+fn most_words(command: &Command<Vec<u32>>) -> usize {
+    match command {
+        Command::Read(records) => 2 + 3 * records.count as usize,
+        _ => LONGEST,
     }
 }
 
@@ -153,7 +148,7 @@ fn bytes_of(session: u8, kind: u8, header: [u8; 5], body: &Body) -> Vec<u8> {
 
 /// The engine under test, with what is held of it.
 struct Bench {
-    engine: Engine,
+    engine: SerialProtocol,
     now: Duration,
     session: u8,
     last: Vec<u8>,
@@ -168,7 +163,7 @@ static HANDED_OUT: AtomicUsize = AtomicUsize::new(0);
 
 impl Bench {
     fn new(rates: Vec<u32>) -> Self {
-        let engine = Engine::new(Params { rates, session: 41 });
+        let engine = SerialProtocol::new(Params { rates, session: 41 });
         let (now, last, digests) = (Duration::from_secs(1), Vec::new(), VecDeque::from([0]));
         Self { engine, now, session: 42, last, frames: 0, answers: 0, digests }
     }
@@ -254,9 +249,9 @@ impl Bench {
 }
 
 /// Runs the events; the engine must stay within its bounds at each of them.
-fn check(bench: &mut Bench, command: &[u32], events: &[Event]) -> Result<(), TestCaseError> {
+fn check(bench: &mut Bench, command: &Command<Vec<u32>>, events: &[Event]) -> Result<(), TestCaseError> {
     let most = most_words(command);
-    let bound = 4 * (command.len() + most) as isize + BESIDES;
+    let bound = 4 * (command.words() + most) as isize + BESIDES;
     for event in events {
         bench.happen(event);
         prop_assert!(heap::held() <= bound, "{} bytes held, {bound} allowed", heap::held());
@@ -272,12 +267,12 @@ fn check(bench: &mut Bench, command: &[u32], events: &[Event]) -> Result<(), Tes
     Ok(())
 }
 
-fn run(cases: u32, strategy: impl Strategy<Value = (Vec<u32>, Vec<Event>)>, is_open: bool, rates: &[u32]) {
+fn run(cases: u32, strategy: impl Strategy<Value = (Command<Vec<u32>>, Vec<Event>)>, is_open: bool, rates: &[u32]) {
     let mut runner = TestRunner::new(Config { cases, failure_persistence: None, ..Config::default() });
     let result = runner.run(&strategy, |(command, events)| {
         heap::watch();
         let mut bench = Bench::new(rates.to_vec());
-        bench.engine.ask(&command, bench.now).map_err(|fault| TestCaseError::fail(fault.to_string()))?;
+        bench.engine.ask(command.borrowed(), bench.now).map_err(|fault| TestCaseError::fail(fault.to_string()))?;
         if is_open {
             bench.open();
             prop_assert!(bench.engine.is_open());
@@ -313,11 +308,9 @@ fn whatever_bytes_come() {
 /// A device that goes on with one answer for ever is stopped.
 #[test]
 fn an_answer_without_end() {
-    for opcode in [Opcode::Hello, Opcode::Read, Opcode::Latencies] {
+    for command in [Command::Hello, read(0, 3000), Command::Latencies] {
         let mut bench = Bench::new(vec![]);
-        let command =
-            if opcode == Opcode::Read { vec![command_word(opcode), 0, 3000] } else { vec![command_word(opcode)] };
-        bench.engine.ask(&command, bench.now).expect("a command");
+        bench.engine.ask(command.borrowed(), bench.now).expect("a command");
         bench.open();
         let mut index = 0u16;
         while bench.engine.check().is_ok() {
@@ -332,19 +325,23 @@ fn an_answer_without_end() {
 }
 
 /// The engine with a session open and this command asked.
-fn asked(command: &[u32]) -> Bench {
+fn asked(command: &Command<Vec<u32>>) -> Bench {
     let mut bench = Bench::new(vec![]);
-    bench.engine.ask(command, bench.now).expect("a command");
+    bench.engine.ask(command.borrowed(), bench.now).expect("a command");
     bench.open();
     bench
 }
 
-fn insert(count: u32) -> Vec<u32> {
-    [command_word(Opcode::Insert), count].into_iter().chain(0..count).collect()
+fn insert(count: u32) -> Command<Vec<u32>> {
+    Command::Insert { count, points: (0..count).collect() }
 }
 
-fn commands() -> [Vec<u32>; 4] {
-    [vec![command_word(Opcode::Latencies)], vec![command_word(Opcode::Read), 0, 3000], insert(3), insert(3000)]
+fn read(first: u32, count: u32) -> Command<Vec<u32>> {
+    Command::Read(RecordRange { first, count })
+}
+
+fn commands() -> [Command<Vec<u32>>; 4] {
+    [Command::Latencies, read(0, 3000), insert(3), insert(3000)]
 }
 
 /// The whole answer of an insertion.
@@ -381,7 +378,7 @@ fn answers_that_are_counted_and_never_come() {
     for (command, takes) in commands().into_iter().flat_map(|command| [(command.clone(), false), (command, true)]) {
         heap::watch();
         let mut bench = asked(&command);
-        let bound = 4 * (command.len() + most_words(&command)) as isize + BESIDES;
+        let bound = 4 * (command.words() + most_words(&command)) as isize + BESIDES;
         for step in 0..100_000 {
             if takes {
                 bench.wait(bench.now + Duration::from_millis(3));
@@ -402,10 +399,8 @@ fn answers_that_are_counted_and_never_come() {
 
 #[test]
 fn no_answer_is_longer_than_its_command_may_bring() {
-    for (opcode, words, is_longest) in
-        [(Opcode::Hello, 130, true), (Opcode::Hello, 131, false), (Opcode::Hello, 200, false)]
-    {
-        let mut bench = asked(&[command_word(opcode)]);
+    for (words, is_longest) in [(130, true), (131, false), (200, false)] {
+        let mut bench = asked(&Command::Hello);
         let length = words as u32 - 2;
         let part = Body::Part { number: 0, index: 0, header: 1 << 24, length, words, is_sound: true };
         bench.engine.receive(&bytes_of(42, 0x86, [1, 0, 0, 16, 1], &part), bench.now);
@@ -421,7 +416,7 @@ fn no_answer_is_longer_than_its_command_may_bring() {
 #[test]
 fn what_is_due_waits_for_the_line() {
     let mut bench = Bench::new(vec![]);
-    bench.engine.ask(&insert(3000), bench.now).expect("a command");
+    bench.engine.ask(insert(3000).borrowed(), bench.now).expect("a command");
     bench.open_with(5, 20);
     bench.wait(bench.now + Duration::from_millis(300));
     assert!(bench.frames > 0 && bench.engine.statistics().polls > 0);

@@ -2,13 +2,24 @@
 
 use std::time::Duration;
 
+use crate::common::by_engine;
 use crate::common::rig::{Fate, Rig};
 use crate::common::Random;
-use incircle::serial::{Params, SerialFault};
-use incircle::{Device, Error, ErrorKind, Mesh, Point, TransportError};
-use incircle_protocol::{command_word, Opcode};
+use incircle::serial::SerialFault;
+use incircle::transports::parts::Params;
+use incircle::{Device, Error, ErrorKind, Point, Solution, TransportError};
+use incircle_protocol::{Command, RecordRange};
 
-const HELLO: [u32; 1] = [command_word(Opcode::Hello)];
+const HELLO: Command<&[u32]> = Command::Hello;
+
+fn insert(count: u32) -> Command<Vec<u32>> {
+    let words = points(count as usize).iter().map(|point| point.x | point.y << 16).collect();
+    Command::Insert { count, points: words }
+}
+
+fn read(count: u32) -> Command<[u32; 0]> {
+    Command::Read(RecordRange { first: 0, count })
+}
 
 fn rig() -> Rig {
     Rig::new(Params::with_rate(12_000_000), 4096)
@@ -19,7 +30,7 @@ fn points(count: usize) -> Vec<Point> {
 }
 
 /// A whole job.
-fn triangulate(rig: Rig, points: &[Point]) -> Result<Mesh, Error> {
+fn triangulate(rig: Rig, points: &[Point]) -> Result<Solution, Error> {
     let mut device = Device::from_transport(Box::new(rig));
     let mut session = device.session()?;
     session.triangulate(points)
@@ -27,18 +38,18 @@ fn triangulate(rig: Rig, points: &[Point]) -> Result<Mesh, Error> {
 
 /// A whole job, which must end in this list of triangles; `what` says of which one that was not so.
 fn ends_right(rig: Rig, points: &[Point], expected: &[[u32; 3]], what: &str) {
-    let mesh = triangulate(rig, points).unwrap_or_else(|error| panic!("{what}: {error}"));
-    assert_eq!(mesh.triangles, expected, "{what}");
+    let solution = triangulate(rig, points).unwrap_or_else(|error| panic!("{what}: {error}"));
+    assert_eq!(solution.mesh.triangles, expected, "{what}");
 }
 
-fn expected(points: &[Point]) -> Mesh {
-    incircle::triangulate(points).expect("the model")
+fn expected(points: &[Point]) -> Solution {
+    by_engine(points)
 }
 
 fn fault(result: Result<Vec<u32>, TransportError>) -> SerialFault {
     match result {
-        Err(TransportError::Serial(fault)) => fault,
-        other => panic!("no fault: {other:?}"),
+        Err(error) => error.fault::<SerialFault>().cloned().unwrap_or_else(|| panic!("no fault: {error:?}")),
+        Ok(answer) => panic!("no fault: {answer:?}"),
     }
 }
 
@@ -50,8 +61,8 @@ fn a_sound_line_carries_a_job_at_the_rate_that_was_asked_for() {
     assert_eq!(rig.engine.rate(), 12_000_000);
     assert!(rig.board.rate.abs_diff(12_000_000) < 10, "{}", rig.board.rate);
     let points = points(2000);
-    let mesh = triangulate(rig, &points).expect("a sound line");
-    assert_eq!(mesh.triangles, expected(&points).triangles);
+    let solution = triangulate(rig, &points).expect("a sound line");
+    assert_eq!(solution.mesh.triangles, expected(&points).mesh.triangles);
 }
 
 #[test]
@@ -60,12 +71,11 @@ fn nothing_is_sent_twice_on_a_sound_line() {
         let mut rig = Rig::new(Params::with_rate(rate), fifo);
         rig.board.appetite = appetite;
         let count = 8000;
-        let mut insert = vec![command_word(Opcode::Insert), count];
-        insert.extend(points(count as usize).iter().map(|point| point.x | point.y << 16));
+        let insert = insert(count);
         let answer = rig.ask(&insert).expect("a sound line");
         let records = answer[6];
-        let read = rig.ask(&[command_word(Opcode::Read), 0, records]).expect("a sound line");
-        assert_eq!(read.len(), 2 + 3 * records as usize);
+        let answer = rig.ask(&read(records)).expect("a sound line");
+        assert_eq!(answer.len(), 2 + 3 * records as usize);
         assert_eq!(rig.board.overflows, 0);
         let statistics = rig.engine.statistics();
         assert_eq!(
@@ -82,15 +92,14 @@ fn both_directions_carry_nine_tenths_of_what_the_line_can() {
         let mut rig = Rig::new(Params::with_rate(rate), 4096);
         rig.ask(&HELLO).expect("a sound line");
         let count = 8192;
-        let mut insert = vec![command_word(Opcode::Insert), count];
-        insert.extend(points(count as usize).iter().map(|point| point.x | point.y << 16));
+        let insert = insert(count);
         let goodput = |bytes: usize, time: Duration| 10.0 * bytes as f64 / time.as_secs_f64() / f64::from(rate);
         let since = rig.now;
         let answer = rig.ask(&insert).expect("a sound line");
-        let there = goodput(4 * insert.len(), rig.now - since);
+        let there = goodput(4 * insert.words(), rig.now - since);
         let since = rig.now;
-        let read = rig.ask(&[command_word(Opcode::Read), 0, answer[6]]).expect("a sound line");
-        let back = goodput(4 * read.len(), rig.now - since);
+        let answer = rig.ask(&read(answer[6])).expect("a sound line");
+        let back = goodput(4 * answer.len(), rig.now - since);
         println!("{rate} bits per second: {there:.3} of what the line carries are words there, {back:.3} back");
         assert!(there > 0.9 && back > 0.9, "{rate}: {there} {back}");
     }
@@ -100,7 +109,7 @@ fn both_directions_carry_nine_tenths_of_what_the_line_can() {
 #[test]
 fn a_fault_of_any_frame_leaves_no_trace() {
     let points = points(300);
-    let expected = expected(&points).triangles;
+    let expected = expected(&points).mesh.triangles;
     for fate in [Fate::Lost, Fate::Changed, Fate::Twice, Fate::Overtaken] {
         for way in [false, true] {
             for place in 0..40 {
@@ -117,7 +126,7 @@ fn a_fault_of_any_frame_leaves_no_trace() {
 #[test]
 fn a_lost_frame_goes_again_also_where_answers_come_sooner_than_the_rate_allows() {
     let points = points(300);
-    let expected = expected(&points).triangles;
+    let expected = expected(&points).mesh.triangles;
     for place in 0..20 {
         let mut rig = rig();
         (rig.is_instant, rig.delay) = (true, Duration::ZERO);
@@ -130,7 +139,7 @@ fn a_lost_frame_goes_again_also_where_answers_come_sooner_than_the_rate_allows()
 #[test]
 fn many_faults_leave_no_trace_either() {
     let points = points(700);
-    let expected = expected(&points).triangles;
+    let expected = expected(&points).mesh.triangles;
     for seed in 0..60 {
         let mut rig = rig();
         let mut random = Random(seed);
@@ -155,7 +164,7 @@ fn is_of_noise(fault: &SerialFault) -> bool {
 fn noise_ends_in_the_right_mesh_or_in_an_error_of_its_own() {
     const JOBS: usize = 200;
     let points = points(100);
-    let expected = expected(&points).triangles;
+    let expected = expected(&points).mesh.triangles;
     for (noise, least) in [(1e-6, JOBS), (1e-5, JOBS), (1e-4, JOBS), (1e-3, JOBS / 2), (1e-2, 0)] {
         let (mut right, mut flipped) = (0, 0);
         for seed in 0..JOBS {
@@ -164,14 +173,12 @@ fn noise_ends_in_the_right_mesh_or_in_an_error_of_its_own() {
             rig.random = Random(seed as u64);
             let count = rig.flipped.clone();
             match triangulate(rig, &points) {
-                Ok(mesh) => {
-                    assert_eq!(mesh.triangles, expected, "{noise} {seed}");
+                Ok(solution) => {
+                    assert_eq!(solution.mesh.triangles, expected, "{noise} {seed}");
                     right += 1;
                 }
                 Err(Error::Timeout { .. }) => {}
-                Err(Error::Link { source: TransportError::Serial(fault), .. }) => {
-                    assert!(is_of_noise(&fault), "{fault}")
-                }
+                Err(Error::Link { source, .. }) => assert!(source.fault().is_some_and(is_of_noise), "{source}"),
                 Err(error) => panic!("{noise} {seed}: {error}"),
             }
             flipped += count.get();
@@ -218,9 +225,7 @@ fn a_device_that_was_reset_is_told() {
         let mut rig = rig();
         rig.ask(&HELLO).expect("a sound line");
         rig.reset_at = Some(rig.now + Duration::from_millis(delay));
-        let mut insert = vec![command_word(Opcode::Insert), 8192];
-        insert.extend(points(8192).iter().map(|point| point.x | point.y << 16));
-        let fault = fault(rig.ask(&insert));
+        let fault = fault(rig.ask(&insert(8192)));
         assert_eq!(fault, SerialFault::Reset { silence_ms: 2000 }, "{delay}");
     }
     // At the first rate the device itself says so.
@@ -293,7 +298,8 @@ fn other_devices_are_refused_with_what_to_do() {
 fn a_host_that_was_killed_leaves_a_device_that_the_next_one_finds() {
     let mut rig = rig();
     rig.ask(&HELLO).expect("a sound line");
-    let killed = std::mem::replace(&mut rig.engine, incircle::serial::Engine::new(Params::default()));
+    let killed =
+        std::mem::replace(&mut rig.engine, incircle::transports::parts::SerialProtocol::new(Params::default()));
     assert_eq!(killed.rate(), 12_000_000);
     let since = rig.now;
     rig.ask(&HELLO).expect("after the silence");
@@ -323,18 +329,24 @@ fn a_pause_between_jobs_is_no_matter_and_one_within_a_job_is_told() {
         rig.now += Duration::from_millis(pause);
         rig.ask(&HELLO).unwrap_or_else(|error| panic!("{pause}: {error}"));
         rig.now += Duration::from_millis(pause);
-        let result = rig.ask(&[command_word(Opcode::Counters)]);
+        let result = rig.ask(&Command::<[u32; 0]>::Counters);
         assert_eq!(result.is_ok(), pause < 2_000, "{pause}");
         if let Err(error) = result {
-            assert!(matches!(error, TransportError::Serial(SerialFault::Reset { .. })), "{error}");
+            assert!(matches!(error.fault(), Some(SerialFault::Reset { .. })), "{error}");
         }
     }
 }
 
 #[test]
-fn what_is_no_whole_command_is_refused() {
-    for words in [&[][..], &[0x2a00_0000], &[command_word(Opcode::Insert), 2, 0], &[command_word(Opcode::Read), 0]] {
-        let mut rig = rig();
-        assert!(matches!(fault(rig.ask(words)), SerialFault::Command(_)));
+fn what_the_link_cannot_carry_is_refused() {
+    let range = |first, count| RecordRange { first, count };
+    for (command, sentence) in [
+        (Command::Triangles(range(0, 1)), "reads whole records"),
+        (Command::Read(range(u32::MAX, 1)), "passes the last record number"),
+        (Command::Insert { count: 2, points: &[7][..] }, "of another device"),
+        (Command::Insert { count: 0, points: &[7][..] }, "of another device"),
+    ] {
+        let fault = fault(rig().ask(&command));
+        assert!(matches!(fault, SerialFault::Command(why) if why.contains(sentence)), "{fault}");
     }
 }

@@ -4,11 +4,11 @@ use std::time::Duration;
 
 use crate::common::board;
 use crate::common::rig::{Fate, Rig};
-use incircle::serial::{Engine, Params, SerialFault};
-use incircle::TransportError;
-use incircle_protocol::{command_word, Opcode, FIRST_RATE, MAX_SILENCE_MS};
+use incircle::serial::SerialFault;
+use incircle::transports::parts::{Params, SerialProtocol};
+use incircle_protocol::{Command, FIRST_RATE, MAX_SILENCE_MS};
 
-const HELLO: [u32; 1] = [command_word(Opcode::Hello)];
+const HELLO: Command<&[u32]> = Command::Hello;
 /// Header of a device's frame without a session: `NoSession`, 4,096 bytes free.
 const NO_SESSION: [u8; 7] = [0, 0x87, 0, 0, 0, 16, 0];
 
@@ -39,7 +39,7 @@ fn a_late_frame_of_a_session_is_nothing_to_the_next() {
 #[test]
 fn a_frame_without_a_session_is_nothing_to_a_greeting() {
     let mut rig = slow_rig(0);
-    rig.engine.ask(&HELLO, rig.now).expect("a command");
+    rig.engine.ask(HELLO, rig.now).expect("a command");
     rig.engine.receive(&board::frame(&NO_SESSION), rig.now);
     rig.finish().expect("a sound line");
 }
@@ -75,7 +75,7 @@ fn a_rate_that_does_not_work_is_left_also_where_silence_is_short() {
 #[test]
 fn a_device_without_a_session_is_greeted_at_the_first_rate() {
     let mut rig = rig();
-    rig.engine.ask(&HELLO, rig.now).expect("a command");
+    rig.engine.ask(HELLO, rig.now).expect("a command");
     assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.rate() != FIRST_RATE));
     rig.engine.receive(&board::frame(&NO_SESSION), rig.now);
     assert_eq!(rig.engine.rate(), FIRST_RATE);
@@ -88,7 +88,7 @@ fn a_device_with_the_longest_silence_is_found_at_any_rate() {
     let mut rig = rig();
     rig.board.greeting[5] = MAX_SILENCE_MS;
     rig.ask(&HELLO).expect("a sound line");
-    rig.engine = Engine::new(Params { session: 77, ..Params::with_rate(3_000_000) });
+    rig.engine = SerialProtocol::new(Params { session: 77, ..Params::with_rate(3_000_000) });
     rig.ask(&HELLO).expect("after the silence");
     assert_eq!(rig.engine.rate(), 3_000_000);
 }
@@ -98,7 +98,7 @@ fn a_device_with_the_longest_silence_is_found_at_any_rate() {
 fn the_ladder_of_rates_is_done_in_the_time_for_a_greeting() {
     let mut rig = rig();
     rig.ask(&HELLO).expect("a sound line");
-    rig.engine = Engine::new(Params { session: 77, ..Params::with_rate(12_000_000) });
+    rig.engine = SerialProtocol::new(Params { session: 77, ..Params::with_rate(12_000_000) });
     rig.board.usable = 200_000;
     // `Hello`, `Opened`, `Ack`, three times.
     let first = rig.frames[1];
@@ -132,7 +132,7 @@ fn a_command_may_follow_a_greeting_at_once() {
 fn closing_gives_up_the_command_under_way() {
     for microseconds in [0, 300, 3_000, 20_000, 100_000] {
         let mut rig = rig();
-        rig.engine.ask(&HELLO, rig.now).expect("a command");
+        rig.engine.ask(HELLO, rig.now).expect("a command");
         rig.run(rig.now + Duration::from_micros(microseconds), |_| false);
         rig.engine.close(rig.now);
         assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.is_closed()));
@@ -148,6 +148,6 @@ fn the_core_must_say_what_the_greeting_said() {
         let found = std::mem::replace(&mut rig.board.greeting[6 + word], value);
         let error = rig.ask(&HELLO).expect_err("they differ");
         let fault = SerialFault::Contradiction { word, found, expected: value };
-        assert!(matches!(&error, TransportError::Serial(said) if *said == fault), "{error}");
+        assert_eq!(error.fault(), Some(&fault), "{error}");
     }
 }

@@ -1,6 +1,6 @@
 //! Jobs side by side in one memory: every one of them gets the mesh that it gets alone, from the model by commands and clock by clock.
 
-use crate::common::batches::{taken_apart, Batch};
+use crate::common::batches::taken_apart;
 use crate::common::bench::{limit, Answer, Answers, Bench, Stalls};
 use crate::common::mesh_check::{canonical, records_of};
 use crate::common::{sets, Random};
@@ -8,6 +8,7 @@ use incircle_model::CommandModel;
 use incircle_protocol::{
     batch_word, clear_word, command_word, Config, Counter, Opcode, Status, COUNTER_WORDS, FULL, SMALL,
 };
+use incircle_testkit::Batch;
 
 /// `Clear` for a batch, and an `Insert` for each piece of so many points.
 fn words_of(clear: u32, points: &[u32], piece: usize) -> Vec<u32> {

@@ -1,47 +1,6 @@
-//! Batches: jobs side by side in one memory, as points in the order in which they are sent, and the mesh of each job taken out again.
+//! The mesh of each job, taken out of the memory that the jobs of a batch share.
 
-use super::{sets, Random};
 use incircle_protocol::{infinite_vertex, Config, Layout};
-
-/// The points of a batch of so many jobs.
-#[derive(Clone, Debug)]
-pub struct Batch {
-    /// The points of each job, its first three in front.
-    pub jobs: Vec<Vec<u32>>,
-}
-
-impl Batch {
-    /// Jobs of about `most` points each and of any kind; the first three of each span a triangle if `spans`, or may not.
-    pub fn random(random: &mut Random, jobs: u32, most: u32, spans: bool) -> Self {
-        let mut made = Vec::new();
-        for _ in 0..jobs {
-            let count = 3 + random.below(most.max(1));
-            let side = random.pick(&[3, 5, 8, 40, 300, 1 << 16]);
-            let mut points = match random.below(6) {
-                0 => sets::stuttering(random, count, side),
-                1 => sets::parabola(random, count.min(255)),
-                2 => sets::wheel(random, count),
-                _ => sets::boxed(random, count, side),
-            };
-            if spans {
-                points = sets::started(points);
-            }
-            made.push(points);
-        }
-        Self { jobs: made }
-    }
-
-    /// All points in the order in which they are sent: three of each job, then one of each in turn. A job that is over repeats its first
-    /// point until the last job is.
-    pub fn points(&self) -> Vec<u32> {
-        let mut points: Vec<u32> = self.jobs.iter().flat_map(|job| job[..3].to_vec()).collect();
-        let longest = self.jobs.iter().map(Vec::len).max().unwrap_or(0);
-        for place in 3..longest {
-            points.extend(self.jobs.iter().map(|job| job.get(place).copied().unwrap_or(job[0])));
-        }
-        points
-    }
-}
 
 /// The job that a vertex belongs to.
 fn job_of(vertex: u32, jobs: u32) -> u32 {

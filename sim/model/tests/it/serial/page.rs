@@ -1,13 +1,16 @@
 //! The exchange in `protocol/SERIAL.md` is what the model of the link says, byte by byte, and its tables have the numbers of the crate.
 
-use super::exchange::{steps, PAGE};
 use incircle_model::serial::{core_identity, FrameReceiver, FromDevice, FromHost, Received, SerialModel};
 use incircle_model::ClockModel;
 use incircle_protocol::{
     DeviceFrame, HostFrame, LinkConfig, BREAK_MS, FIRST_RATE, FRAME_END, LINK_MAGIC, LINK_VERSION, MAX_PAYLOAD,
     SILENCE_MS, SMALL, WINDOW,
 };
+use incircle_testkit::exchange_steps;
 use std::collections::BTreeSet;
+
+/// The page.
+const PAGE: &str = include_str!("../../../../../protocol/SERIAL.md");
 
 /// Clocks of a byte while the exchange is replayed.
 const BYTE: u64 = 10_850;
@@ -24,7 +27,7 @@ fn hex(bytes: &[u8]) -> String {
 fn the_model_says_what_the_page_shows() {
     let core = ClockModel::new(SMALL).expect("a named configuration");
     let mut board = SerialModel::new(LINK, core_identity(SMALL), core);
-    for (sent, expected) in steps() {
+    for (sent, expected) in exchange_steps(PAGE) {
         let (mut said, mut silent) = (Vec::new(), 0);
         let mut sending = sent.iter();
         while silent < 10 {
@@ -48,7 +51,7 @@ fn the_model_says_what_the_page_shows() {
 fn the_exchange_shows_the_kinds_of_frames() {
     let (mut asked, mut said) = (BTreeSet::new(), BTreeSet::new());
     let mut receiver = FrameReceiver::new();
-    for (sent, answer) in steps() {
+    for (sent, answer) in exchange_steps(PAGE) {
         for frame in sent.iter().filter_map(|&byte| receiver.take(byte)) {
             if let Received::Frame(FromHost { kind, .. }) = frame {
                 asked.insert(kind as u8);

@@ -3,8 +3,8 @@
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_rig::{rise, Clocks, PERIODS};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::leaf::DualClockMemory;
+use incircle_testkit::SplitMix64;
 
 named_ports!([const A: usize, const D: usize] DualClockMemory<A, D>,
     [write_clock, write_address, write_data, write_enable, read_clock, read_address, read_enable], [read_data]);

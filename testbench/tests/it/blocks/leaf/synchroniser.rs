@@ -4,8 +4,8 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, NamedPorts, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::leaf::Synchroniser;
+use incircle_testkit::SplitMix64;
 use rust_hdl_core::prelude::*;
 
 named_ports!([] Synchroniser<Bit>, [sent], [received], clock);

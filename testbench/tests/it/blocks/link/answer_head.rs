@@ -3,9 +3,9 @@
 
 use crate::rig::answer_words::{commands, Answer, Asked};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::AnswerHead;
 use incircle_protocol::{answer_header, Opcode, Status};
+use incircle_testkit::SplitMix64;
 
 named_ports!(AnswerHead, [request, is_refused, records, collinear, stuck, some_refused], [head], clock);
 

@@ -3,9 +3,9 @@
 
 use crate::rig::answer_words::{commands, percent, Asked};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::AnswerWords;
 use incircle_protocol::LATENCY_BUCKETS;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     AnswerWords,

@@ -2,9 +2,9 @@
 
 use crate::rig::stepper::bundles::Deal;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::ClearCommand;
 use incircle_protocol::{clear_word, command_starts_batch, command_word, Opcode, FIRST_ROUND, MAX_CONTEXTS};
+use incircle_testkit::SplitMix64;
 
 named_ports!(ClearCommand, [reset, built, taken], [clearing, deal], clock);
 

@@ -2,8 +2,8 @@
 
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::CommandGate;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     CommandGate,

@@ -3,9 +3,9 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::RecordBuffer;
 use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     RecordBuffer,

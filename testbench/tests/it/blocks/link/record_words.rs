@@ -2,9 +2,9 @@
 
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::RecordWords;
 use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
+use incircle_testkit::SplitMix64;
 
 named_ports!(RecordWords, [record], [word0, word1, word2]);
 

@@ -4,9 +4,9 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::link::Responder;
 use incircle_protocol::{Layout, CORE_COORD_BITS, LATENCY_BUCKETS};
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     Responder,

@@ -51,7 +51,7 @@ fn incircle_fits_its_width() {
 
 #[test]
 fn visit_predicates_take_twenty_multipliers() {
-    let blocks = incircle_hdl::export::blocks();
+    let blocks = incircle_blocks::blocks();
     let (name, verilog) = blocks.iter().find(|block| block.0 == "visit_predicates").expect("the block is exported");
     let cells = cell_count(verilog, name).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(cells.multipliers, VisitPredicates::MULTIPLIERS as u64);

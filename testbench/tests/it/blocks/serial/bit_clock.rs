@@ -1,9 +1,9 @@
 //! `BitClock`: Rust, Verilog and plain code agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::BitClock;
 use incircle_protocol::MAX_STEP;
+use incircle_testkit::SplitMix64;
 
 named_ports!(BitClock, [step, starts], [ticks], clock);
 

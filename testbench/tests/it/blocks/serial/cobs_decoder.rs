@@ -2,8 +2,8 @@
 
 use crate::rig::serial_host::cobs;
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::CobsDecoder;
+use incircle_testkit::SplitMix64;
 
 named_ports!(CobsDecoder, [reset, byte_valid, byte_data, noise], [data_valid, data, frame_ends, is_broken], clock);
 

@@ -3,8 +3,8 @@
 use super::cobs_decoder::bytes;
 use crate::rig::serial_host::reverse_cobs;
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::CobsEncoder;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     CobsEncoder,

@@ -1,8 +1,8 @@
 //! `CommandProgress`: Rust, Verilog and plain code agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::CommandProgress;
+use incircle_testkit::SplitMix64;
 
 named_ports!(CommandProgress, [reset, takes, word, offers_last, takes_answer, answer_ended], [is_busy], clock);
 

@@ -1,8 +1,8 @@
 //! `CommandWords`: Rust, Verilog and plain code agree.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::CommandWords;
+use incircle_testkit::SplitMix64;
 
 named_ports!(CommandWords, [reset, byte_valid, byte_data, word_ready], [takes, word_valid, word], clock);
 

@@ -2,8 +2,8 @@
 
 use crate::rig::serial_host::crc32_state;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::Crc32;
+use incircle_testkit::SplitMix64;
 
 named_ports!(Crc32, [sets, start, takes, byte_data], [is_busy, state], clock);
 

@@ -1,8 +1,8 @@
 //! `FrameChoice`: Rust, Verilog and plain code agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::FrameChoice;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     FrameChoice,

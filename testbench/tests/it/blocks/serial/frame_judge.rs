@@ -2,8 +2,8 @@
 
 use crate::rig::asked::{CLOSES, DROPS, GAP, HEARS, HELLO, NO_SESSION, OPENS, POLLS, RATE, REPEATS, TAKES};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::{Asked, FrameJudge};
+use incircle_testkit::SplitMix64;
 
 named_ports!(FrameJudge, [reset, head, header_comes, comes, is_sound, open, free], [takes_payload, asked], clock);
 

@@ -2,8 +2,8 @@
 
 use crate::rig::serial_host::{crc32, host_frame};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::FrameReader;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     FrameReader,

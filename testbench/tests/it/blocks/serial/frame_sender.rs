@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::FrameSender;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     FrameSender,

@@ -1,7 +1,7 @@
 //! `Greeting`: Rust, Verilog and plain code agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::export::QUICK_LINK;
+use incircle_blocks::QUICK_LINK;
 use incircle_hdl::serial::Greeting;
 use incircle_protocol::{CORE_VERSION, SMALL};
 

@@ -1,9 +1,9 @@
 //! `LineTimers`: Rust, Verilog and plain code agree.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
-use incircle_hdl::export::HASTY_LINK;
+use incircle_blocks::HASTY_LINK;
 use incircle_hdl::serial::LineTimers;
+use incircle_testkit::SplitMix64;
 
 named_ports!(LineTimers, [reset, is_low, hears], [is_broken, is_silent, beat], clock);
 

@@ -2,10 +2,10 @@
 
 use crate::rig::asked::{CLOSES, OPENS, RATE};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
-use incircle_hdl::export::QUICK_LINK;
+use incircle_blocks::QUICK_LINK;
 use incircle_hdl::serial::RateControl;
 use incircle_protocol::{rate_step, FIRST_RATE, MAX_STEP};
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     RateControl,

@@ -3,9 +3,9 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
-use incircle_hdl::export::QUICK_LINK;
+use incircle_blocks::QUICK_LINK;
 use incircle_hdl::serial::ReceiveFifo;
+use incircle_testkit::SplitMix64;
 
 named_ports!(ReceiveFifo, [reset, begins, push, push_data, commits, takes], [free, byte_valid, byte_data], clock);
 

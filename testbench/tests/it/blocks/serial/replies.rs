@@ -2,8 +2,8 @@
 
 use crate::rig::asked::{CLOSES, DROPS, GAP, HELLO, NO_SESSION, OPENS, POLLS, RATE, REPEATS, TAKES};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::Replies;
+use incircle_testkit::SplitMix64;
 
 named_ports!(Replies, [reset, asked, saw_gap, fails, starts], [is_due, kind, acknowledges, closes], clock);
 

@@ -3,7 +3,7 @@
 use crate::rig::serial_host::crc32;
 use crate::rig::serial_rig::{answer_of, opened, payload, Pins, Rig, Verilog, SESSION};
 use crate::rig::stepper::Stepper;
-use incircle_hdl::export::QUICK_LINK;
+use incircle_blocks::QUICK_LINK;
 use incircle_hdl::serial::SerialLink;
 use incircle_protocol::{DeviceFrame, HostFrame, LINK_MAGIC, MAX_STEP, SMALL, STATUS_BUSY, STATUS_OPEN};
 

@@ -2,9 +2,9 @@
 
 use crate::rig::serial_host::{cobs, crc32, host_frame, Listener};
 use crate::rig::serial_rig::{answer_of, opened, payload, Pins, CLOCKS_PER_BIT, SESSION};
-use incircle_cli::generate::SplitMix64;
-use incircle_hdl::export::QUICK_LINK;
+use incircle_blocks::QUICK_LINK;
 use incircle_protocol::{rate_step, DeviceFrame, HostFrame, MAX_STEP, STATUS_BAD_RATE, STATUS_DROPPED, STATUS_OPEN};
+use incircle_testkit::SplitMix64;
 
 #[test]
 fn frames_that_are_not_sound_leave_no_trace() {

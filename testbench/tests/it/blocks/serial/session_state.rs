@@ -2,8 +2,8 @@
 
 use crate::rig::asked::{CLOSES, GAP, HEARS, OPENS, POLLS, REPEATS, TAKES};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::SessionState;
+use incircle_testkit::SplitMix64;
 
 named_ports!(SessionState, [reset, asked, session, fails], [open, saw_gap, forgets, settles], clock);
 

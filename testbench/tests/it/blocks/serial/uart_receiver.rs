@@ -2,9 +2,9 @@
 
 use crate::rig::serial_host::Talker;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::UartReceiver;
 use incircle_protocol::MAX_STEP;
+use incircle_testkit::SplitMix64;
 
 named_ports!(UartReceiver, [reset, step, rx], [byte_valid, byte_data, noise, is_low], clock);
 

@@ -3,9 +3,9 @@
 use super::uart_receiver::clocks_per_bit;
 use crate::rig::serial_host::Listener;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::UartTransmitter;
 use incircle_protocol::MAX_STEP;
+use incircle_testkit::SplitMix64;
 
 named_ports!(UartTransmitter, [reset, step, byte_valid, byte_data], [byte_ready, tx, is_idle], clock);
 

@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::serial::WordNarrower;
+use incircle_testkit::SplitMix64;
 
 named_ports!(WordNarrower, [reset, pair_valid, pair, both, word_ready], [pair_ready, word_valid, word], clock);
 

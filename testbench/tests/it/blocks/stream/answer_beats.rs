@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_bits::set_bits;
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::AnswerBeats;
+use incircle_testkit::SplitMix64;
 
 named_ports!([const W: usize] AnswerBeats<W>,
     [reset, pair_valid, pair_data, pair_last, is_full], [is_stalled, beat_valid, beat_data, beat_last, is_held], clock);

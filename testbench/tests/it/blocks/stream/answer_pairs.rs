@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use crate::rig::stream_bits::wide;
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::AnswerPairs;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] AnswerPairs,
     [reset, response.valid, response.data, response.both, response.last, is_stalled], [response.ready, pair_valid, pair_data, pair_last, is_held], clock);

@@ -2,9 +2,9 @@
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_bits::set_bits;
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::AnswerWatch;
 use incircle_protocol::{answer_header, Opcode, Status};
+use incircle_testkit::SplitMix64;
 
 named_ports!([const W: usize] AnswerWatch<W>,
     [reset, resets, m_axis_tvalid, m_axis_tready, m_axis_tdata, m_axis_tlast], [events], clock);

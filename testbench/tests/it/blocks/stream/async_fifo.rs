@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_rig::{rise, Clocks, PERIODS};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::AsyncFifo;
+use incircle_testkit::SplitMix64;
 
 named_ports!([const P: usize, const D: usize] AsyncFifo<P, D>,
     [write_clock, write_reset, push, push_data, read_clock, read_reset, pop],

@@ -2,8 +2,8 @@
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_bits::set_bits;
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::BeatGate;
+use incircle_testkit::SplitMix64;
 
 named_ports!([const K: usize] BeatGate<K>, [reset, s_axis_tvalid, s_axis_tkeep, is_full], [push, events], clock);
 

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use crate::rig::stream_bits::{set_bits, wide};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::BeatWords;
+use incircle_testkit::SplitMix64;
 
 named_ports!([const W: usize] BeatWords<W>,
     [reset, beat_valid, beat_data, command.ready], [takes, command.valid, command.data, is_held], clock);

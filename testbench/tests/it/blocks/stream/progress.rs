@@ -2,8 +2,8 @@
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_bits::set_bits;
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::Progress;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] Progress, [reset, takes, word, offers_last, ends], [is_busy], clock);
 

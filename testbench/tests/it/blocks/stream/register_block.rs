@@ -1,13 +1,13 @@
 //! `RegisterBlock`: Rust, Verilog and plain code agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::RegisterBlock;
 use incircle_protocol::{
     StreamRegister, CORE_COORD_BITS, CORE_VERSION, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, MAGIC, PROTOCOL_VERSION,
     SMALL, STREAM_FIFO_BEATS, STREAM_STATUS_BUSY, STREAM_STATUS_ERROR, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS,
     STREAM_VERSION,
 };
+use incircle_testkit::SplitMix64;
 
 named_ports!([] RegisterBlock,
     [reset, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, resets, core_runs, is_busy, commands, answers], [s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp, asks_reset], clock);

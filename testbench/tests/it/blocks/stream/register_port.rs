@@ -1,8 +1,8 @@
 //! `RegisterPort`: Rust, Verilog and plain code agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::RegisterPort;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] RegisterPort,
     [reset, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, write_is_known, read_data, read_is_known], [s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp, write_enable, write_address, write_data, write_bytes, read_enable, read_address], clock);

@@ -1,8 +1,8 @@
 //! `ResetReply`: Rust, Verilog and plain code agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::ResetReply;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] ResetReply, [request], [resets, reply, beat], clock);
 

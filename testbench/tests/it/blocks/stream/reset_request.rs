@@ -1,8 +1,8 @@
 //! `ResetRequest`: Rust, Verilog and plain code agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::ResetRequest;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] ResetRequest, [reset, asks, reply, core_beat], [request, resets, core_runs], clock);
 

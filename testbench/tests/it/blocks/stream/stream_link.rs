@@ -3,12 +3,12 @@
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_rig::{answer, command, Pins, Rig, StandIn, Verilog, PERIODS};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::stream::StreamLink;
 use incircle_protocol::{
     StreamRegister, CONTROL_RESET, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, MAGIC, SMALL, STREAM_FIFO_BEATS,
     STREAM_STATUS_BUSY, STREAM_STATUS_ERROR, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS,
 };
+use incircle_testkit::SplitMix64;
 
 named_ports!([const W: usize, const K: usize, const E: usize] StreamLink<W, K, E>,
     [bus_clock, bus_reset_n, s_axis.tvalid, s_axis.tdata, s_axis.tkeep, m_axis.tready, s_axi.awvalid, s_axi.awaddr, s_axi.wvalid, s_axi.wdata, s_axi.wstrb, s_axi.bready, s_axi.arvalid, s_axi.araddr, s_axi.rready, core_clock, command.ready, response.valid, response.data, response.both, response.last], [s_axis.tready, m_axis.tvalid, m_axis.tdata, m_axis.tkeep, m_axis.tlast, s_axi.awready, s_axi.wready, s_axi.bvalid, s_axi.bresp, s_axi.arready, s_axi.rvalid, s_axi.rdata, s_axi.rresp, core_reset, command.valid, command.data, response.ready]);

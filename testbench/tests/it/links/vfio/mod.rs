@@ -20,11 +20,11 @@ fn jobs(card: &VfioCard, counts: &[usize]) {
     let mut device = opened(driver.files(LIMIT).unwrap()).unwrap();
     let mut session = device.session_within(LIMIT).unwrap();
     assert_eq!(session.identity().capacity, SMALL.points);
-    let options = Options { timeout: Some(LIMIT), ..Options::default() };
+    let options = Options::default().timeout(LIMIT);
     for (seed, &count) in (1..).zip(counts) {
         let points = random_points(count, seed);
-        let mesh = session.triangulate_with(&points, &options).unwrap_or_else(|error| panic!("{count}: {error}"));
-        assert!(is_one_mesh(&mesh, &incircle::triangulate(&points).unwrap()), "{count} points");
+        let solution = session.triangulate_with(&points, &options).unwrap_or_else(|error| panic!("{count}: {error}"));
+        assert!(is_one_mesh(&solution.mesh, &incircle::triangulate(&points).unwrap()), "{count} points");
     }
     assert_eq!(driver.untold(), 0);
 }
@@ -45,11 +45,11 @@ fn jobs_of_a_batch_go_one_behind_the_other() {
         let mut session = device.session_within(LIMIT).unwrap();
         let jobs: Vec<Vec<Point>> =
             (1..).zip([1000, 3, 700, 1, 1024, 400, 0]).map(|(k, n)| random_points(n, k)).collect();
-        let options = Options { timeout: Some(LIMIT), ..Options::default() };
+        let options = Options::default().timeout(LIMIT);
         let meshes = session.triangulate_batch(&jobs, &options).unwrap();
         assert_eq!(meshes.len(), jobs.len());
-        for (mesh, points) in meshes.iter().zip(&jobs) {
-            assert!(is_one_mesh(mesh, &incircle::triangulate(points).unwrap()), "{} points", points.len());
+        for (solution, points) in meshes.iter().zip(&jobs) {
+            assert!(is_one_mesh(&solution.mesh, &incircle::triangulate(points).unwrap()), "{} points", points.len());
         }
         assert_eq!(driver.untold(), 0);
     });

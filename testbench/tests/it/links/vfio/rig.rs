@@ -4,7 +4,8 @@ use std::io::{self, Read, Write};
 use std::sync::mpsc::{channel, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use incircle::pcie::{CardFiles, PcieTransport};
+use incircle::pcie::PcieTransport;
+use incircle::transports::parts::CardFiles;
 use incircle::{Device, Error, Mesh, Options, Point};
 use incircle_model::stream::{ModelCore, StreamModel};
 use incircle_protocol::SMALL;
@@ -32,8 +33,8 @@ pub fn opened(files: CardFiles) -> Result<Device, Error> {
 
 /// A job.
 pub fn triangulate(device: &mut Device, points: &[Point]) -> Result<Mesh, Error> {
-    let options = Options { timeout: Some(LIMIT), ..Options::default() };
-    device.session_within(LIMIT)?.triangulate_with(points, &options)
+    let options = Options::default().timeout(LIMIT);
+    device.session_within(LIMIT)?.triangulate_with(points, &options).map(|solution| solution.mesh)
 }
 
 /// Does something that may hang, and fails if it does.

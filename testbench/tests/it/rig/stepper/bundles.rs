@@ -1,6 +1,6 @@
 //! The packed structures of the engine as numbers: what stands where, lowest field first.
 
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 
 /// Bits of a triangle or vertex id.
 pub const ID_BITS: u32 = 15;

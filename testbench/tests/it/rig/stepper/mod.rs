@@ -4,8 +4,6 @@
 //! A clock: inputs are set, [`Stepper::settle`], outputs are compared, [`Stepper::edge`]. Packed structures are numbers here, put
 //! together by `bundles`, which is a statement of their layout of its own.
 
-#![allow(dead_code)] // Every test that includes this uses a part of it.
-
 pub mod bundles;
 mod wave;
 
@@ -14,10 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use incircle_testbench::blocks;
 use verilated::{Model, PortId};
 
-#[allow(unused_imports)] // As below.
 pub(crate) use crate::rig::block_ports::{named_ports, NamedPorts};
 use crate::rig::block_ports::{number, plain, set_number, settle, Places, Whole};
-#[allow(unused_imports)] // As above.
 pub use wave::{Cell, Wave};
 
 /// Both forms of a block, and the clocks that have passed.
@@ -35,7 +31,7 @@ pub struct Stepper<U> {
 }
 
 impl<U: NamedPorts> Stepper<U> {
-    /// The block of this name in `incircle_hdl::export::blocks`. Its Verilog starts with random registers and memories, which
+    /// The block of this name in `incircle_blocks::blocks`. Its Verilog starts with random registers and memories, which
     /// shows where an output depends on what nobody wrote.
     pub fn new(name: &'static str, mut rust: U, seed: u32) -> Self {
         rust.connect_all();

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use incircle_cli::generate::SplitMix64;
+use incircle_testkit::SplitMix64;
 
 use super::Pins;
 

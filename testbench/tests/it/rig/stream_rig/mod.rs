@@ -1,21 +1,18 @@
 //! Two clocks that drift, and what has them: blocks in both forms, and devices between a bus and a core.
 
-#![allow(dead_code)] // Every test that includes this uses a part of it.
-
 mod bus;
 mod stand_in;
 
 use std::collections::BTreeMap;
 
-use incircle_cli::generate::SplitMix64;
 use incircle_protocol::{StreamRegister, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS};
 use incircle_testbench::blocks;
+use incircle_testkit::SplitMix64;
 use verilated::{Model, PortId};
 
 use crate::rig::block_ports::{number, plain, set_number};
 use crate::rig::stepper::{NamedPorts, Stepper};
 pub use bus::Bus;
-#[allow(unused_imports)] // As above.
 pub use stand_in::{answer, command, StandIn};
 
 /// Ratios of two clocks, as periods in picoseconds: up to 1 to 4 either way, near each other, and equal.

@@ -4,8 +4,8 @@
 use crate::rig::attempt_state::State;
 use crate::rig::stepper::bundles::{commit_job, flip, id, release_job, turned, Edge, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::AttemptLists;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     AttemptLists,

@@ -2,9 +2,9 @@
 
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::AttemptPoints;
 use incircle_protocol::SMALL;
+use incircle_testkit::SplitMix64;
 
 named_ports!(AttemptPoints, [start, now, owner], [p, since], clock);
 

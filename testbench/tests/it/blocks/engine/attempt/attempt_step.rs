@@ -3,8 +3,8 @@
 use crate::rig::attempt_state::State;
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::AttemptStep;
+use incircle_testkit::SplitMix64;
 
 named_ports!(AttemptStep, [held, took, found], [after, step]);
 

@@ -3,9 +3,9 @@
 use crate::rig::attempt_state::State;
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::AttemptStore;
 use incircle_protocol::SMALL;
+use incircle_testkit::SplitMix64;
 
 named_ports!(AttemptStore, [ring, early_token, token, found, step, after], [held], clock);
 

@@ -7,9 +7,9 @@ use crate::rig::cavity_growth::{spread, Around, Completion, Context, Ground, Out
 use crate::rig::flip_mesh::Point;
 use crate::rig::stepper::bundles::{turned, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Attempts;
 use incircle_protocol::SMALL;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     Attempts,

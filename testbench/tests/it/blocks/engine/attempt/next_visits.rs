@@ -3,8 +3,8 @@
 
 use crate::rig::stepper::bundles::{id, turned, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::NextVisits;
+use incircle_testkit::SplitMix64;
 
 named_ports!(NextVisits, [early_token, early_turned, found, walk_next, entry], [bundle], clock);
 

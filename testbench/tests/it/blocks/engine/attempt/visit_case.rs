@@ -3,8 +3,8 @@
 
 use crate::rig::stepper::bundles::{flip, id, turned, Finding, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::VisitCase;
+use incircle_testkit::SplitMix64;
 
 named_ports!(VisitCase, [early, seeded, is_busy, is_waiter, verdict, drains, is_full], [found], clock);
 

@@ -7,9 +7,9 @@ use crate::rig::random_rings::{random_length, Ring};
 use crate::rig::record_count::{Count, Event};
 use crate::rig::stepper::bundles::{link_write, record_write, Edge};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Commit;
 use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
+use incircle_testkit::SplitMix64;
 
 named_ports!(Commit, [reset, head, head_job, inner, fresh], [takes, takes_fresh, write, committed, is_at_work], clock);
 

@@ -2,8 +2,8 @@
 
 use crate::rig::record_count::{Count, Event};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::FreshIds;
+use incircle_testkit::SplitMix64;
 
 named_ports!(FreshIds, [reset, takes, ends, solo_inserts, seeds, clears], [fresh, records], clock);
 

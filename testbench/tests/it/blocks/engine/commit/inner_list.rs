@@ -1,9 +1,9 @@
 //! `InnerList`: Rust, Verilog and plain lists agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::InnerList;
 use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
+use incircle_testkit::SplitMix64;
 
 named_ports!(InnerList, [inner, restarts, reader, inners, steps], [is_used_up, is_awaited, inner_id], clock);
 

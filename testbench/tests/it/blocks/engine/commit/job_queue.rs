@@ -4,8 +4,8 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::JobQueue;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] JobQueue<6>, [reset, enable, job, takes], [waits, head], clock);
 

@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::bundles::release_job;
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Release;
 use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
+use incircle_testkit::SplitMix64;
 
 named_ports!(Release, [reset, last_id, lock, commit, failure], [sweeps, clear, released], clock);
 

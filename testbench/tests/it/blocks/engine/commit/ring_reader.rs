@@ -6,9 +6,9 @@ use std::collections::VecDeque;
 use crate::rig::random_rings::{random_length, Ring};
 use crate::rig::stepper::bundles::Edge;
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::RingReader;
 use incircle_protocol::{Config, MAX_CONTEXTS, MAX_RING, TINY};
+use incircle_testkit::SplitMix64;
 
 named_ports!(RingReader, [reset, entry, commit, takes], [head, head_job], clock);
 

@@ -2,8 +2,8 @@
 
 use crate::rig::stepper::bundles::Edge;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::StarId;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     StarId,

@@ -2,9 +2,9 @@
 
 use super::latency_range::LatencyReference;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Counters;
 use incircle_protocol::{Counter, COUNTER_WORDS, LATENCY_BITS};
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     Counters,

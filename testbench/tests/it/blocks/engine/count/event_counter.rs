@@ -1,8 +1,8 @@
 //! `EventCounter` and `WideCounter`: Rust, Verilog and a table of 64-bit sums agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::WideCounter;
+use incircle_testkit::SplitMix64;
 
 named_ports!(WideCounter<4>, [zero, count], [low, high], clock);
 

@@ -1,9 +1,9 @@
 //! `Latencies`: Rust, Verilog and a table of counts agree clock by clock; the bucket of a latency is the protocol's.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Latencies;
 use incircle_protocol::{latency_bucket, LATENCY_BITS, LATENCY_BUCKETS};
+use incircle_testkit::SplitMix64;
 
 named_ports!(Latencies, [reset, clears, comes, latency, select], [sweeps, value], clock);
 

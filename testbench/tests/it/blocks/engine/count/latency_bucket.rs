@@ -2,9 +2,9 @@
 //! protocol's.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::LatencyBucket;
 use incircle_protocol::{latency_bucket, latency_of_bucket, LATENCY_BITS, LATENCY_BUCKETS};
+use incircle_testkit::SplitMix64;
 
 named_ports!(LatencyBucket, [latency], [bucket], clock);
 

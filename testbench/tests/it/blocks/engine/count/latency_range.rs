@@ -1,9 +1,9 @@
 //! `LatencyRange`: Rust, Verilog and a table of 64-bit sums agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::LatencyRange;
 use incircle_protocol::LATENCY_BITS;
+use incircle_testkit::SplitMix64;
 
 named_ports!(LatencyRange, [zero, commit_ends, now, since], [latency_comes, latency, least, most], clock);
 

@@ -1,9 +1,9 @@
 //! `ContextFlags`: Rust, Verilog and lists of contexts agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::ContextFlags;
 use incircle_protocol::MAX_CONTEXTS;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     ContextFlags,

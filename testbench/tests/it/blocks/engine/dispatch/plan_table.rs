@@ -2,9 +2,9 @@
 
 use crate::rig::stepper::bundles::Deal;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::PlanTable;
 use incircle_protocol::LARGE;
+use incircle_testkit::SplitMix64;
 
 named_ports!(PlanTable, [deal, pointer, is_planned, passed, write], [due, first_dealt, following], clock);
 

@@ -1,8 +1,8 @@
 //! : Rust, Verilog and lists of contexts agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Progress;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     Progress,

@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::bundles::Deal;
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Starter;
 use incircle_protocol::{Config, FIRST_ROUND, LARGE, SMALL};
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     Starter,

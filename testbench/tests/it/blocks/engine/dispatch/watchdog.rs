@@ -1,9 +1,9 @@
 //! `Watchdog`: Rust, Verilog and lists of what must happen agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Watchdog;
 use incircle_protocol::{patience, MAX_POINTS};
+use incircle_testkit::SplitMix64;
 
 named_ports!(Watchdog, [reset, finishes, is_quiet, patience], [stuck], clock);
 

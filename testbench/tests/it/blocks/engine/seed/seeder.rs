@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::bundles::{record_write, Deal, Finding};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Seeder;
+use incircle_testkit::SplitMix64;
 
 named_ports!(
     Seeder,

@@ -4,8 +4,8 @@
 use crate::rig::flip_mesh::{Mesh, Point, Record, Written, INFINITE};
 use crate::rig::stepper::bundles::{link_write, record_write, turned, Finding, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::Solo;
+use incircle_testkit::SplitMix64;
 
 named_ports!(Solo, [reset, start, records, visit], [push, write, progress], clock);
 

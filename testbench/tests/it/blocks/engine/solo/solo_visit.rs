@@ -2,8 +2,8 @@
 
 use crate::rig::stepper::bundles::{flip, id, turned, LockFinding, Visit};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::SoloVisit;
+use incircle_testkit::SplitMix64;
 
 named_ports!(SoloVisit, [owner, phase, is_second, root_id, root, triangle], [bundle]);
 

@@ -2,8 +2,8 @@
 
 use crate::rig::stepper::bundles::{link_write, record_write, turned, LockFinding};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::SoloWrites;
+use incircle_testkit::SplitMix64;
 
 named_ports!(SoloWrites, [turn, is_test, p, second, third, root_id, root, triangle, beyond, visited, slot], [write]);
 

@@ -2,8 +2,8 @@
 
 use crate::rig::stepper::bundles::{flip, id, Visit};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_cli::generate::SplitMix64;
 use incircle_hdl::engine::PushPort;
+use incircle_testkit::SplitMix64;
 
 named_ports!(PushPort, [reset, follow, start, is_alone, solo], [push], clock);
 

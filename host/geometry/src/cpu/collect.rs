@@ -1,0 +1,368 @@
+//! From the subdivision to the canonical mesh.
+//!
+//! The list is sorted by smallest corner, then by the second one. Each edge knows one triangle of which its end with
+//! the smaller id may be the smallest corner: the one to its left, seen from there. So a pass over the edges finds
+//! every triangle once, in the order of the curve. They are dealt to buckets of neighbouring ids, and each bucket is
+//! sorted while it is in the cache: no list is walked in an order far from that of the curve or of the ids.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use bytemuck::Zeroable;
+
+use super::deal::{bucket_ends, runs, stretch, Dealt, CHUNK, MOST_BUCKETS_BITS};
+use super::edges::Half;
+use super::parallel::in_parallel;
+
+/// Marks the end of a half-edge that has the outside to its left.
+const GAP: u32 = 1 << 31;
+/// Ids of a bucket, as a power of two, where there are several buckets and few enough: two triangles an id make 64 kB
+/// with their copy.
+const BUCKET_BITS: u32 = 11;
+/// Triangles of an id that are sorted without branches: it is the smallest corner of two on average, and of more than
+/// four one time in ten.
+const FEW: usize = 4;
+/// Edges that are looked at together: they and their triangles, 14 kB, stay in the first-level cache.
+const BLOCK: usize = 512;
+
+/// The hull, counter-clockwise from its lowest id on; marks its half-edges.
+pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
+    let mut hull = Vec::new();
+    let mut e = start;
+    loop {
+        // The outside lies to the right of `e`, and so clockwise of it at its origin.
+        let Half { previous, end, .. } = halves[e as usize];
+        halves[previous as usize].end |= GAP;
+        hull.push(ids[(end & !GAP) as usize]);
+        e = halves[(e ^ 1) as usize].next;
+        if e == start {
+            break;
+        }
+    }
+    let lowest = (0..hull.len()).min_by_key(|&place| hull[place]).unwrap_or(0);
+    hull.rotate_left(lowest);
+    hull
+}
+
+/// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The half-edges are
+/// not needed any more.
+pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: usize, threads: usize) -> Vec<[u32; 3]> {
+    let buckets = Buckets::of(points, threads);
+    if buckets.fit_a_word() {
+        buckets.sorted::<Packed>(halves, ids, count, threads)
+    } else {
+        buckets.sorted::<[u32; 3]>(halves, ids, count, threads)
+    }
+}
+
+/// Triangles by their smallest corner: neighbouring ids are together.
+#[derive(Clone, Copy)]
+struct Buckets {
+    /// Ids of a bucket, as a power of two.
+    bits: u32,
+    /// Bits of an id.
+    id_bits: u32,
+    count: usize,
+}
+
+/// A triangle in a bucket. The order is that of the corners.
+trait Triangle: Copy + Ord + Zeroable + Send + Sync {
+    /// After all others of its bucket.
+    const LAST: Self;
+
+    fn of(corners: [u32; 3], buckets: Buckets) -> Self;
+
+    /// The smallest corner, counted from the first id of the bucket.
+    fn smallest(self, buckets: Buckets) -> usize;
+
+    /// The corners, in a bucket whose ids begin with `first`.
+    fn corners(self, first: u32, buckets: Buckets) -> [u32; 3];
+}
+
+/// Any number of points.
+impl Triangle for [u32; 3] {
+    const LAST: Self = [u32::MAX; 3];
+
+    fn of(corners: [u32; 3], _: Buckets) -> Self {
+        corners
+    }
+
+    fn smallest(self, buckets: Buckets) -> usize {
+        (self[0] & buckets.mask()) as usize
+    }
+
+    fn corners(self, _: u32, _: Buckets) -> [u32; 3] {
+        self
+    }
+}
+
+/// All corners in one word, the smallest one at the top, where the bucket says its leading bits: up to 2^25 points.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
+struct Packed(u64);
+
+impl Triangle for Packed {
+    const LAST: Self = Self(u64::MAX);
+
+    #[inline(always)]
+    fn of([smallest, second, third]: [u32; 3], buckets: Buckets) -> Self {
+        let pair = u64::from(second) << buckets.id_bits | u64::from(third);
+        Self(u64::from(smallest & buckets.mask()) << (2 * buckets.id_bits) | pair)
+    }
+
+    #[inline(always)]
+    fn smallest(self, buckets: Buckets) -> usize {
+        (self.0 >> (2 * buckets.id_bits)) as usize
+    }
+
+    #[inline(always)]
+    fn corners(self, first: u32, buckets: Buckets) -> [u32; 3] {
+        let id = |word: u64| word as u32 & ((1 << buckets.id_bits) - 1);
+        [first + self.smallest(buckets) as u32, id(self.0 >> buckets.id_bits), id(self.0)]
+    }
+}
+
+/// An edge, seen from its end with the smaller id.
+#[derive(Clone, Copy, Default)]
+struct Edge {
+    smaller: u32,
+    larger: u32,
+    /// The next half-edge counter-clockwise, then the vertex that it leads to.
+    next: u32,
+    /// There is a triangle to the left.
+    is_inside: bool,
+}
+
+/// Looks at the edges of some half-edges; returns how many there are.
+fn look_at(halves: &[Half], ids: &[u32], edges: &mut [Edge; BLOCK]) -> usize {
+    let mut count = 0;
+    for pair in halves.as_chunks::<2>().0.iter().filter(|pair| pair[0].is_used()) {
+        let id = |half: Half| ids[(half.end & !GAP) as usize];
+        let (from, to) = (id(pair[1]), id(pair[0]));
+        // An index instead of a branch: no processor predicts which.
+        let leaving = pair[usize::from(to < from)];
+        edges[count] =
+            Edge { smaller: from.min(to), larger: from.max(to), next: leaving.next, is_inside: leaving.end < GAP };
+        count += 1;
+    }
+    count
+}
+
+impl Buckets {
+    /// For ids below `points`, and triangles that so many threads find.
+    fn of(points: usize, threads: usize) -> Self {
+        let last = points.saturating_sub(1);
+        let id_bits = usize::BITS - last.leading_zeros();
+        // Two triangles an id: a chunk of them at least for each thread and bucket.
+        let least = BUCKET_BITS.max((CHUNK * threads / 2).next_power_of_two().ilog2());
+        let bits = least.min(id_bits).max(id_bits.saturating_sub(MOST_BUCKETS_BITS));
+        Self { bits, id_bits, count: (last >> bits) + 1 }
+    }
+
+    /// Triangles can be packed.
+    fn fit_a_word(self) -> bool {
+        self.bits + 2 * self.id_bits <= u64::BITS
+    }
+
+    /// The bits of an id that say which one of its bucket it is.
+    #[inline(always)]
+    fn mask(self) -> u32 {
+        (1 << self.bits) - 1
+    }
+
+    fn sorted<T: Triangle>(self, halves: Vec<Half>, ids: &[u32], count: usize, threads: usize) -> Vec<[u32; 3]> {
+        let own = (halves.len() / 2).div_ceil(threads).max(1) * 2;
+        let found: Vec<Dealt<T>> = in_parallel(halves.chunks(own), |own| self.find(&halves, own, ids, count / threads));
+        // They take the room of the half-edges, which the system has given already.
+        let mut triangles: Vec<[u32; 3]> = bytemuck::cast_vec(halves);
+        triangles.truncate(count);
+        let ends = bucket_ends(&found, self.count);
+        // Euler's formula says how many there are.
+        debug_assert_eq!(ends.last(), Some(&count));
+        let mut rest = triangles.as_mut_slice();
+        let tasks = runs(&ends, threads).into_iter().map(|run| {
+            let own = rest.split_off_mut(..stretch(&run, &ends).len()).unwrap_or_default();
+            (own, run)
+        });
+        in_parallel(tasks, |(own, run)| self.sort(&found, own, run));
+        triangles.shrink_to_fit();
+        triangles
+    }
+
+    /// Deals out the triangles of which an edge in a stretch of the half-edges knows. There should be about `expected`.
+    fn find<T: Triangle>(self, halves: &[Half], own: &[Half], ids: &[u32], expected: usize) -> Dealt<T> {
+        let mut dealt = Dealt::new(self.count, expected);
+        let mut edges = [Edge::default(); BLOCK];
+        let mut triangles = [[0; 3]; BLOCK];
+        for block in own.chunks(2 * BLOCK) {
+            let count = look_at(block, ids, &mut edges);
+            let edges = &mut edges[..count];
+            // A loop of its own, with so little in it that the processor waits for many of these at a time.
+            for edge in &mut *edges {
+                edge.next = halves[edge.next as usize].end & !GAP;
+            }
+            let mut found = 0;
+            for &Edge { smaller, larger, next, is_inside } in &*edges {
+                let third = ids[next as usize];
+                // Written in any case and kept in some: no processor predicts which.
+                triangles[found] = [smaller, larger, third];
+                found += usize::from(is_inside & (smaller < third));
+            }
+            for &triangle in &triangles[..found] {
+                dealt.put((triangle[0] >> self.bits) as usize, T::of(triangle, self));
+            }
+        }
+        dealt
+    }
+
+    /// Sorts a run of buckets into its stretch of the list.
+    fn sort<T: Triangle>(self, found: &[Dealt<T>], mut rest: &mut [[u32; 3]], run: Range<usize>) {
+        let mut room = Room { id_ends: vec![0; 1 << self.bits], sorted: Vec::new() };
+        for bucket in run {
+            let triangles = || found.iter().flat_map(|found| found.chunks(bucket)).flatten().copied();
+            let sorted = room.sort(triangles, self);
+            let first = (bucket << self.bits) as u32;
+            for (slot, triangle) in rest.iter_mut().zip(sorted) {
+                *slot = triangle.corners(first, self);
+            }
+            rest = rest.split_off_mut(sorted.len()..).unwrap_or_default();
+        }
+        debug_assert!(rest.is_empty());
+    }
+}
+
+/// The memory in which buckets are sorted, one after the other.
+struct Room<T> {
+    /// For each id of the bucket, the end of its triangles in `sorted`.
+    id_ends: Vec<u32>,
+    /// The triangles of the bucket, then a few more places.
+    sorted: Vec<T>,
+}
+
+impl<T: Triangle> Room<T> {
+    /// Sorts the triangles of a bucket: by counting for the smallest corner, then the few of each id.
+    fn sort<I: Iterator<Item = T>>(&mut self, triangles: impl Fn() -> I, buckets: Buckets) -> &[T] {
+        let Self { id_ends, sorted } = self;
+        id_ends.fill(0);
+        triangles().for_each(|triangle| id_ends[triangle.smallest(buckets)] += 1);
+        let mut count = 0;
+        for end in &mut *id_ends {
+            count += core::mem::replace(end, count);
+        }
+        let count = count as usize;
+        sorted.resize(sorted.len().max(count + FEW), T::LAST);
+        sorted[count..][..FEW].fill(T::LAST);
+        triangles().for_each(|triangle| {
+            let end = &mut id_ends[triangle.smallest(buckets)];
+            sorted[*end as usize] = triangle;
+            *end += 1;
+        });
+        let mut start = 0;
+        for &end in &*id_ends {
+            let own = core::mem::replace(&mut start, end as usize);
+            if start - own > FEW {
+                sorted[own..start].sort_unstable();
+            } else if let Some(few) = sorted[own..].first_chunk_mut() {
+                // There are so many: `sorted` has a few places behind the triangles.
+                sort_few(few);
+            }
+        }
+        &sorted[..count]
+    }
+}
+
+/// Sorts a few triangles without branches: no processor predicts how many an id has. Those at the end may be of larger
+/// ids. They are larger, and so are what is behind them, so that each id's stay together.
+#[inline(always)]
+fn sort_few<T: Ord + Copy>([a, b, c, d]: &mut [T; FEW]) {
+    let order = |a: &mut T, b: &mut T| (*a, *b) = ((*a).min(*b), (*a).max(*b));
+    order(a, b);
+    order(c, d);
+    order(a, c);
+    order(b, d);
+    order(b, c);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::edges::HALVES;
+    use super::super::sites::{sort, Sites};
+    use super::super::{stretches, view::Narrow};
+    use super::*;
+    use crate::order::mix;
+    use crate::pages;
+    use crate::point::Point;
+    use proptest::prelude::*;
+
+    #[test]
+    fn both_forms_of_triangles_sort_alike() {
+        let points: Vec<Point> = (0..6000).map(mix).map(|k| Point::new(k as u32 & 0xffff, k as u32 >> 16)).collect();
+        let Sites { sites, ids, .. } = sort(&points, 1);
+        let mut halves = pages::zeros(HALVES * sites.len());
+        let whole = stretches::triangulate::<Narrow>(&sites, &mut halves, 1, &mut |_| true).expect("points");
+        let hull = hull(&mut halves, &ids, whole.leftmost());
+        let (buckets, count) = (Buckets::of(points.len(), 1), 2 * ids.len() - 2 - hull.len());
+        let words = buckets.sorted::<Packed>(halves.clone(), &ids, count, 1);
+        assert_eq!(words.len(), count);
+        assert!(words.is_sorted());
+        for threads in [1, 3] {
+            assert!(words == buckets.sorted::<[u32; 3]>(halves.clone(), &ids, count, threads));
+        }
+    }
+
+    #[test]
+    fn words_hold_all_corners_up_to_2_to_the_25_points() {
+        for points in [3, 4, 2047, 2048, 2049, 1 << 22, (1 << 22) + 1, (1 << 25) - 1, 1 << 25] {
+            let buckets = Buckets::of(points, 1);
+            assert!(buckets.fit_a_word(), "{points}");
+            let last = points as u32 - 1;
+            let mut before = None;
+            for corners in
+                [[0, 1, 2], [0, 2, 1], [0, last - 1, last], [last - 2, last - 1, last], [last - 2, last, last - 1]]
+            {
+                let packed = Packed::of(corners, buckets);
+                let bucket = corners[0] >> buckets.bits;
+                assert!((bucket as usize) < buckets.count && packed < Packed::LAST);
+                assert_eq!(packed.smallest(buckets) as u32, corners[0] & buckets.mask());
+                assert_eq!(packed.corners(bucket << buckets.bits, buckets), corners);
+                let place = (bucket, packed);
+                assert!(before.is_none_or(|before| before < place) || points == 3, "{corners:?}");
+                before = Some(place);
+            }
+        }
+        assert!(!Buckets::of((1 << 25) + 1, 1).fit_a_word());
+    }
+
+    #[test]
+    fn threads_and_buckets_have_a_chunk_of_triangles_each() {
+        for threads in 1..=300 {
+            for points in [1, 16_384 * threads, 1 << 22, (1 << 29) - 1] {
+                let Buckets { bits, count, .. } = Buckets::of(points, threads);
+                assert!(count == 1 || (2 << bits) >= CHUNK * threads, "{threads} threads, {points} points");
+                assert!(count <= 1 << MOST_BUCKETS_BITS);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_bucket_is_sorted(counts in prop::collection::vec(0u32..10, 1 << 8), full in 0u32..10, seed in any::<u64>()) {
+            let buckets = Buckets::of(1 << 8, 1);
+            let mut triangles: Vec<[u32; 3]> = Vec::new();
+            let counts = counts.into_iter().chain([full]).rev().take(1 << 8);
+            for (id, count) in (0..1u32 << 8).rev().zip(counts) {
+                triangles.extend((0..count).map(|k| [id, mix(seed ^ u64::from(k + 10 * id)) as u32 & 255, k]));
+            }
+            triangles.sort_by_key(|&[a, b, c]| mix(seed ^ u64::from(a << 16 | b << 8 | c)));
+            let mut room = Room { id_ends: vec![0; 1 << 8], sorted: Vec::new() };
+            // The second time there is something in the room.
+            for part in [&triangles[..], &triangles[triangles.len() / 2..]] {
+                let mut expected = part.to_vec();
+                expected.sort_unstable();
+                let packed = || part.iter().map(|&corners| Packed::of(corners, buckets));
+                let sorted: Vec<_> = room.sort(packed, buckets).iter().map(|found| found.corners(0, buckets)).collect();
+                prop_assert_eq!(sorted, expected);
+            }
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! The parts of the engine against plain definitions. The whole is held by `host/tests/it/cpu.rs`.
+
+use std::cmp::Ordering;
+
+use proptest::prelude::*;
+
+use super::edges::{Half, HALVES};
+use super::sites::{sort, Sites};
+use super::view::{incircle, Narrow, Seen, Site, View, Wide, Width};
+use super::{collect, stretches};
+use crate::order::mix;
+use crate::pages;
+use crate::point::Point;
+
+/// A coordinate of so many bits, often an extreme one.
+fn coordinate(bits: u32) -> impl Strategy<Value = i32> {
+    let last = ((1u64 << bits) - 1) as i32;
+    prop_oneof![2 => 0..=last, 1 => Just(0), 1 => Just(last), 1 => Just(last / 2), 1 => Just(last - last / 2)]
+}
+
+fn site(bits: u32) -> impl Strategy<Value = Site> {
+    (coordinate(bits), coordinate(bits)).prop_map(|(x, y)| Site { x, y })
+}
+
+/// The 3x3 determinant of the points seen from `d` and lifted: positive if `d` lies inside the circle of a triangle
+/// that turns left. For up to 31 bits it fits 128 bits.
+fn lifted(a: Site, b: Site, c: Site, d: Site) -> i128 {
+    let seen = |p: Site| [i128::from(p.x) - i128::from(d.x), i128::from(p.y) - i128::from(d.y)];
+    let [a, b, c] = [a, b, c].map(seen);
+    let lift = |v: [i128; 2]| v[0] * v[0] + v[1] * v[1];
+    let minor = |u: [i128; 2], v: [i128; 2]| u[0] * v[1] - u[1] * v[0];
+    lift(a) * minor(b, c) + lift(b) * minor(c, a) + lift(c) * minor(a, b)
+}
+
+/// Whether `q` is inside the circle of `a`, `b`, `c`, the smallest of the four lowered on the paraboloid: its lift has
+/// this factor in the determinant.
+fn conflicts(a: Site, b: Site, c: Site, q: Site) -> bool {
+    let area = |p: Site, q: Site, r: Site| View::of(p, q, r).cross;
+    let lowered = match [a, b, c, q].into_iter().min() {
+        Some(smallest) if smallest == a => -area(q, b, c),
+        Some(smallest) if smallest == b => -area(q, c, a),
+        Some(smallest) if smallest == c => -area(q, a, b),
+        _ => area(a, b, c),
+    };
+    match lifted(a, b, c, q).cmp(&0) {
+        Ordering::Equal => lowered > 0,
+        unequal => unequal == Ordering::Greater,
+    }
+}
+
+#[test]
+fn ties_are_decided_by_the_smallest() {
+    let grid: Vec<Site> = (0..16).map(|k| Site { x: k / 4, y: k % 4 }).collect();
+    let mut ties = 0;
+    for (&a, &b) in grid.iter().flat_map(|a| grid.iter().map(move |b| (a, b))) {
+        let above: Vec<Seen> = grid.iter().map(|&site| Seen::new(a, b, site)).filter(|s| s.view.cross > 0).collect();
+        for (&c, &q) in above.iter().flat_map(|c| above.iter().map(move |q| (c, q))).filter(|(c, q)| c.site != q.site) {
+            let expected = conflicts(a, b, c.site, q.site);
+            assert_eq!(incircle::<Narrow>(a, b, c, q), expected);
+            assert_eq!(incircle::<Wide>(a, b, c, q), expected);
+            ties += usize::from(lifted(a, b, c.site, q.site) == 0);
+        }
+    }
+    assert!(ties > 100, "{ties}");
+}
+
+/// Along the curve: interleaved bits rise, those of x first.
+fn position(point: Point) -> u64 {
+    let bits = |bit: u32| u64::from(point.x >> bit & 1) << 1 | u64::from(point.y >> bit & 1);
+    (0..32).rev().fold(0, |position, bit| position << 2 | bits(bit))
+}
+
+/// The triangles of points that are not on one line, with all stages on so many threads, be the points ever so few.
+fn triangles(points: &[Point], threads: usize) -> Vec<[u32; 3]> {
+    let Sites { sites, ids, .. } = sort(points, threads);
+    let mut halves = pages::zeros::<Half>(HALVES * sites.len());
+    let whole = stretches::triangulate::<Wide>(&sites, &mut halves, threads, &mut |_| true).expect("points");
+    let hull = collect::hull(&mut halves, &ids, whole.leftmost());
+    collect::triangles(halves, &ids, points.len(), 2 * ids.len() - 2 - hull.len(), threads)
+}
+
+/// Points that come in an order of their own are in few buckets at a time, and the lowest ids have most of the
+/// triangles.
+#[test]
+fn threads_find_the_same_triangles_whatever_the_order_of_the_points() {
+    let mut points: Vec<Point> =
+        (0..9000u64).map(mix).map(|random| Point::new(random as u32 >> 16, random as u32 & 0xffff)).collect();
+    for _ in 0..3 {
+        let expected = triangles(&points, 1);
+        assert!(expected.is_sorted() && expected.iter().all(|t| t[0] < t[1] && t[0] < t[2]));
+        for threads in 2..=5 {
+            assert!(triangles(&points, threads) == expected, "{threads}");
+        }
+        // Along the curve, then back.
+        let is_sorted = points.is_sorted_by_key(|&p| position(p));
+        if is_sorted {
+            points.reverse();
+        } else {
+            points.sort_by_key(|&p| position(p));
+        }
+    }
+}
+
+/// Fewer places than stretches: no stretch may be a single vertex beside another.
+#[test]
+fn many_threads_share_few_places() {
+    for side in 2..=12 {
+        let points: Vec<Point> = (0..side * side + 5).map(|k| Point::new(k % side, k / side % side)).collect();
+        let expected = triangles(&points, 1);
+        assert_eq!(expected.len() as u32, 2 * (side - 1) * (side - 1));
+        for threads in [2, 3, 4, 5, 9, 16, 64] {
+            assert!(triangles(&points, threads) == expected, "{side}, {threads}");
+        }
+    }
+    for seed in 0..200 {
+        let random = |k: u64| mix(seed << 32 | k) as u32 & 63;
+        let points: Vec<Point> = (0..24 + seed % 40).map(|k| Point::new(random(2 * k), random(2 * k + 1))).collect();
+        let expected = triangles(&points, 1);
+        for threads in [2, 4, 6, 9] {
+            assert!(triangles(&points, threads) == expected, "{seed}, {threads}");
+        }
+    }
+}
+
+/// More points in a square of the curve's leading bits than are sorted by comparison.
+#[test]
+fn a_crowd_beside_a_far_point_is_sorted() {
+    let far = Point::new((1 << 31) - 1, (1 << 31) - 1);
+    let crowd = (0..1000u32).map(|k| Point::new(k * 7919 % 1009, k % 13));
+    let points: Vec<Point> = std::iter::once(far).chain(crowd).collect();
+    let Sites { sites, ids, duplicates, .. } = sort(&points, 1);
+    assert!(duplicates.is_empty() && ids.len() == points.len());
+    let key = |id: &u32| position(points[*id as usize]);
+    assert!(ids.is_sorted_by_key(key) && ids[1000] == 0);
+    assert!(sites.iter().zip(&ids).all(|(&site, &id)| site == Site::from(points[id as usize])));
+}
+
+/// Several buckets, positions that fit a word and those that do not, and many points of one place.
+#[test]
+fn many_points_are_sorted_with_their_duplicates() {
+    for bits in [1, 5, 11, 16, 24, 31] {
+        let random = |k: u64| mix(k) >> 8 & ((1 << bits) - 1);
+        let points: Vec<Point> = (0..10_000u64)
+            .map(|k| if k % 10 == 7 { 1 << 40 } else { k })
+            .map(|k| Point::new(random(2 * k) as u32, random(2 * k + 1) as u32))
+            .collect();
+        let corner =
+            Point::new(points.iter().map(|p| p.x).min().unwrap_or(0), points.iter().map(|p| p.y).min().unwrap_or(0));
+        let seen = |id: u32| {
+            let point = points[id as usize];
+            Point::new(point.x - corner.x, point.y - corner.y)
+        };
+        let mut expected: Vec<u32> = (0..points.len() as u32).collect();
+        expected.sort_by_key(|&id| position(seen(id)));
+        expected.dedup_by_key(|id| seen(*id));
+        for threads in 1..=4 {
+            let sorted = sort(&points, threads);
+            assert!(sorted.ids == expected, "{bits} bits, {threads} threads");
+            assert!(sorted.sites.iter().zip(&expected).all(|(&site, &id)| site == Site::from(seen(id))));
+            assert_eq!(sorted.duplicates.len(), points.len() - expected.len());
+            assert!(sorted.duplicates.iter().all(|d| points[d.index as usize] == points[d.of as usize]));
+        }
+    }
+}
+
+/// Words leave bits of the position out, and hundreds of points agree in the others, in several buckets.
+#[test]
+fn a_dense_lattice_beside_a_far_point_is_sorted() {
+    let far = Point::new((1 << 31) - 1, (1 << 31) - 1);
+    let mut points: Vec<Point> = (0..250 * 250).map(|k| Point::new(k % 250, k / 250)).collect();
+    points.sort_by_key(|point| mix(u64::from(point.x) << 32 | u64::from(point.y)));
+    points.insert(777, far);
+    for threads in 1..=4 {
+        let sorted = sort(&points, threads);
+        assert!(sorted.duplicates.is_empty() && sorted.ids.len() == points.len());
+        assert!(sorted.ids.is_sorted_by_key(|&id| position(points[id as usize])), "{threads}");
+        assert!(sorted.sites.iter().zip(&sorted.ids).all(|(&site, &id)| site == Site::from(points[id as usize])));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn narrow_determinants_are_exact(a in site(16), b in site(16), c in site(16), q in site(16)) {
+        let expected = lifted(a, b, c, q);
+        // The bound by which they fit 64 bits.
+        let side = i128::from(u16::MAX);
+        prop_assert!(2 * expected.abs() <= side * side * side * side);
+        let found = Narrow::determinant(View::of(a, b, c), View::of(a, b, q));
+        prop_assert_eq!(i128::from(found), expected);
+    }
+
+    #[test]
+    fn wide_determinants_are_exact(a in site(31), b in site(31), c in site(31), q in site(31)) {
+        prop_assert_eq!(Wide::determinant(View::of(a, b, c), View::of(a, b, q)), lifted(a, b, c, q));
+    }
+
+    #[test]
+    fn sites_are_the_distinct_points_under_their_lowest_index(
+        raw in prop::collection::vec((any::<u32>(), any::<u32>()), 0..700),
+        bits in 1u32..=31,
+        few in any::<bool>(),
+        threads in 1usize..4,
+    ) {
+        let shift = |value: u32| if few { (value >> 29) << (bits.max(3) - 3) } else { value >> (32 - bits) };
+        let points: Vec<Point> = raw.iter().map(|&(x, y)| Point::new(shift(x), shift(y))).collect();
+        let sorted = sort(&points, threads);
+        prop_assert_eq!(sorted.sites.len(), sorted.ids.len());
+        prop_assert_eq!(sorted.ids.len() + sorted.duplicates.len(), points.len());
+        let lowest = |point: Point| points.iter().position(|&p| p == point).map(|index| index as u32);
+        let corner = |get: fn(&Point) -> u32| points.iter().map(get).min().unwrap_or(0);
+        let (left, bottom) = (corner(|p| p.x), corner(|p| p.y));
+        for (site, &id) in sorted.sites.iter().zip(&sorted.ids) {
+            let point = points[id as usize];
+            prop_assert_eq!(lowest(point), Some(id));
+            prop_assert_eq!(*site, Site::from(Point::new(point.x - left, point.y - bottom)));
+        }
+        for duplicate in &sorted.duplicates {
+            prop_assert_eq!(lowest(points[duplicate.index as usize]), Some(duplicate.of));
+            prop_assert!(duplicate.of < duplicate.index);
+        }
+        let position = |site: &Site| position(Point::new(site.x as u32, site.y as u32));
+        prop_assert!(sorted.sites.windows(2).all(|pair| position(&pair[0]) < position(&pair[1])));
+    }
+}

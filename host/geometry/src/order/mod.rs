@@ -1,0 +1,23 @@
+//! Orders of insertion.
+//!
+//! The mesh does not depend on the order, the time does: a point whose predecessor lies near is found in a few steps,
+//! and random rounds keep any input from making many triangles that do not last. The orders by name are [`Order`].
+//!
+//! Indices are 32 bits wide: points past the 2^32nd are left out.
+
+mod brio;
+mod distinct;
+mod hilbert;
+mod keys;
+mod kind;
+mod random;
+#[cfg(test)]
+mod tests;
+pub mod z_curve;
+
+pub use brio::{brio_hilbert, rounds, rounds_of_share, Rounds};
+pub use distinct::distinct;
+pub use hilbert::{along_curve, hilbert, Hilbert};
+pub use keys::{by_key, mix};
+pub use kind::{Order, UnknownOrder};
+pub use random::random;

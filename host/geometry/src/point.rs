@@ -1,0 +1,109 @@
+//! Grid points, and points that fall together.
+
+use core::fmt;
+
+/// Most bits of a coordinate: coordinates lie below 2^31, so that differences fit 32 bits with their sign.
+pub const MAX_COORD_BITS: u32 = 31;
+/// Most points of one set: the numbers of all half-edges must fit 32 bits.
+pub const MAX_POINTS: usize = (1 << 29) - 1;
+
+/// A point of the grid: two unsigned integers.
+///
+/// A device takes coordinates below 2^`coord_bits` (16 in the standard core, 31 at most); nothing is checked here.
+/// The order is lexicographic, `x` before `y`: it is the order of the tie rule.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Point {
+    /// Horizontal coordinate, in grid units.
+    pub x: u32,
+    /// Vertical coordinate, in grid units.
+    pub y: u32,
+}
+
+impl Point {
+    /// The point `(x, y)`.
+    #[inline]
+    pub const fn new(x: u32, y: u32) -> Self {
+        Self { x, y }
+    }
+}
+
+impl fmt::Display for Point {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "({}, {})", self.x, self.y)
+    }
+}
+
+impl From<(u32, u32)> for Point {
+    fn from((x, y): (u32, u32)) -> Self {
+        Self { x, y }
+    }
+}
+
+impl From<[u32; 2]> for Point {
+    fn from([x, y]: [u32; 2]) -> Self {
+        Self { x, y }
+    }
+}
+
+#[cfg(feature = "glam")]
+impl From<glam::UVec2> for Point {
+    fn from(v: glam::UVec2) -> Self {
+        Self { x: v.x, y: v.y }
+    }
+}
+
+#[cfg(feature = "glam")]
+impl From<Point> for glam::UVec2 {
+    fn from(point: Point) -> Self {
+        glam::UVec2::new(point.x, point.y)
+    }
+}
+
+impl From<Point> for (u32, u32) {
+    fn from(point: Point) -> Self {
+        (point.x, point.y)
+    }
+}
+
+/// An input point that fell onto an earlier one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Duplicate {
+    /// Input index of the point.
+    pub index: u32,
+    /// Lowest input index of the same coordinates; the mesh uses that one.
+    pub of: u32,
+}
+
+impl From<Point> for [u32; 2] {
+    fn from(point: Point) -> Self {
+        [point.x, point.y]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn order_is_lexicographic_x_before_y() {
+        assert!(Point::new(1, 9) < Point::new(2, 0));
+        assert!(Point::new(2, 0) < Point::new(2, 1));
+    }
+
+    #[test]
+    fn pairs_and_arrays_convert() {
+        let expected = Point::new(3, 4);
+        assert_eq!(Point::from((3, 4)), expected);
+        assert_eq!(Point::from([3, 4]), expected);
+        assert_eq!(<(u32, u32)>::from(expected), (3, 4));
+        assert_eq!(<[u32; 2]>::from(expected), [3, 4]);
+    }
+
+    #[cfg(feature = "glam")]
+    #[test]
+    fn vectors_of_glam_convert() {
+        let expected = Point::new(3, 4);
+        assert_eq!(Point::from(glam::UVec2::new(3, 4)), expected);
+        assert_eq!(glam::UVec2::from(expected), glam::UVec2::new(3, 4));
+    }
+}

@@ -1,0 +1,123 @@
+//! Edges: each has its two sides, and each inner one is locally Delaunay.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+
+use super::error::VerifyError;
+use super::exact::incircle;
+use super::sites::Sites;
+use super::summary::VerifySummary;
+
+/// Checks all edges and counts edges and ties.
+pub(super) fn check(sites: &Sites<'_>, triangles: &[[u32; 3]], summary: &mut VerifySummary) -> Result<(), VerifyError> {
+    let sides = sides(triangles);
+    let edges = || sides.chunk_by(|one, other| one.0 == other.0);
+    let mut hull = HullEdges::of(&summary.hull, sites.points.len());
+    for edge in edges() {
+        summary.edges += 1;
+        match *edge {
+            [(_, only)] => hull.take(only, ends(triangles, only))?,
+            _ => check_sides(triangles, edge)?,
+        }
+    }
+    hull.check_complete(&summary.hull)?;
+    for edge in edges() {
+        // No edge has more sides than two, and those run opposite ways: `check_sides`.
+        if let [(_, one), (_, other)] = *edge {
+            summary.ties += usize::from(check_inner_edge(sites, triangles, one, other)?);
+        }
+    }
+    Ok(())
+}
+
+/// One side of an edge: its two points in rising order, and the half-edge. Half-edge `3 t + k` runs from corner `k` of
+/// triangle `t` to the next.
+type Side = ([u32; 2], u32);
+
+/// All sides, those of one edge in a row. O(n log n): a plain sort, so that the validator shares none with the host.
+fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
+    // Three half-edges of each triangle fit 32 bits: `check_sizes`.
+    let halfedges = 0..3 * triangles.len() as u32;
+    let mut sides: Vec<Side> = halfedges
+        .map(|halfedge| {
+            let [from, to] = ends(triangles, halfedge);
+            ([from.min(to), from.max(to)], halfedge)
+        })
+        .collect();
+    sides.sort_unstable();
+    sides
+}
+
+/// The points of a half-edge, from and to.
+fn ends(triangles: &[[u32; 3]], halfedge: u32) -> [u32; 2] {
+    let corners = triangles[(halfedge / 3) as usize];
+    let k = (halfedge % 3) as usize;
+    [corners[k], corners[(k + 1) % 3]]
+}
+
+/// No two half-edges of one edge may run the same way. Of three or more, two do.
+fn check_sides(triangles: &[[u32; 3]], sides: &[Side]) -> Result<(), VerifyError> {
+    for (place, &(_, later)) in sides.iter().enumerate() {
+        let edge = ends(triangles, later);
+        let mut earlier = sides[..place].iter();
+        if let Some(&(_, twin)) = earlier.find(|twin| ends(triangles, twin.1) == edge) {
+            return Err(VerifyError::SameSide { one: (twin / 3) as usize, other: (later / 3) as usize, edge });
+        }
+    }
+    Ok(())
+}
+
+/// The hull edges, to be met once each.
+struct HullEdges {
+    /// The point after each point of the hull, until its edge is met.
+    following: Vec<Option<u32>>,
+}
+
+impl HullEdges {
+    fn of(hull: &[u32], points: usize) -> Self {
+        let mut following = vec![None; points];
+        for (&from, &to) in hull.iter().zip(hull.iter().skip(1).chain(hull.first())) {
+            following[from as usize] = Some(to);
+        }
+        Self { following }
+    }
+
+    fn take(&mut self, halfedge: u32, edge: [u32; 2]) -> Result<(), VerifyError> {
+        let following = &mut self.following[edge[0] as usize];
+        if *following != Some(edge[1]) {
+            return Err(VerifyError::OpenEdge { triangle: (halfedge / 3) as usize, edge });
+        }
+        *following = None;
+        Ok(())
+    }
+
+    fn check_complete(&self, hull: &[u32]) -> Result<(), VerifyError> {
+        for &from in hull {
+            if let Some(to) = self.following[from as usize] {
+                return Err(VerifyError::MissingHullEdge { edge: [from, to] });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Local Delaunay property and tie rule of the edge between two triangles; true for a tie.
+fn check_inner_edge(sites: &Sites<'_>, triangles: &[[u32; 3]], one: u32, other: u32) -> Result<bool, VerifyError> {
+    let corner = |halfedge: u32, step: u32| triangles[(halfedge / 3) as usize][((halfedge % 3 + step) % 3) as usize];
+    let (a, b, c, d) = (corner(one, 0), corner(one, 1), corner(one, 2), corner(other, 2));
+    match incircle(sites.at(a), sites.at(b), sites.at(c), sites.at(d)) {
+        Ordering::Less => Ok(false),
+        Ordering::Greater => Err(VerifyError::NotDelaunay { triangle: (one / 3) as usize, point: d, edge: [a, b] }),
+        Ordering::Equal => {
+            let corners = [a, d, b, c];
+            let smallest = corners.into_iter().min_by_key(|&index| sites.at(index));
+            match smallest {
+                Some(smallest) if smallest != a && smallest != b => {
+                    Err(VerifyError::WrongTie { corners, edge: [a, b], smallest })
+                }
+                _ => Ok(true),
+            }
+        }
+    }
+}

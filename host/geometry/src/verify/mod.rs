@@ -1,0 +1,185 @@
+//! The validator: is this mesh right at all?
+//!
+//! It shares no predicate, no sort and no step of the algorithm with the devices, the model or the rest of the host,
+//! only the types of points and meshes: exact 128-bit integers, the lifted 3x3 determinant, a hull by monotone chain.
+//! What it accepts is the canonical mesh: all triangles counter-clockwise, their areas sum to the hull's, each inner
+//! edge is locally Delaunay (so all are: Delaunay 1934), and each tie follows the rule.
+
+mod edges;
+mod error;
+mod exact;
+mod sites;
+mod summary;
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+pub use error::VerifyError;
+pub use summary::VerifySummary;
+
+use crate::point::Duplicate;
+use crate::point::Point;
+
+use exact::COORDINATE_LIMIT;
+use sites::Sites;
+
+/// Most points or triangles: three half-edges of each triangle must fit 32 bits.
+const MAX_COUNT: usize = (u32::MAX / 3) as usize;
+
+/// Checks that `triangles` is the canonical Delaunay triangulation of `points`. O(n log n), about 200 bytes per
+/// point.
+///
+/// ```
+/// use incircle_geometry::{verify, Point};
+/// let square = [(0, 0), (2, 0), (2, 2), (0, 2)].map(Point::from);
+/// let summary = verify(&square, &[[0, 1, 2], [0, 2, 3]])?;
+/// assert_eq!((summary.edges, summary.ties), (5, 1));
+/// assert!(verify(&square, &[[0, 1, 3], [1, 2, 3]]).is_err());
+/// # Ok::<(), incircle_geometry::VerifyError>(())
+/// ```
+///
+/// # Errors
+/// The first thing found wrong, with its numbers.
+pub fn verify(points: &[Point], triangles: &[[u32; 3]]) -> Result<VerifySummary, VerifyError> {
+    check_sizes(points, triangles)?;
+    let sites = Sites::of(points);
+    let mut summary = VerifySummary {
+        points: points.len(),
+        distinct: sites.distinct.len(),
+        duplicates: points.len() - sites.distinct.len(),
+        triangles: triangles.len(),
+        hull: sites.hull(),
+        collinear: sites.are_collinear(),
+        ..VerifySummary::default()
+    };
+    if summary.collinear {
+        return match triangles.len() {
+            0 => Ok(summary),
+            triangles => Err(VerifyError::TrianglesOfCollinearPoints { triangles }),
+        };
+    }
+    let covered = check_triangles(&sites, triangles)?;
+    check_count(&summary)?;
+    check_all_used(&sites, triangles)?;
+    check_area(&sites, &summary.hull, covered)?;
+    edges::check(&sites, triangles, &mut summary)?;
+    Ok(summary)
+}
+
+fn check_sizes(points: &[Point], triangles: &[[u32; 3]]) -> Result<(), VerifyError> {
+    let count = points.len().max(triangles.len());
+    if count > MAX_COUNT {
+        return Err(VerifyError::TooLarge { count, max: MAX_COUNT });
+    }
+    let too_large = |point: &Point| point.x.max(point.y) >= COORDINATE_LIMIT;
+    match points.iter().position(too_large) {
+        Some(index) => Err(VerifyError::CoordinateTooLarge { index, point: points[index] }),
+        None => Ok(()),
+    }
+}
+
+/// Checks each triangle by itself and the order of the list; returns twice the sum of their areas.
+fn check_triangles(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<i128, VerifyError> {
+    let mut covered = 0;
+    for (triangle, &corners) in triangles.iter().enumerate() {
+        check_corners(sites, triangle, corners)?;
+        let area = exact::orient2d(sites.at(corners[0]), sites.at(corners[1]), sites.at(corners[2]));
+        if area <= 0 {
+            return Err(VerifyError::NotCounterClockwise { triangle, corners });
+        }
+        covered += area;
+        if corners[0] > corners[1] || corners[0] > corners[2] {
+            return Err(VerifyError::NotRotated { triangle, corners });
+        }
+        let before = triangle.checked_sub(1).and_then(|before| triangles.get(before));
+        match before.map(|before| before.cmp(&corners)) {
+            Some(core::cmp::Ordering::Equal) => return Err(VerifyError::DoubledTriangle { triangle, corners }),
+            Some(core::cmp::Ordering::Greater) => return Err(VerifyError::NotSorted { triangle, corners }),
+            _ => {}
+        }
+    }
+    Ok(covered)
+}
+
+/// Corners must exist and be the lowest index of their coordinates.
+fn check_corners(sites: &Sites<'_>, triangle: usize, corners: [u32; 3]) -> Result<(), VerifyError> {
+    for index in corners {
+        match sites.lowest.get(index as usize) {
+            None => return Err(VerifyError::IndexOutOfRange { triangle, index, points: sites.points.len() }),
+            Some(&of) if of != index => return Err(VerifyError::NotLowestIndex { triangle, index, of }),
+            Some(_) => {}
+        }
+    }
+    Ok(())
+}
+
+/// Euler: a triangulation of n points with h of them on the hull has 2n - 2 - h triangles.
+fn check_count(summary: &VerifySummary) -> Result<(), VerifyError> {
+    let expected = 2 * summary.distinct - 2 - summary.hull.len();
+    if summary.triangles == expected {
+        return Ok(());
+    }
+    Err(VerifyError::TriangleCount {
+        found: summary.triangles,
+        expected,
+        distinct: summary.distinct,
+        hull: summary.hull.len(),
+    })
+}
+
+fn check_all_used(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<(), VerifyError> {
+    let mut used = vec![false; sites.points.len()];
+    for &index in triangles.as_flattened() {
+        used[index as usize] = true;
+    }
+    let unused = sites.distinct.iter().filter(|&&index| !used[index as usize]);
+    match unused.min() {
+        Some(&index) => Err(VerifyError::UnusedPoint { index }),
+        None => Ok(()),
+    }
+}
+
+fn check_area(sites: &Sites<'_>, hull: &[u32], triangles: i128) -> Result<(), VerifyError> {
+    let origin = Point::new(0, 0);
+    let following = hull.iter().skip(1).chain(hull.first());
+    let sectors = hull.iter().zip(following);
+    let hull = sectors.map(|(&from, &to)| exact::orient2d(origin, sites.at(from), sites.at(to))).sum();
+    if triangles == hull {
+        Ok(())
+    } else {
+        Err(VerifyError::Area { triangles, hull })
+    }
+}
+
+/// The hull list must be that of the summary.
+pub(crate) fn check_hull(hull: &[u32], summary: &VerifySummary) -> Result<(), VerifyError> {
+    match first_difference(hull, &summary.hull) {
+        Some(place) => Err(VerifyError::Hull {
+            place,
+            found: hull.get(place).copied(),
+            expected: summary.hull.get(place).copied(),
+        }),
+        None => Ok(()),
+    }
+}
+
+/// The list of duplicates must be that of the points.
+pub(crate) fn check_duplicates(points: &[Point], duplicates: &[Duplicate]) -> Result<(), VerifyError> {
+    let expected: Vec<Duplicate> = Sites::of(points).duplicates().collect();
+    match first_difference(duplicates, &expected) {
+        Some(place) => Err(VerifyError::Duplicates { place }),
+        None => Ok(()),
+    }
+}
+
+/// The first place at which two lists differ.
+fn first_difference<T: PartialEq>(one: &[T], other: &[T]) -> Option<usize> {
+    if one == other {
+        return None;
+    }
+    let common = one.iter().zip(other).take_while(|(one, other)| one == other);
+    Some(common.count())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,122 @@
+//! The distinct points, their hull, and which index stands for which.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::point::Duplicate;
+use crate::point::Point;
+
+use super::exact::orient2d;
+
+/// The distinct points of an input.
+pub(super) struct Sites<'a> {
+    pub(super) points: &'a [Point],
+    /// Lowest index of each distinct point, in lexicographic order of the points.
+    pub(super) distinct: Vec<u32>,
+    /// For each input index, the lowest index of the same coordinates.
+    pub(super) lowest: Vec<u32>,
+}
+
+impl<'a> Sites<'a> {
+    /// Sorts the points. O(n log n).
+    pub(super) fn of(points: &'a [Point]) -> Self {
+        let mut distinct: Vec<u32> = (0..points.len() as u32).collect();
+        distinct.sort_unstable_by_key(|&index| (points[index as usize], index));
+        let mut lowest = vec![0; points.len()];
+        distinct.dedup_by(|later, kept| {
+            let equal = points[*later as usize] == points[*kept as usize];
+            lowest[*later as usize] = if equal { *kept } else { *later };
+            equal
+        });
+        if let Some(&first) = distinct.first() {
+            lowest[first as usize] = first;
+        }
+        Self { points, distinct, lowest }
+    }
+
+    pub(super) fn at(&self, index: u32) -> Point {
+        self.points[index as usize]
+    }
+
+    /// Fewer than three distinct points, or all on one line.
+    pub(super) fn are_collinear(&self) -> bool {
+        let [first, second, rest @ ..] = &self.distinct[..] else {
+            return true;
+        };
+        let (a, b) = (self.at(*first), self.at(*second));
+        rest.iter().all(|&index| orient2d(a, b, self.at(index)) == 0)
+    }
+
+    /// The hull, counter-clockwise from its lowest index, points in the middle of its edges included; all distinct
+    /// points in lexicographic order if they are collinear. Andrew's monotone chain. O(n).
+    pub(super) fn hull(&self) -> Vec<u32> {
+        if self.are_collinear() {
+            return self.distinct.clone();
+        }
+        let mut hull = self.chain(self.distinct.iter().copied());
+        hull.extend(self.chain(self.distinct.iter().rev().copied()));
+        let start = (0..hull.len()).min_by_key(|&place| hull[place]);
+        hull.rotate_left(start.unwrap_or(0));
+        hull
+    }
+
+    /// One side of the hull, without its last point: no right turn is left.
+    fn chain(&self, sorted: impl Iterator<Item = u32>) -> Vec<u32> {
+        let mut chain: Vec<u32> = Vec::new();
+        for next in sorted {
+            while let [.., before, last] = chain[..] {
+                if orient2d(self.at(before), self.at(last), self.at(next)) >= 0 {
+                    break;
+                }
+                chain.pop();
+            }
+            chain.push(next);
+        }
+        chain.pop();
+        chain
+    }
+
+    /// The points that fell onto an earlier one, by index.
+    pub(super) fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
+        let all = (0..).zip(self.lowest.iter());
+        all.filter(|(index, of)| index != *of).map(|(index, &of)| Duplicate { index, of })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(raw: &[(u32, u32)]) -> Vec<Point> {
+        raw.iter().map(|&pair| pair.into()).collect()
+    }
+
+    #[test]
+    fn the_hull_of_a_block_has_its_edge_points_and_not_its_middle() {
+        let block: Vec<Point> = (0..9).map(|k| Point::new(k / 3, k % 3)).collect();
+        assert_eq!(Sites::of(&block).hull(), [0, 3, 6, 7, 8, 5, 2, 1]);
+    }
+
+    #[test]
+    fn the_hull_starts_at_its_lowest_index() {
+        let square = points(&[(5, 5), (9, 9), (0, 9), (9, 0), (0, 0)]);
+        assert_eq!(Sites::of(&square).hull(), [1, 2, 4, 3]);
+    }
+
+    #[test]
+    fn collinear_points_are_their_own_hull() {
+        for raw in [&[][..], &[(1, 1)], &[(1, 1), (1, 1)], &[(3, 3), (1, 1), (2, 2)]] {
+            let points = points(raw);
+            let sites = Sites::of(&points);
+            assert!(sites.are_collinear());
+            assert_eq!(sites.hull(), sites.distinct);
+        }
+    }
+
+    #[test]
+    fn duplicates_point_to_the_lowest_index() {
+        let points = points(&[(1, 1), (0, 0), (1, 1), (0, 0), (1, 1)]);
+        let pairs: Vec<(u32, u32)> = Sites::of(&points).duplicates().map(|d| (d.index, d.of)).collect();
+        assert_eq!(pairs, [(2, 0), (3, 1), (4, 0)]);
+    }
+}

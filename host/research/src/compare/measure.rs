@@ -1,0 +1,91 @@
+//! One way on one set, measured.
+
+use std::time::Instant;
+
+use incircle::order::deal;
+use incircle::{Device, Error, Options, Point};
+use incircle_protocol::{CORE_COORD_BITS, LARGE};
+use incircle_testkit::Distribution;
+
+use super::row::Row;
+use crate::hierarchy::Hierarchy;
+use crate::job;
+use crate::order::Order;
+use crate::prepare::prepare;
+use crate::way::Way;
+
+/// Runs of which the fastest counts.
+const RUNS: usize = 3;
+
+/// The figures of this way on this set.
+///
+/// # Errors
+/// None that a sound model can cause: those of the core's model.
+pub fn measure(set: Distribution, points: &[Point], way: Way, coord_bits: u32) -> Result<Row, Error> {
+    let (order_ns, total_ns, (distinct, counts)) = match way {
+        Way::Hierarchy => {
+            let (found, total_ns) = fastest(points.len(), || {
+                let mut hierarchy = Hierarchy::new();
+                // The points of a set are all within 31 bits.
+                let taken = points.iter().filter(|&&point| hierarchy.insert(point) == Ok(None)).count();
+                (hierarchy.mesh(), taken, hierarchy.counts())
+            });
+            (0.0, total_ns, (found.1, found.2))
+        }
+        Way::Ordered(order) => {
+            let (_, order_ns) = fastest(points.len(), || order.order(points));
+            let (outcome, total_ns) = fastest(points.len(), || job::triangulate(points, order));
+            (order_ns, total_ns, (points.len() - outcome.mesh.duplicates.len(), outcome.counts))
+        }
+    };
+    let cycles = match way {
+        Way::Hierarchy => None,
+        Way::Ordered(order) => cycles(points, order, coord_bits, distinct)?,
+    };
+    let mean = |count: u32| f64::from(count) / distinct.max(1) as f64;
+    Ok(Row {
+        set,
+        asked: points.len(),
+        points: distinct,
+        way,
+        order_ns,
+        total_ns,
+        walk: mean(counts.walk_visits),
+        tests: mean(counts.tests),
+        cavity: mean(counts.cavity_triangles),
+        cycles,
+    })
+}
+
+/// Does something three times, and says how many nanoseconds a point the fastest took.
+fn fastest<R>(points: usize, work: impl Fn() -> R) -> (R, f64) {
+    let once = || {
+        let since = Instant::now();
+        let result = work();
+        (result, since.elapsed().as_secs_f64() * 1e9 / points.max(1) as f64)
+    };
+    let mut best = once();
+    for _ in 1..RUNS {
+        let next = once();
+        best = if next.1 < best.1 { next } else { best };
+    }
+    best
+}
+
+/// Cycles of an insertion on the largest core, if it holds the points: they are put in order and dealt to its contexts
+/// here, and sent as they come.
+fn cycles(points: &[Point], order: Order, coord_bits: u32, distinct: usize) -> Result<Option<f64>, Error> {
+    if distinct > LARGE.points as usize || coord_bits > CORE_COORD_BITS {
+        return Ok(None);
+    }
+    let prepared = prepare(points, order);
+    let order = match order {
+        Order::Input => prepared.rounds.order,
+        _ => deal(prepared.rounds, LARGE.contexts),
+    };
+    let sent: Vec<Point> = order.into_iter().map(|index| points[index as usize]).collect();
+    let mut device = Device::clock_model(LARGE)?;
+    let options = Options::default().order(incircle::Order::Input).insert_chunk(sent.len());
+    let solution = device.session()?.triangulate_with(&sent, &options)?;
+    Ok(solution.report.cycles_per_insertion())
+}

@@ -1,0 +1,28 @@
+//! Orders of insertion of the literature, beside the product: what they cost, what they save, and where published
+//! rankings come back.
+//!
+//! The product inserts points in one of four orders, since none of the others is faster on the whole. This package has
+//! all that were tried: twelve [curves](order::Curve), alone and in rounds of three sizes, rounds with
+//! [guides](order::brio_dc()), and the [Delaunay hierarchy](Hierarchy) for points that arrive one at a time. All are
+//! measured on the software model, and in cycles of the largest core. Nothing here ships; `cargo run --release -p
+//! incircle-research -- figures` makes all published figures again.
+#![warn(missing_docs)]
+
+pub mod assembly;
+pub mod compare;
+mod figures;
+mod guided;
+mod hierarchy;
+pub mod job;
+pub mod order;
+mod orders;
+mod picture;
+pub mod prepare;
+mod way;
+
+pub use figures::{figures, FiguresArguments};
+pub use guided::{GuidedMesh, RING_CAPACITY};
+pub use hierarchy::Hierarchy;
+pub use orders::{orders, Failure, OrdersArguments};
+pub use picture::{picture, PictureArguments};
+pub use way::Way;

@@ -1,0 +1,123 @@
+//! `orders`: what orders of insertion cost and save, as a table, as CSV and as a drawing.
+
+use std::io::{self, Write as _};
+use std::path::{absolute, Path, PathBuf};
+
+use clap::Args;
+use incircle::Point;
+use incircle_testkit::{generate, Distribution};
+
+use crate::compare::{draw, header, measure, ranking, to_csv, Row};
+use crate::way::Way;
+
+/// Why a run failed, as a sentence.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// Arguments of `orders`.
+#[derive(Clone, Debug, Args)]
+pub struct OrdersArguments {
+    /// The sets (default: the five distributions of the literature, and two sets on which plain curves fail)
+    #[arg(value_name = "SET")]
+    pub sets: Vec<Distribution>,
+    /// Points of a set, several numbers with commas; cycles are counted up to 16384
+    #[arg(short, value_name = "N", value_delimiter = ',', default_values_t = [4096])]
+    pub n: Vec<u32>,
+    /// Orders, several with commas (default: random, every curve, rounds along every curve, rounds with guides, points
+    /// as they arrive)
+    #[arg(long = "order", value_name = "ORDER", value_delimiter = ',', value_parser = way_from)]
+    pub orders: Vec<Way>,
+    /// Bits of a coordinate; cycles are counted up to 16
+    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
+    pub coord_bits: u32,
+    /// Seed of the sets: the same seed gives the same points on every machine
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Write the figures as CSV, too
+    #[arg(long, value_name = "FILE.csv")]
+    pub csv: Option<PathBuf>,
+    /// Draw walk steps and time, too
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
+}
+
+/// A way by its name.
+fn way_from(name: &str) -> Result<Way, String> {
+    Way::named(name).ok_or_else(|| format!("the orders are {}", Way::names().collect::<Vec<_>>().join(", ")))
+}
+
+/// Runs the subcommand: a row as soon as it is done, the published ranking below the table, files at the end.
+///
+/// # Errors
+/// Files that cannot be written or are the same, and sets that cannot be made.
+pub fn orders(arguments: &OrdersArguments) -> Result<(), Failure> {
+    check_files(arguments)?;
+    let ways = if arguments.orders.is_empty() { Way::usual() } else { arguments.orders.clone() };
+    let rows = table(&sets_of(arguments), &arguments.n, &ways, arguments.coord_bits, arguments.seed)?;
+    print(&ranking(&rows))?;
+    if let Some(path) = &arguments.csv {
+        write(path, &to_csv(&rows))?;
+    }
+    if let Some(path) = &arguments.plot {
+        write(path, &draw(&rows))?;
+    }
+    Ok(())
+}
+
+/// Measures and prints all ways on all sets.
+pub(crate) fn table(
+    sets: &[Distribution],
+    sizes: &[u32],
+    ways: &[Way],
+    coord_bits: u32,
+    seed: u64,
+) -> Result<Vec<Row>, Failure> {
+    let mut rows = Vec::new();
+    print(&header(coord_bits, seed))?;
+    for &n in sizes {
+        for &set in sets {
+            let points = generate(set, n as usize, coord_bits, seed)?;
+            let points: Vec<Point> = points.into_iter().map(Point::from).collect();
+            for &way in ways {
+                let row = measure(set, &points, way, coord_bits)?;
+                print(&row.line())?;
+                rows.push(row);
+            }
+        }
+    }
+    Ok(rows)
+}
+
+/// The files for the figures and for the drawing cannot be one, and their folders must be there.
+fn check_files(arguments: &OrdersArguments) -> Result<(), Failure> {
+    let place = |path: &Option<PathBuf>| path.as_deref().map(absolute).transpose();
+    let (csv, plot) = (place(&arguments.csv)?, place(&arguments.plot)?);
+    if csv.is_some() && csv == plot {
+        return Err("--csv and --plot name the same file: choose another file for one".into());
+    }
+    for path in [csv, plot].into_iter().flatten() {
+        if !path.parent().is_some_and(Path::is_dir) {
+            return Err(format!("{} cannot be written: there is no such folder", path.display()).into());
+        }
+    }
+    Ok(())
+}
+
+fn sets_of(arguments: &OrdersArguments) -> Vec<Distribution> {
+    if arguments.sets.is_empty() {
+        let hard = [Distribution::TwoChains, Distribution::ParabolaInward];
+        Distribution::LITERATURE.into_iter().chain(hard).collect()
+    } else {
+        arguments.sets.clone()
+    }
+}
+
+/// Prints at once, so that a long table is seen to grow.
+pub(crate) fn print(text: &str) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()
+}
+
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    std::fs::write(path, text).map_err(|error| format!("{} cannot be written: {error}", path.display()).into())
+}

@@ -1,0 +1,160 @@
+//! The command: tables, files, drawings, and all published figures at once.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// A folder that is made for one test and removed with it.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new() -> Self {
+        static NEXT: AtomicU32 = AtomicU32::new(0);
+        let name = format!("incircle-research-{}-{}", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        std::fs::create_dir_all(&folder).expect("the scratch folder can be made");
+        Self(folder)
+    }
+
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.0.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    /// Runs the command; its arguments are parted by spaces.
+    fn run(&self, arguments: &str) -> Run {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_incircle-research"));
+        command.args(arguments.split_whitespace()).current_dir(&self.0).stdin(Stdio::null());
+        let output = command.output().expect("the command starts");
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        Run { code: output.status.code(), stdout: text(&output.stdout), stderr: text(&output.stderr) }
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// What a run left behind.
+#[derive(Debug)]
+struct Run {
+    code: Option<i32>,
+    stdout: String,
+    stderr: String,
+}
+
+impl Run {
+    #[track_caller]
+    fn ok(self) -> Self {
+        assert_eq!(self.code, Some(0), "{self:?}");
+        self
+    }
+}
+
+/// The words of every row, the lines above the rows left out.
+fn rows(run: &Run, above: usize) -> Vec<Vec<String>> {
+    let lines = run.stdout.lines().skip(above);
+    lines.map(|line| line.split_whitespace().map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn orders_are_compared_as_table_csv_and_drawing() {
+    let scratch = Scratch::new();
+    let run = scratch
+        .run("orders uniform parabola -n 300,600 --order hilbert,brio-hilbert,random --csv o.csv --plot o.svg")
+        .ok();
+    let rows = rows(&run, 2);
+    assert_eq!(rows.len(), 2 * 2 * 3);
+    let csv = scratch.read("o.csv");
+    assert_eq!(csv.lines().next(), Some("set,points,order,order_ns,total_ns,walk,tests,cavity,cycles"));
+    assert_eq!(csv.lines().count(), 1 + rows.len());
+    for row in &rows {
+        assert_eq!(row.len(), 9, "{row:?}");
+        let value = |column: usize| row[column].parse::<f64>().unwrap_or_else(|_| panic!("column {column}: {row:?}"));
+        assert!((3..9).all(|column| value(column) > 0.0), "{row:?}");
+        // What is removed was tested, or is where the walk ended.
+        assert!(value(7) <= value(6) + 1.0, "{row:?}");
+    }
+    // A walk from anywhere is longer than one along a curve.
+    let walk = |order: usize| rows[3 + order][5].parse::<f64>().expect("a number");
+    assert!(walk(2) > 2.0 * walk(0), "{rows:?}");
+    let drawing = scratch.read("o.svg");
+    assert!(drawing.starts_with("<svg ") && drawing.matches("<rect").count() == 1 + 2 * rows.len(), "{drawing}");
+    // Told before any row.
+    let one = scratch.run("orders uniform -n 100 --order hilbert --csv o.csv --plot ./o.csv");
+    assert!(
+        one.code == Some(2) && one.stderr.contains("--csv and --plot") && one.stderr.contains("the same file"),
+        "{one:?}"
+    );
+    assert_eq!(scratch.read("o.csv"), csv);
+    assert!(!run.stdout.contains("published"), "{run:?}");
+    let wide = scratch.run("orders uniform -n 100 --coord-bits 20 --order hilbert").ok();
+    assert!(wide.stdout.lines().last().is_some_and(|line| line.ends_with(" -")), "{wide:?}");
+}
+
+/// Where each point of a curve sees all triangles before it, rounds of random samples keep tests few. Tests are
+/// counted, so the same everywhere.
+#[test]
+fn plain_hilbert_collapses_on_hard_sets_and_rounds_do_not() {
+    let scratch = Scratch::new();
+    let run = scratch.run("orders two-chains parabola-inward -n 1024,4096 --order hilbert,brio-hilbert").ok();
+    let rows = rows(&run, 2);
+    assert_eq!(rows.len(), 2 * 2 * 2, "{run:?}");
+    for pair in rows.chunks(2) {
+        let tests = [&pair[0][6], &pair[1][6]].map(|text| text.parse::<f64>().expect("a number"));
+        assert!(tests[0] > 5.0 * tests[1] && tests[1] < 15.0, "{pair:?}");
+    }
+}
+
+#[test]
+fn guides_and_the_hierarchy_shorten_walks_and_the_published_ranking_is_told() {
+    let scratch = Scratch::new();
+    let orders = "brio-hilbert,briodc-linear,briodc-log-u,input,arrival-hierarchy";
+    let run = scratch.run(&format!("orders uniform line -n 3000 --order {orders} --csv o.csv")).ok();
+    let rows: Vec<Vec<String>> = rows(&run, 2).into_iter().filter(|row| row.len() == 9).collect();
+    assert_eq!(rows.len(), 2 * 5, "{run:?}");
+    for of_set in rows.chunks(5) {
+        let column = |way: usize, column: usize| of_set[way][column].parse::<f64>().expect("a number");
+        let walk = |way: usize| column(way, 5);
+        // On a line some vertices have many triangles, and few points are enough for that to show.
+        assert!(walk(1) < 3.3 && walk(1) < walk(0), "{of_set:?}");
+        // Both variants give one order.
+        assert_eq!(of_set[1][5..], of_set[2][5..], "{of_set:?}");
+        assert!(walk(4) < 0.5 * walk(3), "{of_set:?}");
+        assert!(column(1, 8) > 0.0 && of_set[4][8] == "-", "{of_set:?}");
+    }
+    assert_eq!(scratch.read("o.csv").lines().count(), 1 + rows.len());
+    let told = "3000 points, the literature's distributions among the rows: of 3 pairs more than 5 % apart there, ";
+    assert!(run.stdout.contains(told), "{run:?}");
+    assert!(run.stdout.contains("  briodc-linear"), "{run:?}");
+}
+
+#[test]
+fn orders_are_drawn() {
+    let scratch = Scratch::new();
+    scratch.run("draw kuzmin -n 64 --order briodc-linear -o guided.svg").ok();
+    let drawing = scratch.read("guided.svg");
+    assert!(
+        drawing.starts_with("<svg ") && drawing.contains("64 points, kuzmin, in the order briodc-linear"),
+        "{drawing}"
+    );
+    let run = scratch.run("draw kuzmin --order zigzag -o zigzag.svg");
+    assert!(run.code == Some(2) && run.stderr.contains("brio-squarified-peano"), "{run:?}");
+}
+
+#[test]
+fn one_command_makes_all_published_figures() {
+    let scratch = Scratch::new();
+    let run = scratch.run("figures --table 40 --ranking 60 --walks 80 --out kept").ok();
+    for part in
+        ["== All orders", "== Published ranking", "5 % apart there", "== Guided walks", "ns a point to order beside"]
+    {
+        assert!(run.stdout.contains(part), "no {part:?} in {run:?}");
+    }
+    // Random order, 12 curves alone and in rounds, both variants of BrioDC, the hierarchy; 7 sets.
+    assert_eq!(scratch.read("kept/orders.csv").lines().count(), 1 + 7 * 28);
+    assert_eq!(scratch.read("kept/ranking.csv").lines().count(), 1 + 5 * 14);
+    assert_eq!(scratch.read("kept/walks.csv").lines().count(), 1 + 5 * 2);
+    assert!(scratch.read("kept/orders.svg").starts_with("<svg "));
+}

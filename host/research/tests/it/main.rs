@@ -1,0 +1,5 @@
+//! The tests of the research package, in one program.
+
+mod command;
+mod guides;
+mod hierarchy;

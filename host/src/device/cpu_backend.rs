@@ -1,0 +1,166 @@
+//! The engine in this process.
+
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
+use std::thread::Builder;
+
+use incircle_geometry::cpu::{self, threads_for};
+use incircle_geometry::{Point, MAX_COORD_BITS, MAX_POINTS};
+use incircle_protocol::{Identity, MAGIC, PROTOCOL_VERSION};
+
+use super::backend::{Backend, JobLeft, Terms, Together};
+use crate::error::Error;
+use crate::job::watch::{tell, Stopwatch};
+use crate::job::{Options, Report, Solution, Stage};
+use crate::limit::Limit;
+
+/// Name in reports.
+pub(crate) const CPU_NAME: &str = "cpu";
+/// The order in reports: the engine has its own.
+const ORDER: &str = "z-curve";
+/// What a watch that goes over time is told to be doing.
+const DURING: &str = "the triangulation";
+
+/// Most points of a job that one thread does, beside others.
+const MAX_JOB_POINTS: usize = 8192;
+/// Jobs for each thread between two looks at the listener.
+const JOBS_PER_LOOK: usize = 64;
+
+/// The engine in this process, with so many threads at most.
+pub(crate) struct CpuBackend {
+    pub(crate) threads: u32,
+}
+
+impl Backend for CpuBackend {
+    fn name(&self) -> String {
+        CPU_NAME.to_owned()
+    }
+
+    fn greet(&mut self, _limit: Limit) -> Result<Identity, Error> {
+        Ok(identity(self.threads))
+    }
+
+    fn triangulate(&mut self, points: Vec<Point>, terms: Terms<'_>) -> Result<Solution, Error> {
+        let Terms { contexts, limit, options, .. } = terms;
+        solve(points, contexts, options, limit)
+    }
+
+    /// Jobs side by side, each by one thread. Large jobs are left to all threads together.
+    fn triangulate_together(&mut self, jobs: Vec<Vec<Point>>, terms: Terms<'_>) -> Result<Together, Error> {
+        let total = jobs.iter().map(Vec::len).sum();
+        let mut together = Together { solutions: jobs.iter().map(|_| None).collect(), left: Vec::new() };
+        let (small, large): (Vec<_>, Vec<_>) =
+            jobs.into_iter().enumerate().partition(|(_, points)| points.len() <= MAX_JOB_POINTS);
+        let left = |(job, points)| JobLeft { job, points, contexts: terms.contexts };
+        together.left = large.into_iter().map(left).collect();
+        let (mut small, mut passed) = (small.into_iter().peekable(), 0);
+        while small.peek().is_some() {
+            tell(terms.options, Stage::Insert, passed, total)?;
+            let look: Vec<_> = small.by_ref().take(JOBS_PER_LOOK * terms.contexts as usize).collect();
+            for (job, solution) in side_by_side(look, terms) {
+                let solution = solution?;
+                passed += solution.mesh.points.len();
+                together.solutions[job] = Some(solution);
+            }
+        }
+        Ok(together)
+    }
+}
+
+/// Jobs with their places in the list of the caller.
+type Numbered<T> = Vec<(usize, T)>;
+
+/// Does these jobs, each by one of the threads.
+fn side_by_side(jobs: Numbered<Vec<Point>>, terms: Terms<'_>) -> Numbered<Result<Solution, Error>> {
+    let Terms { contexts: threads, limit, options: Options { order, .. }, .. } = terms;
+    let jobs = Mutex::new(jobs.into_iter());
+    let next = || jobs.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let solve = |points| solve(points, 1, &Options::default().order(*order), limit);
+    let work = || std::iter::from_fn(next).map(|(job, points)| (job, solve(points))).collect::<Vec<_>>();
+    std::thread::scope(|scope| {
+        // If the system will not start a thread, the threads that did start share its work.
+        let others: Vec<_> = (1..threads).map_while(|_| Builder::new().spawn_scoped(scope, work).ok()).collect();
+        let mut solutions = work();
+        for other in others {
+            match other.join() {
+                Ok(own) => solutions.extend(own),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        solutions
+    })
+}
+
+/// Does a job, with so many threads at most.
+fn solve(points: Vec<Point>, threads: u32, options: &Options<'_>, limit: Limit) -> Result<Solution, Error> {
+    let allowed = NonZeroUsize::new(threads as usize).unwrap_or(NonZeroUsize::MIN);
+    let threads = threads_for(points.len(), allowed);
+    let (mut watch, mut at, mut failure) = (Stopwatch::start(), Stage::Order, None);
+    let found = cpu::triangulate(points, threads, &mut |progress| {
+        let stage = stage_of(progress.stage);
+        if stage != at {
+            watch.ended(at);
+            at = stage;
+        }
+        let heard = tell(options, stage, progress.done, progress.total);
+        match heard.and_then(|()| limit.check(CPU_NAME, DURING)) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                failure = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    });
+    let mesh = found.map_err(|error| failure.unwrap_or_else(|| error_of(error)))?;
+    watch.ended(at);
+    let report = Report {
+        backend: CPU_NAME.to_owned(),
+        order: ORDER,
+        stages: watch.stages,
+        coord_bits: MAX_COORD_BITS,
+        capacity: MAX_POINTS as u32,
+        contexts: threads.get() as u32,
+        ..Report::default()
+    };
+    Ok(Solution::of(mesh, report))
+}
+
+/// What the engine says of itself: its threads are its contexts.
+pub(crate) fn identity(threads: u32) -> Identity {
+    let number = |text: &str| text.parse::<u32>().unwrap_or_default();
+    let (major, minor) = (number(env!("CARGO_PKG_VERSION_MAJOR")), number(env!("CARGO_PKG_VERSION_MINOR")));
+    Identity {
+        magic: MAGIC,
+        protocol_version: PROTOCOL_VERSION,
+        core_version: major << 16 | minor << 8 | number(env!("CARGO_PKG_VERSION_PATCH")),
+        coord_bits: MAX_COORD_BITS,
+        capacity: MAX_POINTS as u32,
+        contexts: threads,
+        ring_capacity: 0,
+    }
+}
+
+/// The engine's stages as those of a job.
+fn stage_of(stage: cpu::Stage) -> Stage {
+    match stage {
+        cpu::Stage::Order => Stage::Order,
+        cpu::Stage::Assemble => Stage::Assemble,
+        _ => Stage::Insert,
+    }
+}
+
+/// The engine's errors as those of a job.
+fn error_of(error: cpu::Error) -> Error {
+    match error {
+        cpu::Error::CoordinateOutOfRange { index, point: Point { x, y } } => {
+            Error::CoordinateOutOfRange { index, x, y, coord_bits: MAX_COORD_BITS }
+        }
+        cpu::Error::TooManyPoints { points } => Error::TooManyPoints { points, max: MAX_POINTS },
+        cpu::Error::Cancelled(cpu::Progress { stage, done, total, .. }) => {
+            Error::Cancelled { stage: stage_of(stage).name(), done, total }
+        }
+        // None that the engine has today.
+        _ => Error::Cancelled { stage: Stage::Order.name(), done: 0, total: 0 },
+    }
+}

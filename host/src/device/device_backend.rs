@@ -1,0 +1,95 @@
+//! A device that takes commands.
+
+use incircle_protocol::Identity;
+
+use super::backend::{Backend, JobLeft, Terms, Together};
+use crate::commands::CommandChannel;
+use crate::error::Error;
+use crate::job::answer::Answer;
+use crate::job::batch::Batch;
+use crate::job::flight::{Carrier, Done};
+use crate::job::group::{Group, Ordered};
+use crate::job::load::Load;
+use crate::job::prepare::prepare;
+use crate::job::watch::{tell, Stopwatch};
+use crate::job::{Solution, Stage};
+use crate::limit::Limit;
+use crate::transports::Transport;
+use incircle_geometry::Point;
+
+/// A device behind a way that carries commands.
+pub(crate) struct DeviceBackend {
+    channel: CommandChannel,
+}
+
+impl DeviceBackend {
+    pub(crate) fn new(transport: Box<dyn Transport>) -> Self {
+        Self { channel: CommandChannel::new(transport) }
+    }
+
+    fn carrier<'c>(&'c mut self, jobs: &'c [Vec<Point>], terms: &Terms<'c>) -> Carrier<'c> {
+        let &Terms { identity, limit, options, .. } = terms;
+        Carrier { identity, channel: &mut self.channel, options, limit, watch: Stopwatch::start(), jobs }
+    }
+
+    /// Does a job that nobody shares.
+    fn solve(&mut self, jobs: &[Vec<Point>; 1], terms: &Terms<'_>) -> Result<Option<Answer>, Error> {
+        let ([points], contexts) = (jobs, terms.contexts);
+        let (capabilities, layout) = (self.channel.capabilities(), self.channel.layout());
+        let mut carrier = self.carrier(jobs, terms);
+        let mut done = Done::nothing_of(jobs);
+        tell(terms.options, Stage::Order, 0, points.len())?;
+        let ordered = Ordered { job: 0, prepared: prepare(points, terms.options.order, contexts) };
+        carrier.watch.ended(Stage::Order);
+        let ordered = carrier.answer_here(ordered, contexts, &mut done).map_err(|failed| failed.error)?;
+        let load = |ordered| Load::step_by_step(Group::alone(ordered, contexts), terms.options, capabilities, layout);
+        let mut load = ordered.map(load);
+        carrier.carry(&mut done, |_, _| Ok(load.take())).map_err(|failed| failed.error)?;
+        Ok(done.answers.pop().flatten())
+    }
+}
+
+impl Backend for DeviceBackend {
+    fn name(&self) -> String {
+        self.channel.name()
+    }
+
+    fn greet(&mut self, limit: Limit) -> Result<Identity, Error> {
+        match self.channel.hello(limit) {
+            Err(error) if self.channel.recover(&error, limit)? => self.channel.hello(limit),
+            result => result,
+        }
+    }
+
+    fn slow(&self) -> u32 {
+        self.channel.capabilities().pace.slow
+    }
+
+    fn clocks(&self) -> Option<u64> {
+        self.channel.clocks().map(|clocks| clocks.now)
+    }
+
+    fn triangulate(&mut self, points: Vec<Point>, terms: Terms<'_>) -> Result<Solution, Error> {
+        let jobs = [points];
+        let answer = self.solve(&jobs, &terms)?;
+        let [points] = jobs;
+        let solution = answer.map(|answer| answer.with(points));
+        solution.ok_or_else(|| Error::OutOfStep { device: self.name() })
+    }
+
+    fn triangulate_together(&mut self, jobs: Vec<Vec<Point>>, terms: Terms<'_>) -> Result<Together, Error> {
+        let batch = Batch::new(self.carrier(&jobs, &terms), terms.contexts);
+        let (done, contexts) = batch.run().map_err(|failed| failed.in_batch())?;
+        let mut together = Together { solutions: Vec::with_capacity(jobs.len()), left: Vec::new() };
+        for (job, ((points, answer), contexts)) in jobs.into_iter().zip(done.answers).zip(contexts).enumerate() {
+            match answer {
+                Some(answer) => together.solutions.push(Some(answer.with(points))),
+                None => {
+                    together.solutions.push(None);
+                    together.left.push(JobLeft { job, points, contexts: contexts.unwrap_or(terms.contexts) });
+                }
+            }
+        }
+        Ok(together)
+    }
+}

@@ -1,0 +1,149 @@
+//! Devices: opened by address, or made around a transport.
+
+use std::num::NonZeroU32;
+use std::time::Duration;
+
+use incircle_protocol::{Config, CORE_COORD_BITS, LARGE, MAX_MODEL_POINTS};
+
+use super::address::DeviceAddress;
+use super::backend::Backend;
+use super::cpu_backend::CpuBackend;
+use super::device_backend::DeviceBackend;
+use super::session::Session;
+use crate::error::Error;
+use crate::limit::{check_coord_bits, Limit};
+use crate::transports::pcie::PcieTransport;
+use crate::transports::serial::{SerialTransport, LONGEST};
+use crate::transports::{ClockTransport, ModelTransport, Transport};
+
+/// Time for the greeting unless chosen otherwise.
+const GREETING_TIMEOUT: Duration = Duration::from_secs(15);
+const _: () =
+    assert!(GREETING_TIMEOUT.as_millis() > LONGEST.as_millis(), "a board on a bad line is found in this time");
+
+/// Most threads of the engine in this process.
+const MAX_THREADS: u32 = 256;
+
+/// Something that triangulates: the engine in this process, an embedded software model, or what is behind a [`Transport`].
+pub struct Device {
+    backend: Box<dyn Backend>,
+}
+
+impl Device {
+    /// Opens the device at an address, such as `cpu`, `clock?config=full` or `serial:/dev/ttyUSB0`: [`DeviceAddress`] lists them. Other devices
+    /// come through [`Device::from_transport`].
+    ///
+    /// # Errors
+    /// [`Error::Address`] for an unknown address, and the errors of [`Device::at`].
+    pub fn open(address: &str) -> Result<Self, Error> {
+        Self::at(&address.parse()?)
+    }
+
+    /// Opens the device at an address. A model for which no bits and no capacity are chosen has 16 and holds 2^30 - 1 points; a core for which no
+    /// configuration is chosen is `large`.
+    ///
+    /// # Errors
+    /// [`Error::Open`] for a port or a card that cannot be opened, [`Error::Link`] for a card whose registers are not those of a sound one,
+    /// [`Error::Address`] for `sim`, which the library has not, and the errors of [`Device::model`].
+    pub fn at(address: &DeviceAddress) -> Result<Self, Error> {
+        match address {
+            &DeviceAddress::Cpu { threads } => Ok(Self::cpu(threads)),
+            &DeviceAddress::Model { coord_bits, capacity } => {
+                Self::model(coord_bits.unwrap_or(CORE_COORD_BITS), capacity.unwrap_or(MAX_MODEL_POINTS))
+            }
+            &DeviceAddress::Clock { config } => Self::clock_model(config.unwrap_or(LARGE)),
+            DeviceAddress::Sim { .. } => Err(Error::Address {
+                address: address.to_string(),
+                reason: "the simulated core is a part of the command, not of the library: take \"clock\", which has its answers and \
+                         cycles, or make a device from a transport"
+                    .to_owned(),
+            }),
+            DeviceAddress::Serial(address) => Ok(Self::from_transport(Box::new(SerialTransport::open(address)?))),
+            DeviceAddress::Pcie(address) => Ok(Self::from_transport(Box::new(PcieTransport::open(address)?))),
+        }
+    }
+
+    /// The fast engine in this process: coordinates up to 31 bits, as many points as memory holds, and up to so many threads,
+    /// which are its contexts; `None`: as many as there are processors. Small jobs take fewer. The order of the options is
+    /// for devices that insert points one after the other; this one has its own.
+    pub fn cpu(threads: Option<NonZeroU32>) -> Self {
+        let processors = || std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = threads.map_or_else(|| u32::try_from(processors()).unwrap_or(MAX_THREADS), NonZeroU32::get);
+        Self { backend: Box::new(CpuBackend { threads: threads.min(MAX_THREADS) }) }
+    }
+
+    /// The software model for `capacity` points of `coord_bits` bits. It takes memory as points arrive.
+    ///
+    /// # Errors
+    /// [`Error::CoordBits`] outside 1 to 31, [`Error::Model`] for a capacity below 4 or above 2^30 - 1, the most
+    /// that record ids have room for.
+    pub fn model(coord_bits: u32, capacity: u32) -> Result<Self, Error> {
+        check_coord_bits(coord_bits)?;
+        let transport = ModelTransport::new(coord_bits, capacity)?;
+        Ok(Self::from_transport(Box::new(transport)))
+    }
+
+    /// The core's model, clock by clock: it gives the answers, records and cycle counts of the core of this configuration.
+    ///
+    /// # Errors
+    /// [`Error::Model`] for a configuration that no core can be built with.
+    pub fn clock_model(config: Config) -> Result<Self, Error> {
+        Ok(Self::from_transport(Box::new(ClockTransport::new(config)?)))
+    }
+
+    /// The device behind a transport: a simulation, a board, a test double. Nothing is sent yet.
+    pub fn from_transport(transport: Box<dyn Transport>) -> Self {
+        Self { backend: Box::new(DeviceBackend::new(transport)) }
+    }
+
+    /// Greets the device and checks what it says of itself; gives it fifteen seconds, stretched for a simulation by its
+    /// [`Pace`](crate::Pace).
+    ///
+    /// # Errors
+    /// [`Error::Link`], [`Error::Timeout`], or [`Error::Device`] for one that is no incircle device, speaks another
+    /// major version or an older minor one, or claims coordinate bits, a capacity or contexts that cannot be.
+    pub fn session(&mut self) -> Result<Session<'_>, Error> {
+        self.session_within(GREETING_TIMEOUT.saturating_mul(self.backend.slow()))
+    }
+
+    /// As [`Device::session`], with another time for the greeting.
+    ///
+    /// # Errors
+    /// As [`Device::session`].
+    pub fn session_within(&mut self, timeout: Duration) -> Result<Session<'_>, Error> {
+        let identity = self.backend.greet(Limit::of(timeout))?;
+        Ok(Session::new(&mut *self.backend, identity))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::ErrorKind;
+
+    #[test]
+    fn what_cannot_be_opened_is_refused_with_a_reason() {
+        for address in ["modem", "pcie:/nowhere", "sim", "sim?config=full"] {
+            let error = Device::open(address).err().expect(address);
+            assert_eq!(error.kind(), ErrorKind::DeviceNotFound, "{error}");
+            assert!(error.to_string().contains(address));
+        }
+        for bits in [0, 32] {
+            let error = Device::model(bits, 8).err().expect("impossible bits");
+            assert!(matches!(error, Error::CoordBits(given) if given == bits));
+        }
+    }
+
+    #[test]
+    fn a_model_that_is_made_also_greets() {
+        for capacity in [4, MAX_MODEL_POINTS] {
+            let mut device = Device::model(16, capacity).expect("possible");
+            assert!(device.session().is_ok(), "{capacity}");
+        }
+        for capacity in [0, 3, MAX_MODEL_POINTS + 1, u32::MAX] {
+            let error = Device::model(16, capacity).err().expect("impossible");
+            assert!(matches!(error, Error::Model(_)), "{error}");
+            assert!(error.to_string().contains(&capacity.to_string()), "{error}");
+        }
+    }
+}

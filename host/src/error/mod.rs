@@ -1,0 +1,222 @@
+//! Everything that can go wrong, as typed errors: one sentence each, with the numbers and what to do.
+
+mod device_fault;
+mod kind;
+mod shown;
+mod transport_error;
+
+use std::error::Error as StdError;
+use std::time::Duration;
+
+pub use device_fault::DeviceFault;
+pub(crate) use device_fault::MAX_DEVICE_CONTEXTS;
+pub use kind::ErrorKind;
+pub use shown::Shown;
+pub use transport_error::TransportError;
+
+/// An error of the library.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A coordinate does not fit the bits of the device.
+    #[error(
+        "point {index} is ({x}, {y}), but coordinates of {coord_bits} bits end at {max}: \
+         use a device with more coordinate bits or quantise the points", max = (1u64 << coord_bits) - 1
+    )]
+    CoordinateOutOfRange {
+        /// Input index of the point.
+        index: usize,
+        /// Its horizontal coordinate.
+        x: u32,
+        /// Its vertical coordinate.
+        y: u32,
+        /// Bits of a coordinate of the device.
+        coord_bits: u32,
+    },
+    /// A value is NaN or infinite.
+    #[error("the {axis} of point {index} is {value}, which is no finite number: remove or correct the point")]
+    NotFinite {
+        /// Input index of the point.
+        index: usize,
+        /// `x` or `y`.
+        axis: char,
+        /// The value.
+        value: f64,
+    },
+    /// A value has a fraction where grid points are wanted.
+    #[error("the {axis} of point {index} is {}, which is no integer: quantise the points", Shown(*value))]
+    NotInteger {
+        /// Input index of the point.
+        index: usize,
+        /// `x` or `y`.
+        axis: char,
+        /// The value.
+        value: f64,
+    },
+    /// A value is outside the grid.
+    #[error(
+        "the {axis} of point {index} is {}, outside the grid of {coord_bits} bits, 0 to {max}: \
+         quantise the points or use more coordinate bits", Shown(*value), max = (1u64 << coord_bits) - 1
+    )]
+    OutOfGrid {
+        /// Input index of the point.
+        index: usize,
+        /// `x` or `y`.
+        axis: char,
+        /// The value, in grid units.
+        value: f64,
+        /// Bits of a coordinate.
+        coord_bits: u32,
+    },
+    /// The bounding box is too small or too large for a scale in double precision.
+    #[error("the points span {} units, for which no scale onto the grid exists in double precision: scale them first", Shown(*extent))]
+    Extent {
+        /// The longer side of the bounding box.
+        extent: f64,
+    },
+    /// A scale that is not a positive finite number, or an offset that is not finite.
+    #[error("the quantisation scale {} with offset ({}, {}) is unusable: give a positive finite scale and finite offsets", Shown(*scale), Shown(offset[0]), Shown(offset[1]))]
+    Scale {
+        /// Grid units per input unit.
+        scale: f64,
+        /// The input point that falls on the grid's origin.
+        offset: [f64; 2],
+    },
+    /// Coordinate bits that nothing here works with.
+    #[error("{0} coordinate bits are not possible: choose 1 to 31")]
+    CoordBits(u32),
+    /// More points than any job may have.
+    #[error("{points} points are more than the {max} that indices allow: cut the set into parts")]
+    TooManyPoints {
+        /// Points given.
+        points: usize,
+        /// Points possible.
+        max: usize,
+    },
+    /// More distinct points than the device holds.
+    #[error(
+        "{distinct} distinct points are more than the {capacity} that {device} holds: use a larger device or the back end \"model\""
+    )]
+    Capacity {
+        /// Distinct points of the job.
+        distinct: usize,
+        /// Points the device holds.
+        capacity: u32,
+        /// Name of the device.
+        device: String,
+    },
+    /// No contexts, or more than the device has.
+    #[error("{device} cannot work with {asked} contexts: choose {}, or leave the choice out", from_one_to(*contexts))]
+    Contexts {
+        /// Contexts asked for.
+        asked: u32,
+        /// Contexts the device has.
+        contexts: u32,
+        /// Name of the device.
+        device: String,
+    },
+    /// The software model refused its parameters.
+    #[error("the software model cannot be made: {0}")]
+    Model(String),
+    /// The address is in no known form.
+    #[error("\"{address}\" is no device address that this library opens: {reason}")]
+    Address {
+        /// What was asked for.
+        address: String,
+        /// What is wrong and what would be right.
+        reason: String,
+    },
+    /// There is a device at the address, or should be, and it cannot be opened.
+    #[error("{device} cannot be opened: {source}")]
+    Open {
+        /// The port or the card.
+        device: String,
+        /// Why, and what to do: a [`PortFault`](crate::serial::PortFault) or a [`CardFault`](crate::pcie::CardFault).
+        source: Box<dyn StdError + Send + Sync>,
+    },
+    /// Words did not get through.
+    #[error("the link to {device} failed during {during}: {source}")]
+    Link {
+        /// Name of the device.
+        device: String,
+        /// The command under way.
+        during: &'static str,
+        /// What the transport said.
+        source: TransportError,
+    },
+    /// The device did not answer in time.
+    #[error("{device} did not finish {during} within {} s: check it, or allow a longer time", timeout.as_secs_f64())]
+    Timeout {
+        /// Name of the device.
+        device: String,
+        /// The command under way.
+        during: &'static str,
+        /// The time allowed.
+        timeout: Duration,
+    },
+    /// The device answered something no sound device answers.
+    #[error("{device} answered {during} wrongly: {fault}: reset the device, and if it persists distrust it")]
+    Device {
+        /// Name of the device.
+        device: String,
+        /// The command under way.
+        during: &'static str,
+        /// What was wrong.
+        fault: DeviceFault,
+    },
+    /// An earlier error left the streams of this session out of step.
+    #[error("an earlier error left the link to {device} out of step: reset the device and open it again")]
+    OutOfStep {
+        /// Name of the device.
+        device: String,
+    },
+    /// A job of a batch cannot be done.
+    #[error("job {job} of the batch: {source}")]
+    InJob {
+        /// Its place in the batch, from 0.
+        job: usize,
+        /// Why.
+        source: Box<Error>,
+    },
+    /// The progress listener ended the job.
+    #[error("the job was cancelled after {done} of {total} in the stage \"{stage}\"")]
+    Cancelled {
+        /// Name of the stage.
+        stage: &'static str,
+        /// Points or records done in it.
+        done: usize,
+        /// Points or records of it.
+        total: usize,
+    },
+}
+
+/// The numbers from 1 on as a choice.
+fn from_one_to(last: u32) -> String {
+    if last == 1 {
+        "1".to_owned()
+    } else {
+        format!("1 to {last}")
+    }
+}
+
+impl Error {
+    /// What kind of error it is.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            Self::CoordinateOutOfRange { .. }
+            | Self::NotFinite { .. }
+            | Self::NotInteger { .. }
+            | Self::OutOfGrid { .. }
+            | Self::Extent { .. } => ErrorKind::BadInput,
+            Self::Scale { .. } | Self::CoordBits(_) | Self::Contexts { .. } | Self::Model(_) => ErrorKind::BadChoice,
+            Self::Address { .. } | Self::Open { .. } => ErrorKind::DeviceNotFound,
+            Self::Link { source: TransportError::Other { kind, .. }, .. } => *kind,
+            Self::TooManyPoints { .. } | Self::Capacity { .. } => ErrorKind::Capacity,
+            Self::Link { .. } | Self::OutOfStep { .. } => ErrorKind::Link,
+            Self::Timeout { .. } => ErrorKind::Timeout,
+            Self::Device { .. } => ErrorKind::Device,
+            Self::Cancelled { .. } => ErrorKind::Cancelled,
+            Self::InJob { source, .. } => source.kind(),
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Divisions are sound and the cheapest there are, and what they are chosen by is what the model by clock counts.
+
+use incircle_protocol::{Config, FULL, LARGE};
+use proptest::prelude::*;
+
+use super::*;
+use crate::job::group::{Group, Ordered};
+use crate::job::prepare::Prepared;
+use crate::{Device, Options, Point};
+
+/// Points that are all over the grid, from a seed.
+fn points(seed: u32, count: usize) -> Vec<Point> {
+    let mix = |k: u32| (u64::from(k) + (u64::from(seed) << 32) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let spread = |k: u32| mix(k) ^ mix(k) >> 29;
+    let point = |k: u32| spread(k).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32;
+    (0..count as u32).map(|k| Point::new(point(k) as u32 & 0xffff, point(k) as u32 >> 16)).collect()
+}
+
+/// Points of a group that are sent, counted.
+fn sent(group: &Group, sets: &[Vec<Point>]) -> usize {
+    // Of jobs that share the memory there are no more than it says.
+    let beyond = if group.jobs.len() > 1 { 9 } else { 0 };
+    let mut count = 0;
+    group.for_points(sets, 0..group.sent() + beyond, |_| count += 1);
+    assert_eq!(count, group.sent());
+    count
+}
+
+/// Clocks of these jobs in one batch with so many contexts, without the two that it takes to read a point.
+fn counted(config: Config, contexts: u32, jobs: &[Vec<Point>]) -> u64 {
+    let mut device = Device::clock_model(config).expect("possible");
+    let mut session = device.session().expect("a session");
+    let before = session.clocks().expect("it is counted");
+    let options = Options::default().contexts(contexts);
+    session.triangulate_batch(jobs, &options).expect("meshes");
+    let read = 2 * jobs.iter().map(Vec::len).sum::<usize>();
+    session.clocks().expect("it is counted") - before - read as u64
+}
+
+fn assert_near(counted: u64, expected: u64, percent: u64, what: &str) {
+    let expected = expected / CLOCK;
+    assert!(100 * counted.abs_diff(expected) <= percent * counted, "{what}: {counted} counted, {expected} expected");
+}
+
+#[test]
+fn a_group_takes_what_is_expected() {
+    for (config, jobs, count) in
+        [(FULL, 1, 300), (FULL, 4, 900), (FULL, 8, 400), (FULL, 12, 60), (FULL, 16, 200), (LARGE, 24, 200)]
+    {
+        let plan = Plan::new(jobs, config.points);
+        let lengths = vec![count; jobs as usize];
+        let (of, expected) = plan.groups(&lengths).last().expect("they fit");
+        assert_eq!((of, plan.divide(&lengths)), (jobs as usize, vec![Part::Group(jobs as usize)]));
+        let sets: Vec<_> = (0..jobs).map(|seed| points(seed, count)).collect();
+        assert_near(counted(config, jobs, &sets), expected, 10, &format!("{jobs} of {count}"));
+    }
+}
+
+#[test]
+fn jobs_that_are_over_cost_next_to_nothing() {
+    let lengths = [400, 400, 300, 200, 100, 100, 50, 50, 50, 50, 50, 50];
+    let plan = Plan::new(12, FULL.points);
+    assert_eq!(plan.divide(&lengths), [Part::Group(12)]);
+    let (_, expected) = plan.groups(&lengths).last().expect("they fit");
+    let sets: Vec<_> = (0..).zip(lengths).map(|(seed, count)| points(seed, count)).collect();
+    assert_near(counted(FULL, 12, &sets), expected, 10, "mixed lengths");
+}
+
+#[test]
+fn a_frame_takes_what_is_expected() {
+    let mut device = Device::clock_model(LARGE).expect("possible");
+    let mut session = device.session().expect("a session");
+    let plan = Plan::new(LARGE.contexts, LARGE.points);
+    for (count, contexts) in [
+        (200, 2),
+        (200, 6),
+        (300, 4),
+        (500, 4),
+        (500, 12),
+        (1000, 8),
+        (1000, 14),
+        (1300, 16),
+        (2000, 15),
+        (4000, 16),
+        (4000, 20),
+    ] {
+        let options = Options::default().contexts(contexts);
+        let clocks = |seed| {
+            let mesh = session.triangulate_with(&points(seed, count), &options).expect("a mesh");
+            mesh.report.counters.expect("they are counted").insert_cycles
+        };
+        let mean = (0..16).map(clocks).sum::<u64>() / 16;
+        assert_near(mean, plan.frame_with(count, contexts), 12, &format!("{count} points, {contexts} contexts"));
+    }
+}
+
+#[test]
+fn the_full_core_shares_its_memory_up_to_a_seventh() {
+    let plan = Plan::new(FULL.contexts, FULL.points);
+    // 7 jobs of 1,170 points fit, and 6 are too few.
+    for points in 1..8192 {
+        assert_eq!(plan.shares(points), points <= 1170, "{points}");
+    }
+    assert!(!plan.shares(8193) && !plan.shares(u32::MAX as usize));
+    assert_eq!(plan.divide(&[1170; 7]), [Part::Group(7)]);
+    assert_eq!(plan.divide(&[1171; 7]), [Part::Frame; 7]);
+    // Jobs that are left over are frames if they are few.
+    assert_eq!(plan.divide(&[1000; 17]), [Part::Group(8), Part::Group(8), Part::Frame]);
+    assert_eq!(plan.divide(&[300; 2]), [Part::Frame; 2]);
+    assert_eq!(plan.divide(&[]), []);
+    assert_eq!([4000, 1000, 10].map(|points| plan.frame_contexts(points)), [16, 12, 1]);
+}
+
+#[test]
+fn one_context_has_one_job_at_a_time_and_no_frames() {
+    for capacity in [8, 1024, 1 << 20] {
+        let plan = Plan::new(1, capacity);
+        for points in [1, 3, 8, 1000, 8192, 1 << 20] {
+            assert_eq!(plan.shares(points), points <= capacity as usize, "{points} of {capacity}");
+            if points <= capacity as usize {
+                assert_eq!(plan.divide(&[points; 3]), [Part::Group(1); 3]);
+            }
+        }
+    }
+    assert_eq!(Plan::new(0, 8).divide(&[5]), [Part::Group(1)]);
+}
+
+/// Jobs of these lengths, whatever their points are.
+fn jobs_of(lengths: &[usize]) -> (Vec<Vec<Point>>, Vec<Ordered>) {
+    let sets: Vec<Vec<Point>> = lengths.iter().map(|&count| vec![Point::new(0, 0); count]).collect();
+    let ordered = |(job, &count): (usize, &usize)| {
+        let order = (0..count as u32).collect();
+        Ordered { job, prepared: Prepared { order, duplicates: Vec::new(), collinear: false } }
+    };
+    (sets, lengths.iter().enumerate().map(ordered).collect())
+}
+
+/// What a part takes, if it fits: the points that are sent are counted one by one.
+fn clocks_of(plan: &Plan, part: Part, lengths: &[usize]) -> Option<u64> {
+    let Part::Group(jobs) = part else {
+        return Some(plan.frame(lengths[0]).0);
+    };
+    let own = &lengths[..jobs];
+    let (sets, ordered) = jobs_of(own);
+    let fits = jobs <= plan.rounds.len() && sent(&Group::sharing(ordered), &sets) <= plan.capacity;
+    let steps = own.iter().zip(1..).map(|(&points, jobs)| points as u64 * one_more(jobs));
+    fits.then(|| COMMANDS + steps.sum::<u64>() + FIRST_TRIANGLE * jobs as u64)
+}
+
+/// The fewest clocks of all divisions, each of them tried.
+fn fewest(plan: &Plan, lengths: &[usize]) -> u64 {
+    if lengths.is_empty() {
+        return 0;
+    }
+    let parts = std::iter::once(Part::Frame).chain((1..=lengths.len()).map(Part::Group));
+    let clocks = |part: Part| Some(clocks_of(plan, part, lengths)? + fewest(plan, &lengths[part.jobs()..]));
+    parts.filter_map(clocks).min().expect("a frame always fits")
+}
+
+proptest! {
+    #[test]
+    fn every_part_fits_and_no_division_takes_fewer_clocks(
+        mut lengths in prop::collection::vec(3usize..70, 0..9),
+        contexts in 1u32..7,
+        capacity in 70u32..200,
+    ) {
+        lengths.sort_unstable_by_key(|&points| std::cmp::Reverse(points));
+        let plan = Plan::new(contexts, capacity);
+        let (mut clocks, mut rest) = (0, &lengths[..]);
+        for part in plan.divide(&lengths) {
+            clocks += clocks_of(&plan, part, rest).expect("it fits");
+            rest = &rest[part.jobs()..];
+        }
+        prop_assert!(rest.is_empty());
+        prop_assert_eq!(clocks, fewest(&plan, &lengths));
+    }
+
+    #[test]
+    fn the_capacity_may_be_reached_exactly(jobs in 2usize..17, share in 3usize..60, longer in 0usize..16) {
+        // So many are a point longer than the others: the last round is theirs.
+        let longer = longer % jobs;
+        let mut lengths = vec![share; jobs];
+        lengths[..longer].fill(share + 1);
+        let sent = jobs * share + longer;
+        let groups = |capacity: usize| Plan::new(16, capacity as u32).groups(&lengths).map(|(jobs, _)| jobs).last();
+        prop_assert_eq!(groups(sent), Some(jobs));
+        prop_assert!(groups(sent - 1) < Some(jobs));
+        let (sets, ordered) = jobs_of(&lengths);
+        prop_assert_eq!(super::tests::sent(&Group::sharing(ordered), &sets), sent);
+    }
+}

@@ -1,0 +1,106 @@
+//! Points dealt to the contexts of a device.
+
+use incircle_protocol::FIRST_ROUND;
+
+use incircle_geometry::order::{along_curve, rounds, Rounds};
+use incircle_geometry::Point;
+
+/// The first place from which on points belong to all contexts in turn; see [`FIRST_ROUND`].
+const FIRST: usize = FIRST_ROUND as usize;
+
+/// The order in which a device with this many contexts gets the points: [`brio_hilbert`](incircle_geometry::order::brio_hilbert), each round cut into as
+/// many stretches, dealt out in turn.
+pub fn brio_hilbert_dealt(points: &[Point], contexts: u32) -> Vec<u32> {
+    deal(rounds(&along_curve(points)), contexts)
+}
+
+/// Deals each round to the contexts of a device, so that every context runs along a stretch of the curve of its own and they
+/// work far apart. O(n).
+///
+/// Context 0 takes the points before [`FIRST_ROUND`], and place `j` from there on belongs to context
+/// `(j - FIRST_ROUND) mod contexts`. The places of a round that belong to context `c` get the `c`-th stretch of the round.
+pub fn deal(rounds: Rounds, contexts: u32) -> Vec<u32> {
+    let Rounds { mut order, starts, .. } = rounds;
+    let ends = starts.iter().skip(1).copied().chain([order.len()]);
+    for (start, end) in starts.iter().copied().zip(ends) {
+        let alone = FIRST.clamp(start, end);
+        deal_round(&mut order[alone..end], alone, contexts as usize);
+    }
+    order
+}
+
+/// Deals a round that begins at place `first`.
+fn deal_round(round: &mut [u32], first: usize, contexts: usize) {
+    if contexts < 2 || round.is_empty() {
+        return;
+    }
+    let along_curve = round.to_vec();
+    let mut next = 0;
+    for context in 0..contexts {
+        let place = (first - FIRST) % contexts;
+        let offset = (context + contexts - place) % contexts;
+        for slot in round.iter_mut().skip(offset).step_by(contexts) {
+            *slot = along_curve[next];
+            next += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use incircle_geometry::order::{brio_hilbert, hilbert};
+    use proptest::prelude::*;
+
+    fn lattice(side: u32, step: u32) -> Vec<Point> {
+        (0..side * side).map(|k| Point::new(k / side * step, k % side * step)).collect()
+    }
+
+    #[test]
+    fn a_context_gets_a_stretch_of_each_round() {
+        let points = lattice(40, 7);
+        for contexts in 1..=incircle_protocol::MAX_CONTEXTS {
+            for single in [false, true] {
+                let undealt = || match single {
+                    true => Rounds::single(hilbert(&points)),
+                    false => rounds(&along_curve(&points)),
+                };
+                let Rounds { order, starts, .. } = undealt();
+                let dealt = deal(undealt(), contexts);
+                assert_eq!(dealt[..FIRST], order[..FIRST]);
+                assert_eq!(starts.len(), if single { 1 } else { 4 });
+                for (round, &start) in starts.iter().enumerate() {
+                    let end = starts.get(round + 1).copied().unwrap_or(order.len());
+                    let places = || start.max(FIRST)..end;
+                    let belongs = |place: usize| (place - FIRST) as u32 % contexts;
+                    let stretches = (0..contexts).flat_map(|context| places().filter(move |&j| belongs(j) == context));
+                    let along: Vec<u32> = stretches.map(|place| dealt[place]).collect();
+                    assert_eq!(along, order[places()], "{contexts} contexts, round {round}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn short_sets_and_one_context_are_not_dealt() {
+        let points = lattice(4, 9);
+        assert_eq!(brio_hilbert_dealt(&points, 24), brio_hilbert(&points));
+        let points = lattice(30, 9);
+        assert_eq!(brio_hilbert_dealt(&points, 1), brio_hilbert(&points));
+        assert_ne!(brio_hilbert_dealt(&points, 2), brio_hilbert(&points));
+    }
+
+    proptest! {
+        #[test]
+        fn dealt_orders_are_permutations(
+            raw in prop::collection::vec((0u32..1 << 16, 0u32..1 << 16), 0..1500),
+            contexts in 1u32..25,
+        ) {
+            let points: Vec<Point> = raw.into_iter().map(Point::from).collect();
+            for mut dealt in [brio_hilbert_dealt(&points, contexts), deal(Rounds::single(hilbert(&points)), contexts)] {
+                dealt.sort_unstable();
+                prop_assert!(dealt.iter().copied().eq(0..points.len() as u32));
+            }
+        }
+    }
+}

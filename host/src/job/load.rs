@@ -1,0 +1,183 @@
+//! A group with its commands: what it asks of the device, and what the answers must say.
+
+use std::ops::Range;
+use std::time::Duration;
+
+use incircle_protocol::{infinite_vertex, Command, Layout, RecordRange};
+
+use super::assemble::{check_last_half, checked_record, Assembly};
+use super::group::{Group, Ordered};
+use super::options::{Options, Stage};
+use crate::error::DeviceFault;
+use crate::transports::Capabilities;
+use incircle_geometry::Point;
+
+/// Records of one `Read` or `Triangles` command of a job that goes step by step: 384 kB at most. A slow link takes fewer.
+const READ_CHUNK: usize = 16_384;
+/// Fewest points of an `Insert` command: the device can judge its report only after the first triangle.
+const MIN_INSERT_CHUNK: usize = 3;
+
+/// A step of a load.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Step {
+    /// Everything is forgotten.
+    Clear,
+    /// These of the points that are sent.
+    Insert(Range<usize>),
+    /// These of the records.
+    Read(Range<usize>),
+    /// The counters.
+    Counters,
+    /// The histogram of latencies.
+    Latencies,
+    /// A stage is over; no command.
+    Ended(Stage),
+}
+
+/// A group with the steps that it takes.
+pub(crate) struct Load {
+    pub(crate) group: Group,
+    pub(crate) steps: Vec<Step>,
+    /// A listener hears how far it is, step by step.
+    pub(crate) is_step_by_step: bool,
+    /// The time that it may take, if that is not the time of all.
+    pub(crate) time: Option<Duration>,
+}
+
+/// Triangles and hull of a job.
+pub(crate) type Assembled = (Vec<[u32; 3]>, Vec<u32>);
+
+impl Load {
+    /// A group whose points and records go in a command each, so that all commands may be sent ahead. The counters of a job that has the whole
+    /// memory are read before its mesh, which ends it.
+    pub(crate) fn at_once(group: Group, time: Option<Duration>) -> Self {
+        let mut steps = vec![Step::Clear, Step::Insert(0..group.sent())];
+        if !group.is_shared {
+            steps.push(Step::Counters);
+        }
+        steps.push(Step::Read(0..group.records()));
+        Self { group, steps, is_step_by_step: false, time }
+    }
+
+    /// A job whose points and records go in pieces, between which it is told how far it is.
+    pub(crate) fn step_by_step(
+        group: Group,
+        options: &Options<'_>,
+        capabilities: Capabilities,
+        layout: Layout,
+    ) -> Self {
+        let pace = capabilities.pace;
+        let points = pace.chunk(options.insert_chunk.max(MIN_INSERT_CHUNK), layout.point_words);
+        let one = read_out::<()>(0..1, capabilities).payload_words(layout);
+        let records = pace.chunk(READ_CHUNK, one as usize);
+        let mut steps = vec![Step::Clear];
+        steps.extend(pieces(group.sent(), points).map(Step::Insert));
+        steps.push(Step::Ended(Stage::Insert));
+        steps.extend(pieces(group.records(), records).map(Step::Read));
+        steps.extend([Step::Ended(Stage::Read), Step::Counters, Step::Latencies]);
+        Self { group, steps, is_step_by_step: true, time: None }
+    }
+
+    /// The command of a step, if it has one, with the place of its points in `words`, to which they are appended.
+    pub(crate) fn command(
+        &self,
+        step: &Step,
+        jobs: &[Vec<Point>],
+        capabilities: Capabilities,
+        layout: Layout,
+        words: &mut Vec<u32>,
+    ) -> Option<Command<Range<usize>>> {
+        let command = self.bare_command(step, capabilities)?;
+        Some(command.map(|stretch| {
+            let begin = words.len();
+            words.reserve(stretch.len() * layout.point_words);
+            self.group.for_points(jobs, stretch, |point| {
+                words.extend_from_slice(&layout.point_to_words(point.x, point.y)[..layout.point_words]);
+            });
+            begin..words.len()
+        }))
+    }
+
+    /// The command of a step, if it has one, with its stretch of the points that are sent.
+    pub(crate) fn bare_command(&self, step: &Step, capabilities: Capabilities) -> Option<Command<Range<usize>>> {
+        Some(match step {
+            Step::Clear if self.group.is_shared => {
+                Command::Clear { contexts: self.group.jobs.len() as u32, is_batch: true }
+            }
+            Step::Clear => Command::Clear { contexts: self.group.contexts, is_batch: false },
+            Step::Insert(points) => Command::Insert { count: points.len() as u32, points: points.clone() },
+            Step::Read(records) => read_out(records.clone(), capabilities),
+            Step::Counters => Command::Counters,
+            Step::Latencies => Command::Latencies,
+            Step::Ended(_) => return None,
+        })
+    }
+}
+
+/// The command that reads these records, with their links or without.
+fn read_out<P>(records: Range<usize>, capabilities: Capabilities) -> Command<P> {
+    let range = RecordRange { first: records.start as u32, count: records.len() as u32 };
+    if capabilities.packs_records {
+        Command::Triangles(range)
+    } else {
+        Command::Read(range)
+    }
+}
+
+/// Stretches of at most `most`, up to `all`.
+fn pieces(all: usize, most: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..all).step_by(most).map(move |start| start..all.min(start + most))
+}
+
+/// Puts the meshes of a group together from its records.
+pub(crate) struct Meshes<'a> {
+    group: &'a Group,
+    layout: Layout,
+    infinite: u32,
+    /// Records have no links.
+    is_packed: bool,
+    assemblies: Vec<Assembly<'a>>,
+}
+
+impl<'a> Meshes<'a> {
+    pub(crate) fn new(
+        group: &'a Group,
+        jobs: &'a [Vec<Point>],
+        capacity: u32,
+        capabilities: Capabilities,
+        layout: Layout,
+    ) -> Self {
+        let assembly = |ordered: &'a Ordered| Assembly::new(&ordered.prepared.order, &jobs[ordered.job], capacity);
+        let assemblies = group.jobs.iter().map(assembly).collect();
+        let is_packed = capabilities.packs_records;
+        Self { group, layout, infinite: infinite_vertex(capacity), is_packed, assemblies }
+    }
+
+    /// Takes the words of these records.
+    pub(crate) fn take(&mut self, records: &Range<usize>, words: &[u32]) -> Result<(), DeviceFault> {
+        if self.is_packed {
+            for (place, record) in records.clone().enumerate() {
+                self.take_vertices(record, self.layout.vertices_from_words(words, place))?;
+            }
+            return check_last_half(self.layout, records, words);
+        }
+        let all = self.group.records();
+        for (record, words) in records.clone().zip(words.chunks_exact(self.layout.record_words)) {
+            self.take_vertices(record, checked_record(self.layout, record, words, all)?)?;
+        }
+        Ok(())
+    }
+
+    fn take_vertices(&mut self, record: usize, v: [u32; 3]) -> Result<(), DeviceFault> {
+        if let [only] = &mut self.assemblies[..] {
+            return only.take_vertices(record, v);
+        }
+        let (job, own) = self.group.own_vertices(record, v, self.group.sent(), self.infinite)?;
+        self.assemblies[job].take_vertices(record, own)
+    }
+
+    /// The triangles and the hull of each job.
+    pub(crate) fn finish(self) -> Result<Vec<Assembled>, DeviceFault> {
+        self.assemblies.into_iter().map(Assembly::finish).collect()
+    }
+}

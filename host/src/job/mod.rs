@@ -1,0 +1,30 @@
+//! The life of a job on a device.
+//!
+//! ```text
+//!   points ──prepare──> Prepared ──> Group ──> Load ──flight──> records ──assemble──> Answer
+//!            duplicates,  an order    jobs that   the commands,      to triangles and hull,
+//!            a triangle   for the     share the   one by one or      with its Report
+//!            first        contexts    memory      sent ahead
+//! ```
+//!
+//! A single job is a group of one whose commands go one by one, so that a listener hears how far it is. A [`batch`] makes groups of
+//! many jobs, whose commands are sent ahead where the way to the device takes them. From there on there is one way for both: [`flight`] sends a
+//! load, checks its answers, and tries once more if a fault passes.
+
+pub(crate) mod answer;
+mod assemble;
+pub(crate) mod batch;
+mod counters;
+pub(crate) mod deal;
+pub(crate) mod flight;
+pub(crate) mod group;
+pub(crate) mod load;
+mod options;
+pub(crate) mod prepare;
+mod report;
+pub(crate) mod watch;
+
+pub use answer::Solution;
+pub use counters::{Counters, Latencies};
+pub use options::{Options, Progress, ProgressListener, Stage};
+pub use report::Report;

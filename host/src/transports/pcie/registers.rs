@@ -1,0 +1,199 @@
+//! The registers of a card, through a thread: a call that does not return must not keep the caller.
+
+use std::fmt;
+use std::sync::mpsc::{channel, Receiver, Sender};
+use std::time::{Duration, Instant};
+
+use incircle_protocol::{Identity, StreamRegister, MAGIC, STREAM_VERSION};
+
+use super::fault::PcieFault;
+use super::files::RegisterFile;
+use super::left_behind::note_call;
+use crate::transports::identity::check_identity;
+
+/// What a card that is gone reads as.
+const ALL_ONES: u32 = u32::MAX;
+/// Time for an access: a real one takes a microsecond.
+const ACCESS: Duration = Duration::from_secs(2);
+/// Most beats of a FIFO that are believed.
+const MAX_FIFO_BEATS: u32 = 1 << 20;
+
+/// A register to be read, or written with a value.
+type Access = (StreamRegister, Option<u32>);
+
+/// The registers.
+#[derive(Debug)]
+pub(super) struct Registers {
+    accesses: Sender<Access>,
+    values: Receiver<Result<u32, PcieFault>>,
+    /// An access has not returned.
+    hangs: bool,
+}
+
+impl Registers {
+    /// Starts the thread.
+    pub fn new(mut file: Box<dyn RegisterFile>) -> Self {
+        let (accesses, wanted) = channel::<Access>();
+        let (said, values) = channel();
+        std::thread::spawn(move || {
+            while let Ok((register, value)) = wanted.recv() {
+                let result = match value {
+                    None => file.read(register.offset()),
+                    Some(value) => file.write(register.offset(), value).map(|()| 0),
+                };
+                let call = if value.is_none() { "the reading of a register" } else { "the writing of a register" };
+                let result = result.map_err(|error| PcieFault::Call { call, reason: error.to_string() });
+                if said.send(result).is_err() {
+                    return;
+                }
+            }
+        });
+        Self { accesses, values, hangs: false }
+    }
+
+    /// Reads a register.
+    pub fn read(&mut self, register: StreamRegister) -> Result<u32, PcieFault> {
+        self.access((register, None))
+    }
+
+    /// Writes a register.
+    pub fn write(&mut self, register: StreamRegister, value: u32) -> Result<(), PcieFault> {
+        self.access((register, Some(value))).map(|_| ())
+    }
+
+    fn access(&mut self, access: Access) -> Result<u32, PcieFault> {
+        let hangs = PcieFault::Hangs { call: "an access to a register", within: ACCESS };
+        if self.hangs || self.accesses.send(access).is_err() {
+            return Err(hangs);
+        }
+        self.values.recv_timeout(ACCESS).unwrap_or_else(|_| {
+            self.hangs = true;
+            note_call();
+            Err(hangs)
+        })
+    }
+
+    /// The error, if the card is gone.
+    pub fn check_presence(&mut self) -> Result<(), PcieFault> {
+        match self.read(StreamRegister::Magic)? {
+            ALL_ONES => Err(PcieFault::Gone),
+            MAGIC => Ok(()),
+            found => Err(PcieFault::Magic { found }),
+        }
+    }
+
+    /// Resets core and FIFOs, and waits until the core runs.
+    pub fn reset(&mut self, deadline: Instant) -> Result<(), PcieFault> {
+        use incircle_protocol::{CONTROL_RESET, STREAM_STATUS_RESETTING, STREAM_STATUS_RUNS};
+        let begun = Instant::now();
+        self.write(StreamRegister::Control, CONTROL_RESET)?;
+        loop {
+            let status = self.read(StreamRegister::Status)?;
+            if status == ALL_ONES {
+                return Err(PcieFault::Gone);
+            }
+            if status & (STREAM_STATUS_RUNS | STREAM_STATUS_RESETTING) == STREAM_STATUS_RUNS {
+                return Ok(());
+            }
+            if Instant::now() >= deadline {
+                return Err(PcieFault::Reset { within: begun.elapsed(), status });
+            }
+            std::thread::sleep(Duration::from_micros(100));
+        }
+    }
+
+    /// Reads what says who the card is, and believes only what a sound one can be.
+    pub fn identify(&mut self) -> Result<(Identity, usize), PcieFault> {
+        use StreamRegister as Of;
+        self.check_presence()?;
+        let found = self.read(Of::StreamVersion)?;
+        if found >> 16 != STREAM_VERSION >> 16 || found < STREAM_VERSION {
+            return Err(PcieFault::Version { found });
+        }
+        let identity = Identity {
+            magic: MAGIC,
+            protocol_version: self.read(Of::ProtocolVersion)?,
+            core_version: self.read(Of::CoreVersion)?,
+            coord_bits: self.read(Of::CoordBits)?,
+            capacity: self.read(Of::Capacity)?,
+            contexts: self.read(Of::Contexts)?,
+            ring_capacity: self.read(Of::Ring)?,
+        };
+        check_identity(&identity).map_err(PcieFault::Identity)?;
+        let bits = self.read(Of::BeatBits)?;
+        if !matches!(bits, 64 | 128) {
+            return Err(PcieFault::Register { name: "bits of a beat", found: bits, wanted: "64 and 128" });
+        }
+        let depth = self.read(Of::FifoBeats)?;
+        if !(1..=MAX_FIFO_BEATS).contains(&depth) {
+            return Err(PcieFault::Register { name: "beats of a FIFO", found: depth, wanted: "1 to 1048576" });
+        }
+        Ok((identity, bits as usize / 8))
+    }
+
+    /// Reads all that are not for control.
+    pub fn all(&mut self) -> Result<CardRegisters, PcieFault> {
+        let (identity, beat_bytes) = self.identify()?;
+        let low = self.read(StreamRegister::ClocksLow)?;
+        let high = self.read(StreamRegister::ClocksHigh)?;
+        Ok(CardRegisters {
+            stream_version: self.read(StreamRegister::StreamVersion)?,
+            identity,
+            beat_bits: 8 * beat_bytes as u32,
+            fifo_beats: self.read(StreamRegister::FifoBeats)?,
+            status: self.read(StreamRegister::Status)?,
+            errors: self.read(StreamRegister::Errors)?,
+            fault: self.read(StreamRegister::Fault)?,
+            clocks: u64::from(high) << 32 | u64::from(low),
+            command_beats: self.read(StreamRegister::CommandBeats)?,
+            answer_beats: self.read(StreamRegister::AnswerBeats)?,
+            answers: self.read(StreamRegister::Answers)?,
+            command_waits: self.read(StreamRegister::CommandWaits)?,
+            answer_waits: self.read(StreamRegister::AnswerWaits)?,
+        })
+    }
+}
+
+/// What the registers of a card say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CardRegisters {
+    /// Version of the stream device, `major << 16 | minor`.
+    pub stream_version: u32,
+    /// The core's identity.
+    pub identity: Identity,
+    /// Bits of a beat.
+    pub beat_bits: u32,
+    /// Beats of each FIFO.
+    pub fifo_beats: u32,
+    /// Status bits.
+    pub status: u32,
+    /// Error bits.
+    pub errors: u32,
+    /// Header of the last answer with a status other than `Ok`.
+    pub fault: u32,
+    /// Clocks of the bus.
+    pub clocks: u64,
+    /// Beats of commands taken.
+    pub command_beats: u32,
+    /// Beats of answers given.
+    pub answer_beats: u32,
+    /// Answers given.
+    pub answers: u32,
+    /// Clocks in which a beat of commands waited.
+    pub command_waits: u32,
+    /// Clocks in which a beat of answers waited.
+    pub answer_waits: u32,
+}
+
+impl fmt::Display for CardRegisters {
+    /// A line for each.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "stream device {}.{}", self.stream_version >> 16, self.stream_version & 0xffff)?;
+        writeln!(f, "beats of {} bits, FIFOs of {} beats", self.beat_bits, self.fifo_beats)?;
+        writeln!(f, "status {:#x}, errors {:#x}, fault {:#010x}", self.status, self.errors, self.fault)?;
+        writeln!(f, "{} clocks of the bus", self.clocks)?;
+        writeln!(f, "{} command beats, waited for {} clocks", self.command_beats, self.command_waits)?;
+        writeln!(f, "{} answer beats, waited for {} clocks", self.answer_beats, self.answer_waits)?;
+        writeln!(f, "{} answers", self.answers)
+    }
+}

@@ -1,0 +1,377 @@
+//! Answers: asked for, put together, and asked for again where a part was lost.
+
+use std::collections::VecDeque;
+
+use incircle_protocol::{
+    answer_head, Command, Layout, Opcode, RecordRange, ANSWER_HEAD_WORDS as HEADER, COUNTER_WORDS, IDENTITY_WORDS,
+    INSERT_REPORT_WORDS, LATENCY_BUCKETS,
+};
+
+use super::codec::{words_of, AnswerPart};
+use super::fault::SerialFault;
+use super::sender::Sender;
+
+/// Most words of an answer's payload to a range: with the header they fill three frames.
+const RANGE_WORDS: usize = 3 * 256 - HEADER;
+/// First ranges, in words: they grow on a clean line.
+const FIRST_RANGE_WORDS: usize = 192;
+/// Smallest range that noise makes us ask for, in words.
+const MIN_RANGE_WORDS: usize = 12;
+/// Ranges under way at once: enough for the round trip through a slow adapter.
+const MAX_ASKED: usize = 12;
+/// Ranges that come clean before they grow.
+const GROW_AFTER: u32 = 3;
+
+/// A question whose answer has not ended.
+#[derive(Debug)]
+struct Asked {
+    what: Question,
+    header: [u32; HEADER],
+    /// Words received so far, without a gap.
+    came: usize,
+    /// A part was lost: the rest is of no use.
+    is_damaged: bool,
+    digest: crc32fast::Hasher,
+    /// Bytes of the session up to its end.
+    end: u64,
+}
+
+/// What was asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Question {
+    /// The whole command.
+    Whole,
+    /// Records of the command's range.
+    Range { first: u32, count: u32 },
+    /// Something nobody waits for any more.
+    Nothing,
+}
+
+/// A command and its answer so far.
+#[derive(Debug)]
+struct Exchange {
+    /// The command that brings the same answer again.
+    again: Command<[u32; 0]>,
+    /// Header, length, payload.
+    answer: Vec<u32>,
+    /// Ranges still to be asked for.
+    todo: VecDeque<(u32, u32)>,
+    /// First record of the command's range, and the words of a record.
+    origin: u32,
+    width: usize,
+    /// Records that have not come.
+    missing: u32,
+    is_done: bool,
+}
+
+/// The receiving half of a session.
+#[derive(Debug)]
+pub(super) struct Reader {
+    /// Words of points and records of this device.
+    layout: Layout,
+    exchange: Option<Exchange>,
+    asked: VecDeque<Asked>,
+    /// Number of the answer to the first question asked.
+    number: u8,
+    /// Words of payload of the next ranges.
+    range: usize,
+    clean: u32,
+    /// Answers asked for again, in all.
+    repeated: u64,
+}
+
+impl Reader {
+    /// For a device whose points and records have this layout.
+    pub fn new(layout: Layout) -> Self {
+        Self {
+            layout,
+            exchange: None,
+            asked: VecDeque::new(),
+            number: 0,
+            range: FIRST_RANGE_WORDS,
+            clean: 0,
+            repeated: 0,
+        }
+    }
+
+    /// Answers asked for again, in all.
+    pub fn repeated(&self) -> u64 {
+        self.repeated
+    }
+
+    /// True if an answer is awaited.
+    pub fn is_waiting(&self) -> bool {
+        self.exchange.as_ref().is_some_and(|exchange| !exchange.is_done)
+    }
+
+    /// True if an answer is whole and was not taken.
+    pub fn has_answer(&self) -> bool {
+        self.exchange.as_ref().is_some_and(|exchange| exchange.is_done)
+    }
+
+    /// The answer, when all of it has come.
+    pub fn take_answer(&mut self) -> Option<Vec<u32>> {
+        let exchange = self.exchange.take_if(|exchange| exchange.is_done)?;
+        Some(exchange.answer)
+    }
+
+    /// Begins a command.
+    pub fn begin(&mut self, command: &Command<impl AsRef<[u32]>>, sender: &mut Sender) -> Result<(), SerialFault> {
+        let exchange = Exchange::of(command, self.layout)?;
+        if exchange.todo.is_empty() {
+            let end = sender.push_command(command);
+            self.asked.push_back(Asked::new(Question::Whole, end));
+        }
+        self.exchange = Some(exchange);
+        self.ask_more(sender);
+        Ok(())
+    }
+
+    /// Asks for more ranges, as many as may be under way.
+    pub fn ask_more(&mut self, sender: &mut Sender) {
+        let Some(exchange) = &mut self.exchange else { return };
+        let most = u32::try_from(self.range / exchange.width).unwrap_or(u32::MAX).max(1);
+        while self.asked.len() < MAX_ASKED {
+            let Some((first, count)) = exchange.todo.pop_front() else { return };
+            let now = count.min(most);
+            if count > now {
+                exchange.todo.push_front((first + now, count - now));
+            }
+            let end = sender.push_command(&Command::<[u32; 0]>::Read(RecordRange { first, count: now }));
+            self.asked.push_back(Asked::new(Question::Range { first, count: now }, end));
+        }
+    }
+
+    /// Takes a part of an answer. True if it was news.
+    pub fn take(&mut self, part: &AnswerPart<'_>, sender: &mut Sender) -> Result<bool, SerialFault> {
+        let passed = usize::from(part.number.wrapping_sub(self.number));
+        if passed >= self.asked.len() {
+            // An answer that ended, or that nobody asked for.
+            return Ok(false);
+        }
+        self.check_taken(passed + 1, sender)?;
+        // Answers come in order: those before this one are lost.
+        for _ in 0..passed {
+            self.end_first(sender);
+        }
+        let Some(asked) = self.asked.front_mut() else { return Ok(false) };
+        let is_news = asked.take(part, self.exchange.as_mut(), self.layout.record_words)?;
+        if part.digest.is_some() && (is_news || asked.is_damaged) {
+            self.end_first(sender);
+        }
+        Ok(is_news)
+    }
+
+    /// The device has sent so many answers to their end, modulo 256: those of them that have not come are lost.
+    pub fn passed(&mut self, answers: u8, sender: &mut Sender) -> Result<(), SerialFault> {
+        let passed = usize::from(answers.wrapping_sub(self.number));
+        if passed <= self.asked.len() {
+            self.check_taken(passed, sender)?;
+            for _ in 0..passed {
+                self.end_first(sender);
+            }
+        }
+        Ok(())
+    }
+
+    /// So many questions can only have been answered if the device has taken them. Without this rule each answer that it makes up would be
+    /// asked for again, and what waits to be sent would grow without end.
+    fn check_taken(&self, count: usize, sender: &Sender) -> Result<(), SerialFault> {
+        let last = count.checked_sub(1).and_then(|last| self.asked.get(last));
+        match last.filter(|asked| asked.end > sender.taken_bytes()) {
+            Some(asked) => Err(SerialFault::Unasked { awaited: asked.end, taken: sender.taken_bytes() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Gives up the command under way, or its answer that nobody took.
+    pub fn abandon(&mut self) {
+        self.exchange = None;
+    }
+
+    /// The first question is over: its answer is whole, or it is asked again.
+    fn end_first(&mut self, sender: &mut Sender) {
+        let Some(asked) = self.asked.pop_front() else { return };
+        self.number = self.number.wrapping_add(1);
+        let Some(exchange) = self.exchange.as_mut().filter(|exchange| !exchange.is_done) else { return };
+        if asked.is_whole() {
+            self.clean += 1;
+            if self.clean >= GROW_AFTER {
+                self.clean = 0;
+                self.range = (2 * self.range).min(RANGE_WORDS);
+            }
+            if !exchange.finish(&asked) {
+                return self.ask_more(sender);
+            }
+            // Answers that are still to come are for nobody.
+            self.asked.iter_mut().for_each(|asked| asked.what = Question::Nothing);
+            return;
+        }
+        self.clean = 0;
+        self.range = (self.range / 2).max(MIN_RANGE_WORDS);
+        match asked.what {
+            Question::Nothing => return,
+            Question::Whole => {
+                let end = sender.push_command(&exchange.again);
+                self.asked.push_back(Asked::new(Question::Whole, end));
+            }
+            Question::Range { first, count } => exchange.todo.push_front((first, count)),
+        }
+        self.repeated += 1;
+        self.ask_more(sender);
+    }
+}
+
+impl Asked {
+    fn new(what: Question, end: u64) -> Self {
+        Self { what, header: [0; HEADER], came: 0, is_damaged: false, digest: crc32fast::Hasher::new(), end }
+    }
+
+    /// True if all words of the answer have come.
+    fn is_whole(&self) -> bool {
+        !self.is_damaged && self.came >= HEADER && self.came == HEADER + self.header[1] as usize
+    }
+
+    /// Takes the next words. False if they came before.
+    fn take(
+        &mut self,
+        part: &AnswerPart<'_>,
+        exchange: Option<&mut Exchange>,
+        width: usize,
+    ) -> Result<bool, SerialFault> {
+        if self.is_damaged {
+            return Ok(false);
+        }
+        // No answer has as many words as the index can count.
+        let (index, count) = (usize::from(part.index), part.bytes.len() / 4);
+        if index < self.came && index + count <= self.came {
+            return Ok(false);
+        }
+        if index != self.came {
+            self.is_damaged = true;
+            return Ok(false);
+        }
+        let most = match self.what {
+            Question::Range { count, .. } => HEADER + count as usize * width,
+            Question::Whole => HEADER + LONGEST_WHOLE,
+            // It was a range, of any length.
+            Question::Nothing => HEADER + RANGE_WORDS,
+        };
+        if index + count > most {
+            return Err(SerialFault::Endless { due: most });
+        }
+        self.digest.update(part.bytes);
+        self.came += count;
+        self.keep(index, part.bytes, exchange);
+        match part.digest {
+            Some(announced) => self.check_end(announced).map(|()| true),
+            None => Ok(true),
+        }
+    }
+
+    /// Puts words where they belong.
+    fn keep(&mut self, index: usize, bytes: &[u8], exchange: Option<&mut Exchange>) {
+        let mut exchange = exchange.filter(|exchange| !exchange.is_done);
+        for (word, place) in words_of(bytes).zip(index..) {
+            if let Some(header) = self.header.get_mut(place) {
+                *header = word;
+            }
+            let Some(exchange) = exchange.as_deref_mut() else { continue };
+            let place = match self.what {
+                Question::Nothing => continue,
+                Question::Whole => place,
+                Question::Range { .. } if place < HEADER => continue,
+                Question::Range { first, .. } => place + (first - exchange.origin) as usize * exchange.width,
+            };
+            if let Some(kept) = exchange.answer.get_mut(place) {
+                *kept = word;
+            }
+        }
+    }
+
+    fn check_end(&self, announced: u32) -> Result<(), SerialFault> {
+        let found = self.digest.clone().finalize();
+        if found != announced {
+            return Err(SerialFault::AnswerDigest { found, expected: announced });
+        }
+        if !self.is_whole() {
+            return Err(SerialFault::AnswerLength {
+                announced: self.header[1],
+                came: self.came.saturating_sub(HEADER),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Longest payload of an answer to a whole command.
+const LONGEST_WHOLE: usize = LATENCY_BUCKETS;
+// Every answer that is not a range's fits.
+const _: () =
+    assert!(COUNTER_WORDS <= LONGEST_WHOLE && IDENTITY_WORDS <= LONGEST_WHOLE && INSERT_REPORT_WORDS <= LONGEST_WHOLE);
+
+impl Exchange {
+    fn of(command: &Command<impl AsRef<[u32]>>, layout: Layout) -> Result<Self, SerialFault> {
+        let again = match command.bare() {
+            Command::Insert { .. } if command.points().len() as u64 != command.point_words(layout) => {
+                return Err(SerialFault::Command("the points of this command are of another device"));
+            }
+            // Its answer comes in parts that are asked for again, and those of packed triangles do not end with words.
+            Command::Triangles(_) => return Err(SerialFault::Command("the serial link reads whole records")),
+            // No points have the report of those before them.
+            Command::Insert { .. } => Command::Insert { count: 0, points: [] },
+            command => command.map(|()| []),
+        };
+        let whole = Self {
+            again,
+            answer: Vec::new(),
+            todo: VecDeque::new(),
+            origin: 0,
+            width: layout.record_words,
+            missing: 0,
+            is_done: false,
+        };
+        match again {
+            Command::Read(range) => whole.in_ranges(range, command.payload_words(layout)),
+            _ => Ok(Self { answer: vec![0; HEADER + LONGEST_WHOLE], ..whole }),
+        }
+    }
+
+    /// The answer is asked for in ranges of these records.
+    fn in_ranges(self, RecordRange { first, count }: RecordRange, payload: u64) -> Result<Self, SerialFault> {
+        const NO_ROOM: SerialFault = SerialFault::Command("there is no memory for an answer of this length");
+        let words = usize::try_from(payload).ok().and_then(|payload| payload.checked_add(HEADER)).ok_or(NO_ROOM)?;
+        let mut answer = Vec::new();
+        answer.try_reserve_exact(words).map_err(|_| NO_ROOM)?;
+        answer.resize(words, 0);
+        first.checked_add(count).ok_or(SerialFault::Command("the range passes the last record number"))?;
+        Ok(Self { answer, todo: VecDeque::from([(first, count)]), origin: first, missing: count, ..self })
+    }
+
+    /// Takes a whole answer to a question. True if nothing is missing any more.
+    fn finish(&mut self, asked: &Asked) -> bool {
+        let [header, length] = asked.header;
+        match asked.what {
+            Question::Nothing => false,
+            Question::Whole => {
+                self.answer.truncate(HEADER + length as usize);
+                self.is_done = true;
+                true
+            }
+            Question::Range { count, .. } => {
+                let due = u32::try_from(count as usize * self.width).unwrap_or(u32::MAX);
+                let is_right = [header, length] == answer_head(Opcode::Read, due);
+                // A refusal, or a wrong length, is the answer to the whole range.
+                self.missing = if is_right { self.missing - count.min(self.missing) } else { 0 };
+                if is_right {
+                    let payload = self.answer.len() - HEADER;
+                    [self.answer[0], self.answer[1]] = [header, u32::try_from(payload).unwrap_or(u32::MAX)];
+                } else {
+                    self.answer = vec![header, length];
+                }
+                self.is_done = self.missing == 0 && (!is_right || self.todo.is_empty());
+                self.is_done
+            }
+        }
+    }
+}

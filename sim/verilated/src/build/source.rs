@@ -1,0 +1,81 @@
+//! What there is to build: a model with its options.
+
+use std::path::Path;
+
+use super::error::BuildError;
+
+/// How hard the C++ compiler works on a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Optimisation {
+    /// `-O1`: compiled in a second; for blocks that are tested over thousands of clocks.
+    Quick,
+    /// `-O2`, and Verilator's `-O3`; for whole cores that run millions of clocks.
+    Fast,
+}
+
+/// One model to build.
+#[derive(Clone, Debug)]
+pub struct ModelSource {
+    pub(super) name: String,
+    pub(super) top: String,
+    pub(super) verilog: String,
+    pub(super) trace: bool,
+    pub(super) random_initial_state: bool,
+    pub(super) optimisation: Optimisation,
+}
+
+impl ModelSource {
+    /// The module `top` of this Verilog text, as the model `name`: no trace, zero initial state, quick to compile.
+    ///
+    /// `name` becomes a Rust function and part of C++ names: it starts with a lower-case letter, and holds lower-case letters,
+    /// digits and single underscores; anything else is an error of `Builder::try_compile`.
+    pub fn new(name: &str, top: &str, verilog: impl Into<String>) -> Self {
+        Self {
+            name: name.to_string(),
+            top: top.to_string(),
+            verilog: verilog.into(),
+            trace: false,
+            random_initial_state: false,
+            optimisation: Optimisation::Quick,
+        }
+    }
+
+    /// The module `top` of a Verilog file, as the model `name`; the build script runs again when the file changes.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn file(name: &str, top: &str, path: impl AsRef<Path>) -> Result<Self, BuildError> {
+        let path = path.as_ref();
+        println!("cargo:rerun-if-changed={}", path.display());
+        let verilog =
+            std::fs::read_to_string(path).map_err(|source| BuildError::File { path: path.to_path_buf(), source })?;
+        Ok(Self::new(name, top, verilog))
+    }
+
+    /// Whether the model can write VCD waveforms. Costs compile time and some speed, also while no trace is open.
+    pub fn trace(mut self, on: bool) -> Self {
+        self.trace = on;
+        self
+    }
+
+    /// Whether registers and memories can start with random contents (`Model::randomized`); without it they
+    /// start as zero whatever the seed.
+    pub fn random_initial_state(mut self, on: bool) -> Self {
+        self.random_initial_state = on;
+        self
+    }
+
+    /// How hard the C++ compiler works.
+    pub fn optimisation(mut self, level: Optimisation) -> Self {
+        self.optimisation = level;
+        self
+    }
+
+    pub(super) fn check_name(&self) -> Result<(), BuildError> {
+        let valid = self.name.starts_with(|c: char| c.is_ascii_lowercase())
+            && self.name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+            && !self.name.contains("__")
+            && self.name != "find";
+        valid.then_some(()).ok_or_else(|| BuildError::Name { name: self.name.clone() })
+    }
+}

@@ -1,0 +1,31 @@
+//! The blocks that a visit passes: memories, queue, reader, verdict, cavity and the writes that follow.
+
+use incircle_protocol::{SMALL, TINY};
+
+use crate::exported::block;
+use incircle_hdl::engine::{
+    Issue, LinkWrite, RecordWrite, SeedWrites, VerdictLogic, VisitJudge, VisitPipeline, VisitReader, WritePort,
+};
+use incircle_hdl::mesh::{LockStore, TriangleStore, VertexStore};
+
+/// The name of each root module, and its Verilog.
+pub(crate) fn blocks() -> Vec<(String, String)> {
+    vec![
+        block(LockStore::new(4, 2), "lock_store_4_2"),
+        block(LockStore::new(15, 5), "lock_store_15_5"),
+        block(TriangleStore::new(5, 4, 1), "triangle_store_5_4_1"),
+        block(TriangleStore::new(15, 15, 5), "triangle_store_15_15_5"),
+        block(VertexStore::new(3), "vertex_store_3"),
+        block(VertexStore::new(14), "vertex_store_14"),
+        block(Issue::new(5), "issue_5"),
+        block(VisitReader::default(), "visit_reader"),
+        block(VerdictLogic::default(), "verdict_logic"),
+        block(VisitJudge::default(), "visit_judge"),
+        block(VisitPipeline::new(TINY), "visit_pipeline_tiny"),
+        block(VisitPipeline::new(SMALL), "visit_pipeline_small"),
+        block(SeedWrites::default(), "seed_writes"),
+        block(WritePort::default(), "write_port"),
+        block(RecordWrite::default(), "record_write"),
+        block(LinkWrite::default(), "link_write"),
+    ]
+}

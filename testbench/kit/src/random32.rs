@@ -1,0 +1,36 @@
+//! Random numbers below bounds of 32 bits.
+
+use super::random::SplitMix64;
+
+/// The numbers of [`SplitMix64`], brought below a bound of 32 bits by their remainder; the state is public. The seeds of
+/// many tests stand for these numbers.
+#[derive(Clone, Debug)]
+pub struct Random32(pub u64);
+
+impl Random32 {
+    /// A number from 0 to `bound - 1`.
+    ///
+    /// # Panics
+    /// If `bound` is 0.
+    pub fn below(&mut self, bound: u32) -> u32 {
+        let mut random = SplitMix64::new(self.0);
+        let word = random.next_u64();
+        self.0 = random.state();
+        (word % u64::from(bound)) as u32
+    }
+
+    /// One of these.
+    ///
+    /// # Panics
+    /// Without items.
+    pub fn pick<T: Copy>(&mut self, items: &[T]) -> T {
+        items[self.below(items.len() as u32) as usize]
+    }
+
+    /// Puts the items into random order.
+    pub fn shuffle<T>(&mut self, items: &mut [T]) {
+        for end in (1..items.len()).rev() {
+            items.swap(end, self.below(end as u32 + 1) as usize);
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Point sets as words: x in the lower 16 bits, y in the upper.
+
+use crate::random32::Random32;
+
+/// The points behind three that span a triangle.
+pub fn started(points: Vec<u32>) -> Vec<u32> {
+    [vec![0, 1, 0x1_0000], points].concat()
+}
+
+/// Points of a box: in a small one most fall together.
+pub fn boxed(random: &mut Random32, count: u32, side: u32) -> Vec<u32> {
+    (0..count).map(|_| random.below(side) | random.below(side) << 16).collect()
+}
+
+/// As `boxed`, but every other point is one of the eight before it: duplicates of points that are still in flight.
+pub fn stuttering(random: &mut Random32, count: u32, side: u32) -> Vec<u32> {
+    let mut points: Vec<u32> = Vec::new();
+    for _ in 0..count {
+        let back = random.below(16) as usize;
+        let point = match back {
+            1..=8 if back <= points.len() => points[points.len() - back],
+            _ => random.below(side) | random.below(side) << 16,
+        };
+        points.push(point);
+    }
+    points
+}
+
+/// Points of a parabola: all on the hull, and the cavities of a point above it are large.
+pub fn parabola(random: &mut Random32, count: u32) -> Vec<u32> {
+    let mut points: Vec<u32> = (0..count).map(|x| x | ((x * x) & 0xffff) << 16).collect();
+    random.shuffle(&mut points);
+    points
+}
+
+/// Many points of one circle, which all see each other, and a few inside, in any order.
+pub fn wheel(random: &mut Random32, count: u32) -> Vec<u32> {
+    let mut points = rim(random);
+    points.truncate(count as usize);
+    let inside = count - points.len() as u32;
+    points.extend(hub(random, inside));
+    random.shuffle(&mut points);
+    points
+}
+
+/// The same, the circle first: the first point inside removes nearly all triangles.
+pub fn wheel_from_outside(random: &mut Random32, inside: u32) -> Vec<u32> {
+    let mut points = rim(random);
+    points.extend(hub(random, inside));
+    points
+}
+
+/// Points on one circle.
+fn rim(random: &mut Random32) -> Vec<u32> {
+    // 1105 = 5 * 13 * 17 is the hypotenuse of many triangles with whole sides.
+    const RADIUS: i64 = 1105;
+    let mut points = Vec::new();
+    for x in -RADIUS..=RADIUS {
+        let y = (RADIUS * RADIUS - x * x).isqrt();
+        if y * y + x * x == RADIUS * RADIUS {
+            points.extend([y, -y].map(|y| (x + RADIUS) as u32 | ((y + RADIUS) as u32) << 16));
+        }
+    }
+    random.shuffle(&mut points);
+    points
+}
+
+/// Points around its centre.
+fn hub(random: &mut Random32, count: u32) -> Vec<u32> {
+    boxed(random, count, 400).into_iter().map(|point| point + 900 * 0x1_0001).collect()
+}

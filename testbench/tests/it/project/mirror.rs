@@ -1,0 +1,90 @@
+//! The tests of blocks mirror `hdl/src`: the test of `engine/visit/issue.rs` is `blocks/engine/visit/issue.rs`.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Blocks without a file of their own: the test that runs the block, from `tests/it`, and why that is enough.
+const ELSEWHERE: [(&str, &str, &str); 20] = [
+    ("engine/attempt/context_address", "blocks/engine/commit/ring_reader", "one line, the address of a ring's entry"),
+    ("engine/commit/commit_path", "cores/lockstep", "wires between ring reader, commit and release"),
+    ("engine/commit/ring_list", "blocks/engine/commit/ring_reader", "the memory behind the reader"),
+    ("engine/count/cycle_counters", "blocks/engine/count/counters", "a part of the counters, at their ports"),
+    ("engine/count/visit_counters", "blocks/engine/count/counters", "a part of the counters, at their ports"),
+    ("engine/dispatch/dispatcher", "cores/lockstep", "wires between the blocks of the room"),
+    ("engine/insertion_engine", "cores/lockstep", "wires between the rooms"),
+    ("engine/insertions", "cores/lockstep", "wires between the rooms"),
+    ("engine/solo/solo_star", "blocks/engine/solo/solo", "a part of solo that only solo's states drive"),
+    ("leaf/unpack", "blocks/engine/visit/issue", "the fields of a structure as wires, in most blocks"),
+    ("serial/link_receiver", "blocks/serial/serial_link", "the receiving half of the link, at its pins"),
+    ("serial/link_transmitter", "blocks/serial/serial_link", "the sending half of the link, at its pins"),
+    ("stream/bus_side", "blocks/stream/stream_link", "the half of the link in the clock of the bus"),
+    ("stream/core_side", "blocks/stream/stream_link", "the half of the link in the clock of the core"),
+    ("stream/faults", "blocks/stream/register_block", "bits of a register, read through the port"),
+    ("stream/registers", "blocks/stream/register_block", "all registers, read through the port"),
+    ("stream/traffic", "blocks/stream/register_block", "counters, read through the port"),
+    ("top/core", "cores/lockstep", "every root port at every clock"),
+    ("top/serial_top", "links/page", "the device at its pins"),
+    ("top/stream_top", "links/stream_top", "the device at its ports"),
+];
+
+/// Files that hold more than one block to something.
+const MORE: [&str; 2] = ["leaf/cells", "serial/serial_link_faults"];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn text(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The Rust files below a folder for which this holds, as paths from there without their ending.
+fn files(folder: &Path, counts: fn(&str) -> bool) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut open = vec![folder.to_path_buf()];
+    while let Some(next) = open.pop() {
+        for entry in fs::read_dir(&next).unwrap_or_else(|error| panic!("{}: {error}", next.display())) {
+            let path = entry.expect("an entry of a folder").path();
+            if path.is_dir() {
+                open.push(path);
+            } else if path.extension().is_some_and(|end| end == "rs") && counts(&text(&path)) {
+                let name = path.strip_prefix(folder).expect("a file below").with_extension("");
+                found.insert(name.to_str().expect("a name in ASCII").to_string());
+            }
+        }
+    }
+    found
+}
+
+fn has_a_test(text: &str) -> bool {
+    text.contains("#[test]")
+}
+
+fn has_a_block(text: &str) -> bool {
+    let derives = text.split("derive(").skip(1).filter_map(|rest| rest.split(')').next());
+    derives.flat_map(|traits| traits.split(',')).any(|name| name.trim() == "LogicBlock")
+}
+
+#[test]
+fn each_block_has_a_test_in_the_file_of_its_name() {
+    let blocks = files(&root().join("hdl/src"), has_a_block);
+    let tests = root().join("testbench/tests/it");
+    let tested = files(&tests.join("blocks"), has_a_test);
+    assert!(blocks.len() >= 100, "only {} blocks found", blocks.len());
+    let elsewhere: BTreeSet<String> = ELSEWHERE.iter().map(|row| row.0.to_string()).collect();
+    for block in &blocks {
+        let places = [tested.contains(block), elsewhere.contains(block)].map(usize::from).iter().sum::<usize>();
+        assert_eq!(places, 1, "{block} needs a test in blocks/{block}.rs, or else a row of ELSEWHERE, and not both");
+    }
+    for (block, test, _) in ELSEWHERE {
+        assert!(blocks.contains(block), "ELSEWHERE names {block}, which is no block");
+        assert!(
+            has_a_test(&text(&tests.join(test).with_extension("rs"))),
+            "{test}, which is to hold {block}, has no test"
+        );
+    }
+    let known = |name: &String| blocks.contains(name) || MORE.contains(&name.as_str());
+    let strays: Vec<_> = tested.iter().filter(|name| !known(name)).collect();
+    assert!(strays.is_empty(), "tests of blocks that are not in hdl/src: {strays:?}");
+}
