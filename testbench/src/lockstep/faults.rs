@@ -30,7 +30,11 @@ pub const FAULTS: &[Fault] = &[
     // One comparison reversed: which of two sides is lower, in the walk.
     Fault {
         name: "comparison",
-        pieces: &[piece("leaves_by_side1 = @;", "e1_below_e0 & (~e2_below_e1)", "(~e1_below_e0) & (~e2_below_e1)")],
+        pieces: &[piece(
+            "leaves_by_side1 = @;",
+            "edges[(64'h6)+:(1)] & (~edges[(64'h8)+:(1)])",
+            "(~edges[(64'h6)+:(1)]) & (~edges[(64'h8)+:(1)])",
+        )],
     },
     // One link column never written.
     Fault { name: "link", pieces: &[piece("links$2$write_enable = @;", "enables[(64'h3)+:(1)]", "1'b0")] },
@@ -39,11 +43,11 @@ pub const FAULTS: &[Fault] = &[
         name: "tie",
         pieces: &[piece(
             "takes_tie = @;",
-            "(p_before_r1 & p_before_r2) | (r0_before_r1 & r0_before_r2)",
-            "p_before_r1 & p_before_r2",
+            "(order[(64'h1)+:(1)] & order[(64'h2)+:(1)]) | (order[(64'h6)+:(1)] & order[(64'h7)+:(1)])",
+            "order[(64'h1)+:(1)] & order[(64'h2)+:(1)]",
         )],
     },
-    // Rule 1: a test does not mind that another context holds the lock.
+    // L1: a test does not mind that another context holds the lock.
     Fault {
         name: "foreign_lock",
         pieces: &[
@@ -51,47 +55,52 @@ pub const FAULTS: &[Fault] = &[
             piece("test_is_refused$d = @;", "tests & foreign & (~is_waiter)", "1'b0"),
         ],
     },
-    // Rule 1: an attempt that fails releases its locks while visits of it are still out.
-    Fault { name: "drain", pieces: &[piece("is_over = @;", "ends_here", "ends_here | gives_up")] },
-    // Rule 1: an attempt that has failed does not rest.
+    // L1: an attempt that fails releases its locks while visits of it are still out.
     Fault {
-        name: "rest",
-        pieces: &[piece("is_rested = @;", "(~busy[index]) & (round$q == resting_round)", "~busy[index]")],
+        name: "drain",
+        pieces: &[piece("step[(64'h0)+:(1)] = @;", "ends_here", "ends_here | found[(64'hf)+:(1)]")],
     },
-    // Rule 2: nobody takes the waiting token.
-    Fault { name: "token", pieces: &[piece("takes = @;", "asks_to_wait & (~token_is_held$q)", "1'b0")] },
-    // Rule 2a: the others do not yield to the context that waits.
-    Fault { name: "yield", pieces: &[piece("may_try = @;", "(~is_urgent) | (passed$q == waiter)", "1'b1")] },
-    // Rule 3: locks are released when the ring is finished, before the star is written.
+    // L1: an attempt that has failed does not rest.
+    Fault { name: "rest", pieces: &[piece("is_rested = @;", "(~busy[index]) & rests_over", "~busy[index]")] },
+    // L2: nobody takes the waiting token.
+    Fault {
+        name: "token",
+        pieces: &[piece("takes = @;", "outcome[(64'h8)+:(1)] & (~state$q[(64'h78)+:(1)])", "1'b0")],
+    },
+    // L3: the others do not yield to the context that waits.
+    Fault {
+        name: "yield",
+        pieces: &[piece(
+            "may_try = @;",
+            "(~contexts[(64'h7e)+:(1)]) | (passed[(64'h0)+:(5)] == contexts[(64'h79)+:(5)])",
+            "1'b1",
+        )],
+    },
+    // L4: locks are released when the ring is finished, before the star is written.
     Fault {
         name: "release",
         pieces: &[
-            piece("lock_release$commit_enable = @;", "commit$ends", "commit_enable"),
-            piece("lock_release$commit_job[(64'h0)+:(5)] = @;", "commit$job[(64'h0)+:(5)]", "commit_job[(64'h0)+:(5)]"),
-            piece(
-                "lock_release$commit_job[(64'h5)+:(7)] = @;",
-                "commit$job[(64'h1b)+:(7)]",
-                "commit_job[(64'h1b)+:(7)]",
-            ),
+            piece("locks$commit[(64'h0)+:(1)] = @;", "star$committed[(64'h0)+:(1)]", "commit[(64'h0)+:(1)]"),
+            piece("job = @;", "star$committed[(64'h1)+:(56)]", "commit[(64'h1)+:(56)]"),
         ],
     },
-    // Rule 4: a locked root is believed to hold the point still.
+    // L5: a locked root is believed to hold the point still.
     Fault {
         name: "root",
         pieces: &[
-            piece("opens = @;", "root_is_held$q & is_located", "root_is_held$q"),
+            piece("found[(64'h9)+:(1)] = @;", "root_is_held$q & is_located", "root_is_held$q"),
             piece(
-                "asks = @;",
+                "found[(64'h12)+:(1)] = @;",
                 "walk_is_torn$q | (walk_counts$q & (~is_corner)) | (root_is_held$q & is_located) | passes | asks_again",
                 "walk_is_torn$q | (walk_counts$q & (~is_corner)) | root_is_held$q | passes | asks_again",
             ),
-            piece("retries = @;", "root_is_held$q & (~verdict[(64'h1)+:(1)])", "1'b0"),
-            piece("root_duplicate = @;", "root_is_held$q & is_corner", "1'b0"),
+            piece("found[(64'ha)+:(1)] = @;", "root_is_held$q & (~verdict[(64'h1)+:(1)])", "1'b0"),
+            piece("found[(64'h11)+:(1)] = @;", "root_is_held$q & is_corner", "1'b0"),
         ],
     },
-    // Rule 5: a context opens a cavity while its own commit or release is due.
+    // L6: a context opens a cavity while its own commit or release is due.
     Fault { name: "busy", pieces: &[piece("context_is_busy$d = @;", "is_busy", "1'b0")] },
-    // Rule 6: a walk does not mind that a record is not written yet, or is being written.
+    // L7: a walk does not mind that a record is not written yet, or is being written.
     Fault { name: "watermark", pieces: &[piece("again1$d = @;", "is_torn | (~is_written)", "is_torn")] },
     Fault {
         name: "torn",
@@ -101,9 +110,9 @@ pub const FAULTS: &[Fault] = &[
             "1'b0",
         )],
     },
-    // Rule 7: all contexts work from the first triangle on.
-    Fault { name: "first_round", pieces: &[piece("may_work = @;", "all_work$q", "seeded")] },
-    // Rule 8: a context takes its own locks for those of another one.
+    // L8: all contexts work from the first triangle on.
+    Fault { name: "first_round", pieces: &[piece("may_work = @;", "all_work", "seeded")] },
+    // L9: a context takes its own locks for those of another one.
     Fault {
         name: "own_lock",
         pieces: &[piece(
@@ -115,13 +124,26 @@ pub const FAULTS: &[Fault] = &[
     // The watchdog, and each place that hears of it, but for `CommandGate`: a core that gets stuck over a lock has its first triangle, and the
     // gate has nothing to hold then. `tests/it/blocks/choices.rs` holds the gate.
     Fault { name: "watchdog_is_silent", pieces: &[piece("is_stuck$d = @;", "1'b1", "1'b0")] },
-    Fault { name: "command_port_ignores_stuck", pieces: &[piece("command_port$stuck = @;", "engine$stuck", "1'b0")] },
-    Fault { name: "settle_ignores_stuck", pieces: &[piece("if (@) begin", "is_quiet | stuck", "is_quiet")] },
+    Fault {
+        name: "command_port_ignores_stuck",
+        pieces: &[piece("command_port$engine = @;", "engine$state", "engine$state & ~20'h8")],
+    },
+    Fault {
+        name: "settle_ignores_stuck",
+        pieces: &[piece("if (@) begin", "engine[(64'h2)+:(1)] | engine[(64'h3)+:(1)]", "engine[(64'h2)+:(1)]")],
+    },
     Fault {
         name: "slot_ignores_stuck",
-        pieces: &[piece("has_room = @;", "(~collinear) & (~stuck) & (~is_full$q)", "(~collinear) & (~is_full$q)")],
+        pieces: &[piece(
+            "has_room = @;",
+            "(~engine[(64'h1)+:(1)]) & (~engine[(64'h3)+:(1)]) & (~is_full$q)",
+            "(~engine[(64'h1)+:(1)]) & (~is_full$q)",
+        )],
     },
-    Fault { name: "answer_ignores_stuck", pieces: &[piece("answer_head$stuck = @;", "engine$stuck", "1'b0")] },
+    Fault {
+        name: "answer_ignores_stuck",
+        pieces: &[piece("answer_head$stuck = @;", "engine$state[(64'h3)+:(1)]", "1'b0")],
+    },
     // Blocks without their reset.
     Fault { name: "command_port_without_reset", pieces: &[piece("command_port$reset = @;", "reset", "1'b0")] },
     Fault { name: "responder_without_reset", pieces: &[piece("responder$reset = @;", "reset", "1'b0")] },
@@ -130,6 +152,6 @@ pub const FAULTS: &[Fault] = &[
     Fault { name: "latencies_without_reset", pieces: &[piece("latencies$reset = @;", "reset", "1'b0")] },
     Fault { name: "dispatcher_without_reset", pieces: &[piece("dispatcher$reset = @;", "reset", "1'b0")] },
     Fault { name: "watchdog_without_reset", pieces: &[piece("watchdog$reset = @;", "reset", "1'b0")] },
-    Fault { name: "release_without_reset", pieces: &[piece("lock_release$reset = @;", "reset", "1'b0")] },
+    Fault { name: "release_without_reset", pieces: &[piece("locks$reset = @;", "reset", "1'b0")] },
     Fault { name: "issue_without_reset", pieces: &[piece("issue$reset = @;", "reset", "1'b0")] },
 ];

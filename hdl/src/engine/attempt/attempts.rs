@@ -27,6 +27,7 @@
 //!
 //! Source: Bowyer and Watson's cavity; the ring that is split in place is ours.
 
+use super::aftermath::Aftermath;
 use super::attempt_lists::AttemptLists;
 use super::attempt_points::AttemptPoints;
 use super::attempt_step::AttemptStep;
@@ -78,6 +79,7 @@ pub struct Attempts {
     meaning: VisitCase,
     step: AttemptStep,
     visits: NextVisits,
+    aftermath: Aftermath,
     lists: AttemptLists,
     early_token: Signal<Local, Token>,
     token: Signal<Local, Token>,
@@ -86,10 +88,6 @@ pub struct Attempts {
     attempt: Signal<Local, Attempt>,
     busy: Signal<Local, ContextSet>,
     context_index: Signal<Local, ContextId>,
-    fails: Signal<Local, Bit>,
-    gives_up: Signal<Local, Bit>,
-    duplicate: Signal<Local, Bit>,
-    stops_at_root: Signal<Local, Bit>,
     count: Signal<Local, RingCount>,
     two: Signal<Local, RingCount>,
 }
@@ -153,30 +151,13 @@ impl Logic for Attempts {
         self.follow.next.may_ask = self.meaning.found.val().may_ask;
         self.follow.next.bundle = self.visits.bundle.val();
 
-        // What becomes of the context. L1: a failed attempt keeps its point, and its locks are released when it is over.
-        self.fails.next = self.step.step.val().is_over & (!self.step.step.val().succeeds);
-        self.gives_up.next = self.meaning.found.val().gives_up_root | self.meaning.found.val().gives_up;
-        self.duplicate.next = self.meaning.found.val().walk_duplicate | self.meaning.found.val().root_duplicate;
-        self.stops_at_root.next = self.meaning.found.val().root_duplicate | self.meaning.found.val().retries;
-        self.outcome.next.owner = self.token.val().owner;
-        self.outcome.next.sleeps = self.meaning.found.val().looks
-            | self.meaning.found.val().walk_duplicate
-            | self.meaning.found.val().gives_up_root
-            | self.stops_at_root.val()
-            | self.step.step.val().is_over;
-        self.outcome.next.keeps =
-            self.meaning.found.val().gives_up_root | self.meaning.found.val().retries | self.fails.val();
-        self.outcome.next.hands_over = self.lists.commit.val().valid | self.lists.releases.val().valid;
-        self.outcome.next.asks_to_wait = self.gives_up.val();
-        self.outcome.next.waits = self.meaning.found.val().waits;
-        self.outcome.next.stops_waiting = self.duplicate.val() | self.step.step.val().succeeds;
-        self.outcome.next.overflows = self.meaning.found.val().overflows;
-        self.outcome.next.duplicate = self.duplicate.val();
-        self.outcome.next.root_enable = self.meaning.found.val().is_root;
-        self.outcome.next.root = self.token.val().u;
-        if self.meaning.found.val().retries {
-            self.outcome.next.root = self.verdict.val().walk_next;
-        }
+        // What becomes of the context.
+        self.aftermath.token.next = self.token.val();
+        self.aftermath.found.next = self.meaning.found.val();
+        self.aftermath.step.next = self.step.step.val();
+        self.aftermath.walk_next.next = self.verdict.val().walk_next;
+        self.aftermath.hands_over.next = self.lists.commit.val().valid | self.lists.releases.val().valid;
+        self.outcome.next = self.aftermath.outcome.val();
 
         // What the lists take.
         self.lists.visit.next = self.visit.val();
@@ -186,8 +167,8 @@ impl Logic for Attempts {
         self.lists.since.next = self.points.since.val();
         self.lists.found.next = self.meaning.found.val();
         self.lists.step.next = self.step.step.val();
-        self.lists.fails.next = self.fails.val();
-        self.lists.stops_at_root.next = self.stops_at_root.val();
+        self.lists.fails.next = self.aftermath.fails.val();
+        self.lists.stops_at_root.next = self.aftermath.stops_at_root.val();
         self.entry.next = self.lists.entry.val();
         self.inner.next = self.lists.inner.val();
         self.lock.next = self.lists.lock.val();
@@ -201,7 +182,7 @@ impl Logic for Attempts {
         self.events.next.revisit = self.meaning.found.val().repeats;
         self.events.next.overflows = self.meaning.found.val().overflows;
         self.events.next.flip = false;
-        self.events.next.gives_up = self.gives_up.val();
+        self.events.next.gives_up = self.aftermath.outcome.val().asks_to_wait;
         self.events.next.retries = self.meaning.found.val().retries;
         self.events.next.takes_token = false;
         self.events.next.cavity_ends = self.lists.commit.val().valid;

@@ -13,10 +13,11 @@
 //! contexts may complete in any order, one in each clock.
 //!
 //! Lock rules (see `docs/engine.md`): L1, an attempt that meets a foreign lock drains and releases ([`VisitCase`], [`AttemptStep`],
-//! [`Attempts`]); L2, the holder of the waiting token asks again instead ([`VisitCase`]); L5, the located triangle is visited once more
+//! [`Aftermath`]); L2, the holder of the waiting token asks again instead ([`VisitCase`]); L5, the located triangle is visited once more
 //! under its lock ([`VisitCase`], [`NextVisits`]); L6, a walk looks again while its context's last commit or release is due
 //! ([`VisitCase`]); L7, a walk looks again at a record that was not written ([`VisitCase`]).
 
+mod aftermath;
 mod attempt_lists;
 mod attempt_points;
 mod attempt_step;
@@ -26,6 +27,7 @@ mod context_address;
 mod next_visits;
 mod visit_case;
 
+pub use aftermath::Aftermath;
 pub use attempt_lists::AttemptLists;
 pub use attempt_points::AttemptPoints;
 pub use attempt_step::AttemptStep;

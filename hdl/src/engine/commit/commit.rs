@@ -21,6 +21,7 @@
 //! fresh            10 10 10 10 11 12 12 12 12 12 12 13 14
 //! ```
 
+use super::commit_steps::CommitSteps;
 use super::inner_list::InnerList;
 use super::star_id::StarId;
 use crate::engine::types::{CommitJob, Committed, Entry, InnerWrite, RingHead, Slot, TriangleId, VertexId, Write};
@@ -28,19 +29,6 @@ use crate::engine::write::{LinkWrite, RecordWrite};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-/// What the commit does.
-#[derive(Clone, Copy, Debug, PartialEq, LogicState)]
-pub enum CommitState {
-    /// Awaits a ring.
-    Idle,
-    /// Writes the record of the current entry, once the id of the one ahead is known.
-    Record,
-    /// Writes the link of the triangle outside it.
-    Link,
-    /// Writes the record of the first entry.
-    Close,
-}
 
 /// The commit; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -64,37 +52,22 @@ pub struct Commit {
     pub committed: Signal<Out, Committed>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
-    state: DFF<CommitState>,
-    /// The state is one that takes an entry, unless it must wait for an inner triangle.
-    wants: DFF<Bit>,
     ring: DFF<CommitJob>,
     first: DFF<Entry>,
     current: DFF<Entry>,
     current_id: DFF<TriangleId>,
-    current_is_last: DFF<Bit>,
-    /// The triangle outside the current entry must learn its id.
-    needs_link: DFF<Bit>,
-    /// The current entry is the first, before the last one's id is known.
-    opens: DFF<Bit>,
     before_id: DFF<TriangleId>,
     second_a: DFF<VertexId>,
     second_id: DFF<TriangleId>,
-    /// The ring closes after the link.
-    closes: DFF<Bit>,
     link_u: DFF<TriangleId>,
     link_slot: DFF<Slot>,
     request: DFF<Write>,
+    steps: CommitSteps,
     star_id: StarId,
     inner_list: InnerList,
     record: RecordWrite,
     link: LinkWrite,
     entry: Signal<Local, Entry>,
-    is_record: Signal<Local, Bit>,
-    is_close: Signal<Local, Bit>,
-    awaits_ring: Signal<Local, Bit>,
-    waits: Signal<Local, Bit>,
-    loads: Signal<Local, Bit>,
-    advances: Signal<Local, Bit>,
 }
 
 impl Commit {
@@ -107,37 +80,34 @@ impl Commit {
 impl Logic for Commit {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, wants, ring, first, current, current_id, current_is_last, needs_link, opens);
-        dff_setup!(self, clock, before_id, second_a, second_id, closes, link_u, link_slot, request);
-        clock!(self, clock, inner_list);
+        dff_setup!(self, clock, ring, first, current, current_id, before_id, second_a, second_id);
+        dff_setup!(self, clock, link_u, link_slot, request);
+        clock!(self, clock, steps, inner_list);
         self.entry.next = self.head.val().entry;
-        self.is_record.next = self.state.q.val() == CommitState::Record;
-        self.is_close.next = self.state.q.val() == CommitState::Close;
-        self.awaits_ring.next = (self.state.q.val() == CommitState::Idle) | self.is_close.val();
         self.write.next = self.request.q.val();
-        self.committed.next.valid = self.is_close.val();
+        self.committed.next.valid = self.steps.is_close.val();
         self.committed.next.job = self.ring.q.val();
         self.committed.next.hint = self.first.q.val().f;
-        self.is_at_work.next = self.state.q.val() != CommitState::Idle;
+        self.is_at_work.next = self.steps.is_at_work.val();
 
         // The entry ahead and its id.
+        self.steps.reset.next = self.reset.val();
+        self.steps.head.next = self.head.val();
+        self.steps.awaits_id.next = self.inner_list.is_awaited.val();
+        self.steps.changes_id.next = self.star_id.is_inner.val() | self.star_id.is_fresh.val();
+        self.takes.next = self.steps.takes.val();
+        self.takes_fresh.next = self.steps.advances.val() & self.star_id.is_fresh.val();
         self.inner_list.inner.next = self.inner.val();
         self.inner_list.reader.next = self.head_job.val().owner;
         self.inner_list.inners.next = self.head_job.val().inners;
+        self.inner_list.restarts.next = self.steps.loads.val();
+        self.inner_list.steps.next = self.steps.advances.val() & self.star_id.is_inner.val();
         self.star_id.head.next = self.head.val();
         self.star_id.first.next = self.first.q.val();
-        self.star_id.current_is_last.next = self.current_is_last.q.val();
+        self.star_id.current_is_last.next = self.steps.is_last.val();
         self.star_id.inner_id.next = self.inner_list.inner_id.val();
         self.star_id.inner_is_used_up.next = self.inner_list.is_used_up.val();
         self.star_id.fresh.next = self.fresh.val();
-        self.waits.next = self.head.val().shares & self.inner_list.is_awaited.val();
-        self.takes.next = self.wants.q.val() & (!self.waits.val());
-        self.loads.next = self.awaits_ring.val() & self.head.val().valid;
-        self.advances.next =
-            self.is_record.val() & (self.current_is_last.q.val() | (self.head.val().valid & (!self.waits.val())));
-        self.inner_list.restarts.next = self.loads.val();
-        self.inner_list.steps.next = self.advances.val() & self.star_id.is_inner.val();
-        self.takes_fresh.next = self.advances.val() & self.star_id.is_fresh.val();
 
         // The writes; when the ring closes, the current entry is the first again.
         self.record.id.next = self.current_id.q.val();
@@ -147,7 +117,7 @@ impl Logic for Commit {
         self.record.n0.next = self.current.q.val().u;
         self.record.n1.next = self.star_id.id.val();
         self.record.n2.next = self.before_id.q.val();
-        if self.is_close.val() {
+        if self.steps.is_close.val() {
             self.record.v2.next = self.second_a.q.val();
             self.record.n1.next = self.second_id.q.val();
         }
@@ -155,64 +125,29 @@ impl Logic for Commit {
         self.link.slot.next = self.link_slot.q.val();
         self.link.value.next = self.before_id.q.val();
         self.request.d.next = self.record.write.val();
-        self.request.d.next.valid = self.is_close.val() | (self.advances.val() & (!self.opens.q.val()));
+        self.request.d.next.valid = self.steps.is_close.val() | (self.steps.advances.val() & (!self.steps.opens.val()));
+        if self.steps.is_link.val() {
+            self.request.d.next = self.link.write.val();
+        }
 
-        if self.advances.val() {
-            if self.opens.q.val() {
+        if self.steps.advances.val() {
+            if self.steps.opens.val() {
                 self.second_a.d.next = self.star_id.ahead.val().a;
                 self.second_id.d.next = self.star_id.id.val();
             }
             self.link_u.d.next = self.current.q.val().u;
             self.link_slot.d.next = self.current.q.val().slot;
-            self.opens.d.next = false;
-            self.closes.d.next = self.current_is_last.q.val();
             self.before_id.d.next = self.current_id.q.val();
             self.current.d.next = self.star_id.ahead.val();
             self.current_id.d.next = self.star_id.id.val();
-            self.current_is_last.d.next = (!self.current_is_last.q.val()) & self.head.val().is_last;
-            self.needs_link.d.next = self.star_id.is_inner.val() | self.star_id.is_fresh.val();
         }
-        if self.loads.val() {
+        if self.steps.loads.val() {
             self.ring.d.next = self.head_job.val();
             self.first.d.next = self.entry.val();
             self.current.d.next = self.entry.val();
             self.current_id.d.next = self.entry.val().f;
-            self.current_is_last.d.next = false;
-            self.opens.d.next = true;
-            self.needs_link.d.next = false;
-        }
-        match self.state.q.val() {
-            CommitState::Record => {
-                if self.advances.val() {
-                    self.wants.d.next = self.current_is_last.q.val() | (!self.head.val().is_last);
-                    if self.current_is_last.q.val() {
-                        self.state.d.next = CommitState::Close;
-                    }
-                    if self.needs_link.q.val() {
-                        self.state.d.next = CommitState::Link;
-                        self.wants.d.next = false;
-                    }
-                }
-            }
-            CommitState::Link => {
-                self.request.d.next = self.link.write.val();
-                self.state.d.next = CommitState::Record;
-                self.wants.d.next = self.closes.q.val() | (!self.current_is_last.q.val());
-                if self.closes.q.val() {
-                    self.state.d.next = CommitState::Close;
-                }
-            }
-            _ => {
-                self.state.d.next = CommitState::Idle;
-                self.wants.d.next = true;
-                if self.loads.val() {
-                    self.state.d.next = CommitState::Record;
-                }
-            }
         }
         if self.reset.val() {
-            self.state.d.next = CommitState::Idle;
-            self.wants.d.next = true;
             self.request.d.next.valid = false;
         }
     }

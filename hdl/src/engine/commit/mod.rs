@@ -18,6 +18,7 @@
 #[expect(clippy::module_inception, reason = "the room carries the name of its main block")]
 mod commit;
 mod commit_path;
+mod commit_steps;
 mod fresh_ids;
 mod inner_list;
 mod job_queue;
@@ -26,8 +27,9 @@ mod ring_list;
 mod ring_reader;
 mod star_id;
 
-pub use commit::{Commit, CommitState};
+pub use commit::Commit;
 pub use commit_path::CommitPath;
+pub use commit_steps::{CommitState, CommitSteps};
 pub use fresh_ids::FreshIds;
 pub use inner_list::InnerList;
 pub use job_queue::JobQueue;

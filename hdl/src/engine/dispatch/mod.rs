@@ -22,6 +22,7 @@ mod due_check;
 mod next_point;
 mod plan_table;
 mod progress;
+mod start_pointer;
 mod starter;
 mod watchdog;
 
@@ -31,5 +32,6 @@ pub use due_check::DueCheck;
 pub use next_point::{Following, NextPoint, Passed, Pointer};
 pub use plan_table::{PlanTable, PlanWrite};
 pub use progress::Progress;
+pub use start_pointer::StartPointer;
 pub use starter::{Candidate, Starter};
 pub use watchdog::Watchdog;

@@ -32,8 +32,9 @@
 //! Source: points dealt to contexts lie in the vertex memory, which is their queue.
 
 use super::due_check::DueCheck;
-use super::next_point::{Passed, Pointer};
+use super::next_point::Passed;
 use super::plan_table::PlanTable;
+use super::start_pointer::StartPointer;
 use crate::engine::types::{
     context_bits, CommitJob, Committed, ContextId, ContextState, Deal, Outcome, SoloStart, Start, TriangleId, VertexId,
     CONTEXT_BITS, TRIANGLE_BITS, VERTEX_BITS,
@@ -87,11 +88,6 @@ pub struct Starter {
     pub start: Signal<Out, Start>,
     /// A context inserts its point alone.
     pub solo_start: Signal<Out, SoloStart>,
-    /// `3 turn + 2` goes along with `turn`: two sums in a row would set the clock of the core.
-    pointer: DFF<Pointer>,
-    round: DFF<Bits<2>>,
-    /// The pointer has gone round once.
-    is_planned: DFF<Bit>,
     /// The context that the pointer has left last, and the point that it has.
     passed: DFF<Passed>,
     passed_point: DFF<VertexId>,
@@ -104,6 +100,7 @@ pub struct Starter {
     points: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
     roots: LutMemory<CONTEXT_BITS, TRIANGLE_BITS>,
     hints: LutMemory<CONTEXT_BITS, TRIANGLE_BITS>,
+    pointer: StartPointer,
     plans: PlanTable,
     check: DueCheck,
     job: Signal<Local, CommitJob>,
@@ -113,11 +110,7 @@ pub struct Starter {
     begins: Signal<Local, Bit>,
     moves: Signal<Local, Bit>,
     is_taken: Signal<Local, Bit>,
-    after_turn: Signal<Local, ContextId>,
     one_turn: Signal<Local, ContextId>,
-    three: Signal<Local, Bits<7>>,
-    one_round: Signal<Local, Bits<2>>,
-    resting_round: Signal<Local, Bits<2>>,
 }
 
 impl Starter {
@@ -132,29 +125,27 @@ impl Starter {
 impl Logic for Starter {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, pointer, round, is_planned, passed, passed_point);
-        dff_setup!(self, clock, candidate, wants_again, wants_new, all_work);
-        clock!(self, clock, points, plans, roots, hints);
+        dff_setup!(self, clock, passed, passed_point, candidate, wants_again, wants_new, all_work);
+        clock!(self, clock, points, pointer, plans, roots, hints);
         self.one_turn.next = 1.into();
-        self.three.next = 3.into();
-        self.one_round.next = 1.into();
-        self.resting_round.next = 0.into();
         self.contexts_at_work.next = self.deal.val().contexts;
 
         // The context under the pointer: which vertex it would take.
-        self.points.read_address.next = self.pointer.q.val().turn;
-        self.plans.pointer.next = self.pointer.q.val();
-        self.plans.is_planned.next = self.is_planned.q.val();
+        self.points.read_address.next = self.pointer.pointer.val().turn;
+        self.plans.pointer.next = self.pointer.pointer.val();
+        self.plans.is_planned.next = self.pointer.is_planned.val();
         self.plans.passed.next = self.passed.q.val();
         self.plans.deal.next = self.deal.val();
+        self.pointer.restarts.next = self.reset.val() | self.clears.val();
+        self.pointer.contexts.next = self.contexts_at_work.val();
 
         // The one before: is it due?
         self.check.contexts.next = self.contexts.val();
         self.check.passed.next = self.passed.q.val();
         self.check.arrived.next = self.arrived.val();
         self.check.seeded.next = self.seeded.val();
-        self.check.is_planned.next = self.is_planned.q.val();
-        self.check.rests_over.next = self.round.q.val() == self.resting_round.val();
+        self.check.is_planned.next = self.pointer.is_planned.val();
+        self.check.rests_over.next = self.pointer.rests_over.val();
         self.check.all_work.next = self.all_work.q.val();
         self.check.may_be_starting.next =
             (self.wants_again.q.val() | self.wants_new.q.val()) & (self.contexts_at_work.val() == self.one_turn.val());
@@ -165,6 +156,7 @@ impl Logic for Starter {
         self.wants.next = (self.wants_again.q.val() | self.wants_new.q.val()) & (!self.contexts.val().solo_valid);
         self.lacks_port.next = self.wants_new.q.val() & self.came.val();
         self.moves.next = !(self.wants.val() & (self.is_done.val() | self.lacks_port.val()));
+        self.pointer.moves.next = self.moves.val();
         self.begins.next = self.wants.val() & (!self.is_blocked.val()) & (!self.lacks_port.val());
         self.is_taken.next = self.wants_new.q.val() & self.begins.val();
         self.start.next.valid = self.begins.val();
@@ -199,7 +191,6 @@ impl Logic for Starter {
         if self.is_taken.val() & self.candidate.q.val().is_dealt {
             self.all_work.d.next = true;
         }
-        self.after_turn.next = self.pointer.q.val().turn + self.one_turn.val();
         if self.begins.val() {
             self.wants_again.d.next = false;
             self.wants_new.d.next = false;
@@ -220,25 +211,13 @@ impl Logic for Starter {
             if self.check.tries_again.val() {
                 self.candidate.d.next.from = self.roots.read_data.val();
             }
-            self.passed.d.next.owner = self.pointer.q.val().turn;
+            self.passed.d.next.owner = self.pointer.pointer.val().turn;
             self.passed.d.next.id = self.plans.due.val().id;
             self.passed.d.next.is_seed = self.plans.due.val().is_seed;
             self.passed.d.next.dealt = self.plans.first_dealt.val();
             self.passed_point.d.next = self.points.read_data.val();
-            self.pointer.d.next.turn = self.after_turn.val();
-            self.pointer.d.next.third = self.pointer.q.val().third + self.three.val();
-            if self.after_turn.val() == self.contexts_at_work.val() {
-                self.pointer.d.next.turn = 0.into();
-                self.pointer.d.next.third = 2.into();
-                self.is_planned.d.next = true;
-                self.round.d.next = self.round.q.val() + self.one_round.val();
-            }
         }
         if self.reset.val() | self.clears.val() {
-            self.pointer.d.next.turn = 0.into();
-            self.pointer.d.next.third = 2.into();
-            self.round.d.next = 0.into();
-            self.is_planned.d.next = false;
             self.wants_again.d.next = false;
             self.wants_new.d.next = false;
             self.candidate.d.next.is_alone = false;

@@ -1,7 +1,7 @@
 //! The insertion alone: a point whose boundary is longer than a list, inserted by flips while everybody else sleeps.
 //!
 //! ```text
-//! Dispatcher -> Solo -> visit -> PushPort           Solo: locates the point, then turns round it, test by test
+//! Dispatcher -> Solo -> visit -> PushPort           SoloSteps: locates the point, then turns round it, test by test
 //!                |
 //!                +-> SoloStar -> SoloWrites -> WritePort     the first triangle is split, then edges are flipped
 //!                       |
@@ -15,12 +15,14 @@
 #[expect(clippy::module_inception, reason = "the room carries the name of its main block")]
 mod solo;
 mod solo_star;
+mod solo_steps;
 mod solo_visit;
 mod solo_writes;
 mod star_state;
 
-pub use solo::{Solo, SoloState};
+pub use solo::Solo;
 pub use solo_star::SoloStar;
+pub use solo_steps::{SoloState, SoloSteps};
 pub use solo_visit::SoloVisit;
 pub use solo_writes::SoloWrites;
 pub use star_state::{Beyond, SoloPhase, SoloTurn, StarTriangle};

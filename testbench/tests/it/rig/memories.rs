@@ -15,7 +15,7 @@ pub fn both_forms(name: &str) -> [String; 2] {
 /// Runs a block in Rust alone.
 pub fn edge(block: &mut impl NamedPorts, inputs: &[(&str, u64)]) {
     for (port, value) in inputs {
-        block.set(port, *value);
+        block.set(port, u128::from(*value).into());
     }
     for high in [false, true] {
         block.set_clock(high);

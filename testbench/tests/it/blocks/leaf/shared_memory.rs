@@ -60,12 +60,12 @@ fn shared_memory_poisons_what_silicon_leaves_open() {
     memory.connect_all();
     for (enable, expected) in [(1, None), (0, None), (0, Some(0x555)), (0, Some(0xfff))] {
         if let Some(word) = expected {
-            assert_eq!((memory.get("read_data"), memory.get("shared_data")), (word, word));
+            assert_eq!((memory.get("read_data").low, memory.get("shared_data").low), (word, word));
         }
         for (port, value) in
             [("read_address", 7), ("shared_address", 7), ("write_data", 0xfff), ("write_enable", enable)]
         {
-            memory.set(port, value as u64);
+            memory.set(port, (value as u128).into());
         }
         for high in [false, true] {
             memory.set_clock(high);

@@ -1,0 +1,66 @@
+//! The pointer that goes round the contexts at work, one a clock.
+//!
+//! 1. It stands still without `moves`. Reset and clear bring it back to context 0, before its first round.
+//! 2. Every fourth round is one in which contexts that try again may start.
+//!
+//! Latency: 1 clock; the outputs are registers.
+
+use super::next_point::Pointer;
+use crate::engine::types::ContextId;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
+
+/// The pointer; see the top of this file.
+#[derive(LogicBlock, Default)]
+pub struct StartPointer {
+    pub clock: Signal<In, Clock>,
+    pub restarts: Signal<In, Bit>,
+    /// Contexts that work.
+    pub contexts: Signal<In, ContextId>,
+    pub moves: Signal<In, Bit>,
+    pub pointer: Signal<Out, Pointer>,
+    /// It has gone round once.
+    pub is_planned: Signal<Out, Bit>,
+    /// It is in a round in which contexts that try again start.
+    pub rests_over: Signal<Out, Bit>,
+    /// `3 turn + 2` goes along with `turn`: two sums in a row would set the clock of the core.
+    place: DFF<Pointer>,
+    round: DFF<Bits<2>>,
+    planned: DFF<Bit>,
+    after_turn: Signal<Local, ContextId>,
+    one_turn: Signal<Local, ContextId>,
+    three: Signal<Local, Bits<7>>,
+    one_round: Signal<Local, Bits<2>>,
+    resting_round: Signal<Local, Bits<2>>,
+}
+
+impl Logic for StartPointer {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, place, round, planned);
+        self.one_turn.next = 1.into();
+        self.three.next = 3.into();
+        self.one_round.next = 1.into();
+        self.resting_round.next = 0.into();
+        self.pointer.next = self.place.q.val();
+        self.is_planned.next = self.planned.q.val();
+        self.rests_over.next = self.round.q.val() == self.resting_round.val();
+        self.after_turn.next = self.place.q.val().turn + self.one_turn.val();
+        if self.moves.val() {
+            self.place.d.next.turn = self.after_turn.val();
+            self.place.d.next.third = self.place.q.val().third + self.three.val();
+            if self.after_turn.val() == self.contexts.val() {
+                self.place.d.next.turn = 0.into();
+                self.place.d.next.third = 2.into();
+                self.planned.d.next = true;
+                self.round.d.next = self.round.q.val() + self.one_round.val();
+            }
+        }
+        if self.restarts.val() {
+            self.place.d.next.turn = 0.into();
+            self.place.d.next.third = 2.into();
+            self.round.d.next = 0.into();
+            self.planned.d.next = false;
+        }
+    }
+}
