@@ -7,7 +7,6 @@
 //!                                           +--> ReceiveFifo -> CommandWords -> commands
 //!                                           +--> PayloadDigest
 //! ```
-//! Latency: see the blocks.
 
 use super::types::{Byte, Receipt, Session, Step};
 use super::{Asked, CobsDecoder, CommandWords, FrameJudge, FrameReader, PayloadDigest, ReceiveFifo, UartReceiver};

@@ -7,7 +7,6 @@
 //! answers -> WordNarrower -> AnswerPacker -+   | ^
 //!    FrameHeader, Greeting, Crc32 -> FrameBytes -+
 //! ```
-//! Latency: see the blocks.
 
 use super::types::{Receipt, Session, Step};
 use super::{

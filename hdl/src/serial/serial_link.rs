@@ -11,7 +11,6 @@
 //!         |                                        v
 //! tx <- LinkTransmitter <---- answers ----- CommandProgress
 //! ```
-//! Latency: see the blocks.
 
 use super::types::Lamps;
 use super::{CommandProgress, LineTimers, LinkReceiver, LinkTransmitter, RateControl, SessionState};

@@ -1,15 +1,12 @@
 //! The core's side of the stream link.
 //!
 //! 1. All is in the core's clock. What comes from the bus's clock goes into a `Synchroniser` and nowhere else.
-//!
-//! Latency: see the blocks.
-
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 use super::{AnswerBeats, AnswerPairs, BeatWords, Progress, ResetReply};
 use crate::leaf::{Parameter, Synchroniser};
 use crate::link::{AnswerSink, CommandSource};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The core's side; see the top of this file.
 #[derive(LogicBlock, Default)]

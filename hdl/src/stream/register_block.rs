@@ -6,12 +6,11 @@
 //!
 //! Latency: that of [`RegisterPort`]; 1 clock from an event to its register.
 
+use super::{AnswerEvents, AxiLite, CommandEvents, DeviceIdentity, RegisterIndex, RegisterPort, Traffic};
 use crate::link::types::Word;
 use incircle_protocol::{Config, StreamRegister};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-use super::{AnswerEvents, AxiLite, CommandEvents, DeviceIdentity, RegisterIndex, RegisterPort, Traffic};
 
 /// The register block; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -12,13 +12,11 @@
 //!               | events                        |                                  v
 //! m_axis <- AnswerWatch <------------------- AsyncFifo <- AnswerBeats <- AnswerPairs
 //! ```
-//! Latency: see the blocks.
-
-use incircle_protocol::{Config, ConfigError, STREAM_FIFO_BEATS};
-use rust_hdl_core::prelude::*;
 
 use super::{AsyncFifo, AxiLite, AxisSink, AxisSource, BusSide, CoreSide};
 use crate::link::{AnswerSink, CommandSource};
+use incircle_protocol::{Config, ConfigError, STREAM_FIFO_BEATS};
+use rust_hdl_core::prelude::*;
 
 /// Bits of a pointer of the FIFOs.
 const POINTER_BITS: usize = 10;

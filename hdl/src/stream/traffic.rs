@@ -4,12 +4,11 @@
 //!
 //! Latency: 1 clock to a count, none to `value`.
 
+use super::{AnswerEvents, CommandEvents, RegisterIndex};
 use crate::link::types::Word;
 use incircle_protocol::StreamRegister;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-use super::{AnswerEvents, CommandEvents, RegisterIndex};
 
 /// Counters of the streams; see the top of this file.
 #[derive(LogicBlock, Default)]
