@@ -5272,6 +5272,14 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
     reg  [14:0] visits$walk_next;
     reg  [5:0] visits$entry;
     wire  [92:0] visits$bundle;
+    reg  [54:0] aftermath$token;
+    reg  [19:0] aftermath$found;
+    reg  [3:0] aftermath$step;
+    reg  [14:0] aftermath$walk_next;
+    reg  aftermath$hands_over;
+    wire  [28:0] aftermath$outcome;
+    wire  aftermath$fails;
+    wire  aftermath$stops_at_root;
     reg  [173:0] lists$visit;
     reg  [92:0] lists$attempt;
     reg  [92:0] lists$after;
@@ -5295,10 +5303,6 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
     reg  [92:0] attempt;
     reg  [23:0] busy;
     reg  [4:0] context_index;
-    reg  fails;
-    reg  gives_up;
-    reg  duplicate;
-    reg  stops_at_root;
     reg  [6:0] count;
     reg  [6:0] two;
     
@@ -5347,6 +5351,16 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         .walk_next(visits$walk_next),
         .entry(visits$entry),
         .bundle(visits$bundle)
+    );
+    incircle_core_logic$engine$insertions$attempts$aftermath aftermath(
+        .token(aftermath$token),
+        .found(aftermath$found),
+        .step(aftermath$step),
+        .walk_next(aftermath$walk_next),
+        .hands_over(aftermath$hands_over),
+        .outcome(aftermath$outcome),
+        .fails(aftermath$fails),
+        .stops_at_root(aftermath$stops_at_root)
     );
     incircle_core_logic$engine$insertions$attempts$lists lists(
         .visit(lists$visit),
@@ -5409,24 +5423,12 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         follow[(64'h0)+:(1)] = meaning$found[(64'h12)+:(1)];
         follow[(64'h1)+:(1)] = meaning$found[(64'h13)+:(1)];
         follow[(64'h2)+:(93)] = visits$bundle;
-        fails = step$step[(64'h0)+:(1)] & (~step$step[(64'h1)+:(1)]);
-        gives_up = meaning$found[(64'he)+:(1)] | meaning$found[(64'hf)+:(1)];
-        duplicate = meaning$found[(64'h10)+:(1)] | meaning$found[(64'h11)+:(1)];
-        stops_at_root = meaning$found[(64'h11)+:(1)] | meaning$found[(64'ha)+:(1)];
-        outcome[(64'h0)+:(5)] = token[(64'h0)+:(5)];
-        outcome[(64'h5)+:(1)] = meaning$found[(64'h4)+:(1)] | meaning$found[(64'h10)+:(1)] | meaning$found[(64'he)+:(1)] | stops_at_root | step$step[(64'h0)+:(1)];
-        outcome[(64'h6)+:(1)] = meaning$found[(64'he)+:(1)] | meaning$found[(64'ha)+:(1)] | fails;
-        outcome[(64'h7)+:(1)] = lists$commit[(64'h0)+:(1)] | lists$releases[(64'h0)+:(1)];
-        outcome[(64'h8)+:(1)] = gives_up;
-        outcome[(64'h9)+:(1)] = meaning$found[(64'h6)+:(1)];
-        outcome[(64'ha)+:(1)] = duplicate | step$step[(64'h1)+:(1)];
-        outcome[(64'hb)+:(1)] = meaning$found[(64'hd)+:(1)];
-        outcome[(64'hc)+:(1)] = duplicate;
-        outcome[(64'hd)+:(1)] = meaning$found[(64'h2)+:(1)];
-        outcome[(64'he)+:(15)] = token[(64'h28)+:(15)];
-        if (meaning$found[(64'ha)+:(1)]) begin
-            outcome[(64'he)+:(15)] = verdict[(64'h5)+:(15)];
-        end
+        aftermath$token = token;
+        aftermath$found = meaning$found;
+        aftermath$step = step$step;
+        aftermath$walk_next = verdict[(64'h5)+:(15)];
+        aftermath$hands_over = lists$commit[(64'h0)+:(1)] | lists$releases[(64'h0)+:(1)];
+        outcome = aftermath$outcome;
         lists$visit = visit;
         lists$attempt = attempt;
         lists$after = step$after;
@@ -5434,8 +5436,8 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         lists$since = points$since;
         lists$found = meaning$found;
         lists$step = step$step;
-        lists$fails = fails;
-        lists$stops_at_root = stops_at_root;
+        lists$fails = aftermath$fails;
+        lists$stops_at_root = aftermath$stops_at_root;
         entry = lists$entry;
         inner = lists$inner;
         lock = lists$lock;
@@ -5447,7 +5449,7 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
         events[(64'h3)+:(1)] = meaning$found[(64'h5)+:(1)];
         events[(64'h4)+:(1)] = meaning$found[(64'hd)+:(1)];
         events[(64'h5)+:(1)] = 1'b0;
-        events[(64'h6)+:(1)] = gives_up;
+        events[(64'h6)+:(1)] = aftermath$outcome[(64'h8)+:(1)];
         events[(64'h7)+:(1)] = meaning$found[(64'ha)+:(1)];
         events[(64'h8)+:(1)] = 1'b0;
         events[(64'h9)+:(1)] = lists$commit[(64'h0)+:(1)];
@@ -5455,6 +5457,49 @@ module incircle_core_logic$engine$insertions$attempts(clock,ring,early,visit,see
     end
     
 endmodule // incircle_core_logic$engine$insertions$attempts
+
+
+module incircle_core_logic$engine$insertions$attempts$aftermath(token,found,step,walk_next,hands_over,outcome,fails,stops_at_root);
+    
+    // Module arguments
+    input wire  [54:0] token;
+    input wire  [19:0] found;
+    input wire  [3:0] step;
+    input wire  [14:0] walk_next;
+    input wire  hands_over;
+    output reg  [28:0] outcome;
+    output reg  fails;
+    output reg  stops_at_root;
+    
+    // Local signals
+    reg  is_failure;
+    reg  is_duplicate;
+    reg  ends_at_root;
+    
+    // Update code
+    always @(*) begin
+        is_failure = step[(64'h0)+:(1)] & (~step[(64'h1)+:(1)]);
+        is_duplicate = found[(64'h10)+:(1)] | found[(64'h11)+:(1)];
+        ends_at_root = found[(64'h11)+:(1)] | found[(64'ha)+:(1)];
+        fails = is_failure;
+        stops_at_root = ends_at_root;
+        outcome[(64'h0)+:(5)] = token[(64'h0)+:(5)];
+        outcome[(64'h5)+:(1)] = found[(64'h4)+:(1)] | found[(64'h10)+:(1)] | found[(64'he)+:(1)] | ends_at_root | step[(64'h0)+:(1)];
+        outcome[(64'h6)+:(1)] = found[(64'he)+:(1)] | found[(64'ha)+:(1)] | is_failure;
+        outcome[(64'h7)+:(1)] = hands_over;
+        outcome[(64'h8)+:(1)] = found[(64'he)+:(1)] | found[(64'hf)+:(1)];
+        outcome[(64'h9)+:(1)] = found[(64'h6)+:(1)];
+        outcome[(64'ha)+:(1)] = is_duplicate | step[(64'h1)+:(1)];
+        outcome[(64'hb)+:(1)] = found[(64'hd)+:(1)];
+        outcome[(64'hc)+:(1)] = is_duplicate;
+        outcome[(64'hd)+:(1)] = found[(64'h2)+:(1)];
+        outcome[(64'he)+:(15)] = token[(64'h28)+:(15)];
+        if (found[(64'ha)+:(1)]) begin
+            outcome[(64'he)+:(15)] = walk_next;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$attempts$aftermath
 
 
 module incircle_core_logic$engine$insertions$attempts$lists(visit,attempt,after,p,since,found,step,fails,stops_at_root,entry,inner,lock,commit,releases);
@@ -9990,19 +10035,7 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
     output reg  [71:0] committed;
     output reg  is_at_work;
     
-    // Enums
-    localparam CommitState$Idle = 0;
-    localparam CommitState$Record = 1;
-    localparam CommitState$Link = 2;
-    localparam CommitState$Close = 3;
-    
     // Stub signals
-    reg  [1:0] state$d;
-    wire  [1:0] state$q;
-    reg  state$clock;
-    reg  wants$d;
-    wire  wants$q;
-    reg  wants$clock;
     reg  [55:0] ring$d;
     wire  [55:0] ring$q;
     reg  ring$clock;
@@ -10015,15 +10048,6 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
     reg  [14:0] current_id$d;
     wire  [14:0] current_id$q;
     reg  current_id$clock;
-    reg  current_is_last$d;
-    wire  current_is_last$q;
-    reg  current_is_last$clock;
-    reg  needs_link$d;
-    wire  needs_link$q;
-    reg  needs_link$clock;
-    reg  opens$d;
-    wire  opens$q;
-    reg  opens$clock;
     reg  [14:0] before_id$d;
     wire  [14:0] before_id$q;
     reg  before_id$clock;
@@ -10033,9 +10057,6 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
     reg  [14:0] second_id$d;
     wire  [14:0] second_id$q;
     reg  second_id$clock;
-    reg  closes$d;
-    wire  closes$q;
-    reg  closes$clock;
     reg  [14:0] link_u$d;
     wire  [14:0] link_u$q;
     reg  link_u$clock;
@@ -10045,6 +10066,19 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
     reg  [109:0] request$d;
     wire  [109:0] request$q;
     reg  request$clock;
+    reg  steps$clock;
+    reg  steps$reset;
+    reg  [55:0] steps$head;
+    reg  steps$awaits_id;
+    reg  steps$changes_id;
+    wire  steps$takes;
+    wire  steps$loads;
+    wire  steps$advances;
+    wire  steps$opens;
+    wire  steps$is_last;
+    wire  steps$is_link;
+    wire  steps$is_close;
+    wire  steps$is_at_work;
     reg  [55:0] star_id$head;
     reg  [52:0] star_id$first;
     reg  star_id$current_is_last;
@@ -10079,24 +10113,8 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
     
     // Local signals
     reg  [52:0] entry;
-    reg  is_record;
-    reg  is_close;
-    reg  awaits_ring;
-    reg  waits;
-    reg  loads;
-    reg  advances;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$commits$star$state state(
-        .d(state$d),
-        .q(state$q),
-        .clock(state$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$star$wants wants(
-        .d(wants$d),
-        .q(wants$q),
-        .clock(wants$clock)
-    );
     incircle_core_logic$engine$insertions$commits$star$ring ring(
         .d(ring$d),
         .q(ring$q),
@@ -10117,21 +10135,6 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
         .q(current_id$q),
         .clock(current_id$clock)
     );
-    incircle_core_logic$engine$insertions$commits$star$current_is_last current_is_last(
-        .d(current_is_last$d),
-        .q(current_is_last$q),
-        .clock(current_is_last$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$star$needs_link needs_link(
-        .d(needs_link$d),
-        .q(needs_link$q),
-        .clock(needs_link$clock)
-    );
-    incircle_core_logic$engine$insertions$commits$star$opens opens(
-        .d(opens$d),
-        .q(opens$q),
-        .clock(opens$clock)
-    );
     incircle_core_logic$engine$insertions$commits$star$before_id before_id(
         .d(before_id$d),
         .q(before_id$q),
@@ -10147,11 +10150,6 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
         .q(second_id$q),
         .clock(second_id$clock)
     );
-    incircle_core_logic$engine$insertions$commits$star$closes closes(
-        .d(closes$d),
-        .q(closes$q),
-        .clock(closes$clock)
-    );
     incircle_core_logic$engine$insertions$commits$star$link_u link_u(
         .d(link_u$d),
         .q(link_u$q),
@@ -10166,6 +10164,21 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
         .d(request$d),
         .q(request$q),
         .clock(request$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps steps(
+        .clock(steps$clock),
+        .reset(steps$reset),
+        .head(steps$head),
+        .awaits_id(steps$awaits_id),
+        .changes_id(steps$changes_id),
+        .takes(steps$takes),
+        .loads(steps$loads),
+        .advances(steps$advances),
+        .opens(steps$opens),
+        .is_last(steps$is_last),
+        .is_link(steps$is_link),
+        .is_close(steps$is_close),
+        .is_at_work(steps$is_at_work)
     );
     incircle_core_logic$engine$insertions$commits$star$star_id star_id(
         .head(star_id$head),
@@ -10209,64 +10222,51 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
     
     // Update code
     always @(*) begin
-        state$clock = clock;
-        wants$clock = clock;
         ring$clock = clock;
         first$clock = clock;
         current$clock = clock;
         current_id$clock = clock;
-        current_is_last$clock = clock;
-        needs_link$clock = clock;
-        opens$clock = clock;
-        state$d = state$q;
-        wants$d = wants$q;
+        before_id$clock = clock;
+        second_a$clock = clock;
+        second_id$clock = clock;
         ring$d = ring$q;
         first$d = first$q;
         current$d = current$q;
         current_id$d = current_id$q;
-        current_is_last$d = current_is_last$q;
-        needs_link$d = needs_link$q;
-        opens$d = opens$q;
-        before_id$clock = clock;
-        second_a$clock = clock;
-        second_id$clock = clock;
-        closes$clock = clock;
-        link_u$clock = clock;
-        link_slot$clock = clock;
-        request$clock = clock;
         before_id$d = before_id$q;
         second_a$d = second_a$q;
         second_id$d = second_id$q;
-        closes$d = closes$q;
+        link_u$clock = clock;
+        link_slot$clock = clock;
+        request$clock = clock;
         link_u$d = link_u$q;
         link_slot$d = link_slot$q;
         request$d = request$q;
+        steps$clock = clock;
         inner_list$clock = clock;
         entry = head[(64'h1)+:(53)];
-        is_record = state$q == CommitState$Record;
-        is_close = state$q == CommitState$Close;
-        awaits_ring = (state$q == CommitState$Idle) | is_close;
         write = request$q;
-        committed[(64'h0)+:(1)] = is_close;
+        committed[(64'h0)+:(1)] = steps$is_close;
         committed[(64'h1)+:(56)] = ring$q;
         committed[(64'h39)+:(15)] = first$q[(64'h20)+:(15)];
-        is_at_work = state$q != CommitState$Idle;
+        is_at_work = steps$is_at_work;
+        steps$reset = reset;
+        steps$head = head;
+        steps$awaits_id = inner_list$is_awaited;
+        steps$changes_id = star_id$is_inner | star_id$is_fresh;
+        takes = steps$takes;
+        takes_fresh = steps$advances & star_id$is_fresh;
         inner_list$inner = inner;
         inner_list$reader = head_job[(64'h0)+:(5)];
         inner_list$inners = head_job[(64'h14)+:(7)];
+        inner_list$restarts = steps$loads;
+        inner_list$steps = steps$advances & star_id$is_inner;
         star_id$head = head;
         star_id$first = first$q;
-        star_id$current_is_last = current_is_last$q;
+        star_id$current_is_last = steps$is_last;
         star_id$inner_id = inner_list$inner_id;
         star_id$inner_is_used_up = inner_list$is_used_up;
         star_id$fresh = fresh;
-        waits = head[(64'h37)+:(1)] & inner_list$is_awaited;
-        takes = wants$q & (~waits);
-        loads = awaits_ring & head[(64'h0)+:(1)];
-        advances = is_record & (current_is_last$q | (head[(64'h0)+:(1)] & (~waits)));
-        inner_list$restarts = loads;
-        inner_list$steps = advances & star_id$is_inner;
-        takes_fresh = advances & star_id$is_fresh;
         record$id = current_id$q;
         record$v0 = ring$q[(64'h5)+:(15)];
         record$v1 = current$q[(64'h0)+:(15)];
@@ -10274,7 +10274,7 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
         record$n0 = current$q[(64'hf)+:(15)];
         record$n1 = star_id$id;
         record$n2 = before_id$q;
-        if (is_close) begin
+        if (steps$is_close) begin
             record$v2 = second_a$q;
             record$n1 = second_id$q;
         end
@@ -10282,66 +10282,28 @@ module incircle_core_logic$engine$insertions$commits$star(clock,reset,head,head_
         link$slot = link_slot$q;
         link$value = before_id$q;
         request$d = record$write;
-        request$d[(64'h0)+:(1)] = is_close | (advances & (~opens$q));
-        if (advances) begin
-            if (opens$q) begin
+        request$d[(64'h0)+:(1)] = steps$is_close | (steps$advances & (~steps$opens));
+        if (steps$is_link) begin
+            request$d = link$write;
+        end
+        if (steps$advances) begin
+            if (steps$opens) begin
                 second_a$d = star_id$ahead[(64'h0)+:(15)];
                 second_id$d = star_id$id;
             end
             link_u$d = current$q[(64'hf)+:(15)];
             link_slot$d = current$q[(64'h1e)+:(2)];
-            opens$d = 1'b0;
-            closes$d = current_is_last$q;
             before_id$d = current_id$q;
             current$d = star_id$ahead;
             current_id$d = star_id$id;
-            current_is_last$d = (~current_is_last$q) & head[(64'h36)+:(1)];
-            needs_link$d = star_id$is_inner | star_id$is_fresh;
         end
-        if (loads) begin
+        if (steps$loads) begin
             ring$d = head_job;
             first$d = entry;
             current$d = entry;
             current_id$d = entry[(64'h20)+:(15)];
-            current_is_last$d = 1'b0;
-            opens$d = 1'b1;
-            needs_link$d = 1'b0;
         end
-        case (state$q)
-            CommitState$Record:
-                begin
-                    if (advances) begin
-                        wants$d = current_is_last$q | (~head[(64'h36)+:(1)]);
-                        if (current_is_last$q) begin
-                            state$d = CommitState$Close;
-                        end
-                        if (needs_link$q) begin
-                            state$d = CommitState$Link;
-                            wants$d = 1'b0;
-                        end
-                    end
-                end
-            CommitState$Link:
-                begin
-                    request$d = link$write;
-                    state$d = CommitState$Record;
-                    wants$d = closes$q | (~current_is_last$q);
-                    if (closes$q) begin
-                        state$d = CommitState$Close;
-                    end
-                end
-            default:
-                begin
-                    state$d = CommitState$Idle;
-                    wants$d = 1'b1;
-                    if (loads) begin
-                        state$d = CommitState$Record;
-                    end
-                end
-        endcase
         if (reset) begin
-            state$d = CommitState$Idle;
-            wants$d = 1'b1;
             request$d[(64'h0)+:(1)] = 1'b0;
         end
     end
@@ -10366,25 +10328,6 @@ module incircle_core_logic$engine$insertions$commits$star$before_id(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$star$before_id
-
-
-module incircle_core_logic$engine$insertions$commits$star$closes(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$star$closes
 
 
 module incircle_core_logic$engine$insertions$commits$star$current(d,q,clock);
@@ -10423,25 +10366,6 @@ module incircle_core_logic$engine$insertions$commits$star$current_id(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$insertions$commits$star$current_id
-
-
-module incircle_core_logic$engine$insertions$commits$star$current_is_last(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$star$current_is_last
 
 
 module incircle_core_logic$engine$insertions$commits$star$first(d,q,clock);
@@ -11040,44 +10964,6 @@ module incircle_core_logic$engine$insertions$commits$star$link_u(d,q,clock);
 endmodule // incircle_core_logic$engine$insertions$commits$star$link_u
 
 
-module incircle_core_logic$engine$insertions$commits$star$needs_link(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$star$needs_link
-
-
-module incircle_core_logic$engine$insertions$commits$star$opens(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$commits$star$opens
-
-
 module incircle_core_logic$engine$insertions$commits$star$record(id,v0,v1,v2,n0,n1,n2,write);
     
     // Module arguments
@@ -11226,7 +11112,241 @@ module incircle_core_logic$engine$insertions$commits$star$star_id(head,first,cur
 endmodule // incircle_core_logic$engine$insertions$commits$star$star_id
 
 
-module incircle_core_logic$engine$insertions$commits$star$state(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$star$steps(clock,reset,head,awaits_id,changes_id,takes,loads,advances,opens,is_last,is_link,is_close,is_at_work);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  [55:0] head;
+    input wire  awaits_id;
+    input wire  changes_id;
+    output reg  takes;
+    output reg  loads;
+    output reg  advances;
+    output reg  opens;
+    output reg  is_last;
+    output reg  is_link;
+    output reg  is_close;
+    output reg  is_at_work;
+    
+    // Enums
+    localparam CommitState$Idle = 0;
+    localparam CommitState$Record = 1;
+    localparam CommitState$Link = 2;
+    localparam CommitState$Close = 3;
+    
+    // Stub signals
+    reg  [1:0] state$d;
+    wire  [1:0] state$q;
+    reg  state$clock;
+    reg  wants$d;
+    wire  wants$q;
+    reg  wants$clock;
+    reg  current_is_last$d;
+    wire  current_is_last$q;
+    reg  current_is_last$clock;
+    reg  needs_link$d;
+    wire  needs_link$q;
+    reg  needs_link$clock;
+    reg  current_opens$d;
+    wire  current_opens$q;
+    reg  current_opens$clock;
+    reg  closes$d;
+    wire  closes$q;
+    reg  closes$clock;
+    
+    // Local signals
+    reg  closing;
+    reg  waits;
+    reg  begins;
+    reg  goes_on;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$commits$star$steps$state state(
+        .d(state$d),
+        .q(state$q),
+        .clock(state$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps$wants wants(
+        .d(wants$d),
+        .q(wants$q),
+        .clock(wants$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps$current_is_last current_is_last(
+        .d(current_is_last$d),
+        .q(current_is_last$q),
+        .clock(current_is_last$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps$needs_link needs_link(
+        .d(needs_link$d),
+        .q(needs_link$q),
+        .clock(needs_link$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps$current_opens current_opens(
+        .d(current_opens$d),
+        .q(current_opens$q),
+        .clock(current_opens$clock)
+    );
+    incircle_core_logic$engine$insertions$commits$star$steps$closes closes(
+        .d(closes$d),
+        .q(closes$q),
+        .clock(closes$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        state$clock = clock;
+        wants$clock = clock;
+        current_is_last$clock = clock;
+        needs_link$clock = clock;
+        current_opens$clock = clock;
+        closes$clock = clock;
+        state$d = state$q;
+        wants$d = wants$q;
+        current_is_last$d = current_is_last$q;
+        needs_link$d = needs_link$q;
+        current_opens$d = current_opens$q;
+        closes$d = closes$q;
+        closing = state$q == CommitState$Close;
+        waits = head[(64'h37)+:(1)] & awaits_id;
+        begins = ((state$q == CommitState$Idle) | closing) & head[(64'h0)+:(1)];
+        goes_on = (state$q == CommitState$Record) & (current_is_last$q | (head[(64'h0)+:(1)] & (~waits)));
+        takes = wants$q & (~waits);
+        loads = begins;
+        advances = goes_on;
+        opens = current_opens$q;
+        is_last = current_is_last$q;
+        is_link = state$q == CommitState$Link;
+        is_close = closing;
+        is_at_work = state$q != CommitState$Idle;
+        if (goes_on) begin
+            current_opens$d = 1'b0;
+            closes$d = current_is_last$q;
+            current_is_last$d = (~current_is_last$q) & head[(64'h36)+:(1)];
+            needs_link$d = changes_id;
+        end
+        if (begins) begin
+            current_is_last$d = 1'b0;
+            current_opens$d = 1'b1;
+            needs_link$d = 1'b0;
+        end
+        case (state$q)
+            CommitState$Record:
+                begin
+                    if (goes_on) begin
+                        wants$d = current_is_last$q | (~head[(64'h36)+:(1)]);
+                        if (current_is_last$q) begin
+                            state$d = CommitState$Close;
+                        end
+                        if (needs_link$q) begin
+                            state$d = CommitState$Link;
+                            wants$d = 1'b0;
+                        end
+                    end
+                end
+            CommitState$Link:
+                begin
+                    state$d = CommitState$Record;
+                    wants$d = closes$q | (~current_is_last$q);
+                    if (closes$q) begin
+                        state$d = CommitState$Close;
+                    end
+                end
+            default:
+                begin
+                    state$d = CommitState$Idle;
+                    wants$d = 1'b1;
+                    if (begins) begin
+                        state$d = CommitState$Record;
+                    end
+                end
+        endcase
+        if (reset) begin
+            state$d = CommitState$Idle;
+            wants$d = 1'b1;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$closes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$closes
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$current_is_last(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$current_is_last
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$current_opens(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$current_opens
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$needs_link(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$needs_link
+
+
+module incircle_core_logic$engine$insertions$commits$star$steps$state(d,q,clock);
     
     // Module arguments
     input wire  [1:0] d;
@@ -11248,10 +11368,10 @@ module incircle_core_logic$engine$insertions$commits$star$state(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$star$state
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$state
 
 
-module incircle_core_logic$engine$insertions$commits$star$wants(d,q,clock);
+module incircle_core_logic$engine$insertions$commits$star$steps$wants(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -11267,7 +11387,7 @@ module incircle_core_logic$engine$insertions$commits$star$wants(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$commits$star$wants
+endmodule // incircle_core_logic$engine$insertions$commits$star$steps$wants
 
 
 module incircle_core_logic$engine$insertions$dispatcher(clock,reset,clears,all,patience,deal,arrived,came,seed,is_done,outcome,may_ask,committed,released,solo,start,fetched,contexts,solo_start,takes_token,is_quiet,stuck);
@@ -11891,15 +12011,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     output reg  [35:0] solo_start;
     
     // Stub signals
-    reg  [11:0] pointer$d;
-    wire  [11:0] pointer$q;
-    reg  pointer$clock;
-    reg  [1:0] round$d;
-    wire  [1:0] round$q;
-    reg  round$clock;
-    reg  is_planned$d;
-    wire  is_planned$q;
-    reg  is_planned$clock;
     reg  [27:0] passed$d;
     wire  [27:0] passed$q;
     reg  passed$clock;
@@ -11936,6 +12047,13 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     reg  hints$write_enable;
     reg  [4:0] hints$read_address;
     wire  [14:0] hints$read_data;
+    reg  pointer$clock;
+    reg  pointer$restarts;
+    reg  [4:0] pointer$contexts;
+    reg  pointer$moves;
+    wire  [11:0] pointer$pointer;
+    wire  pointer$is_planned;
+    wire  pointer$rests_over;
     reg  plans$clock;
     reg  [12:0] plans$deal;
     reg  [11:0] plans$pointer;
@@ -11966,28 +12084,9 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     reg  begins;
     reg  moves;
     reg  is_taken;
-    reg  [4:0] after_turn;
     reg  [4:0] one_turn;
-    reg  [6:0] three;
-    reg  [1:0] one_round;
-    reg  [1:0] resting_round;
     
     // Sub module instances
-    incircle_core_logic$engine$insertions$dispatcher$starter$pointer pointer(
-        .d(pointer$d),
-        .q(pointer$q),
-        .clock(pointer$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$starter$round round(
-        .d(round$d),
-        .q(round$q),
-        .clock(round$clock)
-    );
-    incircle_core_logic$engine$insertions$dispatcher$starter$is_planned is_planned(
-        .d(is_planned$d),
-        .q(is_planned$q),
-        .clock(is_planned$clock)
-    );
     incircle_core_logic$engine$insertions$dispatcher$starter$passed passed(
         .d(passed$d),
         .q(passed$q),
@@ -12042,6 +12141,15 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         .read_address(hints$read_address),
         .read_data(hints$read_data)
     );
+    incircle_core_logic$engine$insertions$dispatcher$starter$pointer pointer(
+        .clock(pointer$clock),
+        .restarts(pointer$restarts),
+        .contexts(pointer$contexts),
+        .moves(pointer$moves),
+        .pointer(pointer$pointer),
+        .is_planned(pointer$is_planned),
+        .rests_over(pointer$rests_over)
+    );
     incircle_core_logic$engine$insertions$dispatcher$starter$plans plans(
         .clock(plans$clock),
         .deal(plans$deal),
@@ -12070,44 +12178,38 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
     
     // Update code
     always @(*) begin
-        pointer$clock = clock;
-        round$clock = clock;
-        is_planned$clock = clock;
         passed$clock = clock;
         passed_point$clock = clock;
-        pointer$d = pointer$q;
-        round$d = round$q;
-        is_planned$d = is_planned$q;
-        passed$d = passed$q;
-        passed_point$d = passed_point$q;
         candidate$clock = clock;
         wants_again$clock = clock;
         wants_new$clock = clock;
         all_work$clock = clock;
+        passed$d = passed$q;
+        passed_point$d = passed_point$q;
         candidate$d = candidate$q;
         wants_again$d = wants_again$q;
         wants_new$d = wants_new$q;
         all_work$d = all_work$q;
         points$clock = clock;
+        pointer$clock = clock;
         plans$clock = clock;
         roots$clock = clock;
         hints$clock = clock;
         one_turn = 32'h1;
-        three = 32'h3;
-        one_round = 32'h1;
-        resting_round = 32'h0;
         contexts_at_work = deal[(64'h0)+:(5)];
-        points$read_address = pointer$q[(64'h0)+:(5)];
-        plans$pointer = pointer$q;
-        plans$is_planned = is_planned$q;
+        points$read_address = pointer$pointer[(64'h0)+:(5)];
+        plans$pointer = pointer$pointer;
+        plans$is_planned = pointer$is_planned;
         plans$passed = passed$q;
         plans$deal = deal;
+        pointer$restarts = reset | clears;
+        pointer$contexts = contexts_at_work;
         check$contexts = contexts;
         check$passed = passed$q;
         check$arrived = arrived;
         check$seeded = seeded;
-        check$is_planned = is_planned$q;
-        check$rests_over = round$q == resting_round;
+        check$is_planned = pointer$is_planned;
+        check$rests_over = pointer$rests_over;
         check$all_work = all_work$q;
         check$may_be_starting = (wants_again$q | wants_new$q) & (contexts_at_work == one_turn);
         roots$read_address = passed$q[(64'h0)+:(5)];
@@ -12115,6 +12217,7 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         wants = (wants_again$q | wants_new$q) & (~contexts[(64'h7f)+:(1)]);
         lacks_port = wants_new$q & came;
         moves = ~(wants & (is_done | lacks_port));
+        pointer$moves = moves;
         begins = wants & (~is_blocked) & (~lacks_port);
         is_taken = wants_new$q & begins;
         start[(64'h0)+:(1)] = begins;
@@ -12142,7 +12245,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
         if (is_taken & candidate$q[(64'h14)+:(1)]) begin
             all_work$d = 1'b1;
         end
-        after_turn = pointer$q[(64'h0)+:(5)] + one_turn;
         if (begins) begin
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
@@ -12163,25 +12265,13 @@ module incircle_core_logic$engine$insertions$dispatcher$starter(clock,reset,clea
             if (check$tries_again) begin
                 candidate$d[(64'h33)+:(15)] = roots$read_data;
             end
-            passed$d[(64'h0)+:(5)] = pointer$q[(64'h0)+:(5)];
+            passed$d[(64'h0)+:(5)] = pointer$pointer[(64'h0)+:(5)];
             passed$d[(64'h5)+:(15)] = plans$due[(64'h0)+:(15)];
             passed$d[(64'h14)+:(1)] = plans$due[(64'hf)+:(1)];
             passed$d[(64'h15)+:(7)] = plans$first_dealt;
             passed_point$d = points$read_data;
-            pointer$d[(64'h0)+:(5)] = after_turn;
-            pointer$d[(64'h5)+:(7)] = pointer$q[(64'h5)+:(7)] + three;
-            if (after_turn == contexts_at_work) begin
-                pointer$d[(64'h0)+:(5)] = 32'h0;
-                pointer$d[(64'h5)+:(7)] = 32'h2;
-                is_planned$d = 1'b1;
-                round$d = round$q + one_round;
-            end
         end
         if (reset | clears) begin
-            pointer$d[(64'h0)+:(5)] = 32'h0;
-            pointer$d[(64'h5)+:(7)] = 32'h2;
-            round$d = 32'h0;
-            is_planned$d = 1'b0;
             wants_again$d = 1'b0;
             wants_new$d = 1'b0;
             candidate$d[(64'h42)+:(1)] = 1'b0;
@@ -12311,25 +12401,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$hints(clock,writ
     end
     always @(*) read_data = word;
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$hints
-
-
-module incircle_core_logic$engine$insertions$dispatcher$starter$is_planned(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$is_planned
 
 
 module incircle_core_logic$engine$insertions$dispatcher$starter$passed(d,q,clock);
@@ -12554,7 +12625,90 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$plans$points(dea
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$plans$points
 
 
-module incircle_core_logic$engine$insertions$dispatcher$starter$pointer(d,q,clock);
+module incircle_core_logic$engine$insertions$dispatcher$starter$pointer(clock,restarts,contexts,moves,pointer,is_planned,rests_over);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  restarts;
+    input wire  [4:0] contexts;
+    input wire  moves;
+    output reg  [11:0] pointer;
+    output reg  is_planned;
+    output reg  rests_over;
+    
+    // Stub signals
+    reg  [11:0] place$d;
+    wire  [11:0] place$q;
+    reg  place$clock;
+    reg  [1:0] round$d;
+    wire  [1:0] round$q;
+    reg  round$clock;
+    reg  planned$d;
+    wire  planned$q;
+    reg  planned$clock;
+    
+    // Local signals
+    reg  [4:0] after_turn;
+    reg  [4:0] one_turn;
+    reg  [6:0] three;
+    reg  [1:0] one_round;
+    reg  [1:0] resting_round;
+    
+    // Sub module instances
+    incircle_core_logic$engine$insertions$dispatcher$starter$pointer$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$starter$pointer$round round(
+        .d(round$d),
+        .q(round$q),
+        .clock(round$clock)
+    );
+    incircle_core_logic$engine$insertions$dispatcher$starter$pointer$planned planned(
+        .d(planned$d),
+        .q(planned$q),
+        .clock(planned$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        place$clock = clock;
+        round$clock = clock;
+        planned$clock = clock;
+        place$d = place$q;
+        round$d = round$q;
+        planned$d = planned$q;
+        one_turn = 32'h1;
+        three = 32'h3;
+        one_round = 32'h1;
+        resting_round = 32'h0;
+        pointer = place$q;
+        is_planned = planned$q;
+        rests_over = round$q == resting_round;
+        after_turn = place$q[(64'h0)+:(5)] + one_turn;
+        if (moves) begin
+            place$d[(64'h0)+:(5)] = after_turn;
+            place$d[(64'h5)+:(7)] = place$q[(64'h5)+:(7)] + three;
+            if (after_turn == contexts) begin
+                place$d[(64'h0)+:(5)] = 32'h0;
+                place$d[(64'h5)+:(7)] = 32'h2;
+                planned$d = 1'b1;
+                round$d = round$q + one_round;
+            end
+        end
+        if (restarts) begin
+            place$d[(64'h0)+:(5)] = 32'h0;
+            place$d[(64'h5)+:(7)] = 32'h2;
+            round$d = 32'h0;
+            planned$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer
+
+
+module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$place(d,q,clock);
     
     // Module arguments
     input wire  [11:0] d;
@@ -12570,7 +12724,45 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$pointer(d,q,cloc
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer$place
+
+
+module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$planned(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer$planned
+
+
+module incircle_core_logic$engine$insertions$dispatcher$starter$pointer$round(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$pointer$round
 
 
 module incircle_core_logic$engine$insertions$dispatcher$starter$points(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -12617,25 +12809,6 @@ module incircle_core_logic$engine$insertions$dispatcher$starter$roots(clock,writ
     end
     always @(*) read_data = word;
 endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$roots
-
-
-module incircle_core_logic$engine$insertions$dispatcher$starter$round(d,q,clock);
-    
-    // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 2'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$insertions$dispatcher$starter$round
 
 
 module incircle_core_logic$engine$insertions$dispatcher$starter$wants_again(d,q,clock);
@@ -13634,11 +13807,16 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     
     // Stub signals
     reg  ring$clock;
+    reg  ring$reset;
     reg  [10:0] ring$write_address;
     reg  [92:0] ring$write_data;
     reg  ring$write_enable;
     reg  [10:0] ring$read_address;
-    wire  [92:0] ring$read_data;
+    reg  ring$fetches;
+    reg  [3:0] ring$place;
+    wire  ring$fetched;
+    wire  [3:0] ring$fetched_place;
+    wire  [92:0] ring$fetched_data;
     reg  new_bank$clock;
     reg  [3:0] new_bank$write_address;
     reg  [92:0] new_bank$write_data;
@@ -13684,18 +13862,6 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     reg  [3:0] after_first$d;
     wire  [3:0] after_first$q;
     reg  after_first$clock;
-    reg  fetch_in_array$d;
-    wire  fetch_in_array$q;
-    reg  fetch_in_array$clock;
-    reg  fetch_in_output$d;
-    wire  fetch_in_output$q;
-    reg  fetch_in_output$clock;
-    reg  [3:0] place_in_array$d;
-    wire  [3:0] place_in_array$q;
-    reg  place_in_array$clock;
-    reg  [3:0] place_in_output$d;
-    wire  [3:0] place_in_output$q;
-    reg  place_in_output$clock;
     
     // Local signals
     reg  [92:0] kept_data;
@@ -13714,11 +13880,16 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     // Sub module instances
     incircle_core_logic$engine$pipeline$issue$queue$ring ring(
         .clock(ring$clock),
+        .reset(ring$reset),
         .write_address(ring$write_address),
         .write_data(ring$write_data),
         .write_enable(ring$write_enable),
         .read_address(ring$read_address),
-        .read_data(ring$read_data)
+        .fetches(ring$fetches),
+        .place(ring$place),
+        .fetched(ring$fetched),
+        .fetched_place(ring$fetched_place),
+        .fetched_data(ring$fetched_data)
     );
     incircle_core_logic$engine$pipeline$issue$queue$new_bank new_bank(
         .clock(new_bank$clock),
@@ -13789,26 +13960,6 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         .q(after_first$q),
         .clock(after_first$clock)
     );
-    incircle_core_logic$engine$pipeline$issue$queue$fetch_in_array fetch_in_array(
-        .d(fetch_in_array$d),
-        .q(fetch_in_array$q),
-        .clock(fetch_in_array$clock)
-    );
-    incircle_core_logic$engine$pipeline$issue$queue$fetch_in_output fetch_in_output(
-        .d(fetch_in_output$d),
-        .q(fetch_in_output$q),
-        .clock(fetch_in_output$clock)
-    );
-    incircle_core_logic$engine$pipeline$issue$queue$place_in_array place_in_array(
-        .d(place_in_array$d),
-        .q(place_in_array$q),
-        .clock(place_in_array$clock)
-    );
-    incircle_core_logic$engine$pipeline$issue$queue$place_in_output place_in_output(
-        .d(place_in_output$d),
-        .q(place_in_output$q),
-        .clock(place_in_output$clock)
-    );
     
     // Update code
     always @(*) begin
@@ -13830,14 +13981,6 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         newest$d = newest$q;
         fetched$d = fetched$q;
         after_first$d = after_first$q;
-        fetch_in_array$clock = clock;
-        fetch_in_output$clock = clock;
-        place_in_array$clock = clock;
-        place_in_output$clock = clock;
-        fetch_in_array$d = fetch_in_array$q;
-        fetch_in_output$d = fetch_in_output$q;
-        place_in_array$d = place_in_array$q;
-        place_in_output$d = place_in_output$q;
         ring$clock = clock;
         new_bank$clock = clock;
         fetched_bank$clock = clock;
@@ -13879,13 +14022,12 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         ring$write_data = push_data;
         ring$write_enable = spills;
         ring$read_address = fetched$q;
-        fetch_in_array$d = fetches;
-        fetch_in_output$d = fetch_in_array$q;
-        place_in_array$d = place;
-        place_in_output$d = place_in_array$q;
-        fetched_bank$write_address = place_in_output$q;
-        fetched_bank$write_data = ring$read_data;
-        fetched_bank$write_enable = fetch_in_output$q;
+        ring$reset = reset;
+        ring$fetches = fetches;
+        ring$place = place;
+        fetched_bank$write_address = ring$fetched_place;
+        fetched_bank$write_data = ring$fetched_data;
+        fetched_bank$write_enable = ring$fetched;
         new_bank$write_address = place;
         new_bank$write_data = push_data;
         new_bank$write_enable = enters;
@@ -13926,8 +14068,6 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
             newest$d = nothing;
             fetched$d = nothing;
             after_first$d = first_place;
-            fetch_in_array$d = 1'b0;
-            fetch_in_output$d = 1'b0;
         end
         passes$d = ~holds_first$d;
     end
@@ -13952,44 +14092,6 @@ module incircle_core_logic$engine$pipeline$issue$queue$after_first(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$pipeline$issue$queue$after_first
-
-
-module incircle_core_logic$engine$pipeline$issue$queue$fetch_in_array(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$fetch_in_array
-
-
-module incircle_core_logic$engine$pipeline$issue$queue$fetch_in_output(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$fetch_in_output
 
 
 module incircle_core_logic$engine$pipeline$issue$queue$fetched(d,q,clock);
@@ -14167,45 +14269,141 @@ module incircle_core_logic$engine$pipeline$issue$queue$passes(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$issue$queue$passes
 
 
-module incircle_core_logic$engine$pipeline$issue$queue$place_in_array(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,reset,write_address,write_data,write_enable,read_address,fetches,place,fetched,fetched_place,fetched_data);
     
     // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
+    input wire  clock;
+    input wire  reset;
+    input wire  [10:0] write_address;
+    input wire  [92:0] write_data;
+    input wire  write_enable;
+    input wire  [10:0] read_address;
+    input wire  fetches;
+    input wire  [3:0] place;
+    output reg  fetched;
+    output reg  [3:0] fetched_place;
+    output reg  [92:0] fetched_data;
+    
+    // Stub signals
+    reg  memory$clock;
+    reg  [10:0] memory$write_address;
+    reg  [92:0] memory$write_data;
+    reg  memory$write_enable;
+    reg  [10:0] memory$read_address;
+    wire  [92:0] memory$read_data;
+    reg  in_array$d;
+    wire  in_array$q;
+    reg  in_array$clock;
+    reg  in_output$d;
+    wire  in_output$q;
+    reg  in_output$clock;
+    reg  [3:0] place_in_array$d;
+    wire  [3:0] place_in_array$q;
+    reg  place_in_array$clock;
+    reg  [3:0] place_in_output$d;
+    wire  [3:0] place_in_output$q;
+    reg  place_in_output$clock;
+    
+    // Sub module instances
+    incircle_core_logic$engine$pipeline$issue$queue$ring$memory memory(
+        .clock(memory$clock),
+        .write_address(memory$write_address),
+        .write_data(memory$write_data),
+        .write_enable(memory$write_enable),
+        .read_address(memory$read_address),
+        .read_data(memory$read_data)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$ring$in_array in_array(
+        .d(in_array$d),
+        .q(in_array$q),
+        .clock(in_array$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$ring$in_output in_output(
+        .d(in_output$d),
+        .q(in_output$q),
+        .clock(in_output$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_array place_in_array(
+        .d(place_in_array$d),
+        .q(place_in_array$q),
+        .clock(place_in_array$clock)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_output place_in_output(
+        .d(place_in_output$d),
+        .q(place_in_output$q),
+        .clock(place_in_output$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        in_array$clock = clock;
+        in_output$clock = clock;
+        place_in_array$clock = clock;
+        place_in_output$clock = clock;
+        in_array$d = in_array$q;
+        in_output$d = in_output$q;
+        place_in_array$d = place_in_array$q;
+        place_in_output$d = place_in_output$q;
+        memory$clock = clock;
+        memory$write_address = write_address;
+        memory$write_data = write_data;
+        memory$write_enable = write_enable;
+        memory$read_address = read_address;
+        in_array$d = fetches;
+        in_output$d = in_array$q;
+        place_in_array$d = place;
+        place_in_output$d = place_in_array$q;
+        fetched = in_output$q;
+        fetched_place = place_in_output$q;
+        fetched_data = memory$read_data;
+        if (reset) begin
+            in_array$d = 1'b0;
+            in_output$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring
+
+
+module incircle_core_logic$engine$pipeline$issue$queue$ring$in_array(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 4'h0;
+       q = 1'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$place_in_array
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$in_array
 
 
-module incircle_core_logic$engine$pipeline$issue$queue$place_in_output(d,q,clock);
+module incircle_core_logic$engine$pipeline$issue$queue$ring$in_output(d,q,clock);
     
     // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
+    input wire  d;
+    output reg  q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 4'h0;
+       q = 1'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$place_in_output
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$in_output
 
 
-module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_core_logic$engine$pipeline$issue$queue$ring$memory(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -14268,7 +14466,45 @@ module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,write_address,
         read_data <= word;
     end
     `endif
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$memory
+
+
+module incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_array(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_array
+
+
+module incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_output(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_output
 
 
 module incircle_core_logic$engine$pipeline$issue$queue$was_fetched(clock,write_address,write_data,write_enable,read_address,read_data);
@@ -21182,22 +21418,7 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
     output reg  [109:0] write;
     output reg  [4:0] progress;
     
-    // Enums
-    localparam SoloState$Idle = 0;
-    localparam SoloState$Locate = 1;
-    localparam SoloState$Split = 2;
-    localparam SoloState$Mend = 3;
-    localparam SoloState$Fetch = 4;
-    localparam SoloState$Test = 5;
-    localparam SoloState$Flip = 6;
-    
     // Stub signals
-    reg  [2:0] state$d;
-    wire  [2:0] state$q;
-    reg  state$clock;
-    reg  [1:0] step$d;
-    wire  [1:0] step$q;
-    reg  step$clock;
     reg  awaits$d;
     wire  awaits$q;
     reg  awaits$clock;
@@ -21213,6 +21434,29 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
     reg  [97:0] root$d;
     wire  [97:0] root$q;
     reg  root$clock;
+    reg  works$d;
+    wire  works$q;
+    reg  works$clock;
+    reg  asks$d;
+    wire  asks$q;
+    reg  asks$clock;
+    reg  ended$d;
+    wire  ended$q;
+    reg  ended$clock;
+    reg  inserted$d;
+    wire  inserted$q;
+    reg  inserted$clock;
+    reg  steps$clock;
+    reg  steps$reset;
+    reg  steps$starts;
+    reg  steps$done;
+    reg  [19:0] steps$verdict;
+    reg  steps$is_round;
+    wire  [5:0] steps$phase;
+    wire  steps$is_idle;
+    wire  [1:0] steps$step;
+    wire  steps$inserts;
+    wire  steps$ends;
     reg  star$clock;
     reg  star$reset;
     reg  [5:0] star$phase;
@@ -21228,42 +21472,12 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
     wire  star$flips;
     wire  star$is_round;
     wire  [109:0] star$write;
-    reg  works$d;
-    wire  works$q;
-    reg  works$clock;
-    reg  asks$d;
-    wire  asks$q;
-    reg  asks$clock;
-    reg  ended$d;
-    wire  ended$q;
-    reg  ended$clock;
-    reg  inserted$d;
-    wire  inserted$q;
-    reg  inserted$clock;
     
     // Local signals
-    reg  [5:0] phase;
     reg  [19:0] verdict;
     reg  is_visiting;
-    reg  is_last_step;
-    reg  is_duplicate;
-    reg  rests;
-    reg  inserts_now;
-    reg  ends_now;
-    reg  [1:0] third_step;
-    reg  [1:0] one;
     
     // Sub module instances
-    incircle_core_logic$engine$solo$state state(
-        .d(state$d),
-        .q(state$q),
-        .clock(state$clock)
-    );
-    incircle_core_logic$engine$solo$step step(
-        .d(step$d),
-        .q(step$q),
-        .clock(step$clock)
-    );
     incircle_core_logic$engine$solo$awaits awaits(
         .d(awaits$d),
         .q(awaits$q),
@@ -21289,23 +21503,6 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
         .q(root$q),
         .clock(root$clock)
     );
-    incircle_core_logic$engine$solo$star star(
-        .clock(star$clock),
-        .reset(star$reset),
-        .phase(star$phase),
-        .step(star$step),
-        .owner(star$owner),
-        .p(star$p),
-        .records(star$records),
-        .root_id(star$root_id),
-        .root(star$root),
-        .visit(star$visit),
-        .bundle(star$bundle),
-        .tests(star$tests),
-        .flips(star$flips),
-        .is_round(star$is_round),
-        .write(star$write)
-    );
     incircle_core_logic$engine$solo$works works(
         .d(works$d),
         .q(works$q),
@@ -21326,11 +21523,39 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
         .q(inserted$q),
         .clock(inserted$clock)
     );
+    incircle_core_logic$engine$solo$steps steps(
+        .clock(steps$clock),
+        .reset(steps$reset),
+        .starts(steps$starts),
+        .done(steps$done),
+        .verdict(steps$verdict),
+        .is_round(steps$is_round),
+        .phase(steps$phase),
+        .is_idle(steps$is_idle),
+        .step(steps$step),
+        .inserts(steps$inserts),
+        .ends(steps$ends)
+    );
+    incircle_core_logic$engine$solo$star star(
+        .clock(star$clock),
+        .reset(star$reset),
+        .phase(star$phase),
+        .step(star$step),
+        .owner(star$owner),
+        .p(star$p),
+        .records(star$records),
+        .root_id(star$root_id),
+        .root(star$root),
+        .visit(star$visit),
+        .bundle(star$bundle),
+        .tests(star$tests),
+        .flips(star$flips),
+        .is_round(star$is_round),
+        .write(star$write)
+    );
     
     // Update code
     always @(*) begin
-        state$clock = clock;
-        step$clock = clock;
         awaits$clock = clock;
         at_work_for$clock = clock;
         vertex$clock = clock;
@@ -21340,8 +21565,6 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
         asks$clock = clock;
         ended$clock = clock;
         inserted$clock = clock;
-        state$d = state$q;
-        step$d = step$q;
         awaits$d = awaits$q;
         at_work_for$d = at_work_for$q;
         vertex$d = vertex$q;
@@ -21351,118 +21574,47 @@ module incircle_core_logic$engine$solo(clock,reset,start,records,visit,push,writ
         asks$d = asks$q;
         ended$d = ended$q;
         inserted$d = inserted$q;
+        steps$clock = clock;
         star$clock = clock;
-        one = 32'h1;
-        third_step = 32'h2;
         verdict = visit[(64'h9a)+:(20)];
-        phase[(64'h0)+:(1)] = state$q == SoloState$Locate;
-        phase[(64'h1)+:(1)] = state$q == SoloState$Split;
-        phase[(64'h2)+:(1)] = state$q == SoloState$Mend;
-        phase[(64'h3)+:(1)] = state$q == SoloState$Fetch;
-        phase[(64'h4)+:(1)] = state$q == SoloState$Test;
-        phase[(64'h5)+:(1)] = state$q == SoloState$Flip;
-        is_last_step = step$q == third_step;
-        works$d = (state$q != SoloState$Idle) & (~reset);
+        steps$reset = reset;
+        steps$starts = start[(64'h0)+:(1)];
+        steps$done = visit[(64'h0)+:(1)];
+        steps$verdict = verdict;
+        steps$is_round = star$is_round;
+        works$d = (~steps$is_idle) & (~reset);
         star$reset = reset;
         star$owner = at_work_for$q;
-        star$phase = phase;
-        star$step = step$q;
+        star$phase = steps$phase;
+        star$step = steps$step;
         star$p = vertex$q;
         star$records = records;
         star$root_id = root_id$q;
         star$root = root$q;
         star$visit = visit;
         write = star$write;
-        is_visiting = phase[(64'h0)+:(1)] | phase[(64'h2)+:(1)] | phase[(64'h3)+:(1)] | phase[(64'h4)+:(1)];
+        is_visiting = steps$phase[(64'h0)+:(1)] | steps$phase[(64'h2)+:(1)] | steps$phase[(64'h3)+:(1)] | steps$phase[(64'h4)+:(1)];
         asks$d = is_visiting & (~awaits$q) & (~reset);
+        awaits$d = is_visiting & (~visit[(64'h0)+:(1)]) & (~reset);
         push[(64'h0)+:(1)] = asks$q;
         push[(64'h1)+:(93)] = star$bundle;
-        awaits$d = is_visiting & (~visit[(64'h0)+:(1)]);
-        rests = phase[(64'h4)+:(1)] & visit[(64'h0)+:(1)] & (~verdict[(64'h0)+:(1)]);
-        inserts_now = rests & star$is_round;
-        is_duplicate = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
-        ends_now = inserts_now | (phase[(64'h0)+:(1)] & visit[(64'h0)+:(1)] & is_duplicate);
-        inserted$d = inserts_now & (~reset);
-        ended$d = ends_now & (~reset);
+        inserted$d = steps$inserts & (~reset);
+        ended$d = steps$ends & (~reset);
         progress[(64'h0)+:(1)] = works$q;
         progress[(64'h3)+:(1)] = star$tests;
         progress[(64'h4)+:(1)] = star$flips;
         progress[(64'h2)+:(1)] = inserted$q;
         progress[(64'h1)+:(1)] = ended$q;
-        case (state$q)
-            SoloState$Locate:
-                begin
-                    step$d = 32'h0;
-                    if (visit[(64'h0)+:(1)]) begin
-                        root$d = visit[(64'h38)+:(98)];
-                        if (verdict[(64'h1)+:(1)]) begin
-                            state$d = SoloState$Split;
-                        end
-                        else begin
-                            root_id$d = verdict[(64'h5)+:(15)];
-                        end
-                        if (is_duplicate) begin
-                            state$d = SoloState$Idle;
-                        end
-                    end
-                end
-            SoloState$Split:
-                begin
-                    step$d = step$q + one;
-                    if (is_last_step) begin
-                        step$d = 32'h0;
-                        state$d = SoloState$Mend;
-                    end
-                end
-            SoloState$Mend:
-                begin
-                    if (visit[(64'h0)+:(1)]) begin
-                        step$d = 32'h1;
-                        if (step$q == one) begin
-                            state$d = SoloState$Fetch;
-                        end
-                    end
-                end
-            SoloState$Fetch:
-                begin
-                    if (visit[(64'h0)+:(1)]) begin
-                        state$d = SoloState$Test;
-                    end
-                end
-            SoloState$Test:
-                begin
-                    step$d = 32'h0;
-                    if (visit[(64'h0)+:(1)]) begin
-                        state$d = SoloState$Flip;
-                    end
-                    if (rests) begin
-                        state$d = SoloState$Fetch;
-                    end
-                    if (inserts_now) begin
-                        state$d = SoloState$Idle;
-                    end
-                end
-            SoloState$Flip:
-                begin
-                    step$d = step$q + one;
-                    if (is_last_step) begin
-                        state$d = SoloState$Test;
-                    end
-                end
-            default:
-                begin
-                    state$d = SoloState$Idle;
-                    if (start[(64'h0)+:(1)]) begin
-                        at_work_for$d = start[(64'h1)+:(5)];
-                        vertex$d = start[(64'h6)+:(15)];
-                        root_id$d = start[(64'h15)+:(15)];
-                        state$d = SoloState$Locate;
-                    end
-                end
-        endcase
-        if (reset) begin
-            state$d = SoloState$Idle;
-            awaits$d = 1'b0;
+        if (steps$is_idle & start[(64'h0)+:(1)]) begin
+            at_work_for$d = start[(64'h1)+:(5)];
+            vertex$d = start[(64'h6)+:(15)];
+            root_id$d = start[(64'h15)+:(15)];
+        end
+        if (steps$phase[(64'h0)+:(1)] & visit[(64'h0)+:(1)]) begin
+            root$d = visit[(64'h38)+:(98)];
+            if (~verdict[(64'h1)+:(1)]) begin
+                root_id$d = verdict[(64'h5)+:(15)];
+            end
         end
     end
     
@@ -22341,7 +22493,174 @@ module incircle_core_logic$engine$solo$star$writes$record(id,v0,v1,v2,n0,n1,n2,w
 endmodule // incircle_core_logic$engine$solo$star$writes$record
 
 
-module incircle_core_logic$engine$solo$state(d,q,clock);
+module incircle_core_logic$engine$solo$steps(clock,reset,starts,done,verdict,is_round,phase,is_idle,step,inserts,ends);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  starts;
+    input wire  done;
+    input wire  [19:0] verdict;
+    input wire  is_round;
+    output reg  [5:0] phase;
+    output reg  is_idle;
+    output reg  [1:0] step;
+    output reg  inserts;
+    output reg  ends;
+    
+    // Enums
+    localparam SoloState$Idle = 0;
+    localparam SoloState$Locate = 1;
+    localparam SoloState$Split = 2;
+    localparam SoloState$Mend = 3;
+    localparam SoloState$Fetch = 4;
+    localparam SoloState$Test = 5;
+    localparam SoloState$Flip = 6;
+    
+    // Stub signals
+    reg  [2:0] state$d;
+    wire  [2:0] state$q;
+    reg  state$clock;
+    reg  [1:0] place$d;
+    wire  [1:0] place$q;
+    reg  place$clock;
+    
+    // Local signals
+    reg  rests;
+    reg  inserts_now;
+    reg  is_locate;
+    reg  is_test;
+    reg  is_duplicate;
+    reg  is_last_step;
+    reg  [1:0] third_step;
+    reg  [1:0] one;
+    
+    // Sub module instances
+    incircle_core_logic$engine$solo$steps$state state(
+        .d(state$d),
+        .q(state$q),
+        .clock(state$clock)
+    );
+    incircle_core_logic$engine$solo$steps$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        state$clock = clock;
+        place$clock = clock;
+        state$d = state$q;
+        place$d = place$q;
+        one = 32'h1;
+        third_step = 32'h2;
+        is_locate = state$q == SoloState$Locate;
+        is_test = state$q == SoloState$Test;
+        is_last_step = place$q == third_step;
+        phase[(64'h0)+:(1)] = is_locate;
+        phase[(64'h1)+:(1)] = state$q == SoloState$Split;
+        phase[(64'h2)+:(1)] = state$q == SoloState$Mend;
+        phase[(64'h3)+:(1)] = state$q == SoloState$Fetch;
+        phase[(64'h4)+:(1)] = is_test;
+        phase[(64'h5)+:(1)] = state$q == SoloState$Flip;
+        is_idle = state$q == SoloState$Idle;
+        step = place$q;
+        is_duplicate = verdict[(64'h1)+:(1)] & verdict[(64'h2)+:(1)];
+        rests = is_test & done & (~verdict[(64'h0)+:(1)]);
+        inserts_now = rests & is_round;
+        inserts = inserts_now;
+        ends = inserts_now | (is_locate & done & is_duplicate);
+        case (state$q)
+            SoloState$Locate:
+                begin
+                    place$d = 32'h0;
+                    if (done & verdict[(64'h1)+:(1)]) begin
+                        state$d = SoloState$Split;
+                    end
+                    if (done & is_duplicate) begin
+                        state$d = SoloState$Idle;
+                    end
+                end
+            SoloState$Split:
+                begin
+                    place$d = place$q + one;
+                    if (is_last_step) begin
+                        place$d = 32'h0;
+                        state$d = SoloState$Mend;
+                    end
+                end
+            SoloState$Mend:
+                begin
+                    if (done) begin
+                        place$d = 32'h1;
+                        if (place$q == one) begin
+                            state$d = SoloState$Fetch;
+                        end
+                    end
+                end
+            SoloState$Fetch:
+                begin
+                    if (done) begin
+                        state$d = SoloState$Test;
+                    end
+                end
+            SoloState$Test:
+                begin
+                    place$d = 32'h0;
+                    if (done) begin
+                        state$d = SoloState$Flip;
+                    end
+                    if (rests) begin
+                        state$d = SoloState$Fetch;
+                    end
+                    if (inserts_now) begin
+                        state$d = SoloState$Idle;
+                    end
+                end
+            SoloState$Flip:
+                begin
+                    place$d = place$q + one;
+                    if (is_last_step) begin
+                        state$d = SoloState$Test;
+                    end
+                end
+            default:
+                begin
+                    state$d = SoloState$Idle;
+                    if (starts) begin
+                        state$d = SoloState$Locate;
+                    end
+                end
+        endcase
+        if (reset) begin
+            state$d = SoloState$Idle;
+        end
+    end
+    
+endmodule // incircle_core_logic$engine$solo$steps
+
+
+module incircle_core_logic$engine$solo$steps$place(d,q,clock);
+    
+    // Module arguments
+    input wire  [1:0] d;
+    output reg  [1:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 2'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_core_logic$engine$solo$steps$place
+
+
+module incircle_core_logic$engine$solo$steps$state(d,q,clock);
     
     // Module arguments
     input wire  [2:0] d;
@@ -22366,26 +22685,7 @@ module incircle_core_logic$engine$solo$state(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_core_logic$engine$solo$state
-
-
-module incircle_core_logic$engine$solo$step(d,q,clock);
-    
-    // Module arguments
-    input wire  [1:0] d;
-    output reg  [1:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 2'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_core_logic$engine$solo$step
+endmodule // incircle_core_logic$engine$solo$steps$state
 
 
 module incircle_core_logic$engine$solo$vertex(d,q,clock);

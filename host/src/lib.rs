@@ -1,8 +1,8 @@
 //! Exact canonical Delaunay triangulation of integer points, in hardware or software.
 //!
-//! For a set of distinct grid points there is exactly one answer, and every device gives it: the fast engine in this process, the
-//! software model, the simulated core, a board. Where four or more points lie on one empty circle, the diagonal takes the
-//! lexicographically smallest of them.
+//! For a set of distinct grid points there is exactly one answer, and every device gives it: the fast engine in this
+//! process, the software model, the simulated core, a board. Where four or more points lie on one empty circle, the
+//! diagonal takes the lexicographically smallest of them.
 //!
 //! ```
 //! let mesh = incircle::triangulate(&[(0, 0), (4, 0), (4, 4), (0, 4), (4, 0)])?;
@@ -29,7 +29,7 @@
 //! # Ok::<(), incircle::Error>(())
 //! ```
 //!
-//! Floating-point values pass [`quantize`] first, which reports what it did.
+//! Floating-point values pass [`quantize()`] first, which reports what it did.
 #![warn(missing_docs)]
 
 mod commands;
@@ -49,13 +49,15 @@ pub use job::{Counters, Latencies, Options, Progress, ProgressListener, Report, 
 pub use quantize::{quantize, Quantization, Quantize};
 pub use transports::{pcie, serial, Transport};
 
-/// Orders of insertion: the same set always gives the same order, whatever the order of the input. The orders by name are [`Order`].
+/// Orders of insertion: the same set always gives the same order, whatever the order of the input. The orders by name
+/// are [`Order`].
 pub mod order {
     pub use crate::job::deal::{brio_hilbert_dealt, deal};
     pub use incircle_geometry::order::{brio_hilbert, hilbert, random, Order, Rounds, UnknownOrder};
 }
 
-/// Triangulates in this process with the fast engine: coordinates up to 31 bits, default [`Options`], all processors for large sets.
+/// Triangulates in this process with the fast engine: coordinates up to 31 bits, default [`Options`], all processors
+/// for large sets.
 ///
 /// # Errors
 /// A coordinate of more than 31 bits, more than [`MAX_POINTS`] points, or a job that takes longer than

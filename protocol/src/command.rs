@@ -10,9 +10,9 @@ use crate::status::Status;
 pub enum Opcode {
     /// Who are you? No arguments; answered with an [`Identity`](crate::Identity).
     Hello = 1,
-    /// Forget all points, triangles and counters. The low byte of the command word is the number of contexts that work from now on,
-    /// 0 for all; see [`clear_word`]. With [`CLEAR_BATCH`] each of them works on a mesh of its own; see [`batch_word`]. No arguments, no
-    /// payload. O(1).
+    /// Forget all points, triangles and counters. The low byte of the command word is the number of contexts that work
+    /// from now on, 0 for all; see [`clear_word`]. With [`CLEAR_BATCH`] each of them works on a mesh of its own; see
+    /// [`batch_word`]. No arguments, no payload. O(1).
     Clear = 2,
     /// Insert points: a word with their number, then the points. Answered, when the last point is in, with
     /// an [`InsertReport`](crate::InsertReport).
@@ -22,10 +22,11 @@ pub enum Opcode {
     Read = 4,
     /// Read the counters. No arguments; answered with [`COUNTER_WORDS`](crate::COUNTER_WORDS) words.
     Counters = 5,
-    /// Read the histogram of insertion latencies. No arguments; answered with [`LATENCY_BUCKETS`](crate::LATENCY_BUCKETS) words.
+    /// Read the histogram of insertion latencies. No arguments; answered with
+    /// [`LATENCY_BUCKETS`](crate::LATENCY_BUCKETS) words.
     Latencies = 6,
-    /// Read the vertices of triangle records without their links: arguments as of [`Opcode::Read`]. Answered with the ids as
-    /// [`Layout::triangles_words`](crate::Layout::triangles_words) packs them.
+    /// Read the vertices of triangle records without their links: arguments as of [`Opcode::Read`]. Answered with the
+    /// ids as [`Layout::triangles_words`](crate::Layout::triangles_words) packs them.
     Triangles = 7,
 }
 
@@ -63,7 +64,8 @@ pub const fn clear_word(contexts: u32) -> u32 {
 /// The bit of a [`Clear`](Opcode::Clear) that starts a batch.
 pub const CLEAR_BATCH: u32 = 1 << 8;
 
-/// The word of a [`Clear`](Opcode::Clear) for a batch: from then on each of this many contexts works alone on a mesh of its own.
+/// The word of a [`Clear`](Opcode::Clear) for a batch: from then on each of this many contexts works alone on a mesh of
+/// its own.
 pub const fn batch_word(contexts: u32) -> u32 {
     clear_word(contexts) | CLEAR_BATCH
 }
@@ -204,7 +206,8 @@ impl<P> Command<P> {
         }
     }
 
-    /// Words of the payload of the answer, if the device does what it is asked for. Other answers have none, or that of `Insert`.
+    /// Words of the payload of the answer, if the device does what it is asked for. Other answers have none, or that of
+    /// `Insert`.
     pub const fn payload_words(&self, layout: Layout) -> u64 {
         match self {
             Self::Hello => IDENTITY_WORDS as u64,
@@ -255,8 +258,8 @@ pub const fn answer_head(opcode: Opcode, payload_words: u32) -> [u32; ANSWER_HEA
     [answer_header(opcode as u8, Status::Ok), payload_words]
 }
 
-/// Reads the heads of commands from a stream, word by word. Whoever reads an `Insert` takes its points from the stream before the next word
-/// comes here.
+/// Reads the heads of commands from a stream, word by word. Whoever reads an `Insert` takes its points from the stream
+/// before the next word comes here.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CommandReader {
     words: [u32; COMMAND_HEAD_WORDS],
@@ -264,7 +267,8 @@ pub struct CommandReader {
 }
 
 impl CommandReader {
-    /// Takes the next word. Gives a command when its head is whole; an opcode that is none is an error, and the next word begins a command.
+    /// Takes the next word. Gives a command when its head is whole; an opcode that is none is an error, and the next
+    /// word begins a command.
     pub fn take(&mut self, word: u32) -> Option<Result<Command<()>, u8>> {
         if self.count == 0 && word == PADDING {
             return None;

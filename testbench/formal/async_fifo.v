@@ -1,10 +1,16 @@
-// What the FIFO between two clocks promises, and why it keeps it: put into its module, `stream_fifo_4x2`, by tests/blocks_stream_proof.rs.
+// What the FIFO between two clocks promises, and why it keeps it: put into its module by tests/it/gates/proofs.rs, which
+// says how many bits a pointer has, P. The memory holds DEPTH entries.
 //
-// Pointers are taken as numbers of 3 bits, and compared by how far one is behind another, round the clock of eight. The writer is at w; the
+// Pointers are taken as numbers, and compared by how far one is behind another, round the clock of twice DEPTH. The writer is at w; the
 // reader's two cells hold older values of it, w1 and w2; the reader is behind those, at r; the writer's cells hold older values of that, r1 and r2.
+localparam DEPTH = 1 << (P - 1);
 // Numbers of Gray codes.
-function [2:0] number(input [2:0] code);
-    number = {code[2], code[2] ^ code[1], code[2] ^ code[1] ^ code[0]};
+function [P-1:0] number(input [P-1:0] code);
+    integer place;
+    begin
+        number[P-1] = code[P-1];
+        for (place = P - 2; place >= 0; place = place - 1) number[place] = number[place + 1] ^ code[place];
+    end
 endfunction
 // Resets at the start only, until either side has seen four edges with both in reset.
 reg write_began = 0, read_began = 0;
@@ -25,28 +31,28 @@ always @(*) begin
     assume (!pop || valid);
 end
 // The entry of some number, as it was pushed.
-reg [2:0] chosen_before;
+reg [P-1:0] chosen_before;
 always @($global_clock) chosen_before <= chosen;
 always @(*) assume (chosen == chosen_before);
 reg [1:0] entry;
 always @(posedge write_clock) if (push && !is_full && write_count$q == chosen) entry <= push_data;
 // Entries that were popped.
-reg [2:0] popped = 0;
+reg [P-1:0] popped = 0;
 always @(posedge read_clock) popped <= read_reset ? 0 : popped + pop;
 
-wire [2:0] w = write_count$q, r = read_count$q;
-wire [2:0] w1 = number(write_seen_first), w2 = number(write_seen$received);
-wire [2:0] r1 = number(read_seen_first), r2 = number(read_seen$received);
-wire [2:0] w_w1 = w - w1, w1_w2 = w1 - w2, w2_r = w2 - r;
-wire [2:0] w_r = w - r, r_r1 = r - r1, r1_r2 = r1 - r2, w_r2 = w - r2;
-wire [2:0] ahead = chosen - r;
-wire [2:0] in_array = r - 1, in_output = r - 1 - fetched$q;
+wire [P-1:0] w = write_count$q, r = read_count$q;
+wire [P-1:0] w1 = number(write_seen_first), w2 = number(write_seen$received);
+wire [P-1:0] r1 = number(read_seen_first), r2 = number(read_seen$received);
+wire [P-1:0] w_w1 = w - w1, w1_w2 = w1 - w2, w2_r = w2 - r;
+wire [P-1:0] w_r = w - r, r_r1 = r - r1, r1_r2 = r1 - r2, w_r2 = w - r2;
+wire [P-1:0] ahead = chosen - r;
+wire [P-1:0] in_array = r - 1, in_output = r - 1 - fetched$q;
 always @(*) begin
     // What the user relies on.
     if (!is_reset) begin
-        assert (in_output + 3'd1 - shown$q == popped);
+        assert (in_output + 1'd1 - shown$q == popped);
         if (valid && in_output == chosen) assert (data == entry);
-        assert (w_r <= 4);
+        assert (w_r <= DEPTH);
     end
     // Why it is so.
     if (is_reset) begin
@@ -60,9 +66,9 @@ always @(*) begin
     end else begin
         assert (write_began && read_began);
         assert (number(write_gray$q) == w && number(read_gray$q) == r);
-        assert ({2'b0, w_w1} + w1_w2 + w2_r <= 4);
-        assert ({2'b0, w_r} + r_r1 + r1_r2 <= 4);
-        if (!full$q) assert (w_r2 != 4);
+        assert ({2'b0, w_w1} + w1_w2 + w2_r <= DEPTH);
+        assert ({2'b0, w_r} + r_r1 + r1_r2 <= DEPTH);
+        if (!full$q) assert (w_r2 != DEPTH);
         if (!empty$q) assert (w2_r != 0);
         if (ahead < w_r) assert (chosen_word == entry);
         if (fetched$q && in_array == chosen) assert (array_word == entry);

@@ -3,14 +3,24 @@
 //! The clock is the board's usual one, if the median of the seeds meets that. A clock that is missed says what is within reach, so the
 //! next one tried is the largest of the board's list below that.
 
+use super::constraints;
+use super::date;
+use super::error::BoardError;
 use super::mapping::{mapping, placer, FLOORPLAN};
 use super::readings;
 use super::report::dividers;
+use super::report::Attempt;
+use super::report::Bitstream;
+use super::report::Cells;
+use super::report::Parts;
+use super::report::Report;
+use super::report::Seed;
+use super::report::Serial;
+use super::report::Summary;
+use super::report::Versions;
 use super::tools::{run_strictly, Origin, Tools};
 use super::workshop;
-use super::{
-    constraints, date, Attempt, Bitstream, Board, BoardError, Cells, Parts, Report, Seed, Serial, Summary, Versions,
-};
+use super::Board;
 use crate::export;
 use crate::files::replace;
 use incircle_protocol::Config;

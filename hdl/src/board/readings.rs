@@ -1,6 +1,7 @@
 //! What the tools' reports say.
 
-use super::{BoardError, Cells};
+use super::error::BoardError;
+use super::report::Cells;
 use serde_json::Value;
 use std::path::Path;
 

@@ -1,6 +1,7 @@
 //! What is said of a board after place and route, as JSON.
 
-use super::{BoardError, Pll};
+use super::error::BoardError;
+use super::pll::Pll;
 use crate::files::replace;
 use serde::{Deserialize, Serialize};
 use std::path::Path;

@@ -1,7 +1,16 @@
 //! The tables of the documents, from the reports in the boards' folders and the table of cycles. No figure in them is typed.
 
+use super::constraints;
 use super::error::seeds_in_words;
-use super::{constraints, repository, Board, BoardError, Cells, Parts, Report, Summary, BOARDS, MHZ};
+use super::error::BoardError;
+use super::pll::MHZ;
+use super::report::Cells;
+use super::report::Parts;
+use super::report::Report;
+use super::report::Summary;
+use super::repository;
+use super::Board;
+use super::BOARDS;
 use std::path::PathBuf;
 
 /// What stands before a table in a document, and behind it.

@@ -1,6 +1,9 @@
 //! The tools that make a bitstream: where they are, and how they are run.
 
-use super::{constraints, repository, BoardError, Versions};
+use super::constraints;
+use super::error::BoardError;
+use super::report::Versions;
+use super::repository;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,6 +1,6 @@
 //! The folder in which the tools work.
 
-use super::BoardError;
+use super::error::BoardError;
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 

@@ -22,7 +22,6 @@ use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MA
 /// A memory with one write and one read port; see the top of this file.
 #[derive(LogicBlock)]
 pub struct BlockMemory<const A: usize, const D: usize> {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Word to write.
     pub write_address: Signal<In, Bits<A>>,

@@ -22,19 +22,18 @@
 //! An entry that is pushed behind the first and takes its place at the same edge is stored, too, and its place is given up at once: `pop`
 //! often follows from the entry itself, so it comes late and moves nothing but the register and the end of the window.
 //!
-//! Source: [`Fifo`](super::Fifo) around a [`BlockMemory`].
+//! Source: [`Fifo`](super::Fifo) around a [`BlockMemory`](super::BlockMemory).
 
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-use super::block_memory::BlockMemory;
 use super::lut_memory::LutMemory;
 use super::memory_shape::MAX_ADDRESS_BITS;
+use super::spill_ring::SpillRing;
 
 /// A deep buffer; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DeepFifo<const A: usize, const D: usize> {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Empty the buffer at this edge.
     pub reset: Signal<In, Bit>,
@@ -48,7 +47,7 @@ pub struct DeepFifo<const A: usize, const D: usize> {
     pub valid: Signal<Out, Bit>,
     /// The oldest entry, zero above the stored bits.
     pub data: Signal<Out, Bits<D>>,
-    ring: BlockMemory<A, D>,
+    ring: SpillRing<A, D>,
     new_bank: LutMemory<4, D>,
     fetched_bank: LutMemory<4, D>,
     was_fetched: LutMemory<4, 1>,
@@ -62,10 +61,6 @@ pub struct DeepFifo<const A: usize, const D: usize> {
     newest: DFF<Bits<A>>,
     fetched: DFF<Bits<A>>,
     after_first: DFF<Bits<4>>,
-    fetch_in_array: DFF<Bit>,
-    fetch_in_output: DFF<Bit>,
-    place_in_array: DFF<Bits<4>>,
-    place_in_output: DFF<Bits<4>>,
     kept_data: Signal<Local, Bits<D>>,
     joins: Signal<Local, Bit>,
     moves_up: Signal<Local, Bit>,
@@ -106,7 +101,7 @@ impl<const A: usize, const D: usize> DeepFifo<A, D> {
             pop: Signal::default(),
             valid: Signal::default(),
             data: Signal::default(),
-            ring: BlockMemory::new(address_bits, stored_bits),
+            ring: SpillRing::new(address_bits, stored_bits),
             new_bank: LutMemory::new(window, stored_bits),
             fetched_bank: LutMemory::new(window, stored_bits),
             was_fetched: LutMemory::new(window, 1),
@@ -119,10 +114,6 @@ impl<const A: usize, const D: usize> DeepFifo<A, D> {
             newest: DFF::default(),
             fetched: DFF::default(),
             after_first: DFF::default(),
-            fetch_in_array: DFF::default(),
-            fetch_in_output: DFF::default(),
-            place_in_array: DFF::default(),
-            place_in_output: DFF::default(),
             kept_data: Signal::default(),
             joins: Signal::default(),
             moves_up: Signal::default(),
@@ -157,7 +148,6 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
     fn update(&mut self) {
         dff_setup!(self, clock, holds_first, passes, first, holds_more, window_is_full, holds_spilled);
         dff_setup!(self, clock, newest, fetched, after_first);
-        dff_setup!(self, clock, fetch_in_array, fetch_in_output, place_in_array, place_in_output);
         clock!(self, clock, ring, new_bank, fetched_bank, was_fetched);
         self.after_newest.next = self.newest.q.val() + self.one.val();
         self.after_fetched.next = self.fetched.q.val() + self.one.val();
@@ -204,13 +194,12 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         self.ring.write_data.next = self.push_data.val();
         self.ring.write_enable.next = self.spills.val();
         self.ring.read_address.next = self.fetched.q.val();
-        self.fetch_in_array.d.next = self.fetches.val();
-        self.fetch_in_output.d.next = self.fetch_in_array.q.val();
-        self.place_in_array.d.next = self.place.val();
-        self.place_in_output.d.next = self.place_in_array.q.val();
-        self.fetched_bank.write_address.next = self.place_in_output.q.val();
-        self.fetched_bank.write_data.next = self.ring.read_data.val();
-        self.fetched_bank.write_enable.next = self.fetch_in_output.q.val();
+        self.ring.reset.next = self.reset.val();
+        self.ring.fetches.next = self.fetches.val();
+        self.ring.place.next = self.place.val();
+        self.fetched_bank.write_address.next = self.ring.fetched_place.val();
+        self.fetched_bank.write_data.next = self.ring.fetched_data.val();
+        self.fetched_bank.write_enable.next = self.ring.fetched.val();
 
         // The window: at most one entry is added at an edge, a new one or one that is fetched.
         self.new_bank.write_address.next = self.place.val();
@@ -256,8 +245,6 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
             self.newest.d.next = self.nothing.val();
             self.fetched.d.next = self.nothing.val();
             self.after_first.d.next = self.first_place.val();
-            self.fetch_in_array.d.next = false;
-            self.fetch_in_output.d.next = false;
         }
         self.passes.d.next = !self.holds_first.d.val();
     }

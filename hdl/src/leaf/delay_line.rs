@@ -18,7 +18,6 @@ const COUNTER_BITS: usize = 6;
 /// A delay; see the top of this file.
 #[derive(LogicBlock)]
 pub struct DelayLine<const D: usize> {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Taken at every edge.
     pub data_in: Signal<In, Bits<D>>,

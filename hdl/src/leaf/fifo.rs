@@ -18,7 +18,6 @@ use super::memory_shape::MAX_ADDRESS_BITS;
 /// A buffer; see the top of this file.
 #[derive(LogicBlock)]
 pub struct Fifo<const A: usize, const D: usize> {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Empty the buffer at this edge.
     pub reset: Signal<In, Bit>,

@@ -11,7 +11,6 @@ use rust_hdl_core::prelude::*;
 /// A delayed flag; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FlagDelay {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Taken at every edge.
     pub flag_in: Signal<In, Bit>,

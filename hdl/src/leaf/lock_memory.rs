@@ -23,7 +23,6 @@ use super::memory_shape::{assert_shape, low_part, unused_part, MAX_ADDRESS_BITS}
 /// A memory of lock bits; see the top of this file.
 #[derive(LogicBlock)]
 pub struct LockMemory<const A: usize> {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Lock to test.
     pub test_address: Signal<In, Bits<A>>,

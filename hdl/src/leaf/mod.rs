@@ -18,8 +18,9 @@ mod multiplier;
 mod paced_memory;
 mod parameter;
 mod shared_memory;
+mod spill_ring;
 mod synchroniser;
-mod unpack;
+pub mod unpack;
 
 pub use banked_memory::BankedMemory;
 pub use block_memory::BlockMemory;
@@ -34,5 +35,6 @@ pub use multiplier::Multiplier;
 pub use paced_memory::PacedMemory;
 pub use parameter::Parameter;
 pub use shared_memory::SharedMemory;
+pub use spill_ring::SpillRing;
 pub use synchroniser::Synchroniser;
 pub use unpack::{Field, Unpack, Unpacked};

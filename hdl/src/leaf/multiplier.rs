@@ -16,7 +16,6 @@ use rust_hdl_core::prelude::*;
 /// A multiplier; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Multiplier {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Factors, two's complement.
     pub a: Signal<In, Bits<18>>,

@@ -23,7 +23,6 @@ use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MA
 /// A memory with a read port and a shared port; see the top of this file.
 #[derive(LogicBlock)]
 pub struct SharedMemory<const A: usize, const D: usize> {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Word to read.
     pub read_address: Signal<In, Bits<A>>,

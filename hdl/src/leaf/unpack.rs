@@ -36,11 +36,11 @@ macro_rules! packed {
         #[derive(Clone, Copy, Debug, Default, PartialEq, LogicStruct)]
         pub struct $name { $($(#[$field_about])* pub $field: $kind,)* }
 
-        impl $crate::leaf::Field for $name {
+        impl $crate::leaf::unpack::Field for $name {
             fn field<const N: usize>(bits: Bits<N>, offset: usize) -> Self {
                 let mut place = offset;
                 $(
-                    let $field = <$kind as $crate::leaf::Field>::field(bits, place);
+                    let $field = <$kind as $crate::leaf::unpack::Field>::field(bits, place);
                     place += <$kind as Synth>::BITS;
                 )*
                 assert!(place <= N, "a structure reaches beyond the bits that it is in");
@@ -48,10 +48,10 @@ macro_rules! packed {
             }
         }
 
-        impl $crate::leaf::Unpacked for $name {
+        impl $crate::leaf::unpack::Unpacked for $name {
             fn unpacked<const N: usize>(bits: Bits<N>) -> Self {
                 assert_eq!(<Self as Synth>::BITS, N, "packed bits and structure differ in width");
-                <Self as $crate::leaf::Field>::field(bits, 0)
+                <Self as $crate::leaf::unpack::Field>::field(bits, 0)
             }
         }
     )*};

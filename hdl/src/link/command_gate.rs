@@ -5,8 +5,9 @@
 //!
 //! Latency: none (combinational).
 
+use super::channels::CommandSink;
+use super::command_port::CommandState;
 use super::types::TakenWord;
-use super::{CommandSink, CommandState};
 use crate::engine::EngineState;
 use rust_hdl_core::prelude::*;
 

@@ -20,10 +20,12 @@
 //! answers         _______________________________________/^^^^^^^^
 //! ```
 
+use super::channels::CommandSink;
+use super::clear_command::ClearCommand;
+use super::command_gate::CommandGate;
+use super::point_slot::PointSlot;
 use super::types::{Activity, AnswerProgress, Clearing, Request, Tally, VertexCount, Word};
-use super::{ClearCommand, CommandGate, CommandSink, PointSlot};
-use crate::engine::Deal;
-use crate::engine::{Arrival, EngineState};
+use crate::engine::{Arrival, Deal, EngineState};
 use incircle_protocol::{Opcode, PADDING};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -48,8 +50,8 @@ pub enum CommandState {
 /// The command stream; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandPort {
-    /// Reset awaits a command; all contexts work.
     pub clock: Signal<In, Clock>,
+    /// Reset awaits a command; all contexts work.
     pub reset: Signal<In, Bit>,
     /// Points the core holds, and contexts it has; constants.
     pub capacity: Signal<In, VertexCount>,

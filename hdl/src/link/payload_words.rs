@@ -5,16 +5,15 @@
 //!
 //! Latency: 2 clocks from `runs`, or from the beat before, to a beat.
 
-use super::types::{Word, WordIndex};
-use super::AnswerBeat;
+use super::types::{AnswerBeat, Word, WordIndex};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Words of a payload, one after the other; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PayloadWords {
-    /// Reset drops the word.
     pub clock: Signal<In, Clock>,
+    /// Reset drops the word.
     pub reset: Signal<In, Bit>,
     /// An answer is about to begin, and two clocks later it begins, with a payload of so many words.
     pub prepares: Signal<In, Bit>,

@@ -14,8 +14,8 @@ use rust_hdl_widgets::prelude::*;
 /// The last point; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PointSlot {
-    /// Reset drops the point; reset and clear set the counts to zero.
     pub clock: Signal<In, Clock>,
+    /// Reset drops the point; reset and clear set the counts to zero.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// Points the core holds, a constant.

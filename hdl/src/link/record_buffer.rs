@@ -4,8 +4,8 @@
 //!
 //! Latency: 1 clock.
 
+use super::record_words::RecordWords;
 use super::types::Word;
-use super::RecordWords;
 use crate::engine::types::VertexId;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
@@ -14,8 +14,8 @@ use rust_hdl_widgets::prelude::*;
 /// A record that has been read; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordBuffer {
-    /// Reset drops the record.
     pub clock: Signal<In, Clock>,
+    /// Reset drops the record.
     pub reset: Signal<In, Bit>,
     /// A record comes; only when none is held, or when it is taken whole.
     pub read_done: Signal<In, Bit>,

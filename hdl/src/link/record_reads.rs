@@ -6,8 +6,9 @@
 //!
 //! Latency: 2 clocks from `read_done` to the first word of the record, 3 to the beat that its vertices fill.
 
-use super::types::{RecordCount, Word};
-use super::{AnswerBeat, RecordBuffer, VertexStream};
+use super::record_buffer::RecordBuffer;
+use super::types::{AnswerBeat, RecordCount, Word};
+use super::vertex_stream::VertexStream;
 use crate::engine::types::TriangleId;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
@@ -16,8 +17,8 @@ use rust_hdl_widgets::prelude::*;
 /// The payload of a read-out; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordReads {
-    /// Reset drops everything.
     pub clock: Signal<In, Clock>,
+    /// Reset drops everything.
     pub reset: Signal<In, Bit>,
     /// The payload is of so many records from this one on; only when nothing of another one is left.
     pub starts: Signal<In, Bit>,

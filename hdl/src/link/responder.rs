@@ -20,8 +20,10 @@
 //! is_idle         /^^^^^\________________________________/^^^^^^^^
 //! ```
 
-use super::types::{AnswerProgress, Head, Request, Word, WordIndex};
-use super::{AnswerBeat, AnswerSource, PayloadWords, RecordReads, WordPair, WORD_PAIR_BITS};
+use super::channels::AnswerSource;
+use super::payload_words::PayloadWords;
+use super::record_reads::RecordReads;
+use super::types::{AnswerBeat, AnswerProgress, Head, Request, Word, WordIndex, WordPair, WORD_PAIR_BITS};
 use crate::engine::types::TriangleId;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
@@ -45,8 +47,8 @@ pub enum AnswerState {
 /// The answer stream; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Responder {
-    /// Reset drops an answer.
     pub clock: Signal<In, Clock>,
+    /// Reset drops an answer.
     pub reset: Signal<In, Bit>,
     /// An answer is due, held until `progress.ends`.
     pub answers: Signal<In, Bit>,

@@ -16,8 +16,7 @@
 //! last            ________________________/^^\__
 //! ```
 
-use super::types::{RecordCount, Word};
-use super::AnswerBeat;
+use super::types::{AnswerBeat, RecordCount, Word};
 use crate::engine::types::VertexId;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -25,8 +24,8 @@ use rust_hdl_widgets::prelude::*;
 /// Vertices of records, packed; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexPacker {
-    /// Reset drops the beat.
     pub clock: Signal<In, Clock>,
+    /// Reset drops the beat.
     pub reset: Signal<In, Bit>,
     /// So many records will come, one at least.
     pub starts: Signal<In, Bit>,

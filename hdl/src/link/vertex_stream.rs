@@ -5,8 +5,8 @@
 //!
 //! Latency: 1 clock from a record to the beat that it fills, when none waits.
 
-use super::types::RecordCount;
-use super::{AnswerBeat, VertexPacker, ANSWER_BEAT_BITS};
+use super::types::{AnswerBeat, RecordCount, ANSWER_BEAT_BITS};
+use super::vertex_packer::VertexPacker;
 use crate::engine::types::VertexId;
 use crate::leaf::{Fifo, Unpack};
 use rust_hdl_core::prelude::*;
@@ -18,8 +18,8 @@ const QUEUE_BITS: usize = 4;
 /// The vertices of a range of records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexStream {
-    /// Reset drops everything.
     pub clock: Signal<In, Clock>,
+    /// Reset drops everything.
     pub reset: Signal<In, Bit>,
     /// So many records will come; only when no beat of others is left.
     pub starts: Signal<In, Bit>,

@@ -31,7 +31,6 @@ use rust_hdl_widgets::prelude::*;
 /// Locks and their owners; see the top of this file.
 #[derive(LogicBlock)]
 pub struct LockStore {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// The lock that a visit comes to, in clock 0.
     pub id: Signal<In, Bits<15>>,

@@ -31,7 +31,6 @@ use rust_hdl_core::prelude::*;
 /// The triangle memory; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct TriangleStore {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// A record or one link, written at this edge; only `enables` says what of it and where.
     pub write: Signal<In, Write>,

@@ -23,7 +23,6 @@ use rust_hdl_core::prelude::*;
 /// The vertex memory; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexStore {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// A vertex written at this edge: x in the low half, y in the high.
     pub write: Signal<In, Arrival>,

@@ -19,7 +19,6 @@ use crate::leaf::Multiplier;
 /// A dot product; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct DotProduct {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// The vectors, two's complement.
     pub a_x: Signal<In, Bits<18>>,

@@ -17,7 +17,6 @@ use crate::leaf::FlagDelay;
 /// Flags of three orientations; see the top of this file.
 #[derive(LogicBlock)]
 pub struct EdgeSigns {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Orientations, two's complement, each in `-2^32 .. 2^32`.
     pub e0: Signal<In, Bits<36>>,

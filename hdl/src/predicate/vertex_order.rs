@@ -15,7 +15,6 @@ use crate::leaf::FlagDelay;
 /// Order of four points; see the top of this file.
 #[derive(LogicBlock)]
 pub struct VertexOrder {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     pub corners: Signal<In, Corners>,
     pub p: Signal<In, Point>,

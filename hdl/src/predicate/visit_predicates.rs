@@ -27,7 +27,6 @@ use super::widths::Point;
 /// Predicates of a visit; see the top of this file.
 #[derive(LogicBlock)]
 pub struct VisitPredicates {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     pub corners: Signal<In, Corners>,
     pub p: Signal<In, Point>,

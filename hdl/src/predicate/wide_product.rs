@@ -18,7 +18,6 @@ use crate::leaf::Multiplier;
 /// A wide product; see the top of this file.
 #[derive(LogicBlock)]
 pub struct WideProduct {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// Factors, two's complement, each in `-2^33 .. 2^33`.
     pub a: Signal<In, Bits<36>>,

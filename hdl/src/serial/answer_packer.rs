@@ -30,8 +30,8 @@ pub enum PackState {
 /// Parts of answers; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerPacker {
-    /// Reset awaits an answer, number 0.
     pub clock: Signal<In, Clock>,
+    /// Reset awaits an answer, number 0.
     pub reset: Signal<In, Bit>,
     /// The answer stream of the core, word by word.
     pub word_valid: Signal<In, Bit>,

@@ -22,8 +22,8 @@ use rust_hdl_widgets::prelude::*;
 /// Frames out of COBS; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CobsDecoder {
-    /// Reset awaits a frame.
     pub clock: Signal<In, Clock>,
+    /// Reset awaits a frame.
     pub reset: Signal<In, Bit>,
     /// A byte from the line.
     pub byte_valid: Signal<In, Bit>,

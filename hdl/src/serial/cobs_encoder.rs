@@ -36,8 +36,8 @@ pub enum EncodeState {
 /// Frames into reverse COBS; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CobsEncoder {
-    /// Reset awaits a frame.
     pub clock: Signal<In, Clock>,
+    /// Reset awaits a frame.
     pub reset: Signal<In, Bit>,
     /// The bytes of a frame.
     pub data_valid: Signal<In, Bit>,

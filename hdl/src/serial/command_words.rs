@@ -22,8 +22,8 @@ use rust_hdl_widgets::prelude::*;
 /// Words of commands; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandWords {
-    /// Reset forgets the bytes of a word.
     pub clock: Signal<In, Clock>,
+    /// Reset forgets the bytes of a word.
     pub reset: Signal<In, Bit>,
     /// A byte; it is taken at this edge.
     pub byte_valid: Signal<In, Bit>,

@@ -44,8 +44,8 @@ packed! {
 /// What a frame asks for; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameJudge {
-    /// Reset forgets a frame that is under way.
     pub clock: Signal<In, Clock>,
+    /// Reset forgets a frame that is under way.
     pub reset: Signal<In, Bit>,
     /// The header of the frame, from `FrameReader`.
     pub head: Signal<In, FrameHead>,

@@ -6,8 +6,8 @@
 //!
 //! Latency: 1 clock.
 
+use super::crc32::Crc32;
 use super::types::{Byte, FrameHead};
-use super::Crc32;
 use crate::link::types::Word;
 use incircle_protocol::{CRC_BYTES, HOST_HEADER_BYTES, MAX_PAYLOAD};
 use rust_hdl_core::prelude::*;
@@ -37,8 +37,8 @@ pub enum ReadState {
 /// Frames of a host; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameReader {
-    /// Reset awaits a frame.
     pub clock: Signal<In, Clock>,
+    /// Reset awaits a frame.
     pub reset: Signal<In, Bit>,
     /// A byte of a frame.
     pub data_valid: Signal<In, Bit>,

@@ -5,8 +5,8 @@
 //!
 //! Latency: 4 clocks from `starts` to the first byte; 4 from a byte taken to the next, and not before the check sum has taken it.
 
+use super::frame_part::FramePart;
 use super::types::{Byte, BytePlace, Contents};
-use super::FramePart;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -24,8 +24,8 @@ pub enum SendState {
 /// Frames to the host; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FrameSender {
-    /// Reset sends nothing.
     pub clock: Signal<In, Clock>,
+    /// Reset sends nothing.
     pub reset: Signal<In, Bit>,
     /// A frame begins at this edge.
     pub starts: Signal<In, Bit>,

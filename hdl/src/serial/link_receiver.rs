@@ -8,8 +8,14 @@
 //!                                           +--> PayloadDigest
 //! ```
 
+use super::cobs_decoder::CobsDecoder;
+use super::command_words::CommandWords;
+use super::frame_judge::{Asked, FrameJudge};
+use super::frame_reader::FrameReader;
+use super::payload_digest::PayloadDigest;
+use super::receive_fifo::ReceiveFifo;
 use super::types::{Byte, Receipt, Session, Step};
-use super::{Asked, CobsDecoder, CommandWords, FrameJudge, FrameReader, PayloadDigest, ReceiveFifo, UartReceiver};
+use super::uart_receiver::UartReceiver;
 use crate::link::types::Word;
 use crate::link::CommandSource;
 use incircle_protocol::LinkConfig;

@@ -8,11 +8,19 @@
 //!    FrameHeader, Greeting, Crc32 -> FrameBytes -+
 //! ```
 
+use super::answer_packer::AnswerPacker;
+use super::cobs_encoder::CobsEncoder;
+use super::crc32::Crc32;
+use super::frame_bytes::FrameBytes;
+use super::frame_choice::FrameChoice;
+use super::frame_header::FrameHeader;
+use super::frame_judge::Asked;
+use super::frame_sender::FrameSender;
+use super::greeting::Greeting;
+use super::replies::Replies;
 use super::types::{Receipt, Session, Step};
-use super::{
-    AnswerPacker, Asked, CobsEncoder, Crc32, FrameBytes, FrameChoice, FrameHeader, FrameSender, Greeting, Replies,
-    UartTransmitter, WordNarrower,
-};
+use super::uart_transmitter::UartTransmitter;
+use super::word_narrower::WordNarrower;
 use crate::link::types::Word;
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;

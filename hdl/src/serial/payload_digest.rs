@@ -4,8 +4,8 @@
 //!
 //! Latency: 1 clock from `commits`.
 
+use super::crc32::Crc32;
 use super::types::Byte;
-use super::Crc32;
 use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -13,8 +13,8 @@ use rust_hdl_widgets::prelude::*;
 /// The digest of a session; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PayloadDigest {
-    /// Reset begins anew.
     pub clock: Signal<In, Clock>,
+    /// Reset begins anew.
     pub reset: Signal<In, Bit>,
     /// Forget the bytes that do not count yet.
     pub begins: Signal<In, Bit>,

@@ -6,8 +6,8 @@
 //!
 //! Latency: 1 clock.
 
+use super::frame_judge::Asked;
 use super::types::Step;
-use super::Asked;
 use crate::leaf::Parameter;
 use crate::link::types::Word;
 use incircle_protocol::{LinkConfig, FIRST_RATE, MAX_STEP};
@@ -17,8 +17,8 @@ use rust_hdl_widgets::prelude::*;
 /// The rate of the line; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RateControl {
-    /// Reset returns to the first rate.
     pub clock: Signal<In, Clock>,
+    /// Reset returns to the first rate.
     pub reset: Signal<In, Bit>,
     /// What a frame asks for, and the step if it is a `Rate`.
     pub asked: Signal<In, Asked>,

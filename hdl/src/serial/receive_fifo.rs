@@ -22,8 +22,8 @@ const ADDRESS_BITS: usize = 15;
 /// The receive FIFO; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ReceiveFifo {
-    /// Reset empties it.
     pub clock: Signal<In, Clock>,
+    /// Reset empties it.
     pub reset: Signal<In, Bit>,
     /// Forget the bytes that do not count yet.
     pub begins: Signal<In, Bit>,

@@ -7,8 +7,8 @@
 //!
 //! Latency: 1 clock.
 
+use super::frame_judge::Asked;
 use super::types::Byte;
-use super::Asked;
 use incircle_protocol::DeviceFrame;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

@@ -12,8 +12,13 @@
 //! tx <- LinkTransmitter <---- answers ----- CommandProgress
 //! ```
 
+use super::command_progress::CommandProgress;
+use super::line_timers::LineTimers;
+use super::link_receiver::LinkReceiver;
+use super::link_transmitter::LinkTransmitter;
+use super::rate_control::RateControl;
+use super::session_state::SessionState;
 use super::types::Lamps;
-use super::{CommandProgress, LineTimers, LinkReceiver, LinkTransmitter, RateControl, SessionState};
 use crate::link::{AnswerSink, CommandSource};
 use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
 use rust_hdl_core::prelude::*;

@@ -6,8 +6,8 @@
 //!
 //! Latency: 1 clock.
 
+use super::frame_judge::Asked;
 use super::types::{Byte, Session};
-use super::Asked;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

@@ -9,8 +9,8 @@
 //!
 //! Source: the two registers are the usual guard against metastability. All store the line inverted, so that they begin as an idle one.
 
+use super::bit_clock::BitClock;
 use super::types::{Byte, Step};
-use super::BitClock;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -32,8 +32,8 @@ pub enum ReceiveState {
 /// Bytes from a line; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct UartReceiver {
-    /// Reset awaits a byte.
     pub clock: Signal<In, Clock>,
+    /// Reset awaits a byte.
     pub reset: Signal<In, Bit>,
     /// A bit takes `2^24 / step` clocks, at least 8.
     pub step: Signal<In, Step>,

@@ -7,16 +7,16 @@
 //!
 //! Source: the line is stored inverted, so that it is high before reset too.
 
+use super::bit_clock::BitClock;
 use super::types::{Byte, Step};
-use super::BitClock;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Bytes onto a line; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct UartTransmitter {
-    /// Reset leaves the line high.
     pub clock: Signal<In, Clock>,
+    /// Reset leaves the line high.
     pub reset: Signal<In, Bit>,
     /// A bit takes `2^24 / step` clocks.
     pub step: Signal<In, Step>,

@@ -20,8 +20,8 @@ use rust_hdl_widgets::prelude::*;
 /// Words of beats; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct WordNarrower {
-    /// Reset begins a beat anew.
     pub clock: Signal<In, Clock>,
+    /// Reset begins a beat anew.
     pub reset: Signal<In, Bit>,
     /// A beat of one word or two, the first in the low half.
     pub pair_valid: Signal<In, Bit>,

@@ -2,7 +2,7 @@
 //!
 //! Latency: 1 clock.
 
-use super::AnswerEvents;
+use super::events::AnswerEvents;
 use crate::link::types::Word;
 use incircle_protocol::{answer_header, Status};
 use rust_hdl_core::prelude::*;

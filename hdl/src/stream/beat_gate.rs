@@ -2,7 +2,7 @@
 //!
 //! Latency: none to `push`, 1 clock to `events`.
 
-use super::CommandEvents;
+use super::events::CommandEvents;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

@@ -2,7 +2,11 @@
 //!
 //! 1. All is in the bus's clock. What comes from the core's clock goes into a `Synchroniser` and nowhere else.
 
-use super::{AnswerWatch, AxiLite, AxisSink, AxisSource, BeatGate, RegisterBlock, ResetRequest};
+use super::answer_watch::AnswerWatch;
+use super::axi::{AxiLite, AxisSink, AxisSource};
+use super::beat_gate::BeatGate;
+use super::register_block::RegisterBlock;
+use super::reset_request::ResetRequest;
 use crate::leaf::{Parameter, Synchroniser};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;

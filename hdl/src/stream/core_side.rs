@@ -2,7 +2,11 @@
 //!
 //! 1. All is in the core's clock. What comes from the bus's clock goes into a `Synchroniser` and nowhere else.
 
-use super::{AnswerBeats, AnswerPairs, BeatWords, Progress, ResetReply};
+use super::answer_beats::AnswerBeats;
+use super::answer_pairs::AnswerPairs;
+use super::beat_words::BeatWords;
+use super::progress::Progress;
+use super::reset_reply::ResetReply;
 use crate::leaf::{Parameter, Synchroniser};
 use crate::link::{AnswerSink, CommandSource};
 use rust_hdl_core::prelude::*;

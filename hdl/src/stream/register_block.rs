@@ -6,7 +6,11 @@
 //!
 //! Latency: that of [`RegisterPort`]; 1 clock from an event to its register.
 
-use super::{AnswerEvents, AxiLite, CommandEvents, DeviceIdentity, RegisterIndex, RegisterPort, Traffic};
+use super::axi::{AxiLite, RegisterIndex};
+use super::device_identity::DeviceIdentity;
+use super::events::{AnswerEvents, CommandEvents};
+use super::register_port::RegisterPort;
+use super::traffic::Traffic;
 use crate::link::types::Word;
 use incircle_protocol::{Config, StreamRegister};
 use rust_hdl_core::prelude::*;

@@ -13,7 +13,10 @@
 //! m_axis <- AnswerWatch <------------------- AsyncFifo <- AnswerBeats <- AnswerPairs
 //! ```
 
-use super::{AsyncFifo, AxiLite, AxisSink, AxisSource, BusSide, CoreSide};
+use super::async_fifo::AsyncFifo;
+use super::axi::{AxiLite, AxisSink, AxisSource};
+use super::bus_side::BusSide;
+use super::core_side::CoreSide;
 use crate::link::{AnswerSink, CommandSource};
 use incircle_protocol::{Config, ConfigError, STREAM_FIFO_BEATS};
 use rust_hdl_core::prelude::*;

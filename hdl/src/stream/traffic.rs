@@ -4,7 +4,8 @@
 //!
 //! Latency: 1 clock to a count, none to `value`.
 
-use super::{AnswerEvents, CommandEvents, RegisterIndex};
+use super::axi::RegisterIndex;
+use super::events::{AnswerEvents, CommandEvents};
 use crate::link::types::Word;
 use incircle_protocol::StreamRegister;
 use rust_hdl_core::prelude::*;

@@ -2,7 +2,7 @@
 //!
 //! 1. `reset` is needed once, after power-up, for two clocks or more: it passes a register, since the pin's side of it may be far away.
 
-use super::Core;
+use super::core::Core;
 use crate::engine::Write;
 use crate::link::{AnswerSink, CommandSource};
 use crate::serial::{SerialError, SerialLink};

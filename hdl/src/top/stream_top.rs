@@ -2,7 +2,7 @@
 //!
 //! 1. `bus_reset_n` is needed once, after power-up. The core's reset follows from it.
 
-use super::Core;
+use super::core::Core;
 use crate::engine::Write;
 use crate::link::{AnswerSink, CommandSource};
 use crate::stream::{AxiLite, AxisSink, AxisSource, StreamLink};

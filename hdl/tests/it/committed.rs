@@ -5,7 +5,8 @@ use incircle_hdl::committed::{file, folder, renew, text, COMMITTED};
 #[test]
 fn committed_verilog_is_up_to_date() {
     if std::env::var_os("INCIRCLE_BLESS").is_some() {
-        renew().unwrap();
+        let files = renew().unwrap();
+        panic!("blessed: {files:?} are written anew and nothing was compared; run again without INCIRCLE_BLESS");
     }
     for config in COMMITTED {
         let path = file(config);

@@ -57,8 +57,8 @@ impl Backend {
         self.config.is_some() || self.board.is_some() || self.card.is_some_and(|card| card.clocks > 0)
     }
 
-    /// Holds that a job is such as the back end can do: a core has as many contexts as are asked for, and the engine on the processor
-    /// inserts nothing. The rest is left to the library.
+    /// Holds that a job is such as the back end can do: a core has as many contexts as are asked for, and the engine on
+    /// the processor inserts nothing. The rest is left to the library.
     pub fn check_job(&self, job: &JobArguments) -> Result<(), Failure> {
         if self.name == "cpu" && job.wants_insertion() {
             return Err(Failure::usage(
@@ -98,7 +98,8 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// The back end that the arguments ask for, or else the one at `default`. An address and an argument may not both choose the same.
+    /// The back end that the arguments ask for, or else the one at `default`. An address and an argument may not both
+    /// choose the same.
     pub fn of(arguments: &BackendArguments, default: &str) -> Result<Self, Failure> {
         let address = arguments.or(default)?;
         let asked = arguments.config.map(ConfigName::config);
@@ -228,7 +229,8 @@ fn open_sim(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
     crate::sim_backend::open(config, trace)
 }
 
-/// The configuration for a job of so many distinct points, or why there is none; without a job the one asked for, or the largest.
+/// The configuration for a job of so many distinct points, or why there is none; without a job the one asked for, or
+/// the largest.
 fn config_for(choice: &Choice, coord_bits: u32, distinct: Option<usize>) -> Result<Config, Failure> {
     if coord_bits > CORE_COORD_BITS {
         return Err(Failure::new(

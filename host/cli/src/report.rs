@@ -168,7 +168,8 @@ pub fn counters_json(counters: &Counters) -> Value {
     counters.named().into_iter().map(|(name, value)| (name.to_owned(), Value::from(value))).collect()
 }
 
-/// The most that a percentile is told above its true value, as a share of that: buckets are an eighth of an octave wide.
+/// The most that a percentile is told above its true value, as a share of that: buckets are an eighth of an octave
+/// wide.
 const RESOLUTION: f64 = 0.125;
 
 /// How long insertions took, as an object.

@@ -14,8 +14,8 @@ use crate::interrupt;
 /// Clocks simulated between two looks at the deadline: about a tenth of a second.
 const SLICE: u64 = 100_000;
 
-/// A freshly made core of this configuration. With `trace` a waveform of all its signals goes to that file; dropping the
-/// device completes it.
+/// A freshly made core of this configuration. With `trace` a waveform of all its signals goes to that file; dropping
+/// the device completes it.
 pub fn open(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
     let mut device = SimDevice::new(config).map_err(|error| Failure::new(Exit::NoDevice, error.to_string()))?;
     if let Some(path) = trace {

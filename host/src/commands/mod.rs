@@ -1,5 +1,5 @@
-//! Commands and their answers over a way to a device. Identity, headers and lengths are checked here, counts and records in
-//! [`crate::job`], which also says what is left to the validator.
+//! Commands and their answers over a way to a device. Identity, headers and lengths are checked here, counts and
+//! records in [`crate::job`], which also says what is left to the validator.
 
 use std::time::Instant;
 
@@ -54,7 +54,8 @@ impl CommandChannel {
         Ok(identity)
     }
 
-    /// Hands over commands whose answers are received later, in their order. After any error the streams count as out of step.
+    /// Hands over commands whose answers are received later, in their order. After any error the streams count as out
+    /// of step.
     pub(crate) fn submit(&mut self, commands: &[Command<&[u32]>], limit: Limit) -> Result<(), Error> {
         self.check_step()?;
         let result = self.transport.submit(commands, limit.deadline());
@@ -66,8 +67,8 @@ impl CommandChannel {
         result
     }
 
-    /// Receives the answer to `command`, the first one whose answer has not been received, into `payload`, which takes its length. After any
-    /// error the streams count as out of step.
+    /// Receives the answer to `command`, the first one whose answer has not been received, into `payload`, which takes
+    /// its length. After any error the streams count as out of step.
     pub(crate) fn receive<P>(
         &mut self,
         command: &Command<P>,

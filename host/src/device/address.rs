@@ -18,13 +18,15 @@ use crate::transports::serial;
 /// - `model`: the embedded software model with 16-bit coordinates. It takes memory as points arrive.
 /// - `model?coord-bits=B`: the same with `B` bits, 1 to 31.
 /// - `model?coord-bits=B&capacity=N`: a model that holds `N` points and no more.
-/// - `clock`: the core's model, clock by clock, in the configuration `large`. It gives the answers, records and cycle counts of
-///   the core, some thousand times slower than `model`.
+/// - `clock`: the core's model, clock by clock, in the configuration `large`. It gives the answers, records and cycle
+///   counts of the core, some thousand times slower than `model`.
 /// - `clock?config=NAME`: the same in the configuration `tiny`, `small`, `full` or `large`.
-/// - `sim`, `sim?config=NAME`: the Verilog of the core in Verilator. The library itself cannot open it; the command can, if it was built so.
+/// - `sim`, `sim?config=NAME`: the Verilog of the core in Verilator. The library itself cannot open it; the command
+///   can, if it was built so.
 /// - `serial:PORT`: a board at a serial port, such as `serial:/dev/ttyUSB0`. Nothing is sent yet.
-/// - `serial:PORT?baud=B&slow=S`: the same at `B` bits per second (3,000,000 unless given), or less where that cannot be had, and with
-///   all times of the link, and those that the library chooses, stretched `S` times for a simulated board.
+/// - `serial:PORT?baud=B&slow=S`: the same at `B` bits per second (3,000,000 unless given), or less where that cannot
+///   be had, and with all times of the link, and those that the library chooses, stretched `S` times for a simulated
+///   board.
 /// - `pcie:N`: the card `N` in a PCIe slot, at the driver XDMA. It is locked and reset.
 /// - `pcie:DIR`: the card whose three files are in a directory: `xdma0_h2c_0`, `xdma0_c2h_0` and `xdma0_user`.
 ///
@@ -99,7 +101,8 @@ impl DeviceAddress {
             "clock" => Self::Clock { config: None },
             "sim" => Self::Sim { config: None },
             _ => {
-                let forms = "there are 'cpu', 'model', 'clock', 'sim', 'serial:PORT', such as serial:/dev/ttyUSB0, and 'pcie:N', such as pcie:0";
+                let forms = "there are 'cpu', 'model', 'clock', 'sim', 'serial:PORT', such as serial:/dev/ttyUSB0, \
+                             and 'pcie:N', such as pcie:0";
                 return Err(forms.to_owned());
             }
         };

@@ -6,7 +6,8 @@
 //! DeviceAddress             └─────── DeviceBackend   commands to a device, over a way of [`crate::transports`]
 //! ```
 //!
-//! A [`Session`](session::Session) checks what it is given and says how long it may take. The rest of a job is that of its back end.
+//! A [`Session`](session::Session) checks what it is given and says how long it may take. The rest of a job is that of
+//! its back end.
 
 mod address;
 mod backend;

@@ -24,14 +24,15 @@ const _: () =
 /// Most threads of the engine in this process.
 const MAX_THREADS: u32 = 256;
 
-/// Something that triangulates: the engine in this process, an embedded software model, or what is behind a [`Transport`].
+/// Something that triangulates: the engine in this process, an embedded software model, or what is behind a
+/// [`Transport`].
 pub struct Device {
     backend: Box<dyn Backend>,
 }
 
 impl Device {
-    /// Opens the device at an address, such as `cpu`, `clock?config=full` or `serial:/dev/ttyUSB0`: [`DeviceAddress`] lists them. Other devices
-    /// come through [`Device::from_transport`].
+    /// Opens the device at an address, such as `cpu`, `clock?config=full` or `serial:/dev/ttyUSB0`: [`DeviceAddress`]
+    /// lists them. Other devices come through [`Device::from_transport`].
     ///
     /// # Errors
     /// [`Error::Address`] for an unknown address, and the errors of [`Device::at`].
@@ -39,12 +40,13 @@ impl Device {
         Self::at(&address.parse()?)
     }
 
-    /// Opens the device at an address. A model for which no bits and no capacity are chosen has 16 and holds 2^30 - 1 points; a core for which no
-    /// configuration is chosen is `large`.
+    /// Opens the device at an address. A model for which no bits and no capacity are chosen has 16 and holds 2^30 - 1
+    /// points; a core for which no configuration is chosen is `large`.
     ///
     /// # Errors
-    /// [`Error::Open`] for a port or a card that cannot be opened, [`Error::Link`] for a card whose registers are not those of a sound one,
-    /// [`Error::Address`] for `sim`, which the library has not, and the errors of [`Device::model`].
+    /// [`Error::Open`] for a port or a card that cannot be opened, [`Error::Link`] for a card whose registers are not
+    /// those of a sound one, [`Error::Address`] for `sim`, which the library has not, and the errors of
+    /// [`Device::model`].
     pub fn at(address: &DeviceAddress) -> Result<Self, Error> {
         match address {
             &DeviceAddress::Cpu { threads } => Ok(Self::cpu(threads)),
@@ -54,18 +56,19 @@ impl Device {
             &DeviceAddress::Clock { config } => Self::clock_model(config.unwrap_or(LARGE)),
             DeviceAddress::Sim { .. } => Err(Error::Address {
                 address: address.to_string(),
-                reason: "the simulated core is a part of the command, not of the library: take \"clock\", which has its answers and \
-                         cycles, or make a device from a transport"
-                    .to_owned(),
+                reason:
+                    "the simulated core is a part of the command, not of the library: take \"clock\", which has its \
+                         answers and cycles, or make a device from a transport"
+                        .to_owned(),
             }),
             DeviceAddress::Serial(address) => Ok(Self::from_transport(Box::new(SerialTransport::open(address)?))),
             DeviceAddress::Pcie(address) => Ok(Self::from_transport(Box::new(PcieTransport::open(address)?))),
         }
     }
 
-    /// The fast engine in this process: coordinates up to 31 bits, as many points as memory holds, and up to so many threads,
-    /// which are its contexts; `None`: as many as there are processors. Small jobs take fewer. The order of the options is
-    /// for devices that insert points one after the other; this one has its own.
+    /// The fast engine in this process: coordinates up to 31 bits, as many points as memory holds, and up to so many
+    /// threads, which are its contexts; `None`: as many as there are processors. Small jobs take fewer. The order of
+    /// the options is for devices that insert points one after the other; this one has its own.
     pub fn cpu(threads: Option<NonZeroU32>) -> Self {
         let processors = || std::thread::available_parallelism().map_or(1, usize::from);
         let threads = threads.map_or_else(|| u32::try_from(processors()).unwrap_or(MAX_THREADS), NonZeroU32::get);
@@ -83,7 +86,8 @@ impl Device {
         Ok(Self::from_transport(Box::new(transport)))
     }
 
-    /// The core's model, clock by clock: it gives the answers, records and cycle counts of the core of this configuration.
+    /// The core's model, clock by clock: it gives the answers, records and cycle counts of the core of this
+    /// configuration.
     ///
     /// # Errors
     /// [`Error::Model`] for a configuration that no core can be built with.
@@ -97,7 +101,7 @@ impl Device {
     }
 
     /// Greets the device and checks what it says of itself; gives it fifteen seconds, stretched for a simulation by its
-    /// [`Pace`](crate::Pace).
+    /// [`Pace`](crate::transports::Pace).
     ///
     /// # Errors
     /// [`Error::Link`], [`Error::Timeout`], or [`Error::Device`] for one that is no incircle device, speaks another

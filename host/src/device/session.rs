@@ -52,13 +52,15 @@ impl<'d> Session<'d> {
     /// Triangulates: the Delaunay triangulation of the distinct points, in canonical form.
     ///
     /// Duplicates collapse onto their lowest index and are listed. Fewer than three distinct points, or points on one
-    /// line, are answered by the host alone. O(n log n) on the device in the mean, O(n) on the host. At a million points
-    /// of 16 bits the peak is below 200 bytes per point, the engine or the software model and the mesh included, the caller's points not.
+    /// line, are answered by the host alone. O(n log n) on the device in the mean, O(n) on the host. At a million
+    /// points of 16 bits the peak is below 200 bytes per point, the engine or the software model and the mesh included,
+    /// the caller's points not.
     ///
     /// # Errors
-    /// A coordinate beyond the device's bits, more contexts than it has, more distinct points than it holds, a failing link, an answer that no
-    /// sound device gives, a passed deadline, or a cancelled job. After an error of link or device, or a deadline that passed while
-    /// the device worked, the session is out of step: open the device again. After all others it can be used again.
+    /// A coordinate beyond the device's bits, more contexts than it has, more distinct points than it holds, a failing
+    /// link, an answer that no sound device gives, a passed deadline, or a cancelled job. After an error of link or
+    /// device, or a deadline that passed while the device worked, the session is out of step: open the device again.
+    /// After all others it can be used again.
     pub fn triangulate_with<P: Into<Point> + Copy>(
         &mut self,
         points: &(impl AsRef<[P]> + ?Sized),
@@ -77,19 +79,22 @@ impl<'d> Session<'d> {
         self.backend.triangulate(points, terms)
     }
 
-    /// Triangulates many sets in one call: the mesh of each is that of [`Session::triangulate_with`], byte for byte; of the
-    /// reports: a job that a device does with others, or ahead of another, has no times, and counters only where it had the whole memory.
+    /// Triangulates many sets in one call: the mesh of each is that of [`Session::triangulate_with`], byte for byte; of
+    /// the reports: a job that a device does with others, or ahead of another, has no times, and counters only where it
+    /// had the whole memory.
     ///
-    /// A device works on several jobs side by side in one memory: as many as it has contexts, if so many fit; [`Options::contexts`] says how
-    /// many at most. Jobs so large that only few fit, or that are left over, are done one by one, each with as many contexts as pay:
-    /// whatever is expected to take the device the fewest clocks. Where the link takes words ahead, those of the next
-    /// job are on their way, and the one behind it is put in order in a thread, while the device works on the last and its mesh is assembled:
-    /// three jobs are held in order at once. The engine in this process works on a job with each thread.
+    /// A device works on several jobs side by side in one memory: as many as it has contexts, if so many fit;
+    /// [`Options::contexts`] says how many at most. Jobs so large that only few fit, or that are left over, are done
+    /// one by one, each with as many contexts as pay: whatever is expected to take the device the fewest clocks. Where
+    /// the link takes words ahead, those of the next job are on their way, and the one behind it is put in order in a
+    /// thread, while the device works on the last and its mesh is assembled: three jobs are held in order at once. The
+    /// engine in this process works on a job with each thread.
     ///
-    /// [`Options::insert_chunk`] is used only where a job has more than 65,536 points, or the link takes nothing ahead. The time of
-    /// [`Options::timeout`] is for all jobs that share the memory together, and for each of the others; a job that is sent ahead lends its own to
-    /// the one before it. Progress is told in points of all jobs, duplicates included, and never goes back: first [`Stage::Order`] of those that
-    /// share the memory, then [`Stage::Insert`]. What has been sent when a listener cancels is still answered, so the session stays in step.
+    /// [`Options::insert_chunk`] is used only where a job has more than 65,536 points, or the link takes nothing ahead.
+    /// The time of [`Options::timeout`] is for all jobs that share the memory together, and for each of the others; a
+    /// job that is sent ahead lends its own to the one before it. Progress is told in points of all jobs, duplicates
+    /// included, and never goes back: first [`Stage::Order`] of those that share the memory, then [`Stage::Insert`].
+    /// What has been sent when a listener cancels is still answered, so the session stays in step.
     ///
     /// ```
     /// use incircle::{Device, Options, Point};
@@ -104,7 +109,8 @@ impl<'d> Session<'d> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Session::triangulate_with`], with the number of the job where one is at fault. There are no solutions then.
+    /// Those of [`Session::triangulate_with`], with the number of the job where one is at fault. There are no solutions
+    /// then.
     pub fn triangulate_batch<P: Into<Point> + Copy>(
         &mut self,
         jobs: &[impl AsRef<[P]>],
@@ -131,7 +137,8 @@ impl<'d> Session<'d> {
         Ok(solutions.into_iter().flatten().collect())
     }
 
-    /// Clocks of the device since it was opened: of a core in simulation, of which every clock is counted; `None` elsewhere.
+    /// Clocks of the device since it was opened: of a core in simulation, of which every clock is counted; `None`
+    /// elsewhere.
     #[must_use]
     pub fn clocks(&self) -> Option<u64> {
         self.backend.clocks()

@@ -1,8 +1,9 @@
 //! From a device's records to the canonical mesh. Nothing a record says is used before it is checked.
 //!
-//! What is checked costs O(n): ids in range, locks and unused bits clear, triangles counter-clockwise and none twice, ghosts
-//! that close one hull, areas that sum to the hull's. Links, where they are read, are only checked to be in range, and not used. Not checked
-//! here: the Delaunay property and the tie rule, which [`Mesh::verify`](crate::Mesh::verify) proves.
+//! What is checked costs O(n): ids in range, locks and unused bits clear, triangles counter-clockwise and none twice,
+//! ghosts that close one hull, areas that sum to the hull's. Links, where they are read, are only checked to be in
+//! range, and not used. Not checked here: the Delaunay property and the tie rule, which
+//! [`Mesh::verify`](crate::Mesh::verify) proves.
 
 use std::ops::Range;
 
@@ -190,8 +191,8 @@ fn hull_area(hull: &[u32], points: &[Point]) -> i128 {
     fan.map(|pair| i128::from(orient2d(at(first), at(&pair[0]), at(&pair[1])))).sum()
 }
 
-/// Sorts triangles by counting their first corners, then each corner's few triangles. O(n) for meshes, O(n log n) for any
-/// list.
+/// Sorts triangles by counting their first corners, then each corner's few triangles. O(n) for meshes, O(n log n) for
+/// any list.
 fn sort_triangles(triangles: Vec<[u32; 3]>, points: usize) -> Vec<[u32; 3]> {
     let mut starts = vec![0u32; points];
     for triangle in &triangles {

@@ -2,8 +2,8 @@
 
 use incircle_protocol::{latency_of_bucket, Counter, COUNTER_WORDS, LATENCY_BUCKETS};
 
-/// The device's event counters after a job. Cycle counts, and counts of what contexts do to each other, are 0 where there is no
-/// clock (the software model).
+/// The device's event counters after a job. Cycle counts, and counts of what contexts do to each other, are 0 where
+/// there is no clock (the software model).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Counters {
@@ -116,8 +116,8 @@ impl Counters {
     }
 }
 
-/// How many clock cycles insertions took, each from its point taken by a context to its last record written. The first three
-/// points and those inserted alone are left out.
+/// How many clock cycles insertions took, each from its point taken by a context to its last record written. The first
+/// three points and those inserted alone are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Latencies {
@@ -131,8 +131,8 @@ pub struct Latencies {
     pub p99: u32,
     /// Most cycles; exact.
     pub max: u32,
-    /// Where median and percentile come from: the fewest cycles of a bucket and its insertions, without empty buckets. There are
-    /// eight buckets to an octave; the first one is for 0 to 17 cycles, the last one is open.
+    /// Where median and percentile come from: the fewest cycles of a bucket and its insertions, without empty buckets.
+    /// There are eight buckets to an octave; the first one is for 0 to 17 cycles, the last one is open.
     pub histogram: Vec<[u32; 2]>,
 }
 

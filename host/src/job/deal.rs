@@ -8,17 +8,17 @@ use incircle_geometry::Point;
 /// The first place from which on points belong to all contexts in turn; see [`FIRST_ROUND`].
 const FIRST: usize = FIRST_ROUND as usize;
 
-/// The order in which a device with this many contexts gets the points: [`brio_hilbert`](incircle_geometry::order::brio_hilbert), each round cut into as
-/// many stretches, dealt out in turn.
+/// The order in which a device with this many contexts gets the points:
+/// [`brio_hilbert`](incircle_geometry::order::brio_hilbert), each round cut into as many stretches, dealt out in turn.
 pub fn brio_hilbert_dealt(points: &[Point], contexts: u32) -> Vec<u32> {
     deal(rounds(&along_curve(points)), contexts)
 }
 
-/// Deals each round to the contexts of a device, so that every context runs along a stretch of the curve of its own and they
-/// work far apart. O(n).
+/// Deals each round to the contexts of a device, so that every context runs along a stretch of the curve of its own and
+/// they work far apart. O(n).
 ///
-/// Context 0 takes the points before [`FIRST_ROUND`], and place `j` from there on belongs to context
-/// `(j - FIRST_ROUND) mod contexts`. The places of a round that belong to context `c` get the `c`-th stretch of the round.
+/// Context 0 takes the points before [`FIRST_ROUND`], and place `j` from there on belongs to context `(j - FIRST_ROUND)
+/// mod contexts`. The places of a round that belong to context `c` get the `c`-th stretch of the round.
 pub fn deal(rounds: Rounds, contexts: u32) -> Vec<u32> {
     let Rounds { mut order, starts, .. } = rounds;
     let ends = starts.iter().skip(1).copied().chain([order.len()]);

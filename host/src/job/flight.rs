@@ -1,5 +1,5 @@
-//! Loads on their way: sent, answered, checked, and sent once more if a fault passes. The commands of the next load are sent before the
-//! answers of the last are received, where the way to the device takes them.
+//! Loads on their way: sent, answered, checked, and sent once more if a fault passes. The commands of the next load are
+//! sent before the answers of the last are received, where the way to the device takes them.
 
 use std::collections::VecDeque;
 
@@ -46,7 +46,8 @@ impl JobError {
 /// What has become of jobs, in the order of the caller.
 pub(crate) struct Done {
     pub(crate) answers: Vec<Option<Answer>>,
-    /// Points of the jobs that have been begun or answered: what a listener hears is ahead by the jobs under way at most.
+    /// Points of the jobs that have been begun or answered: what a listener hears is ahead by the jobs under way at
+    /// most.
     pub(crate) passed: usize,
 }
 
@@ -90,8 +91,8 @@ pub(crate) struct Carrier<'c> {
 }
 
 impl Carrier<'_> {
-    /// Does the loads that `next` gives, one behind the other. An error of `next` ends them when all that was sent is answered: the session
-    /// stays in step.
+    /// Does the loads that `next` gives, one behind the other. An error of `next` ends them when all that was sent is
+    /// answered: the session stays in step.
     pub(crate) fn carry(
         &mut self,
         done: &mut Done,
@@ -124,8 +125,8 @@ impl Carrier<'_> {
         }
     }
 
-    /// Answers a job that needs no device, for which so many contexts would work; gives back one that does. An error if the device cannot hold
-    /// it.
+    /// Answers a job that needs no device, for which so many contexts would work; gives back one that does. An error if
+    /// the device cannot hold it.
     pub(crate) fn answer_here(
         &self,
         ordered: Ordered,
@@ -159,7 +160,8 @@ impl Carrier<'_> {
         }
     }
 
-    /// Sends what the link does not have yet. Where each command must be answered before the next, that is done with the answers.
+    /// Sends what the link does not have yet. Where each command must be answered before the next, that is done with
+    /// the answers.
     fn send(&mut self, flight: &mut Flight) -> Result<(), Error> {
         let limit = self.limit_of(flight);
         while let Some(load) = flight.loads.get(flight.sent) {
@@ -278,7 +280,8 @@ impl Carrier<'_> {
         self.jobs.iter().map(Vec::len).sum()
     }
 
-    /// After an error: if the device is back as after its reset, all that was under way is sent once more, but a load only once.
+    /// After an error: if the device is back as after its reset, all that was under way is sent once more, but a load
+    /// only once.
     fn try_again(&mut self, flight: &mut Flight, error: Error) -> Result<(), JobError> {
         let job = flight.loads.front().and_then(|load| load.group.only_job());
         let in_job = |error| JobError { job, error };
@@ -291,8 +294,9 @@ impl Carrier<'_> {
         Ok(())
     }
 
-    /// Until when the first load may take: one that has a time of its own has it from the end of the one before on, all others have theirs
-    /// together. While such a load is sent ahead its time is added, since nobody can tell which of the two is at work.
+    /// Until when the first load may take: one that has a time of its own has it from the end of the one before on, all
+    /// others have theirs together. While such a load is sent ahead its time is added, since nobody can tell which of
+    /// the two is at work.
     fn limit_of(&self, flight: &mut Flight) -> Limit {
         let mut loads = flight.loads.iter();
         let head = loads.next().and_then(|load| load.time);

@@ -65,14 +65,16 @@ impl Group {
         }
     }
 
-    /// Vertices of the longest job, and how many jobs have as many: the first ones, since they stand in the order of their lengths.
+    /// Vertices of the longest job, and how many jobs have as many: the first ones, since they stand in the order of
+    /// their lengths.
     fn longest(&self) -> (usize, usize) {
         let longest = self.jobs.first().map_or(0, Ordered::vertices);
         (longest, self.jobs.iter().take_while(|ordered| ordered.vertices() == longest).count())
     }
 
-    /// Hands on a stretch of the points that are sent, in their order: three of each job, then one of each in turn. A job that has no more
-    /// repeats its last one, which is found at once, until the longest is over. For a job alone that is its own order.
+    /// Hands on a stretch of the points that are sent, in their order: three of each job, then one of each in turn. A
+    /// job that has no more repeats its last one, which is found at once, until the longest is over. For a job alone
+    /// that is its own order.
     pub(crate) fn for_points(&self, jobs: &[Vec<Point>], stretch: Range<usize>, mut take: impl FnMut(Point)) {
         let at = |ordered: &Ordered, index: u32| jobs[ordered.job][index as usize];
         if let [only] = &self.jobs[..] {
@@ -95,8 +97,8 @@ impl Group {
             .for_each(|(ordered, index)| take(at(ordered, index)));
     }
 
-    /// After so many points all of them must be in, and those that were repeated are duplicates. The points of jobs that share the memory are
-    /// sent at once.
+    /// After so many points all of them must be in, and those that were repeated are duplicates. The points of jobs
+    /// that share the memory are sent at once.
     pub(crate) fn check_report(&self, report: &InsertReport, sent: usize) -> Result<(), DeviceFault> {
         let (vertices, records) = match &self.jobs[..] {
             [_] => (sent, 2 * sent - 2),

@@ -12,7 +12,8 @@ use crate::error::DeviceFault;
 use crate::transports::Capabilities;
 use incircle_geometry::Point;
 
-/// Records of one `Read` or `Triangles` command of a job that goes step by step: 384 kB at most. A slow link takes fewer.
+/// Records of one `Read` or `Triangles` command of a job that goes step by step: 384 kB at most. A slow link takes
+/// fewer.
 const READ_CHUNK: usize = 16_384;
 /// Fewest points of an `Insert` command: the device can judge its report only after the first triangle.
 const MIN_INSERT_CHUNK: usize = 3;
@@ -48,8 +49,8 @@ pub(crate) struct Load {
 pub(crate) type Assembled = (Vec<[u32; 3]>, Vec<u32>);
 
 impl Load {
-    /// A group whose points and records go in a command each, so that all commands may be sent ahead. The counters of a job that has the whole
-    /// memory are read before its mesh, which ends it.
+    /// A group whose points and records go in a command each, so that all commands may be sent ahead. The counters of a
+    /// job that has the whole memory are read before its mesh, which ends it.
     pub(crate) fn at_once(group: Group, time: Option<Duration>) -> Self {
         let mut steps = vec![Step::Clear, Step::Insert(0..group.sent())];
         if !group.is_shared {

@@ -65,9 +65,9 @@ pub struct Options<'a> {
     pub order: Order,
     /// Called at the start of each stage and after every chunk.
     pub progress: Option<ProgressListener<'a>>,
-    /// Contexts that work, that is insertions in flight at once: 1 to what [`Session::identity`](crate::Session::identity) says the
-    /// device has. `None`: all of them. In a batch that is the most that may work, and a job has as many as pay. The mesh does not depend
-    /// on it, the time does.
+    /// Contexts that work, that is insertions in flight at once: 1 to what
+    /// [`Session::identity`](crate::Session::identity) says the device has. `None`: all of them. In a batch that is the
+    /// most that may work, and a job has as many as pay. The mesh does not depend on it, the time does.
     pub contexts: Option<u32>,
     /// Points of one `Insert` command; at least 3 are sent. Progress and cancellation come between chunks.
     pub insert_chunk: usize,
@@ -106,8 +106,8 @@ impl<'a> Options<'a> {
 
     /// The time a job of this many points may take when none is chosen: a minute and 2 ms per point.
     ///
-    /// The simulated core with one context takes about 0.07 ms per uniform point: 120 clocks at two million a second. Choose more
-    /// for a device that is much slower, such as a simulation that writes waveforms.
+    /// The simulated core with one context takes about 0.07 ms per uniform point: 120 clocks at two million a second.
+    /// Choose more for a device that is much slower, such as a simulation that writes waveforms.
     pub fn default_timeout(points: usize) -> Duration {
         let milliseconds = u64::try_from(points).unwrap_or(u64::MAX).saturating_mul(2);
         Duration::from_secs(60).saturating_add(Duration::from_millis(milliseconds))

@@ -17,8 +17,9 @@ pub(crate) struct Prepared {
     pub(crate) collinear: bool,
 }
 
-/// Sorts, removes duplicates, orders, and deals the points to this many contexts; the order of the input is left alone. The
-/// input must be shorter than 2^32. O(n), 16 bytes per point while it runs (32 where a coordinate has more than 16 bits).
+/// Sorts, removes duplicates, orders, and deals the points to this many contexts; the order of the input is left alone.
+/// The input must be shorter than 2^32. O(n), 16 bytes per point while it runs (32 where a coordinate has more than 16
+/// bits).
 pub(crate) fn prepare(points: &[Point], order: Order, contexts: u32) -> Prepared {
     let (curve, duplicates) = distinct(points);
     let mut rounds = match order {

@@ -28,14 +28,15 @@ pub struct Report {
     /// Time per stage, in the order in which they ran; none where a device did the job with others, or as one
     /// that was sent ahead.
     pub stages: Vec<(&'static str, Duration)>,
-    /// The device's counters; `None` if the host answered alone, or the job shared the memory of the device with others. Of a job of a batch
-    /// that had the whole memory they are read before its mesh is, so that [`Counters::read_cycles`] is 0.
+    /// The device's counters; `None` if the host answered alone, or the job shared the memory of the device with
+    /// others. Of a job of a batch that had the whole memory they are read before its mesh is, so that
+    /// [`Counters::read_cycles`] is 0.
     pub counters: Option<Counters>,
-    /// How long insertions took; `None` where there is no clock, where there are no counters, and for a job of a batch that was sent
-    /// ahead.
+    /// How long insertions took; `None` where there is no clock, where there are no counters, and for a job of a batch
+    /// that was sent ahead.
     pub latencies: Option<Latencies>,
-    /// Clocks of the device for a job of a batch that had the whole memory: from the last word of the job before it, or the first of the
-    /// batch, to its own last triangle. `None` elsewhere, and where the link does not know.
+    /// Clocks of the device for a job of a batch that had the whole memory: from the last word of the job before it, or
+    /// the first of the batch, to its own last triangle. `None` elsewhere, and where the link does not know.
     pub clocks: Option<u64>,
     /// Bits of a coordinate of the device.
     pub coord_bits: u32,
@@ -52,9 +53,9 @@ impl Report {
         found.map(|&(_, duration)| duration)
     }
 
-    /// Clock cycles per distinct point, from the first point accepted to the last lock released: waiting for points, which
-    /// [`Counters::wait_cycles`] counts, lies within, reading out lies outside. `None` where there is no clock, or where
-    /// the host answered alone.
+    /// Clock cycles per distinct point, from the first point accepted to the last lock released: waiting for points,
+    /// which [`Counters::wait_cycles`] counts, lies within, reading out lies outside. `None` where there is no clock,
+    /// or where the host answered alone.
     pub fn cycles_per_insertion(&self) -> Option<f64> {
         let cycles = self.counters?.insert_cycles;
         (cycles > 0 && self.distinct > 0).then(|| cycles as f64 / self.distinct as f64)

@@ -1,4 +1,5 @@
-//! The core's model, clock by clock, as a device: the answers, records and cycle counts of the core, without a simulator.
+//! The core's model, clock by clock, as a device: the answers, records and cycle counts of the core, without a
+//! simulator.
 
 use std::collections::VecDeque;
 use std::time::Instant;
@@ -17,9 +18,9 @@ const SLICE: u32 = 4096;
 
 /// The core's model, clock by clock, as a transport.
 ///
-/// Time passes only while words are sent or awaited. Answers are taken as they come, also while words are sent, and kept until
-/// they are asked for, so no order of calls can block the core. A word is offered as soon as the one before it is taken: the
-/// cycle counts are those of a core whose host never keeps it waiting within a command.
+/// Time passes only while words are sent or awaited. Answers are taken as they come, also while words are sent, and
+/// kept until they are asked for, so no order of calls can block the core. A word is offered as soon as the one before
+/// it is taken: the cycle counts are those of a core whose host never keeps it waiting within a command.
 pub struct ClockTransport {
     model: ClockModel,
     config: Config,

@@ -11,20 +11,23 @@ pub type AnswerHead = [u32; ANSWER_HEAD_WORDS];
 
 /// A way to a device.
 ///
-/// The trait is object-safe; `Box<dyn Transport>` is what [`Device::from_transport`](crate::Device::from_transport) takes. A way carries whole
-/// commands and whole answers, in their order, and judges no answer: what a device says is checked above it. After an error the streams are out
-/// of step, and the session that saw it refuses further work, unless [`recover`](Self::recover) helps.
+/// The trait is object-safe; `Box<dyn Transport>` is what [`Device::from_transport`](crate::Device::from_transport)
+/// takes. A way carries whole commands and whole answers, in their order, and judges no answer: what a device says is
+/// checked above it. After an error the streams are out of step, and the session that saw it refuses further work,
+/// unless [`recover`](Self::recover) helps.
 pub trait Transport {
     /// Short name for reports: `model`, `sim:full`.
     fn name(&self) -> String;
 
-    /// Hands over commands whose answers are received later, or fails by `deadline`. It is one command, all answers to earlier ones have been
-    /// received, and this call may wait for the answer, unless the way [takes commands ahead](Capabilities::takes_ahead).
+    /// Hands over commands whose answers are received later, or fails by `deadline`. It is one command, all answers to
+    /// earlier ones have been received, and this call may wait for the answer, unless the way [takes commands
+    /// ahead](Capabilities::takes_ahead).
     fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError>;
 
-    /// Receives the answer to the first command whose answer has not been received, or fails by `deadline`. `head` is what that answer begins
-    /// with if the device did what it was asked for: then the payload, which is as long as that says, is filled. Of any other answer the payload
-    /// is left alone. Gives what the answer begins with; [`receive_in_pieces`] does all that for a stream of words.
+    /// Receives the answer to the first command whose answer has not been received, or fails by `deadline`. `head` is
+    /// what that answer begins with if the device did what it was asked for: then the payload, which is as long as that
+    /// says, is filled. Of any other answer the payload is left alone. Gives what the answer begins with;
+    /// [`receive_in_pieces`] does all that for a stream of words.
     ///
     /// A way whose device may be reset by others has an error for an answer that must be somebody else's.
     fn receive(
@@ -44,8 +47,8 @@ pub trait Transport {
         None
     }
 
-    /// After an error: brings the device back to where it was after its reset, if that may help, and says whether it did. Then the
-    /// job is tried once more, from its `Clear` on, and so is what was sent ahead behind it.
+    /// After an error: brings the device back to where it was after its reset, if that may help, and says whether it
+    /// did. Then the job is tried once more, from its `Clear` on, and so is what was sent ahead behind it.
     ///
     /// # Errors
     /// A newer fault, which tells more than the one before.
@@ -55,14 +58,16 @@ pub trait Transport {
     }
 }
 
-/// What a way to a device can do. The default suits one that is plain: a command at a time, `Triangles`, and no time lost.
+/// What a way to a device can do. The default suits one that is plain: a command at a time, `Triangles`, and no time
+/// lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
     /// Commands may be submitted before the answers to earlier ones are received. Only for a way on which
-    /// [`submit`](Transport::submit) never waits until answers are received: what comes meanwhile is kept, up to the answers of two jobs.
+    /// [`submit`](Transport::submit) never waits until answers are received: what comes meanwhile is kept, up to the
+    /// answers of two jobs.
     pub takes_ahead: bool,
-    /// Meshes are read with `Triangles`, which leaves out the links: half the words. False where a way knows `Read` alone, as one does that
-    /// asks again for parts of an answer.
+    /// Meshes are read with `Triangles`, which leaves out the links: half the words. False where a way knows `Read`
+    /// alone, as one does that asks again for parts of an answer.
     pub packs_records: bool,
     /// How fast the way is.
     pub pace: Pace,
@@ -79,7 +84,8 @@ impl Default for Capabilities {
 pub struct DeviceClocks {
     /// Until now.
     pub now: u64,
-    /// Until the word that was received last; `None` before the first. The device may be far ahead of what was received.
+    /// Until the word that was received last; `None` before the first. The device may be far ahead of what was
+    /// received.
     pub answer: Option<u64>,
 }
 
@@ -99,8 +105,8 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// Items of this many words for about a quarter of a second, so that progress is told and an interrupt heard in time: at least 64,
-    /// at most `most`.
+    /// Items of this many words for about a quarter of a second, so that progress is told and an interrupt heard in
+    /// time: at least 64, at most `most`.
     pub(crate) fn chunk(self, most: usize, words: usize) -> usize {
         const LEAST: usize = 64;
         match self.words_per_second {
@@ -110,7 +116,8 @@ impl Pace {
     }
 }
 
-/// Receives an answer as [`Transport::receive`] must, from a stream of words: `fill` fills the whole of a list with the next words.
+/// Receives an answer as [`Transport::receive`] must, from a stream of words: `fill` fills the whole of a list with the
+/// next words.
 ///
 /// # Errors
 /// Those of `fill`.

@@ -114,7 +114,7 @@ Counted on the model by clock, and exact: the same on every machine. Renewed by
 
     cargo run --release -p incircle-testbench --bin cycles
 
-`tests/it/cores/cycles.rs` holds the smaller tables to it. The sets are those of `incircle generate` with 16 bits and seed 1, duplicates
+`tests/it/cores/cycles.rs` counts all of it again and compares. The sets are those of `incircle generate` with 16 bits and seed 1, duplicates
 removed first, in the order of the host. K contexts, each with a boundary list of 32 edges; capacity the next power of two.
 A cell is the counter `InsertCycles` by the points inserted: from the first point accepted to the last lock released, reading out
 not included. The limit is what the counted accesses alone take: one visit and one write a clock, so the larger of

@@ -48,6 +48,8 @@ pub struct SoakReport {
     pub wrong: u64,
     /// Jobs that ended with an error, by its sentence.
     pub errors: BTreeMap<String, u64>,
+    /// Jobs that met a fault of the line, however they ended; only these say anything about faults.
+    pub met: u64,
     /// Faults that the line did.
     pub faults: u64,
     /// `Data` frames sent again.
@@ -64,9 +66,10 @@ impl SoakReport {
         self.right + self.wrong + self.errors.values().sum::<u64>()
     }
 
-    /// All of so many jobs ended, none with a wrong mesh, and this share of them at least with the right one.
-    pub fn is_good(&self, jobs: u64, least: f64) -> bool {
-        jobs > 0 && self.jobs() == jobs && self.wrong == 0 && self.right as f64 >= least * jobs as f64
+    /// All of so many jobs ended, none with a wrong mesh, this share of them at least with the right one; and so many met a fault.
+    pub fn is_good(&self, jobs: u64, least: f64, met: u64) -> bool {
+        let all_ended = jobs > 0 && self.jobs() == jobs;
+        all_ended && self.wrong == 0 && self.right as f64 >= least * jobs as f64 && self.met >= met
     }
 }
 
@@ -75,8 +78,9 @@ impl fmt::Display for SoakReport {
         let errors: u64 = self.errors.values().sum();
         write!(
             f,
-            "{} jobs: {} right, {} wrong, {errors} with an error; {} faults, {} frames sent again, {} answers asked for again; longest job {} ms",
+            "{} jobs, {} of which met a fault: {} right, {} wrong, {errors} with an error; {} faults, {} frames sent again, {} answers asked for again; longest job {} ms",
             self.jobs(),
+            self.met,
             self.right,
             self.wrong,
             self.faults,
@@ -127,8 +131,9 @@ fn run_job(
 ) -> bool {
     let points = random_points(3 + (job * 37) as usize % (what.points - 2), job);
     let expected = incircle::triangulate(&points);
-    let begun = line.borrow().now();
+    let (begun, faults) = (line.borrow().now(), line.borrow().faults());
     let mesh = mesh_of(device, &points);
+    report.met += u64::from(line.borrow().faults() > faults);
     report.longest = report.longest.max(line.borrow().now() - begun);
     match (mesh, expected) {
         (Ok(mesh), Ok(expected)) if is_one_mesh(&mesh, &expected) => report.right += 1,
@@ -158,12 +163,14 @@ mod tests {
             errors: BTreeMap::from([("a sentence".to_owned(), failed)]),
             ..SoakReport::default()
         };
-        assert!(report(200, 0, 0).is_good(200, 1.0));
-        assert!(report(190, 0, 10).is_good(200, 0.95));
+        assert!(report(200, 0, 0).is_good(200, 1.0, 0));
+        assert!(report(190, 0, 10).is_good(200, 0.95, 0));
         for (bad, least) in [(report(199, 0, 1), 1.0), (report(189, 0, 11), 0.95), (report(199, 1, 0), 0.95)] {
-            assert!(!bad.is_good(200, least), "{bad}");
+            assert!(!bad.is_good(200, least, 0), "{bad}");
         }
-        assert!(!report(0, 0, 200).is_good(200, 0.95) && !report(0, 0, 0).is_good(0, 0.95));
-        assert!(!report(150, 0, 0).is_good(200, 0.5), "jobs are missing");
+        assert!(!report(0, 0, 200).is_good(200, 0.95, 0) && !report(0, 0, 0).is_good(0, 0.95, 0));
+        assert!(!report(150, 0, 0).is_good(200, 0.5, 0), "jobs are missing");
+        let met = SoakReport { met: 3, ..report(200, 0, 0) };
+        assert!(met.is_good(200, 1.0, 3) && !met.is_good(200, 1.0, 4), "too few jobs met a fault");
     }
 }

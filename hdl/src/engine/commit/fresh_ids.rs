@@ -22,8 +22,8 @@ use rust_hdl_widgets::prelude::*;
 /// The count of records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FreshIds {
-    /// Reset forgets all records.
     pub clock: Signal<In, Clock>,
+    /// Reset forgets all records.
     pub reset: Signal<In, Bit>,
     /// A ring takes the next new id.
     pub takes: Signal<In, Bit>,

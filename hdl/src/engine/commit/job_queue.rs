@@ -20,8 +20,8 @@ use rust_hdl_widgets::prelude::*;
 /// A queue of jobs; see the top of this file.
 #[derive(LogicBlock)]
 pub struct JobQueue<const D: usize> {
-    /// Reset forgets all jobs.
     pub clock: Signal<In, Clock>,
+    /// Reset forgets all jobs.
     pub reset: Signal<In, Bit>,
     /// A job comes.
     pub enable: Signal<In, Bit>,

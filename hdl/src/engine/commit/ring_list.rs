@@ -25,7 +25,6 @@ const FOLLOWER_BITS: usize = ENTRY_BITS + 1;
 /// The boundary lists; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RingList {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     pub entry: Signal<In, EntryWrite>,
     /// The entry to read; its context as a bit, too.

@@ -18,8 +18,8 @@ use rust_hdl_widgets::prelude::*;
 /// The event counters; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Counters {
-    /// Reset and clear set all counters to zero.
     pub clock: Signal<In, Clock>,
+    /// Reset and clear set all counters to zero.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// A job is under way; it has no point to work on; a read-out is under way.

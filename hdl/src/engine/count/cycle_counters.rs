@@ -13,8 +13,8 @@ use rust_hdl_widgets::prelude::*;
 /// Counts of clocks; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CycleCounters {
-    /// `zero` forgets the clocks before.
     pub clock: Signal<In, Clock>,
+    /// `zero` forgets the clocks before.
     pub zero: Signal<In, Bit>,
     /// A job is under way; it has no point to work on; a read-out is under way.
     pub inserting: Signal<In, Bit>,

@@ -1,15 +1,5 @@
 //! Counts: one of a word, and one of two words.
 //!
-//! `EventCounter`
-//!
-//! `WideCounter`
-//!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `clock`, `zero` | in | 1 | `zero` forgets the clocks before |
-//! | `count` | in | 1 | this clock counts |
-//! | `low`, `high` | out | N | its words; `high` follows a clock after `low` has wrapped |
-//!
 //! A clock is noted at its edge and counted at the next one, so that what says `count` does not reach the carries of a word.
 //!
 //! Latency: 2 clocks.
@@ -20,8 +10,8 @@ use rust_hdl_widgets::prelude::*;
 /// A counter of a word; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct EventCounter {
-    /// `zero` forgets the clocks before.
     pub clock: Signal<In, Clock>,
+    /// `zero` forgets the clocks before.
     pub zero: Signal<In, Bit>,
     /// This clock counts.
     pub count: Signal<In, Bit>,
@@ -51,15 +41,13 @@ impl Logic for EventCounter {
 /// A counter of two words of `N` bits; see the top of this file.
 #[derive(LogicBlock)]
 pub struct WideCounter<const N: usize> {
-    /// Clock.
     pub clock: Signal<In, Clock>,
     /// Forgets the clocks before.
     pub zero: Signal<In, Bit>,
     /// This clock counts.
     pub count: Signal<In, Bit>,
-    /// Low word.
+    /// The words; `high` follows a clock after `low` has wrapped.
     pub low: Signal<Out, Bits<N>>,
-    /// High word.
     pub high: Signal<Out, Bits<N>>,
     counts: DFF<Bit>,
     low_word: DFF<Bits<N>>,

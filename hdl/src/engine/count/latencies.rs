@@ -28,8 +28,8 @@ const _: () = assert!(LATENCY_BUCKETS == 128, "the address of this block's memor
 /// The histogram; see the top of this file.
 #[derive(LogicBlock)]
 pub struct Latencies {
-    /// Reset and clear start a sweep.
     pub clock: Signal<In, Clock>,
+    /// Reset and clear start a sweep.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// An insertion took that long; not while it sweeps.

@@ -13,8 +13,8 @@ use rust_hdl_widgets::prelude::*;
 /// Latencies of insertions; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LatencyRange {
-    /// `zero` forgets all.
     pub clock: Signal<In, Clock>,
+    /// `zero` forgets all.
     pub zero: Signal<In, Bit>,
     /// An insertion is finished at this edge.
     pub commit_ends: Signal<In, Bit>,

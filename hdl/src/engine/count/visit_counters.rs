@@ -11,8 +11,8 @@ use rust_hdl_widgets::prelude::*;
 /// Counts of visits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitCounters {
-    /// `zero` forgets the clocks before.
     pub clock: Signal<In, Clock>,
+    /// `zero` forgets the clocks before.
     pub zero: Signal<In, Bit>,
     pub events: Signal<In, VisitEvents>,
     /// Word to read: its place in the answer to `Counters`.

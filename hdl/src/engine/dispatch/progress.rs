@@ -27,8 +27,8 @@ use rust_hdl_widgets::prelude::*;
 /// Finished points; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Progress {
-    /// Reset and clear set the count to zero.
     pub clock: Signal<In, Clock>,
+    /// Reset and clear set the count to zero.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// Points that have come.

@@ -20,8 +20,8 @@ use rust_hdl_widgets::prelude::*;
 /// The watchdog; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Watchdog {
-    /// Reset forgets the fault.
     pub clock: Signal<In, Clock>,
+    /// Reset forgets the fault.
     pub reset: Signal<In, Bit>,
     /// A point is in the mesh, or known to be a duplicate, at this edge.
     pub finishes: Signal<In, Bit>,

@@ -27,8 +27,8 @@ use rust_hdl_widgets::prelude::*;
 /// The queue and the issue register; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Issue {
-    /// Reset empties the queue.
     pub clock: Signal<In, Clock>,
+    /// Reset empties the queue.
     pub reset: Signal<In, Bit>,
     /// A bundle enters the queue.
     pub push: Signal<In, Push>,

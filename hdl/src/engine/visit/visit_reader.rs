@@ -32,7 +32,6 @@ use rust_hdl_widgets::prelude::*;
 /// Slot search, rotation and corners; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VisitReader {
-    /// Everything happens at its rising edge.
     pub clock: Signal<In, Clock>,
     /// The id of the infinite vertex, a constant.
     pub infinite: Signal<In, VertexId>,

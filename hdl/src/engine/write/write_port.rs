@@ -23,8 +23,8 @@ use rust_hdl_widgets::prelude::*;
 /// The write port; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct WritePort {
-    /// Reset drops a write.
     pub clock: Signal<In, Clock>,
+    /// Reset drops a write.
     pub reset: Signal<In, Bit>,
     /// Requests; at most one is valid: the last two come only while nothing else is at work.
     pub commit: Signal<In, Write>,

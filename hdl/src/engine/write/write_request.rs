@@ -1,33 +1,22 @@
 //! The two forms of a write into the triangle memory: a whole record of the new point's star, and one link.
 //!
-//! `RecordWrite`
-//!
-//! `LinkWrite`
-//!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `id`, `slot` | in | 15, 2 | the record and the column of the link |
-//! | `value` | in | 15 | the record it leads to |
-//! | `write` | out | Write | writes this column alone; `value` stands on all three |
-//!
 //! Latency: none (combinational).
 
-use crate::engine::types::Write;
+use crate::engine::types::{Slot, TriangleId, VertexId, Write};
 use rust_hdl_core::prelude::*;
 
 /// A whole record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordWrite {
-    /// The record and the column of the link.
-    pub id: Signal<In, Bits<15>>,
-    /// Its columns.
-    pub v0: Signal<In, Bits<15>>,
-    pub v1: Signal<In, Bits<15>>,
-    pub v2: Signal<In, Bits<15>>,
-    pub n0: Signal<In, Bits<15>>,
-    pub n1: Signal<In, Bits<15>>,
-    pub n2: Signal<In, Bits<15>>,
-    /// Writes this column alone; `value` stands on all three.
+    /// The record and its columns.
+    pub id: Signal<In, TriangleId>,
+    pub v0: Signal<In, VertexId>,
+    pub v1: Signal<In, VertexId>,
+    pub v2: Signal<In, VertexId>,
+    pub n0: Signal<In, TriangleId>,
+    pub n1: Signal<In, TriangleId>,
+    pub n2: Signal<In, TriangleId>,
+    /// A write of all of them.
     pub write: Signal<Out, Write>,
 }
 
@@ -52,17 +41,16 @@ impl Logic for RecordWrite {
 /// One link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LinkWrite {
-    /// The record.
-    pub id: Signal<In, Bits<15>>,
-    /// The column.
-    pub slot: Signal<In, Bits<2>>,
-    /// The link.
-    pub value: Signal<In, Bits<15>>,
-    /// The write.
+    /// The record and the column of the link.
+    pub id: Signal<In, TriangleId>,
+    pub slot: Signal<In, Slot>,
+    /// The record that it leads to.
+    pub value: Signal<In, TriangleId>,
+    /// A write of this column alone; `value` stands on all three.
     pub write: Signal<Out, Write>,
-    slot0: Signal<Local, Bits<2>>,
-    slot1: Signal<Local, Bits<2>>,
-    slot2: Signal<Local, Bits<2>>,
+    slot0: Signal<Local, Slot>,
+    slot1: Signal<Local, Slot>,
+    slot2: Signal<Local, Slot>,
 }
 
 impl Logic for LinkWrite {

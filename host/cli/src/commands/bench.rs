@@ -66,7 +66,8 @@ fn clock_of(board: backend::Board) -> Option<f64> {
     Some(f64::from(board.greeting.clock_hz) / 1e6).filter(|&mhz| mhz > 0.0)
 }
 
-/// Points that the back end must hold for every set: distinct ones for a core, which is small, all of them for software.
+/// Points that the back end must hold for every set: distinct ones for a core, which is small, all of them for
+/// software.
 fn room_for(choice: &Choice, sets: &[Distribution], arguments: &BenchArguments) -> Result<usize, Failure> {
     // A board is what it is.
     if !choice.is_core() {

@@ -54,7 +54,8 @@ struct Table<'a> {
     contexts: u32,
 }
 
-/// Most points of all jobs together: they and their meshes are in memory at once, 40 bytes a point and some hundred a job, so 3 to 10 GB.
+/// Most points of all jobs together: they and their meshes are in memory at once, 40 bytes a point and some hundred a
+/// job, so 3 to 10 GB.
 const MOST_POINTS: u64 = 1 << 26;
 
 /// Runs so many jobs of each set: a row as soon as they are done, or one JSON object at the end.
@@ -102,7 +103,8 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Points that the back end must hold: those of a job. A core that is not chosen is the one for a board, not the smallest that holds a job.
+/// Points that the back end must hold: those of a job. A core that is not chosen is the one for a board, not the
+/// smallest that holds a job.
 fn room(choice: &Choice, arguments: &BenchArguments) -> usize {
     let least = if choice.is_core() && choice.config.is_none() { FULL.points } else { 0 };
     arguments.n.max(least) as usize

@@ -13,7 +13,8 @@ use crate::interrupt;
 /// The back end that is measured unless another is asked for.
 pub(super) const DEFAULT_BACKEND: &str = "model";
 
-/// Runs of a set in software, of which the fastest counts. Cycles are the same in every run, so one is enough for a core.
+/// Runs of a set in software, of which the fastest counts. Cycles are the same in every run, so one is enough for a
+/// core.
 pub(super) const SOFTWARE_RUNS: usize = 3;
 
 /// Clock frequency for which times are told unless chosen or known.

@@ -12,7 +12,8 @@ use crate::output;
 /// Time for a port: a device that a killed program left at a high rate answers after two seconds.
 const GREET_TIMEOUT: Duration = Duration::from_secs(4);
 
-/// Runs the subcommand: a line per port and card, with what the system knows of it, and with what is there if it is greeted.
+/// Runs the subcommand: a line per port and card, with what the system knows of it, and with what is there if it is
+/// greeted.
 pub fn run(arguments: &DevicesArguments) -> Result<(), Failure> {
     let ports = serial::ports().map_err(|fault| Failure::new(Exit::NoDevice, format!("no ports: {fault}")))?;
     let cards = pcie::cards();

@@ -1,7 +1,7 @@
 //! Comma-separated values: points as `x,y` rows, meshes as `a,b,c` rows.
 //!
-//! A first row without numbers is a header; names such as `x`, `y` or `lon`, `lat` choose the columns, else the first two
-//! count. The separator is a comma, or the semicolon or tab that the first row has instead. Further columns are not
+//! A first row without numbers is a header; names such as `x`, `y` or `lon`, `lat` choose the columns, else the first
+//! two count. The separator is a comma, or the semicolon or tab that the first row has instead. Further columns are not
 //! read, but every row must have as many as the first: a short row is a lost point. Empty rows and rows that start with
 //! `#` are left out. An empty file is an empty list of points.
 

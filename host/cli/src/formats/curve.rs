@@ -1,4 +1,5 @@
-//! SVG: a drawing of the order of points, a line from each to the next. Its colour runs from blue to red, so that one sees where it begins.
+//! SVG: a drawing of the order of points, a line from each to the next. Its colour runs from blue to red, so that one
+//! sees where it begins.
 
 use std::io::{self, Write};
 

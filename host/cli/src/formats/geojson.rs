@@ -1,7 +1,7 @@
 //! GeoJSON (RFC 7946): points in, a polygon per triangle out.
 //!
-//! Points are read from `Point` and `MultiPoint` geometries, bare or in features and collections, in the order of the file;
-//! a height is not read. Any other geometry is refused, or its corners would be lost unseen.
+//! Points are read from `Point` and `MultiPoint` geometries, bare or in features and collections, in the order of the
+//! file; a height is not read. Any other geometry is refused, or its corners would be lost unseen.
 
 use std::io::{self, Write};
 

@@ -1,7 +1,7 @@
 //! JSON: one object with `points`, `triangles`, `hull` and `duplicates`.
 //!
-//! `points` are the input points `[x, y]`, `triangles` triples of indices into them, `hull` a list of indices, `duplicates`
-//! pairs `[index, lowest index with the same place]`.
+//! `points` are the input points `[x, y]`, `triangles` triples of indices into them, `hull` a list of indices,
+//! `duplicates` pairs `[index, lowest index with the same place]`.
 
 use std::io::{self, Write};
 
@@ -12,8 +12,8 @@ use crate::formats::geojson;
 use crate::formats::mesh_view::MeshView;
 use crate::points::PointTable;
 
-/// Reads the list `points`, pairs of finite numbers; all else in the object is left out. An object without it, or with the
-/// `type` that GeoJSON wants, is read as GeoJSON.
+/// Reads the list `points`, pairs of finite numbers; all else in the object is left out. An object without it, or with
+/// the `type` that GeoJSON wants, is read as GeoJSON.
 pub fn read_points(bytes: &[u8]) -> Result<PointTable, Failure> {
     let object: Option<Value> = serde_json::from_slice(crate::text::without_mark(bytes)?).ok();
     let own = object.as_ref().filter(|object| object.get("type").is_none());

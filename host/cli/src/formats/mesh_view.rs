@@ -14,7 +14,8 @@ pub struct MeshView<'a> {
 }
 
 impl MeshView<'_> {
-    /// The coordinates of a vertex. Vertices that do not exist (there are none in a mesh of the library) are the origin.
+    /// The coordinates of a vertex. Vertices that do not exist (there are none in a mesh of the library) are the
+    /// origin.
     pub fn position(&self, vertex: u32) -> [f64; 2] {
         self.points.get(vertex as usize).copied().unwrap_or_default()
     }

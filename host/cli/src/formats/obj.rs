@@ -106,7 +106,8 @@ fn statements<'a>(
     }))
 }
 
-/// Refuses rows that are no text or start with no word of the format. A row after a backslash goes on with its statement.
+/// Refuses rows that are no text or start with no word of the format. A row after a backslash goes on with its
+/// statement.
 fn refuse_foreign_rows(bytes: &[u8]) -> Result<(), Failure> {
     let mut goes_on = false;
     for (row, content) in text::rows(bytes) {

@@ -1,7 +1,7 @@
 //! PLY, the Stanford polygon format: ascii and both binary forms in, ascii out.
 //!
-//! Points are `x` and `y` of the element `vertex`, triangles the list `vertex_indices` (or `vertex_index`) of `face`; all
-//! else is left out. Headers and binary elements are decoded by `ply-rs-bw`, one element at a time, so nothing is
+//! Points are `x` and `y` of the element `vertex`, triangles the list `vertex_indices` (or `vertex_index`) of `face`;
+//! all else is left out. Headers and binary elements are decoded by `ply-rs-bw`, one element at a time, so nothing is
 //! allocated because a header claims it. Meshes hold every input point at height 0, so indices stay those of the input.
 
 use std::io::{self, Write};

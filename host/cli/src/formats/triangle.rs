@@ -1,4 +1,5 @@
-//! The opening that `.node` and `.ele`, the formats of Shewchuk's Triangle, share: a header `N M …`, then a row per item.
+//! The opening that `.node` and `.ele`, the formats of Shewchuk's Triangle, share: a header `N M …`, then a row per
+//! item.
 
 use crate::failure::{quoted, Failure};
 use crate::points::Place;

@@ -1,9 +1,9 @@
 //! Many jobs on one device.
 //!
-//! A small mesh has no room for many insertions at once, so a device with several contexts gets a *group* of small jobs, a mesh for each
-//! context. A job too large for that, or one that is left over, is a *frame*: it has the whole memory ([`plan`]). Where the way to the device takes
-//! commands ahead, those of the next group or frame are sent before the answers of the last are received ([`super::flight`]), so that the device
-//! never waits for the host.
+//! A small mesh has no room for many insertions at once, so a device with several contexts gets a *group* of small
+//! jobs, a mesh for each context. A job too large for that, or one that is left over, is a *frame*: it has the whole
+//! memory ([`plan`]). Where the way to the device takes commands ahead, those of the next group or frame are sent
+//! before the answers of the last are received ([`super::flight`]), so that the device never waits for the host.
 
 mod plan;
 
@@ -44,8 +44,8 @@ impl<'b> Batch<'b> {
         Self { carrier, contexts, done, left }
     }
 
-    /// Does all jobs but those that must go one by one: those that share the memory with none on a way that takes nothing ahead, and very large
-    /// ones on any. Of those it says how many contexts are to work on each.
+    /// Does all jobs but those that must go one by one: those that share the memory with none on a way that takes
+    /// nothing ahead, and very large ones on any. Of those it says how many contexts are to work on each.
     pub(crate) fn run(mut self) -> Result<(Done, Vec<Option<u32>>), JobError> {
         let (jobs, options) = (self.carrier.jobs, self.carrier.options);
         let plan = Plan::new(self.contexts, self.carrier.identity.capacity);
@@ -84,7 +84,8 @@ impl<'b> Batch<'b> {
         }
     }
 
-    /// Puts the small jobs in order and into groups; those that are better off alone join the frames. What needs no device is answered here.
+    /// Puts the small jobs in order and into groups; those that are better off alone join the frames. What needs no
+    /// device is answered here.
     fn group(&mut self, plan: &Plan, small: Vec<usize>, frames: &mut Vec<usize>) -> Result<Vec<Group>, JobError> {
         let mut shared = self.in_order(small)?;
         // Jobs of one length side by side: none waits long for another.
@@ -156,8 +157,8 @@ fn frame_time(carrier: &Carrier<'_>, job: usize) -> Duration {
     carrier.options.timeout.unwrap_or_else(default)
 }
 
-/// Puts frames in order in a thread of its own, each for so many contexts, so that it is done while the device works. It ends when nobody
-/// wants the next one.
+/// Puts frames in order in a thread of its own, each for so many contexts, so that it is done while the device works.
+/// It ends when nobody wants the next one.
 fn order_frames<'s>(
     scope: &'s Scope<'s, '_>,
     jobs: &'s [Vec<Point>],

@@ -1,10 +1,11 @@
 //! Which jobs go side by side, and which have the memory alone: whatever takes the device the fewest clocks.
 //!
-//! A context alone waits for its own visits most of the time, so jobs side by side cost little more than one, until the read port of the
-//! triangle memory is busy ([`rounds`]). In a frame contexts share the work, but stand in each other's way while the mesh is small
-//! ([`Plan::frame_with`]). Jobs side by side are held to the longest of them, and to the capacity by it: so few large jobs fit, and few
-//! together are slower than a frame each. Both formulas are fitted to the model by clock, uniform points, and hold within an eighth
-//! there (`plan/tests.rs`). For other sets and devices they are a guess: the clocks depend on it, the meshes do not.
+//! A context alone waits for its own visits most of the time, so jobs side by side cost little more than one, until the
+//! read port of the triangle memory is busy ([`rounds`]). In a frame contexts share the work, but stand in each other's
+//! way while the mesh is small ([`Plan::frame_with`]). Jobs side by side are held to the longest of them, and to the
+//! capacity by it: so few large jobs fit, and few together are slower than a frame each. Both formulas are fitted to
+//! the model by clock, uniform points, and hold within an eighth there (`plan/tests.rs`). For other sets and devices
+//! they are a guess: the clocks depend on it, the meshes do not.
 
 #[cfg(test)]
 mod tests;
@@ -15,13 +16,13 @@ const CLOCK: u64 = 100;
 const ALONE: u64 = 155 * CLOCK;
 /// What one more job side by side adds to a round while the read port has room: waiting for a visit of another.
 const BESIDE: u64 = 230;
-/// As many jobs side by side leave room on the read port; each job beyond adds so much more than the one before it, up to the visits of
-/// an insertion, which no neighbour hides.
+/// As many jobs side by side leave room on the read port; each job beyond adds so much more than the one before it, up
+/// to the visits of an insertion, which no neighbour hides.
 const ROOM: u64 = 8;
 const CROWDED: u64 = 120;
 const VISITS: u64 = 13 * CLOCK;
-/// What a frame with several contexts takes longer because its mesh has no room for them at first: this often the fourth root of its points,
-/// of [`GROWN`] at most, times that of the third power of its contexts.
+/// What a frame with several contexts takes longer because its mesh has no room for them at first: this often the
+/// fourth root of its points, of [`GROWN`] at most, times that of the third power of its contexts.
 const CROWD: u64 = 300;
 const GROWN: u64 = 1024;
 /// What the commands of a group or a frame take besides, with headers and pauses; and each first triangle.
@@ -82,8 +83,8 @@ impl Plan {
         Self { rounds: rounds(contexts.max(1)), capacity: capacity as usize }
     }
 
-    /// As many jobs of this length as go side by side take no longer than one behind the other: for 8,192 points and 16 contexts up to 1,170
-    /// points, of which 7 fit.
+    /// As many jobs of this length as go side by side take no longer than one behind the other: for 8,192 points and 16
+    /// contexts up to 1,170 points, of which 7 fit.
     pub(super) fn shares(&self, points: usize) -> bool {
         let most = self.rounds.len().min(self.capacity / points.max(1));
         let rounds = most.checked_sub(1).and_then(|place| self.rounds.get(place));
@@ -96,8 +97,9 @@ impl Plan {
         self.frame(points).1
     }
 
-    /// Cuts a list of jobs, given by their lengths, the longest first, into parts that follow each other: of all cuts that fit, one with the
-    /// fewest clocks. Each length is 1 or more, and no more than the capacity. O(jobs * contexts).
+    /// Cuts a list of jobs, given by their lengths, the longest first, into parts that follow each other: of all cuts
+    /// that fit, one with the fewest clocks. Each length is 1 or more, and no more than the capacity. O(jobs *
+    /// contexts).
     pub(super) fn divide(&self, lengths: &[usize]) -> Vec<Part> {
         // For each job the fewest clocks from it to the last, and the part that it begins then.
         let mut best = vec![(0, Part::Frame); lengths.len() + 1];
@@ -116,7 +118,8 @@ impl Plan {
         first_parts.take_while(|&first| first < lengths.len()).map(|first| best[first].1).collect()
     }
 
-    /// The groups that begin with the first of these jobs and fit, from one job on: how many jobs, and what they take but for the read-out.
+    /// The groups that begin with the first of these jobs and fit, from one job on: how many jobs, and what they take
+    /// but for the read-out.
     fn groups<'a>(&self, lengths: &'a [usize]) -> impl Iterator<Item = (usize, u64)> + use<'a> {
         let (capacity, longest) = (self.capacity, lengths.first().map_or(0, |&first| first));
         let (mut clocks, mut full) = (COMMANDS, 0);

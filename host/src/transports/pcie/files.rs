@@ -45,7 +45,8 @@ mod system {
     /// The driver answers so for a card that has left the bus, or was never there.
     const NO_CARD: [i32; 3] = [libc::ENODEV, libc::ENXIO, libc::EIO];
 
-    /// A file of the card. The lock on the card ends with the last of them, so a call that does not return keeps others away.
+    /// A file of the card. The lock on the card ends with the last of them, so a call that does not return keeps others
+    /// away.
     struct Locked {
         file: File,
         _lock: Arc<File>,

@@ -334,7 +334,8 @@ impl Reader {
         }
     }
 
-    /// Fills a piece, or what the end of the answer leaves of it. A read may be short without an end: only the length tells.
+    /// Fills a piece, or what the end of the answer leaves of it. A read may be short without an end: only the length
+    /// tells.
     fn fill(
         &mut self,
         piece: &mut PageBuffer,

@@ -35,8 +35,8 @@ const ALL_ONES: u32 = u32::MAX;
 
 /// A device in a PCIe slot.
 ///
-/// Commands are written while answers are read: `submit` returns when its commands wait for the card, so the next may be sent before the answer
-/// to the last is taken. The card is reset when it is opened.
+/// Commands are written while answers are read: `submit` returns when its commands wait for the card, so the next may
+/// be sent before the answer to the last is taken. The card is reset when it is opened.
 pub struct PcieTransport {
     name: String,
     registers: Registers,
@@ -55,7 +55,7 @@ impl PcieTransport {
     /// Opens a card of this system, locks it, looks at its registers and resets it.
     ///
     /// # Errors
-    /// [`Error::Card`] where the system refuses, with what to do about it, and the errors of [`PcieTransport::new`].
+    /// [`Error::Open`] where the system refuses, with what to do about it, and the errors of [`PcieTransport::new`].
     pub fn open(address: &CardAddress) -> Result<Self, Error> {
         let (sender, opened) = channel();
         let of = address.clone();
@@ -276,8 +276,8 @@ fn fill(bytes: &mut [u8], words: &[u32]) {
     }
 }
 
-/// An answer to another command, or one that says that records which were there are not: the card has been reset, and the rest of a command
-/// was taken for others. A host asks for no records that the card has not told of.
+/// An answer to another command, or one that says that records which were there are not: the card has been reset, and
+/// the rest of a command was taken for others. A host asks for no records that the card has not told of.
 fn is_out_of_step(awaited: AnswerHead, came: AnswerHead) -> bool {
     let ([awaited, _], [came, _]) = (awaited, came);
     match Status::from_u8(answer_status(came)) {
@@ -373,5 +373,6 @@ impl Drop for PcieTransport {
     }
 }
 
-/// A sound card's answer to the `Hello` that wakes a read is longer than a beat; the rest goes with the reset that follows.
+/// A sound card's answer to the `Hello` that wakes a read is longer than a beat; the rest goes with the reset that
+/// follows.
 const _: () = assert!(ANSWER_HEAD_WORDS + IDENTITY_WORDS > 4);

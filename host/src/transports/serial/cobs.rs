@@ -25,8 +25,8 @@ pub(super) fn encode(bytes: &[u8], out: &mut Vec<u8>) {
     }
 }
 
-/// Decodes reverse COBS in place: where in `bytes` the decoded ones begin, which end where `bytes` end. `None` if a length byte is
-/// impossible.
+/// Decodes reverse COBS in place: where in `bytes` the decoded ones begin, which end where `bytes` end. `None` if a
+/// length byte is impossible.
 pub(super) fn decode_reverse(bytes: &mut [u8]) -> Option<usize> {
     let mut read = bytes.len();
     let mut write = bytes.len();

@@ -1,4 +1,5 @@
-//! From a silent port to an open session: greeting, opening, a higher rate checked by an echo, and the way back to a lower one.
+//! From a silent port to an open session: greeting, opening, a higher rate checked by an echo, and the way back to a
+//! lower one.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -46,8 +47,9 @@ const SILENCES: (u32, u32) = (20, MAX_SILENCE_MS);
 /// Beyond the device's silence, for clocks that differ.
 const SILENCE_SLACK: Duration = ms(200);
 
-/// Longest way to an open session where bytes pass: a device that was left at a high rate, then all rates of the ladder, of which none works.
-/// Each costs its question, its trial, the way back, the silence, and a greeting and an opening, which are asked for once more if need be.
+/// Longest way to an open session where bytes pass: a device that was left at a high rate, then all rates of the
+/// ladder, of which none works. Each costs its question, its trial, the way back, the silence, and a greeting and an
+/// opening, which are asked for once more if need be.
 pub(crate) const LONGEST: Duration = {
     let trial = RATE_WAIT.as_millis() as u64
         + 2 * SETTLE.as_millis() as u64
@@ -277,7 +279,8 @@ impl Connect {
                 }
                 self.next_rate(now);
             }
-            // The silence was over before we were done: the device is at the first rate, and the one asked for does not work.
+            // The silence was over before we were done: the device is at the first rate, and the one asked for does not
+            // work.
             (Step::Rate | Step::Probe { .. } | Step::Return, DeviceFrame::NoSession) => {
                 if self.asked > 0 {
                     self.give_up_rate();

@@ -2,8 +2,8 @@
 
 use crate::error::{DeviceFault, ErrorKind, TransportError};
 
-/// Why the link gave up. Noise is repaired, or ends in [`Silent`](Self::Silent), [`Noise`](Self::Noise), [`Lost`](Self::Lost),
-/// [`Reset`](Self::Reset), or the deadline.
+/// Why the link gave up. Noise is repaired, or ends in [`Silent`](Self::Silent), [`Noise`](Self::Noise),
+/// [`Lost`](Self::Lost), [`Reset`](Self::Reset), or the deadline.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SerialFault {

@@ -10,7 +10,8 @@ use serialport::{ClearBuffer, DataBits, FlowControl, Parity, SerialPort, SerialP
 use super::fault::SerialFault;
 use super::low_latency;
 
-/// Most bytes of one write: a port that says it can be written takes so many without blocking, also when nobody reads at its other end.
+/// Most bytes of one write: a port that says it can be written takes so many without blocking, also when nobody reads
+/// at its other end.
 const MOST_WRITTEN: usize = 1024;
 /// Reads that bring nothing though the port said there is something: more of them in a row mean that the port is gone.
 const EMPTY_READS: u32 = 3;
@@ -129,7 +130,8 @@ impl Port {
     pub fn possible(&mut self, rates: &[u32]) -> Result<Vec<u32>, SerialFault> {
         let mut possible = Vec::with_capacity(rates.len());
         for &rate in rates {
-            // Some drivers take any rate and set the nearest they have: what differs by a fiftieth is no rate for a UART.
+            // Some drivers take any rate and set the nearest they have: what differs by a fiftieth is no rate for a
+            // UART.
             let is_taken = self.port.set_baud_rate(rate).is_ok();
             if is_taken && self.port.baud_rate().map_or(true, |set| set.abs_diff(rate) <= rate / 50) {
                 possible.push(rate);
@@ -223,8 +225,9 @@ fn fault_of(error: &serialport::Error) -> PortFault {
     }
 }
 
-/// A pseudo-terminal keeps its exclusive mark when the program that set it is killed, and nobody but root could ever open it again. It
-/// goes without: the lock that comes with it holds among programs that look for one, and ends with its owner.
+/// A pseudo-terminal keeps its exclusive mark when the program that set it is killed, and nobody but root could ever
+/// open it again. It goes without: the lock that comes with it holds among programs that look for one, and ends with
+/// its owner.
 #[cfg(unix)]
 fn share_pseudo_terminal(path: &str, port: &mut serialport::TTYPort) -> Result<(), PortFault> {
     let is_pseudo = std::fs::canonicalize(path).is_ok_and(|real| is_pseudo_terminal(&real));

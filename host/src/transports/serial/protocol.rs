@@ -24,7 +24,8 @@ pub const DEFAULT_RATE: u32 = 3_000_000;
 pub struct Params {
     /// Rates to try after the first one, the best first: see [`Params::with_rate`]. Empty: the first rate stays.
     pub rates: Vec<u32>,
-    /// The number of the first session comes after this one; it need not be right, but differ from one host to the next.
+    /// The number of the first session comes after this one; it need not be right, but differ from one host to the
+    /// next.
     pub session: u8,
 }
 
@@ -89,9 +90,10 @@ struct Polled {
 
 /// The host's half of the link.
 ///
-/// Whoever drives it hands over what came ([`SerialProtocol::receive`]), sends what is due ([`SerialProtocol::transmit`]) at the rate that
-/// [`SerialProtocol::rate`] says, and comes back when something came or at [`SerialProtocol::next_wake`]. Times count from any origin, never go
-/// back, and may be virtual. There is no deadline for a command: its driver gives up when it wants to.
+/// Whoever drives it hands over what came ([`SerialProtocol::receive`]), sends what is due
+/// ([`SerialProtocol::transmit`]) at the rate that [`SerialProtocol::rate`] says, and comes back when something came or
+/// at [`SerialProtocol::next_wake`]. Times count from any origin, never go back, and may be virtual. There is no
+/// deadline for a command: its driver gives up when it wants to.
 #[derive(Debug)]
 pub struct SerialProtocol {
     params: Params,
@@ -209,8 +211,9 @@ impl SerialProtocol {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// The answer to the command, once, when all of it has come, and the device has proved by the digest that it took what was sent: header,
-    /// length, payload. Its words are in order and no more than the command may bring; what they say is not checked.
+    /// The answer to the command, once, when all of it has come, and the device has proved by the digest that it took
+    /// what was sent: header, length, payload. Its words are in order and no more than the command may bring; what they
+    /// say is not checked.
     pub fn take_answer(&mut self) -> Option<Vec<u32>> {
         if self.fault.is_some() || !self.sender.is_proved() {
             return None;
@@ -220,8 +223,9 @@ impl SerialProtocol {
         self.fault.is_none().then_some(answer)
     }
 
-    /// Ends the session, so that the next host finds the device at the first rate, and gives up a command under way. [`SerialProtocol::is_closed`]
-    /// tells when it is done: after three tries at most, each of which waits for twice the mean round trip, and for 60 ms at least.
+    /// Ends the session, so that the next host finds the device at the first rate, and gives up a command under way.
+    /// [`SerialProtocol::is_closed`] tells when it is done: after three tries at most, each of which waits for twice
+    /// the mean round trip, and for 60 ms at least.
     pub fn close(&mut self, now: Duration) {
         self.queued = None;
         self.reader.abandon();

@@ -174,8 +174,8 @@ impl Reader {
         Ok(())
     }
 
-    /// So many questions can only have been answered if the device has taken them. Without this rule each answer that it makes up would be
-    /// asked for again, and what waits to be sent would grow without end.
+    /// So many questions can only have been answered if the device has taken them. Without this rule each answer that
+    /// it makes up would be asked for again, and what waits to be sent would grow without end.
     fn check_taken(&self, count: usize, sender: &Sender) -> Result<(), SerialFault> {
         let last = count.checked_sub(1).and_then(|last| self.asked.get(last));
         match last.filter(|asked| asked.end > sender.taken_bytes()) {

@@ -1,5 +1,5 @@
-//! Command words on their way to the device: cut into frames, sent within window and credit, and sent again from where the device says
-//! (go back N).
+//! Command words on their way to the device: cut into frames, sent within window and credit, and sent again from where
+//! the device says (go back N).
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -157,7 +157,8 @@ impl Sender {
         self.sent.iter().take(self.out).map(|frame| frame.payload.len()).sum()
     }
 
-    /// The next frame that may go out, with its number; `left` gives the time when so many bytes of payload are off the line.
+    /// The next frame that may go out, with its number; `left` gives the time when so many bytes of payload are off the
+    /// line.
     pub fn next(&mut self, left: impl FnOnce(usize) -> Duration) -> Option<(u8, &[u8])> {
         let length = self.next_length()?;
         if self.out == self.sent.len() {
@@ -175,8 +176,8 @@ impl Sender {
         Some((number, &frame.payload))
     }
 
-    /// Takes what the device says: it awaits frame `expected`, has `free` bytes, and, if told, this check sum of all it took.
-    /// `None` if this is no news of now: it overtook, or was doubled on the way.
+    /// Takes what the device says: it awaits frame `expected`, has `free` bytes, and, if told, this check sum of all it
+    /// took. `None` if this is no news of now: it overtook, or was doubled on the way.
     pub fn acknowledge(&mut self, expected: u8, free: usize, digest: Option<u32>) -> Result<Option<News>, SerialFault> {
         let taken = usize::from(expected.wrapping_sub(self.base as u8));
         if taken > self.sent.len() {

@@ -26,8 +26,8 @@ const WORD_BITS: u32 = 40;
 
 /// A device at a serial port.
 ///
-/// The session is opened by the first command, and closed when the transport is dropped. All deadlines of the link itself are
-/// stretched by the address's `slow`; those of the caller are the caller's.
+/// The session is opened by the first command, and closed when the transport is dropped. All deadlines of the link
+/// itself are stretched by the address's `slow`; those of the caller are the caller's.
 pub struct SerialTransport {
     port: Port,
     protocol: SerialProtocol,
@@ -45,7 +45,7 @@ impl SerialTransport {
     /// Opens the port; nothing is sent yet.
     ///
     /// # Errors
-    /// [`Error::Port`] where the system refuses, with what to do about it.
+    /// [`Error::Open`] where the system refuses, with what to do about it.
     pub fn open(address: &Address) -> Result<Self, Error> {
         let name = address.to_string();
         let port = Port::open(&address.port)
@@ -239,11 +239,12 @@ impl Drop for SerialTransport {
     }
 }
 
-/// Asks who is at a port, at the first rate and without a session, and waits for the answer until the timeout, which is in the time of
-/// the link.
+/// Asks who is at a port, at the first rate and without a session, and waits for the answer until the timeout, which is
+/// in the time of the link.
 ///
 /// # Errors
-/// [`Error::Port`] where the system refuses, [`Error::Link`] and [`Error::Timeout`] where nobody answers, or no sound device.
+/// [`Error::Open`] where the system refuses, [`Error::Link`] and [`Error::Timeout`] where nobody answers, or no sound
+/// device.
 pub fn greet(address: &Address, timeout: Duration) -> Result<Greeting, Error> {
     let mut transport = SerialTransport::open(&Address { baud: FIRST_RATE, ..address.clone() })?;
     let now = transport.now();

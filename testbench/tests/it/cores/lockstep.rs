@@ -6,7 +6,9 @@
 //! memory shows in every decision only), and all answers are compared with the model by commands, which knows no clock.
 
 use crate::rig::lockstep::{ordered, word, Rig};
-use incircle_protocol::{clear_word, command_word, Config, Counter, Opcode, FULL, LARGE, PADDING, SMALL, TINY};
+use incircle_protocol::{
+    batch_word, clear_word, command_word, Config, Counter, Opcode, FULL, LARGE, PADDING, SMALL, TINY,
+};
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls, FAULTS};
 use incircle_testkit::{Distribution, SplitMix64};
 use std::path::PathBuf;
@@ -151,23 +153,37 @@ fn resets_in_mid_job() {
     rig.expect_clocks(500_000);
 }
 
-#[test]
-fn commands_out_of_place() {
-    let mut rig = Rig::new("core_tiny", TINY, 6);
-    let mut random = SplitMix64::new(6);
+/// A command in any place: with any low bits, also where they mean nothing; batches; inserts of no point and of more than fit.
+fn any_command(random: &mut SplitMix64, config: Config) -> Vec<u32> {
+    let [most, records] = [config.points, 2 * config.points].map(u64::from);
+    let mut below = |limit: u64| random.below(limit) as u32;
+    let low = [0, below(1 << 24)][below(2) as usize];
+    let command = |opcode| command_word(opcode) | low;
+    match below(11) {
+        0 => vec![below(256) << 24 | low],
+        1 => vec![command(Opcode::Read), below(records + 4), below(20)],
+        2 => vec![command(Opcode::Read), u32::MAX - below(3), below(5)],
+        3 => vec![command(Opcode::Counters)],
+        4 => vec![clear_word(below(4))],
+        5 => vec![batch_word(below(u64::from(config.contexts) + 2))],
+        6 => vec![command(Opcode::Triangles), below(records), below(14)],
+        7 => vec![PADDING; below(4) as usize + 1],
+        8 => vec![command(Opcode::Clear)],
+        kind => {
+            let count = below(if kind == 9 { 7 } else { (most + 3).min(40) });
+            let points = (0..count).map(|_| below(9) | below(9) << 16);
+            [command(Opcode::Insert), count].into_iter().chain(points).collect()
+        }
+    }
+}
+
+fn commands_out_of_place_on(core: &'static str, config: Config, seed: u32) {
+    let mut rig = Rig::new(core, config, seed);
+    let mut random = SplitMix64::new(u64::from(seed));
     for k in 0..300 {
         let mut commands = Vec::new();
         for _ in 0..20 {
-            let mut more = match random.below(8) {
-                6 => vec![command_word(Opcode::Triangles), random.below(9) as u32, random.below(14) as u32],
-                7 => vec![PADDING; random.below(4) as usize + 1],
-                0 => vec![(random.below(256) as u32) << 24],
-                1 => vec![command_word(Opcode::Read), random.below(20) as u32, random.below(20) as u32],
-                2 => vec![command_word(Opcode::Read), u32::MAX - random.below(3) as u32, random.below(5) as u32],
-                3 => vec![command_word(Opcode::Counters)],
-                4 => vec![clear_word(random.below(4) as u32)],
-                _ => vec![command_word(Opcode::Insert), 2, word(random.below(9), 3), word(4, random.below(9))],
-            };
+            let mut more = any_command(&mut random, config);
             // A random opcode may want arguments.
             match more[0] >> 24 {
                 3 if more.len() == 1 => more.push(0),
@@ -179,6 +195,16 @@ fn commands_out_of_place() {
         rig.run_commands(&commands, Stalls::ALL[k % 9]);
     }
     rig.expect_clocks(300_000);
+}
+
+#[test]
+fn commands_out_of_place() {
+    commands_out_of_place_on("core_tiny", TINY, 6);
+}
+
+#[test]
+fn commands_out_of_place_on_a_core_of_four_contexts() {
+    commands_out_of_place_on("core_small", SMALL, 16);
 }
 
 #[test]
@@ -261,11 +287,11 @@ fn cores_without_a_rule_of_the_engine_are_caught() {
             Job::of(&points, 250, 0, SMALL)
         })
         .collect();
-    expect_caught(FAULTY, &["foreign_lock", "drain", "rest"], SMALL, &jobs); // 1
-    expect_caught(FAULTY, &["token", "yield"], SMALL, &jobs); // 2 and 2a
-    expect_caught(FAULTY, &["release", "root", "busy"], SMALL, &jobs); // 3, 4 and 5
-    expect_caught(FAULTY, &["torn"], SMALL, &jobs); // 6, of records that are being written
-    expect_caught(FAULTY, &["first_round", "own_lock"], SMALL, &jobs); // 7 and 8
+    expect_caught(FAULTY, &["foreign_lock", "drain", "rest"], SMALL, &jobs); // L1
+    expect_caught(FAULTY, &["token", "yield"], SMALL, &jobs); // L2 and L3
+    expect_caught(FAULTY, &["release", "root", "busy"], SMALL, &jobs); // L4, L5 and L6
+    expect_caught(FAULTY, &["torn"], SMALL, &jobs); // L7, of records that are being written
+    expect_caught(FAULTY, &["first_round", "own_lock"], SMALL, &jobs); // L8 and L9
 }
 
 #[test]
@@ -275,8 +301,8 @@ fn a_core_that_reads_what_is_not_written_yet_is_caught() {
     expect_caught("faulty_core_long_list_one", &["watermark"], ONE_CONTEXT_LONG_LIST, &jobs);
 }
 
-/// Twenty starts out of random flip-flops: the sound core passes all of them, and a core with a block that is not reset passes none, or
-/// nearly none. The jobs clear nothing before they insert, so nothing but the reset mends what a block holds at first.
+/// Twenty starts out of random flip-flops: the sound core passes all of them, and a core with a block that is not reset fails
+/// in a quarter of them at least, for most blocks in nearly all. The jobs clear nothing before they insert, so nothing but the reset mends what a block holds at first.
 #[test]
 fn cores_with_a_block_that_is_not_reset_are_caught() {
     const STARTS: u32 = 20;
@@ -297,7 +323,7 @@ fn cores_with_a_block_that_is_not_reset_are_caught() {
     for (number, fault) in blocks.enumerate() {
         let caught = caught(&[fault]);
         println!("{number} {fault}: {caught} of {STARTS} starts");
-        assert!(caught > 0, "{fault}");
+        assert!(caught >= STARTS as usize / 4, "{fault}: {caught} of {STARTS} starts");
     }
 }
 

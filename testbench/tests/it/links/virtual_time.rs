@@ -17,6 +17,7 @@ fn jobs(detail: Detail, spec: &str, jobs: u64, points: usize) -> Soak {
 
 #[test]
 fn jobs_without_bits_survive_every_fault_of_the_line() {
+    let mut met = 0;
     for spec in [
         "",
         "ber=1e-6",
@@ -35,9 +36,12 @@ fn jobs_without_bits_survive_every_fault_of_the_line() {
         let report = soak(&jobs(Detail::Bytes, spec, JOBS, 400)).unwrap();
         println!("{spec}: {report}");
         assert_eq!((report.right, report.wrong), (JOBS, 0), "{spec}: {report}");
-        // Few bits are turned at the lowest rate, perhaps none.
-        assert!(report.faults > 0 || spec.is_empty() || spec == "ber=1e-6", "{spec}: {report}");
+        // At the lowest rate few of these jobs meet a fault, perhaps none.
+        let least = if spec.is_empty() || spec == "ber=1e-6" { 0 } else { 1 };
+        assert!(report.met >= least, "{spec}: {report}");
+        met += report.met;
     }
+    assert!(met >= 35, "{met} jobs met a fault");
 }
 
 /// Points as an `Insert` with `count` of them.
@@ -68,10 +72,12 @@ fn a_host_that_is_killed_in_mid_job_leaves_a_device_that_the_next_one_finds() {
 
 #[test]
 fn bit_errors_at_the_pins_make_no_wrong_mesh() {
-    for ber in ["ber=1e-6", "ber=1e-5", "ber=1e-4"] {
+    // How many of six jobs meet a fault at least: at the lowest rate such small jobs meet none, and do not count as faulty.
+    for (ber, least) in [("ber=1e-6", 0), ("ber=1e-5", 1), ("ber=1e-4", 4), ("ber=2e-4", 5)] {
         let report = soak(&jobs(Detail::Pins, ber, 6, 100)).unwrap();
         println!("{ber}: {report}");
         assert_eq!((report.right, report.wrong), (6, 0), "{ber}: {report}");
+        assert!(report.met >= least, "{ber}: {report}");
     }
 }
 

@@ -5,16 +5,26 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Blocks without a file of their own: the test that runs the block, from `tests/it`, and why that is enough.
-const ELSEWHERE: [(&str, &str, &str); 20] = [
+const ELSEWHERE: [(&str, &str, &str); 26] = [
+    (
+        "engine/attempt/aftermath",
+        "blocks/engine/attempt/attempts",
+        "what becomes of a context, at the ports of attempts",
+    ),
     ("engine/attempt/context_address", "blocks/engine/commit/ring_reader", "one line, the address of a ring's entry"),
     ("engine/commit/commit_path", "cores/lockstep", "wires between ring reader, commit and release"),
+    ("engine/commit/commit_steps", "blocks/engine/commit/commit", "the states of the commit, which alone uses them"),
     ("engine/commit/ring_list", "blocks/engine/commit/ring_reader", "the memory behind the reader"),
     ("engine/count/cycle_counters", "blocks/engine/count/counters", "a part of the counters, at their ports"),
     ("engine/count/visit_counters", "blocks/engine/count/counters", "a part of the counters, at their ports"),
     ("engine/dispatch/dispatcher", "cores/lockstep", "wires between the blocks of the room"),
+    ("engine/dispatch/due_check", "blocks/engine/dispatch/starter", "a question that only the starter asks"),
+    ("engine/dispatch/start_pointer", "blocks/engine/dispatch/starter", "the pointer that only the starter follows"),
     ("engine/insertion_engine", "cores/lockstep", "wires between the rooms"),
     ("engine/insertions", "cores/lockstep", "wires between the rooms"),
     ("engine/solo/solo_star", "blocks/engine/solo/solo", "a part of solo that only solo's states drive"),
+    ("engine/solo/solo_steps", "blocks/engine/solo/solo", "the states of solo, which alone uses them"),
+    ("leaf/spill_ring", "blocks/leaf/deep_fifo", "the memory behind the deep buffer"),
     ("leaf/unpack", "blocks/engine/visit/issue", "the fields of a structure as wires, in most blocks"),
     ("serial/link_receiver", "blocks/serial/serial_link", "the receiving half of the link, at its pins"),
     ("serial/link_transmitter", "blocks/serial/serial_link", "the sending half of the link, at its pins"),

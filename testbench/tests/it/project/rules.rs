@@ -119,7 +119,7 @@ fn each_defect_names_its_rule_first_and_each_rule_has_one() {
 
 #[test]
 fn each_rule_has_a_test_that_leaves_it_out() {
-    let tests = text(&at("sim/model/tests/defects.rs"));
+    let tests = text(&at("sim/model/tests/it/clock/defects.rs"));
     assert_eq!(ids(&tests), all_rules());
     for (name, _) in defects() {
         assert!(tests.contains(&format!("Defect::{name}")), "no test leaves out what {name} does");

@@ -23,7 +23,11 @@ pub type Lane = (&'static str, &'static str, u32, u32, When);
 /// Values of inputs in some clocks; in all others they are zero.
 pub type Stimuli = [(usize, &'static str, u128)];
 
-/// Runs `clocks` clocks after one with `reset` and nothing else, and draws them.
+/// Clocks with `reset` and nothing else before a wave: as many as a visit takes through the lock store, which forgets
+/// nothing at reset.
+const CLOCKS_BEFORE: usize = 4;
+
+/// Runs `clocks` clocks after [`CLOCKS_BEFORE`], and draws them.
 pub fn draw<U: NamedPorts>(name: &'static str, rust: U, stimuli: &Stimuli, clocks: usize, lanes: &[Lane]) -> Wave {
     let ports = blocks::model(name).description().ports();
     let inputs: Vec<&'static str> =
@@ -33,8 +37,10 @@ pub fn draw<U: NamedPorts>(name: &'static str, rust: U, stimuli: &Stimuli, clock
     for input in &inputs {
         stepper.set(input, u128::from(*input == "reset"));
     }
-    stepper.settle();
-    stepper.edge();
+    for _ in 0..CLOCKS_BEFORE {
+        stepper.settle();
+        stepper.edge();
+    }
     for clock in 0..clocks {
         let mut driven: BTreeMap<_, _> = inputs.iter().map(|input| (*input, 0)).collect();
         driven.extend(stimuli.iter().map(|(_, input, _)| (*input, 0)));

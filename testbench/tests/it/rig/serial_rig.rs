@@ -116,6 +116,10 @@ impl<P: Pins> Rig<P> {
             clocks: 0,
         };
         rig.pins.set("reset", 1);
+        // Before its first edge a device shows what its flip-flops start with.
+        rig.pins.set("rx", 1);
+        rig.pins.settle();
+        rig.pins.edge();
         for _ in 0..3 {
             rig.clock();
         }

@@ -9,7 +9,8 @@ use crate::transports::serial::codec::{encode, MOST_OVERHEAD};
 use crate::transports::serial::fault::SerialFault;
 use crate::transports::serial::timing::POLL_EVERY;
 
-/// Bytes are handed out so far ahead of the line: enough to keep it busy, and little to wait for when frames must go again.
+/// Bytes are handed out so far ahead of the line: enough to keep it busy, and little to wait for when frames must go
+/// again.
 const AHEAD: Duration = Duration::from_millis(4);
 /// Beyond the device's silence, until the host believes that the device has forgotten it.
 const SILENCE_SLACK: Duration = Duration::from_millis(300);
@@ -111,8 +112,8 @@ impl SerialProtocol {
     fn say_poll(&mut self, now: Duration, out: &mut Vec<u8>) {
         encode(self.session, HostFrame::Poll, 0, &[], out);
         let left_at = self.line.carry(FRAME_BYTES, now);
-        // One that had no answer stays: an answer that comes before its `Poll` has left the line, as from a simulated board, may be of the one
-        // before, and what was out then is lost all the same.
+        // One that had no answer stays: an answer that comes before its `Poll` has left the line, as from a simulated
+        // board, may be of the one before, and what was out then is lost all the same.
         let base = self.sender.base();
         if self.polled.as_ref().is_none_or(|polled| polled.base != base) {
             self.polled = Some(Polled { base, cut: self.sender.cut(), left_at });

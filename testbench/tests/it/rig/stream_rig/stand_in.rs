@@ -57,7 +57,8 @@ impl StandIn {
 
     pub fn before_edge(&mut self, pins: &mut impl Pins) {
         let valid = pins.get("command_valid") == 1;
-        let word = pins.get("command_data");
+        // Without a valid word the port may show anything.
+        let word = if valid { pins.get("command_data") } else { 0 };
         if pins.get("core_reset") == 1 {
             self.resets += 1;
             self.taken.clear();

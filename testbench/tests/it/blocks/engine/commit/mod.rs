@@ -1,5 +1,6 @@
 //! The blocks of `hdl/src/engine/commit`.
 
+#[expect(clippy::module_inception, reason = "the room carries the name of its main block")]
 mod commit;
 mod fresh_ids;
 mod inner_list;
