@@ -1,6 +1,10 @@
-//! The command and answer streams.
+//! The core's two streams of words: commands in, answers out. The serial and the stream link stand around them.
+//!
+//! ```text
+//! command words -> CommandPort -> vertex memory, engine
+//! answers <- Responder <- RecordReads <- triangle memory      RecordWords answers Read; VertexPacker and VertexStream, Triangles
+//! ```
 
-mod answer_beat;
 mod answer_head;
 mod answer_words;
 mod channels;
@@ -17,7 +21,6 @@ pub mod types;
 mod vertex_packer;
 mod vertex_stream;
 
-pub use answer_beat::{AnswerBeat, WordPair, ANSWER_BEAT_BITS, WORD_PAIR_BITS};
 pub use answer_head::AnswerHead;
 pub use answer_words::AnswerWords;
 pub use channels::{AnswerSink, AnswerSource, CommandSink, CommandSource};
@@ -30,5 +33,6 @@ pub use record_buffer::RecordBuffer;
 pub use record_reads::RecordReads;
 pub use record_words::RecordWords;
 pub use responder::{AnswerState, Responder};
+pub use types::{AnswerBeat, WordPair, ANSWER_BEAT_BITS, WORD_PAIR_BITS};
 pub use vertex_packer::VertexPacker;
 pub use vertex_stream::VertexStream;

@@ -20,13 +20,10 @@
 //! is_idle         /^^^^^\________________________________/^^^^^^^^
 //! ```
 
-use super::answer_beat::AnswerBeat;
-use super::answer_beat::WordPair;
-use super::answer_beat::WORD_PAIR_BITS;
 use super::channels::AnswerSource;
 use super::payload_words::PayloadWords;
 use super::record_reads::RecordReads;
-use super::types::{AnswerProgress, Head, Request, Word, WordIndex};
+use super::types::{AnswerBeat, AnswerProgress, Head, Request, Word, WordIndex, WordPair, WORD_PAIR_BITS};
 use crate::engine::types::TriangleId;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
