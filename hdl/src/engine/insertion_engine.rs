@@ -8,7 +8,6 @@
 //!                 |               +-> Seeder (the first triangle), Solo (alone) -> WritePort <------+      | locks
 //!                 +---------------------------------------------------------------------+  <--------------+
 //! ```
-//! Latency: see the blocks.
 
 use super::insertions::Insertions;
 use super::seed::Seeder;

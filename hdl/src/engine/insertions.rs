@@ -1,6 +1,4 @@
 //! The contexts and what their visits lead to: who starts, what follows a visit, stars written, locks released.
-//!
-//! Latency: see the blocks.
 
 use super::attempt::Attempts;
 use super::commit::CommitPath;

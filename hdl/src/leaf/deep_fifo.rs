@@ -49,7 +49,6 @@ pub struct DeepFifo<const A: usize, const D: usize> {
     pub data: Signal<Out, Bits<D>>,
     ring: SpillRing<A, D>,
     new_bank: LutMemory<4, D>,
-    fetched_bank: LutMemory<4, D>,
     was_fetched: LutMemory<4, 1>,
     holds_first: DFF<Bit>,
     /// It does not: the same once more, for the data.
@@ -103,7 +102,6 @@ impl<const A: usize, const D: usize> DeepFifo<A, D> {
             data: Signal::default(),
             ring: SpillRing::new(address_bits, stored_bits),
             new_bank: LutMemory::new(window, stored_bits),
-            fetched_bank: LutMemory::new(window, stored_bits),
             was_fetched: LutMemory::new(window, 1),
             holds_first: DFF::default(),
             passes: DFF::default(),
@@ -148,7 +146,7 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
     fn update(&mut self) {
         dff_setup!(self, clock, holds_first, passes, first, holds_more, window_is_full, holds_spilled);
         dff_setup!(self, clock, newest, fetched, after_first);
-        clock!(self, clock, ring, new_bank, fetched_bank, was_fetched);
+        clock!(self, clock, ring, new_bank, was_fetched);
         self.after_newest.next = self.newest.q.val() + self.one.val();
         self.after_fetched.next = self.fetched.q.val() + self.one.val();
         self.after_moved.next = self.after_first.q.val() + self.one_place.val();
@@ -165,14 +163,14 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
 
         // The first entry: what follows it takes its place.
         self.new_bank.read_address.next = self.after_first.q.val();
-        self.fetched_bank.read_address.next = self.after_first.q.val();
+        self.ring.window_place.next = self.after_first.q.val();
         self.was_fetched.read_address.next = self.after_first.q.val();
         if self.pop.val() | (!self.holds_first.q.val()) {
             self.first.d.next = self.kept_data.val();
             if self.holds_more.q.val() {
                 self.first.d.next = self.new_bank.read_data.val();
                 if self.was_fetched.read_data.val() == self.from_ring.val() {
-                    self.first.d.next = self.fetched_bank.read_data.val();
+                    self.first.d.next = self.ring.window_data.val();
                 }
             }
         }
@@ -197,9 +195,6 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         self.ring.reset.next = self.reset.val();
         self.ring.fetches.next = self.fetches.val();
         self.ring.place.next = self.place.val();
-        self.fetched_bank.write_address.next = self.ring.fetched_place.val();
-        self.fetched_bank.write_data.next = self.ring.fetched_data.val();
-        self.fetched_bank.write_enable.next = self.ring.fetched.val();
 
         // The window: at most one entry is added at an edge, a new one or one that is fetched.
         self.new_bank.write_address.next = self.place.val();

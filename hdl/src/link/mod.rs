@@ -1,12 +1,12 @@
 //! The command and answer streams.
 
-mod answer_beat;
 mod answer_head;
 mod answer_words;
 mod channels;
 mod clear_command;
 mod command_gate;
 mod command_port;
+mod command_state;
 mod payload_words;
 mod point_slot;
 mod record_buffer;
@@ -17,18 +17,19 @@ pub mod types;
 mod vertex_packer;
 mod vertex_stream;
 
-pub use answer_beat::{AnswerBeat, WordPair, ANSWER_BEAT_BITS, WORD_PAIR_BITS};
 pub use answer_head::AnswerHead;
 pub use answer_words::AnswerWords;
 pub use channels::{AnswerSink, AnswerSource, CommandSink, CommandSource};
 pub use clear_command::ClearCommand;
 pub use command_gate::CommandGate;
-pub use command_port::{CommandPort, CommandState};
+pub use command_port::CommandPort;
+pub use command_state::CommandState;
 pub use payload_words::PayloadWords;
 pub use point_slot::PointSlot;
 pub use record_buffer::RecordBuffer;
 pub use record_reads::RecordReads;
 pub use record_words::RecordWords;
 pub use responder::{AnswerState, Responder};
+pub use types::{AnswerBeat, WordPair, ANSWER_BEAT_BITS, WORD_PAIR_BITS};
 pub use vertex_packer::VertexPacker;
 pub use vertex_stream::VertexStream;

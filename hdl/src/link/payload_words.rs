@@ -5,7 +5,7 @@
 //!
 //! Latency: 2 clocks from `runs`, or from the beat before, to a beat.
 
-use super::answer_beat::AnswerBeat;
+use super::types::AnswerBeat;
 use super::types::{Word, WordIndex};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

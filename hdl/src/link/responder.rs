@@ -20,12 +20,12 @@
 //! is_idle         /^^^^^\________________________________/^^^^^^^^
 //! ```
 
-use super::answer_beat::AnswerBeat;
-use super::answer_beat::WordPair;
-use super::answer_beat::WORD_PAIR_BITS;
 use super::channels::AnswerSource;
 use super::payload_words::PayloadWords;
 use super::record_reads::RecordReads;
+use super::types::AnswerBeat;
+use super::types::WordPair;
+use super::types::WORD_PAIR_BITS;
 use super::types::{AnswerProgress, Head, Request, Word, WordIndex};
 use crate::engine::types::TriangleId;
 use crate::mesh::Record;

@@ -73,4 +73,26 @@ crate::packed! {
         /// No word waits, or it is taken.
         pub is_taken: bool,
     }
+
+    /// One or two words of an answer.
+    pub struct AnswerBeat {
+        /// The word, and the one that follows it.
+        pub low: Word,
+        pub high: Word,
+        /// The beat has a second word.
+        pub both: bool,
+        /// The last word of an answer is among them.
+        pub last: bool,
+    }
+
+    /// The words of a beat, without its marks.
+    pub struct WordPair {
+        pub low: Word,
+        pub high: Word,
+    }
 }
+
+/// Bits of [`AnswerBeat`].
+pub const ANSWER_BEAT_BITS: usize = AnswerBeat::BITS;
+/// Bits of [`WordPair`].
+pub const WORD_PAIR_BITS: usize = WordPair::BITS;

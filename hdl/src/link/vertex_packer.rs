@@ -16,7 +16,7 @@
 //! last            ________________________/^^\__
 //! ```
 
-use super::answer_beat::AnswerBeat;
+use super::types::AnswerBeat;
 use super::types::{RecordCount, Word};
 use crate::engine::types::VertexId;
 use rust_hdl_core::prelude::*;

@@ -5,9 +5,9 @@
 //!
 //! Latency: 1 clock from a record to the beat that it fills, when none waits.
 
-use super::answer_beat::AnswerBeat;
-use super::answer_beat::ANSWER_BEAT_BITS;
+use super::types::AnswerBeat;
 use super::types::RecordCount;
+use super::types::ANSWER_BEAT_BITS;
 use super::vertex_packer::VertexPacker;
 use crate::engine::types::VertexId;
 use crate::leaf::{Fifo, Unpack};

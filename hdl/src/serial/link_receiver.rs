@@ -7,7 +7,6 @@
 //!                                           +--> ReceiveFifo -> CommandWords -> commands
 //!                                           +--> PayloadDigest
 //! ```
-//! Latency: see the blocks.
 
 use super::cobs_decoder::CobsDecoder;
 use super::command_words::CommandWords;

@@ -7,7 +7,6 @@
 //! answers -> WordNarrower -> AnswerPacker -+   | ^
 //!    FrameHeader, Greeting, Crc32 -> FrameBytes -+
 //! ```
-//! Latency: see the blocks.
 
 use super::answer_packer::AnswerPacker;
 use super::cobs_encoder::CobsEncoder;

@@ -11,7 +11,6 @@
 //!         |                                        v
 //! tx <- LinkTransmitter <---- answers ----- CommandProgress
 //! ```
-//! Latency: see the blocks.
 
 use super::command_progress::CommandProgress;
 use super::line_timers::LineTimers;

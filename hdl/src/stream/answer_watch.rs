@@ -2,12 +2,11 @@
 //!
 //! Latency: 1 clock.
 
+use super::events::AnswerEvents;
 use crate::link::types::Word;
 use incircle_protocol::{answer_header, Status};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-use super::events::AnswerEvents;
 
 /// The watch on answers; see the top of this file.
 #[derive(LogicBlock, Default)]

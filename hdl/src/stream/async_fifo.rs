@@ -18,10 +18,9 @@
 //! ```
 //! Source: C. E. Cummings, Simulation and Synthesis Techniques for Asynchronous FIFO Design, SNUG 2002, style 1.
 
+use crate::leaf::{DualClockMemory, Parameter, Synchroniser};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-use crate::leaf::{DualClockMemory, Parameter, Synchroniser};
 
 /// A buffer between two clocks; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -78,9 +77,7 @@ pub struct AsyncFifo<const P: usize, const D: usize> {
 impl<const P: usize, const D: usize> AsyncFifo<P, D> {
     /// Entries in the memory.
     pub const DEPTH: usize = 1 << (P - 1);
-}
 
-impl<const P: usize, const D: usize> AsyncFifo<P, D> {
     /// A buffer of [`DEPTH`](Self::DEPTH) entries and two more.
     ///
     /// # Panics

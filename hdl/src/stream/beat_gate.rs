@@ -2,10 +2,9 @@
 //!
 //! Latency: none to `push`, 1 clock to `events`.
 
+use super::events::CommandEvents;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-use super::events::CommandEvents;
 
 /// The gate for command beats; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,12 +1,6 @@
 //! The bus's side of the stream link.
 //!
 //! 1. All is in the bus's clock. What comes from the core's clock goes into a `Synchroniser` and nowhere else.
-//!
-//! Latency: see the blocks.
-
-use incircle_protocol::Config;
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 use super::answer_watch::AnswerWatch;
 use super::axi::AxiLite;
@@ -16,6 +10,9 @@ use super::beat_gate::BeatGate;
 use super::register_block::RegisterBlock;
 use super::reset_request::ResetRequest;
 use crate::leaf::{Parameter, Synchroniser};
+use incircle_protocol::Config;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The bus's side; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -1,11 +1,6 @@
 //! The core's side of the stream link.
 //!
 //! 1. All is in the core's clock. What comes from the bus's clock goes into a `Synchroniser` and nowhere else.
-//!
-//! Latency: see the blocks.
-
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
 
 use super::answer_beats::AnswerBeats;
 use super::answer_pairs::AnswerPairs;
@@ -14,6 +9,8 @@ use super::progress::Progress;
 use super::reset_reply::ResetReply;
 use crate::leaf::{Parameter, Synchroniser};
 use crate::link::{AnswerSink, CommandSource};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The core's side; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -3,13 +3,12 @@
 //! Latency: none.
 
 use super::axi::RegisterIndex;
+use crate::leaf::Parameter;
 use crate::link::types::Word;
 use incircle_protocol::{
     Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
 };
 use rust_hdl_core::prelude::*;
-
-use crate::leaf::Parameter;
 
 /// Registers of constants; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -6,11 +6,6 @@
 //!
 //! Latency: that of [`RegisterPort`]; 1 clock from an event to its register.
 
-use crate::link::types::Word;
-use incircle_protocol::{Config, StreamRegister};
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
-
 use super::axi::AxiLite;
 use super::axi::RegisterIndex;
 use super::device_identity::DeviceIdentity;
@@ -18,6 +13,10 @@ use super::events::AnswerEvents;
 use super::events::CommandEvents;
 use super::register_port::RegisterPort;
 use super::traffic::Traffic;
+use crate::link::types::Word;
+use incircle_protocol::{Config, StreamRegister};
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// The register block; see the top of this file.
 #[derive(LogicBlock, Default)]

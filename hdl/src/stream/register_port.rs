@@ -22,12 +22,11 @@
 //! rdata             .  .  .  .  5  .  .  .  .
 //! ```
 
+use super::axi::Address;
+use super::axi::AxiLite;
 use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-use super::axi::Address;
-use super::axi::AxiLite;
 
 /// The AXI4-Lite port; see the top of this file.
 #[derive(LogicBlock, Default)]
@@ -63,11 +62,6 @@ pub struct RegisterPort {
     read_response: DFF<Bits<2>>,
     writes: Signal<Local, Bit>,
     reads: Signal<Local, Bit>,
-}
-
-impl RegisterPort {
-    /// The response to what cannot be done.
-    pub const SLVERR: u32 = 2;
 }
 
 impl Logic for RegisterPort {

@@ -12,10 +12,6 @@
 //!               | events                        |                                  v
 //! m_axis <- AnswerWatch <------------------- AsyncFifo <- AnswerBeats <- AnswerPairs
 //! ```
-//! Latency: see the blocks.
-
-use incircle_protocol::{Config, ConfigError, STREAM_FIFO_BEATS};
-use rust_hdl_core::prelude::*;
 
 use super::async_fifo::AsyncFifo;
 use super::axi::AxiLite;
@@ -24,6 +20,8 @@ use super::axi::AxisSource;
 use super::bus_side::BusSide;
 use super::core_side::CoreSide;
 use crate::link::{AnswerSink, CommandSource};
+use incircle_protocol::{Config, ConfigError, STREAM_FIFO_BEATS};
+use rust_hdl_core::prelude::*;
 
 /// Bits of a pointer of the FIFOs.
 const POINTER_BITS: usize = 10;

@@ -4,14 +4,13 @@
 //!
 //! Latency: 1 clock to a count, none to `value`.
 
+use super::axi::RegisterIndex;
+use super::events::AnswerEvents;
+use super::events::CommandEvents;
 use crate::link::types::Word;
 use incircle_protocol::StreamRegister;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-use super::axi::RegisterIndex;
-use super::events::AnswerEvents;
-use super::events::CommandEvents;
 
 /// Counters of the streams; see the top of this file.
 #[derive(LogicBlock, Default)]

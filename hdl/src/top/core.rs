@@ -9,7 +9,6 @@
 //! answers  <- Responder <---- records -------+   |
 //!                 +--- AnswerHead, AnswerWords <- Counters, Latencies <- events
 //! ```
-//! Latency: see the blocks.
 
 use crate::engine::{Counters, InsertionEngine, Latencies, Write};
 use crate::leaf::Parameter;

@@ -1,8 +1,6 @@
 //! A whole device: the core behind its serial link.
 //!
 //! 1. `reset` is needed once, after power-up, for two clocks or more: it passes a register, since the pin's side of it may be far away.
-//!
-//! Latency: see the blocks.
 
 use super::core::Core;
 use crate::engine::Write;

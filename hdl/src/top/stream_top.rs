@@ -1,8 +1,6 @@
 //! A whole device: the core behind its stream link.
 //!
 //! 1. `bus_reset_n` is needed once, after power-up. The core's reset follows from it.
-//!
-//! Latency: see the blocks.
 
 use super::core::Core;
 use crate::engine::Write;

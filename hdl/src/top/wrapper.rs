@@ -27,12 +27,7 @@
 //! | `s_axi_aw...`, `_w...`, `_b...`, `_ar...`, `_r...` | | | AXI4-Lite, addresses of 12 bits, data of 32 |
 //! | `core_clock` | in | 1 | clock of the core |
 //!
-//! With the probe all have the write port of the triangle memory as well:
-//!
-//! | port | direction | bits | meaning |
-//! |---|---|---|---|
-//! | `write_valid`, `write_id`, `write_vertices`, `write_links` | out | 1, 15, 1, 3 | what is written |
-//! | `write_v0..2`, `write_n0..2` | out | 15 | its data |
+//! With the probe all have the write port of the triangle memory as well, field by field: `PROBE`.
 
 /// Name of the core's module.
 pub const CORE_NAME: &str = "incircle_core";

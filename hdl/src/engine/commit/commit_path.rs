@@ -4,8 +4,6 @@
 //!    clear (L4).
 //! 2. Locks are logged a clock after they come: the log lies far from the logic that finds them. The job that comes with the last of
 //!    them is not read from until two clocks later.
-//!
-//! Latency: see the blocks.
 
 use super::commit::Commit;
 use super::fresh_ids::FreshIds;

@@ -1,8 +1,6 @@
 //! Hands points to contexts, and knows when all are finished or nothing is any more.
 //!
 //! 1. What becomes of a context is noted a clock after its visit completes: from then on it may start, and is asked whether it waits.
-//!
-//! Latency: see the blocks.
 
 use super::context_flags::ContextFlags;
 use super::progress::Progress;
