@@ -13112,7 +13112,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
     wire  [54:0] issue$token;
     wire  [14:0] issue$vertices_id;
     wire  [14:0] issue$links_id;
-    wire  issue$is_reading;
+    wire  issue$read_valid;
     reg  triangles$clock;
     reg  [109:0] triangles$write;
     reg  [33:0] triangles$enables;
@@ -13214,7 +13214,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
         .token(issue$token),
         .vertices_id(issue$vertices_id),
         .links_id(issue$links_id),
-        .is_reading(issue$is_reading)
+        .read_valid(issue$read_valid)
     );
     incircle_core_logic$engine$pipeline$triangles triangles(
         .clock(triangles$clock),
@@ -13390,7 +13390,7 @@ module incircle_core_logic$engine$pipeline(clock,reset,infinite,records,push,pos
         reader$took = triangles$took;
         reader$foreign = triangles$foreign;
         reader$again = again2$q;
-        read_valid1$d = issue$is_reading;
+        read_valid1$d = issue$read_valid;
         read_valid2$d = read_valid1$q;
         read_out[(64'h0)+:(1)] = read_valid2$q;
         read_out[(64'h1)+:(91)] = triangles$record;
@@ -13520,7 +13520,7 @@ module incircle_core_logic$engine$pipeline$delayed_turned(bits,value);
 endmodule // incircle_core_logic$engine$pipeline$delayed_turned
 
 
-module incircle_core_logic$engine$pipeline$issue(clock,reset,push,read,token_valid,token,vertices_id,links_id,is_reading);
+module incircle_core_logic$engine$pipeline$issue(clock,reset,push,read,token_valid,token,vertices_id,links_id,read_valid);
     
     // Module arguments
     input wire  clock;
@@ -13531,7 +13531,7 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,read,token_val
     output reg  [54:0] token;
     output reg  [14:0] vertices_id;
     output reg  [14:0] links_id;
-    output reg  is_reading;
+    output reg  read_valid;
     
     // Stub signals
     reg  queue$clock;
@@ -13651,7 +13651,7 @@ module incircle_core_logic$engine$pipeline$issue(clock,reset,push,read,token_val
         token_valid = issued_valid$q;
         vertices_id = vertices_copy$q;
         links_id = links_copy$q;
-        is_reading = issued_read$q;
+        read_valid = issued_read$q;
         is_at_first = (~second_is_due$q) & (~third_is_due$q);
         second_follows = head$value[(64'h0)+:(1)] & is_at_first;
         third_follows = head$value[(64'h1)+:(1)] & second_is_due$q;
@@ -13814,14 +13814,21 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
     reg  [10:0] ring$read_address;
     reg  ring$fetches;
     reg  [3:0] ring$place;
-    reg  [3:0] ring$window_place;
-    wire  [92:0] ring$window_data;
+    wire  ring$fetched;
+    wire  [3:0] ring$fetched_place;
+    wire  [92:0] ring$fetched_data;
     reg  new_bank$clock;
     reg  [3:0] new_bank$write_address;
     reg  [92:0] new_bank$write_data;
     reg  new_bank$write_enable;
     reg  [3:0] new_bank$read_address;
     wire  [92:0] new_bank$read_data;
+    reg  fetched_bank$clock;
+    reg  [3:0] fetched_bank$write_address;
+    reg  [92:0] fetched_bank$write_data;
+    reg  fetched_bank$write_enable;
+    reg  [3:0] fetched_bank$read_address;
+    wire  [92:0] fetched_bank$read_data;
     reg  was_fetched$clock;
     reg  [3:0] was_fetched$write_address;
     reg  was_fetched$write_data;
@@ -13880,8 +13887,9 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         .read_address(ring$read_address),
         .fetches(ring$fetches),
         .place(ring$place),
-        .window_place(ring$window_place),
-        .window_data(ring$window_data)
+        .fetched(ring$fetched),
+        .fetched_place(ring$fetched_place),
+        .fetched_data(ring$fetched_data)
     );
     incircle_core_logic$engine$pipeline$issue$queue$new_bank new_bank(
         .clock(new_bank$clock),
@@ -13890,6 +13898,14 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         .write_enable(new_bank$write_enable),
         .read_address(new_bank$read_address),
         .read_data(new_bank$read_data)
+    );
+    incircle_core_logic$engine$pipeline$issue$queue$fetched_bank fetched_bank(
+        .clock(fetched_bank$clock),
+        .write_address(fetched_bank$write_address),
+        .write_data(fetched_bank$write_data),
+        .write_enable(fetched_bank$write_enable),
+        .read_address(fetched_bank$read_address),
+        .read_data(fetched_bank$read_data)
     );
     incircle_core_logic$engine$pipeline$issue$queue$was_fetched was_fetched(
         .clock(was_fetched$clock),
@@ -13967,6 +13983,7 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         after_first$d = after_first$q;
         ring$clock = clock;
         new_bank$clock = clock;
+        fetched_bank$clock = clock;
         was_fetched$clock = clock;
         after_newest = newest$q + one;
         after_fetched = fetched$q + one;
@@ -13980,14 +13997,14 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
             data = kept_data;
         end
         new_bank$read_address = after_first$q;
-        ring$window_place = after_first$q;
+        fetched_bank$read_address = after_first$q;
         was_fetched$read_address = after_first$q;
         if (pop | (~holds_first$q)) begin
             first$d = kept_data;
             if (holds_more$q) begin
                 first$d = new_bank$read_data;
                 if (was_fetched$read_data == from_ring) begin
-                    first$d = ring$window_data;
+                    first$d = fetched_bank$read_data;
                 end
             end
         end
@@ -14008,6 +14025,9 @@ module incircle_core_logic$engine$pipeline$issue$queue(clock,reset,push,push_dat
         ring$reset = reset;
         ring$fetches = fetches;
         ring$place = place;
+        fetched_bank$write_address = ring$fetched_place;
+        fetched_bank$write_data = ring$fetched_data;
+        fetched_bank$write_enable = ring$fetched;
         new_bank$write_address = place;
         new_bank$write_data = push_data;
         new_bank$write_enable = enters;
@@ -14091,6 +14111,27 @@ module incircle_core_logic$engine$pipeline$issue$queue$fetched(d,q,clock);
     end
           
 endmodule // incircle_core_logic$engine$pipeline$issue$queue$fetched
+
+
+module incircle_core_logic$engine$pipeline$issue$queue$fetched_bank(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  [92:0] write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  [92:0] read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [92:0] memory [0:15];
+    wire [92:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_core_logic$engine$pipeline$issue$queue$fetched_bank
 
 
 module incircle_core_logic$engine$pipeline$issue$queue$first(d,q,clock);
@@ -14228,7 +14269,7 @@ module incircle_core_logic$engine$pipeline$issue$queue$passes(d,q,clock);
 endmodule // incircle_core_logic$engine$pipeline$issue$queue$passes
 
 
-module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,reset,write_address,write_data,write_enable,read_address,fetches,place,window_place,window_data);
+module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,reset,write_address,write_data,write_enable,read_address,fetches,place,fetched,fetched_place,fetched_data);
     
     // Module arguments
     input wire  clock;
@@ -14239,8 +14280,9 @@ module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,reset,write_ad
     input wire  [10:0] read_address;
     input wire  fetches;
     input wire  [3:0] place;
-    input wire  [3:0] window_place;
-    output reg  [92:0] window_data;
+    output reg  fetched;
+    output reg  [3:0] fetched_place;
+    output reg  [92:0] fetched_data;
     
     // Stub signals
     reg  memory$clock;
@@ -14249,12 +14291,6 @@ module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,reset,write_ad
     reg  memory$write_enable;
     reg  [10:0] memory$read_address;
     wire  [92:0] memory$read_data;
-    reg  window$clock;
-    reg  [3:0] window$write_address;
-    reg  [92:0] window$write_data;
-    reg  window$write_enable;
-    reg  [3:0] window$read_address;
-    wire  [92:0] window$read_data;
     reg  in_array$d;
     wire  in_array$q;
     reg  in_array$clock;
@@ -14276,14 +14312,6 @@ module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,reset,write_ad
         .write_enable(memory$write_enable),
         .read_address(memory$read_address),
         .read_data(memory$read_data)
-    );
-    incircle_core_logic$engine$pipeline$issue$queue$ring$window window(
-        .clock(window$clock),
-        .write_address(window$write_address),
-        .write_data(window$write_data),
-        .write_enable(window$write_enable),
-        .read_address(window$read_address),
-        .read_data(window$read_data)
     );
     incircle_core_logic$engine$pipeline$issue$queue$ring$in_array in_array(
         .d(in_array$d),
@@ -14317,7 +14345,6 @@ module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,reset,write_ad
         place_in_array$d = place_in_array$q;
         place_in_output$d = place_in_output$q;
         memory$clock = clock;
-        window$clock = clock;
         memory$write_address = write_address;
         memory$write_data = write_data;
         memory$write_enable = write_enable;
@@ -14326,11 +14353,9 @@ module incircle_core_logic$engine$pipeline$issue$queue$ring(clock,reset,write_ad
         in_output$d = in_array$q;
         place_in_array$d = place;
         place_in_output$d = place_in_array$q;
-        window$write_address = place_in_output$q;
-        window$write_data = memory$read_data;
-        window$write_enable = in_output$q;
-        window$read_address = window_place;
-        window_data = window$read_data;
+        fetched = in_output$q;
+        fetched_place = place_in_output$q;
+        fetched_data = memory$read_data;
         if (reset) begin
             in_array$d = 1'b0;
             in_output$d = 1'b0;
@@ -14480,27 +14505,6 @@ module incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_output(d,q,
     end
           
 endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$place_in_output
-
-
-module incircle_core_logic$engine$pipeline$issue$queue$ring$window(clock,write_address,write_data,write_enable,read_address,read_data);
-    
-    // Module arguments
-    input wire  clock;
-    input wire  [3:0] write_address;
-    input wire  [92:0] write_data;
-    input wire  write_enable;
-    input wire  [3:0] read_address;
-    output reg  [92:0] read_data;
-    
-    // Update code (custom)
-    (* ram_style = "distributed" *)
-    reg [92:0] memory [0:15];
-    wire [92:0] word = memory[read_address];
-    always @(posedge clock) begin
-        if (write_enable) memory[write_address] <= write_data;
-    end
-    always @(*) read_data = word;
-endmodule // incircle_core_logic$engine$pipeline$issue$queue$ring$window
 
 
 module incircle_core_logic$engine$pipeline$issue$queue$was_fetched(clock,write_address,write_data,write_enable,read_address,read_data);

@@ -24,12 +24,11 @@
 //!
 //! Source: [`Fifo`](super::Fifo) around a [`BlockMemory`](super::BlockMemory).
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
-
 use super::lut_memory::LutMemory;
 use super::memory_shape::MAX_ADDRESS_BITS;
 use super::spill_ring::SpillRing;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// A deep buffer; see the top of this file.
 #[derive(LogicBlock)]
@@ -49,6 +48,7 @@ pub struct DeepFifo<const A: usize, const D: usize> {
     pub data: Signal<Out, Bits<D>>,
     ring: SpillRing<A, D>,
     new_bank: LutMemory<4, D>,
+    fetched_bank: LutMemory<4, D>,
     was_fetched: LutMemory<4, 1>,
     holds_first: DFF<Bit>,
     /// It does not: the same once more, for the data.
@@ -102,6 +102,7 @@ impl<const A: usize, const D: usize> DeepFifo<A, D> {
             data: Signal::default(),
             ring: SpillRing::new(address_bits, stored_bits),
             new_bank: LutMemory::new(window, stored_bits),
+            fetched_bank: LutMemory::new(window, stored_bits),
             was_fetched: LutMemory::new(window, 1),
             holds_first: DFF::default(),
             passes: DFF::default(),
@@ -146,14 +147,13 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
     fn update(&mut self) {
         dff_setup!(self, clock, holds_first, passes, first, holds_more, window_is_full, holds_spilled);
         dff_setup!(self, clock, newest, fetched, after_first);
-        clock!(self, clock, ring, new_bank, was_fetched);
+        clock!(self, clock, ring, new_bank, fetched_bank, was_fetched);
         self.after_newest.next = self.newest.q.val() + self.one.val();
         self.after_fetched.next = self.fetched.q.val() + self.one.val();
         self.after_moved.next = self.after_first.q.val() + self.one_place.val();
         self.place.next = self.fetched.q.val().get_bits::<4>(0);
         self.after_place.next = self.place.val() + self.one_place.val();
 
-        // What the user sees.
         self.kept_data.next = self.push_data.val() & self.kept_bits.val();
         self.valid.next = self.holds_first.q.val() | self.push.val();
         self.data.next = self.first.q.val();
@@ -163,14 +163,14 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
 
         // The first entry: what follows it takes its place.
         self.new_bank.read_address.next = self.after_first.q.val();
-        self.ring.window_place.next = self.after_first.q.val();
+        self.fetched_bank.read_address.next = self.after_first.q.val();
         self.was_fetched.read_address.next = self.after_first.q.val();
         if self.pop.val() | (!self.holds_first.q.val()) {
             self.first.d.next = self.kept_data.val();
             if self.holds_more.q.val() {
                 self.first.d.next = self.new_bank.read_data.val();
                 if self.was_fetched.read_data.val() == self.from_ring.val() {
-                    self.first.d.next = self.ring.window_data.val();
+                    self.first.d.next = self.fetched_bank.read_data.val();
                 }
             }
         }
@@ -187,7 +187,6 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         self.advances.next = (!self.window_is_full.q.val()) & (self.holds_spilled.q.val() | self.joins.val());
         self.moves_up.next = self.pop.val() & self.holds_first.q.val() & (self.holds_more.q.val() | self.push.val());
 
-        // The ring, and the way from it into the window.
         self.ring.write_address.next = self.newest.q.val();
         self.ring.write_data.next = self.push_data.val();
         self.ring.write_enable.next = self.spills.val();
@@ -195,6 +194,9 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         self.ring.reset.next = self.reset.val();
         self.ring.fetches.next = self.fetches.val();
         self.ring.place.next = self.place.val();
+        self.fetched_bank.write_address.next = self.ring.fetched_place.val();
+        self.fetched_bank.write_data.next = self.ring.fetched_data.val();
+        self.fetched_bank.write_enable.next = self.ring.fetched.val();
 
         // The window: at most one entry is added at an edge, a new one or one that is fetched.
         self.new_bank.write_address.next = self.place.val();
@@ -207,7 +209,6 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         }
         self.was_fetched.write_enable.next = self.advances.val();
 
-        // Pointers, and the three flags that follow from them.
         if self.joins.val() {
             self.newest.d.next = self.after_newest.val();
         }

@@ -1,9 +1,8 @@
-//! The ring behind a deep buffer, and the part of its window that is filled from there.
+//! The ring behind a deep buffer: a block memory that says, with what it reads, for which place that was asked for.
 //!
-//! Latency: 3 clocks from `fetches` to the entry in the window; none to read that.
+//! Latency: 2 clocks from `fetches` to `fetched`.
 
 use super::block_memory::BlockMemory;
-use super::lut_memory::LutMemory;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -21,11 +20,11 @@ pub struct SpillRing<const A: usize, const D: usize> {
     pub read_address: Signal<In, Bits<A>>,
     pub fetches: Signal<In, Bit>,
     pub place: Signal<In, Bits<4>>,
-    /// A place of the window, and what was fetched for it.
-    pub window_place: Signal<In, Bits<4>>,
-    pub window_data: Signal<Out, Bits<D>>,
+    /// An entry has come, for this place.
+    pub fetched: Signal<Out, Bit>,
+    pub fetched_place: Signal<Out, Bits<4>>,
+    pub fetched_data: Signal<Out, Bits<D>>,
     memory: BlockMemory<A, D>,
-    window: LutMemory<4, D>,
     in_array: DFF<Bit>,
     in_output: DFF<Bit>,
     place_in_array: DFF<Bits<4>>,
@@ -35,11 +34,7 @@ pub struct SpillRing<const A: usize, const D: usize> {
 impl<const A: usize, const D: usize> SpillRing<A, D> {
     /// A ring of `2^address_bits` entries of `stored_bits` bits.
     pub fn new(address_bits: usize, stored_bits: usize) -> Self {
-        Self {
-            memory: BlockMemory::new(address_bits, stored_bits),
-            window: LutMemory::new(4, stored_bits),
-            ..Self::default()
-        }
+        Self { memory: BlockMemory::new(address_bits, stored_bits), ..Self::default() }
     }
 }
 
@@ -47,7 +42,7 @@ impl<const A: usize, const D: usize> Logic for SpillRing<A, D> {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, in_array, in_output, place_in_array, place_in_output);
-        clock!(self, clock, memory, window);
+        clock!(self, clock, memory);
         self.memory.write_address.next = self.write_address.val();
         self.memory.write_data.next = self.write_data.val();
         self.memory.write_enable.next = self.write_enable.val();
@@ -56,11 +51,9 @@ impl<const A: usize, const D: usize> Logic for SpillRing<A, D> {
         self.in_output.d.next = self.in_array.q.val();
         self.place_in_array.d.next = self.place.val();
         self.place_in_output.d.next = self.place_in_array.q.val();
-        self.window.write_address.next = self.place_in_output.q.val();
-        self.window.write_data.next = self.memory.read_data.val();
-        self.window.write_enable.next = self.in_output.q.val();
-        self.window.read_address.next = self.window_place.val();
-        self.window_data.next = self.window.read_data.val();
+        self.fetched.next = self.in_output.q.val();
+        self.fetched_place.next = self.place_in_output.q.val();
+        self.fetched_data.next = self.memory.read_data.val();
         if self.reset.val() {
             self.in_array.d.next = false;
             self.in_output.d.next = false;

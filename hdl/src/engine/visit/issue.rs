@@ -41,7 +41,7 @@ pub struct Issue {
     pub vertices_id: Signal<Out, TriangleId>,
     pub links_id: Signal<Out, TriangleId>,
     /// The issue register holds a read-out.
-    pub is_reading: Signal<Out, Bit>,
+    pub read_valid: Signal<Out, Bit>,
     queue: DeepFifo<RING_ADDRESS_BITS, BUNDLE_BITS>,
     head: Unpack<Bundle, BUNDLE_BITS>,
     pushed: Signal<Local, Bundle>,
@@ -98,7 +98,7 @@ impl Logic for Issue {
         self.token_valid.next = self.issued_valid.q.val();
         self.vertices_id.next = self.vertices_copy.q.val();
         self.links_id.next = self.links_copy.q.val();
-        self.is_reading.next = self.issued_read.q.val();
+        self.read_valid.next = self.issued_read.q.val();
 
         self.is_at_first.next = (!self.second_is_due.q.val()) & (!self.third_is_due.q.val());
         self.second_follows.next = self.head.value.val().is_pair & self.is_at_first.val();

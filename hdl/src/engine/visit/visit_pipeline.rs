@@ -161,7 +161,7 @@ impl Logic for VisitPipeline {
         self.reader.took.next = self.triangles.took.val();
         self.reader.foreign.next = self.triangles.foreign.val();
         self.reader.again.next = self.again2.q.val();
-        self.read_valid1.d.next = self.issue.is_reading.val();
+        self.read_valid1.d.next = self.issue.read_valid.val();
         self.read_valid2.d.next = self.read_valid1.q.val();
         self.read_out.next.valid = self.read_valid2.q.val();
         self.read_out.next.record = self.triangles.record.val();
