@@ -1,4 +1,9 @@
-//! The command and answer streams.
+//! The core's two streams of words: commands in, answers out. The serial and the stream link stand around them.
+//!
+//! ```text
+//! command words -> CommandPort -> vertex memory, engine
+//! answers <- Responder <- RecordReads <- triangle memory      RecordWords answers Read; VertexPacker and VertexStream, Triangles
+//! ```
 
 mod answer_head;
 mod answer_words;

@@ -5,8 +5,7 @@
 //!
 //! Latency: 2 clocks from `runs`, or from the beat before, to a beat.
 
-use super::types::AnswerBeat;
-use super::types::{Word, WordIndex};
+use super::types::{AnswerBeat, Word, WordIndex};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

@@ -7,8 +7,7 @@
 //! Latency: 2 clocks from `read_done` to the first word of the record, 3 to the beat that its vertices fill.
 
 use super::record_buffer::RecordBuffer;
-use super::types::AnswerBeat;
-use super::types::{RecordCount, Word};
+use super::types::{AnswerBeat, RecordCount, Word};
 use super::vertex_stream::VertexStream;
 use crate::engine::types::TriangleId;
 use crate::mesh::Record;

@@ -23,10 +23,7 @@
 use super::channels::AnswerSource;
 use super::payload_words::PayloadWords;
 use super::record_reads::RecordReads;
-use super::types::AnswerBeat;
-use super::types::WordPair;
-use super::types::WORD_PAIR_BITS;
-use super::types::{AnswerProgress, Head, Request, Word, WordIndex};
+use super::types::{AnswerBeat, AnswerProgress, Head, Request, Word, WordIndex, WordPair, WORD_PAIR_BITS};
 use crate::engine::types::TriangleId;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;

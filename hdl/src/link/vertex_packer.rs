@@ -16,8 +16,7 @@
 //! last            ________________________/^^\__
 //! ```
 
-use super::types::AnswerBeat;
-use super::types::{RecordCount, Word};
+use super::types::{AnswerBeat, RecordCount, Word};
 use crate::engine::types::VertexId;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

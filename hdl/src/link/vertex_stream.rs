@@ -5,9 +5,7 @@
 //!
 //! Latency: 1 clock from a record to the beat that it fills, when none waits.
 
-use super::types::AnswerBeat;
-use super::types::RecordCount;
-use super::types::ANSWER_BEAT_BITS;
+use super::types::{AnswerBeat, RecordCount, ANSWER_BEAT_BITS};
 use super::vertex_packer::VertexPacker;
 use crate::engine::types::VertexId;
 use crate::leaf::{Fifo, Unpack};

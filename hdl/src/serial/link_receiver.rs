@@ -10,8 +10,7 @@
 
 use super::cobs_decoder::CobsDecoder;
 use super::command_words::CommandWords;
-use super::frame_judge::Asked;
-use super::frame_judge::FrameJudge;
+use super::frame_judge::{Asked, FrameJudge};
 use super::frame_reader::FrameReader;
 use super::payload_digest::PayloadDigest;
 use super::receive_fifo::ReceiveFifo;

@@ -3,9 +3,7 @@
 //! 1. All is in the bus's clock. What comes from the core's clock goes into a `Synchroniser` and nowhere else.
 
 use super::answer_watch::AnswerWatch;
-use super::axi::AxiLite;
-use super::axi::AxisSink;
-use super::axi::AxisSource;
+use super::axi::{AxiLite, AxisSink, AxisSource};
 use super::beat_gate::BeatGate;
 use super::register_block::RegisterBlock;
 use super::reset_request::ResetRequest;

@@ -6,11 +6,9 @@
 //!
 //! Latency: that of [`RegisterPort`]; 1 clock from an event to its register.
 
-use super::axi::AxiLite;
-use super::axi::RegisterIndex;
+use super::axi::{AxiLite, RegisterIndex};
 use super::device_identity::DeviceIdentity;
-use super::events::AnswerEvents;
-use super::events::CommandEvents;
+use super::events::{AnswerEvents, CommandEvents};
 use super::register_port::RegisterPort;
 use super::traffic::Traffic;
 use crate::link::types::Word;

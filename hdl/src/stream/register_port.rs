@@ -22,8 +22,7 @@
 //! rdata             .  .  .  .  5  .  .  .  .
 //! ```
 
-use super::axi::Address;
-use super::axi::AxiLite;
+use super::axi::{Address, AxiLite};
 use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

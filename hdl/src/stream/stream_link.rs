@@ -14,9 +14,7 @@
 //! ```
 
 use super::async_fifo::AsyncFifo;
-use super::axi::AxiLite;
-use super::axi::AxisSink;
-use super::axi::AxisSource;
+use super::axi::{AxiLite, AxisSink, AxisSource};
 use super::bus_side::BusSide;
 use super::core_side::CoreSide;
 use crate::link::{AnswerSink, CommandSource};

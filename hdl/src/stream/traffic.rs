@@ -5,8 +5,7 @@
 //! Latency: 1 clock to a count, none to `value`.
 
 use super::axi::RegisterIndex;
-use super::events::AnswerEvents;
-use super::events::CommandEvents;
+use super::events::{AnswerEvents, CommandEvents};
 use crate::link::types::Word;
 use incircle_protocol::StreamRegister;
 use rust_hdl_core::prelude::*;

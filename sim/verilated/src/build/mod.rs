@@ -38,7 +38,8 @@ impl Builder {
     }
 
     /// Builds and links all models and writes what `verilated::include_models!` includes. A model whose text and
-    /// options have not changed is taken from the last build. Works on as many models at once as cargo allows jobs.
+    /// options have not changed is taken from the last build, whichever profile that was for. Works on as many models at once as
+    /// cargo allows jobs.
     ///
     /// # Panics
     /// With the sentence of the error, which is how a build script ends.
@@ -65,7 +66,10 @@ impl Builder {
         let out_dir = PathBuf::from(out_dir);
         let package = cargo_variable("CARGO_PKG_NAME")?.replace('-', "_");
         let verilator = Verilator::locate()?;
-        let objects = build_all(&self.models, &verilator, &out_dir, &package)?;
+        let kept = kept_folder(&out_dir, &package);
+        // Held until the archive is written: another build of this package waits, and then finds the models built.
+        let _lock = file::lock(&kept)?;
+        let objects = build_all(&self.models, &verilator, &kept, &package)?;
         if !objects.is_empty() {
             let mut archive = runtime::compiler(&verilator);
             for object in objects {
@@ -79,11 +83,21 @@ impl Builder {
     }
 }
 
+/// The folder that keeps the models of a package from build to build. Cargo gives a build script the folder
+/// `TARGET/PROFILE/build/NAME/out`; models depend on no profile, so they stand beside the profiles and each is translated once.
+fn kept_folder(out_dir: &Path, package: &str) -> PathBuf {
+    let parents: Vec<&Path> = out_dir.ancestors().skip(2).take(3).collect();
+    match parents[..] {
+        [build, _, target] if build.ends_with("build") => target.join("verilated").join(package),
+        _ => out_dir.join("verilated"),
+    }
+}
+
 /// The objects of all models, in their order.
 fn build_all(
     models: &[ModelSource],
     verilator: &Verilator,
-    out_dir: &Path,
+    kept: &Path,
     package: &str,
 ) -> Result<Vec<PathBuf>, BuildError> {
     let jobs = std::env::var("NUM_JOBS")
@@ -100,7 +114,7 @@ fn build_all(
                 let Some(model) = models.get(position) else {
                     break;
                 };
-                let folder = out_dir.join("verilated").join(&model.name);
+                let folder = kept.join(&model.name);
                 let objects = cache::objects_of(model, verilator, &folder, package);
                 if let Ok(mut results) = results.lock() {
                     results.push((position, objects));
