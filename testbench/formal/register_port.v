@@ -1,4 +1,4 @@
-// What the AXI4-Lite port promises: put into its module, `stream_register_port`, by tests/blocks_stream_proof.rs.
+// What the AXI4-Lite port promises: put into its module, `stream_register_port`, by tests/it/gates/proofs.rs.
 reg has_started = 0;
 always @(posedge clock) has_started <= 1;
 always @(*) assume (reset || has_started);

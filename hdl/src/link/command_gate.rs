@@ -6,8 +6,7 @@
 //! Latency: none (combinational).
 
 use super::channels::CommandSink;
-use super::command_state::CommandState;
-use super::types::TakenWord;
+use super::types::{CommandState, TakenWord};
 use crate::engine::EngineState;
 use rust_hdl_core::prelude::*;
 

@@ -23,9 +23,8 @@
 use super::channels::CommandSink;
 use super::clear_command::ClearCommand;
 use super::command_gate::CommandGate;
-use super::command_state::CommandState;
 use super::point_slot::PointSlot;
-use super::types::{Activity, AnswerProgress, Clearing, Request, Tally, VertexCount, Word};
+use super::types::{Activity, AnswerProgress, Clearing, CommandState, Request, Tally, VertexCount, Word};
 use crate::engine::{Arrival, Deal, EngineState};
 use incircle_protocol::{Opcode, PADDING};
 use rust_hdl_core::prelude::*;

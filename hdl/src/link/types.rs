@@ -96,3 +96,20 @@ crate::packed! {
 pub const ANSWER_BEAT_BITS: usize = AnswerBeat::BITS;
 /// Bits of [`WordPair`].
 pub const WORD_PAIR_BITS: usize = WordPair::BITS;
+
+/// What the next word means, or what is awaited.
+#[derive(Clone, Copy, Debug, PartialEq, LogicState)]
+pub enum CommandState {
+    /// A command.
+    Command,
+    /// The first id of a read.
+    First,
+    /// The number of records or points.
+    Count,
+    /// Points.
+    Points,
+    /// The engine finishes.
+    Settle,
+    /// The answer is sent.
+    Answer,
+}

@@ -9,12 +9,12 @@
 //! Source: the rules of the walk. Of two numbers with equal signs the lower bits decide, in two's complement also below zero.
 
 use super::signs::EdgeFlags;
-use crate::leaf::FlagDelay;
+use crate::leaf::{FlagDelay, Parameter};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Flags of three orientations; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct EdgeSigns {
     pub clock: Signal<In, Clock>,
     /// Orientations, two's complement, each in `-2^32 .. 2^32`.
@@ -46,7 +46,7 @@ pub struct EdgeSigns {
     delay_1_below_0: FlagDelay,
     delay_2_below_0: FlagDelay,
     delay_2_below_1: FlagDelay,
-    zero: Constant<Bits<33>>,
+    zero: Parameter<Bits<33>>,
 }
 
 impl EdgeSigns {
@@ -58,26 +58,6 @@ impl EdgeSigns {
         assert!(latency >= 2, "the signs of edges take at least 2 clocks, not {latency}");
         let delay = || FlagDelay::new(latency - 1);
         Self {
-            clock: Signal::default(),
-            e0: Signal::default(),
-            e1: Signal::default(),
-            e2: Signal::default(),
-            flags: Signal::default(),
-            value_0: Signal::default(),
-            value_1: Signal::default(),
-            value_2: Signal::default(),
-            low_0: Signal::default(),
-            low_1: Signal::default(),
-            low_2: Signal::default(),
-            negative_0: DFF::default(),
-            negative_1: DFF::default(),
-            negative_2: DFF::default(),
-            zero_0: DFF::default(),
-            zero_1: DFF::default(),
-            zero_2: DFF::default(),
-            low_1_below_0: DFF::default(),
-            low_2_below_0: DFF::default(),
-            low_2_below_1: DFF::default(),
             delay_negative_0: delay(),
             delay_negative_1: delay(),
             delay_negative_2: delay(),
@@ -87,7 +67,8 @@ impl EdgeSigns {
             delay_1_below_0: delay(),
             delay_2_below_0: delay(),
             delay_2_below_1: delay(),
-            zero: Constant::new(Bits::default()),
+            zero: Parameter::new(Bits::default()),
+            ..Self::default()
         }
     }
 }
