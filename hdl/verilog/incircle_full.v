@@ -22030,6 +22030,12 @@ module incircle_core_logic$engine$solo$star(clock,reset,phase,step,owner,p,recor
             triangle$d[(64'h2d)+:(15)] = beyond$q[(64'hf)+:(15)];
         end
         if (reset) begin
+            done_phase$d[(64'h0)+:(1)] = 1'b0;
+            done_phase$d[(64'h1)+:(1)] = 1'b0;
+            done_phase$d[(64'h2)+:(1)] = 1'b0;
+            done_phase$d[(64'h3)+:(1)] = 1'b0;
+            done_phase$d[(64'h4)+:(1)] = 1'b0;
+            done_phase$d[(64'h5)+:(1)] = 1'b0;
             request$d[(64'h0)+:(1)] = 1'b0;
         end
     end

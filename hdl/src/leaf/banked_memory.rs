@@ -11,9 +11,8 @@
 //! Source: distributed RAM. A bank is let through by its bit and all are joined by an OR, which takes three levels of LUTs for 16 banks
 //! of 32 words; choosing one word of 512 by its address takes five.
 
-use rust_hdl_core::prelude::*;
-
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
+use rust_hdl_core::prelude::*;
 
 /// A memory with banks; see the top of this file.
 #[derive(LogicBlock)]

@@ -14,10 +14,10 @@
 //! With `INCIRCLE_ECP5` defined, the Verilog instantiates DP16KD with its output registers, as many as leave no multiplexer behind
 //! them, for up to 14 address bits; otherwise, and without it, it is plain Verilog that any tool maps to its block memories.
 
+use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 use rust_hdl_core::prelude::*;
 
 use super::ecp5;
-use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
 
 /// A memory with one write and one read port; see the top of this file.
 #[derive(LogicBlock)]

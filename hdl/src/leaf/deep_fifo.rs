@@ -24,12 +24,11 @@
 //!
 //! Source: [`Fifo`](super::Fifo) around a [`BlockMemory`](super::BlockMemory).
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
-
 use super::lut_memory::LutMemory;
 use super::memory_shape::MAX_ADDRESS_BITS;
 use super::spill_ring::SpillRing;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// A deep buffer; see the top of this file.
 #[derive(LogicBlock)]
@@ -155,7 +154,6 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         self.place.next = self.fetched.q.val().get_bits::<4>(0);
         self.after_place.next = self.place.val() + self.one_place.val();
 
-        // What the user sees.
         self.kept_data.next = self.push_data.val() & self.kept_bits.val();
         self.valid.next = self.holds_first.q.val() | self.push.val();
         self.data.next = self.first.q.val();
@@ -189,7 +187,6 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         self.advances.next = (!self.window_is_full.q.val()) & (self.holds_spilled.q.val() | self.joins.val());
         self.moves_up.next = self.pop.val() & self.holds_first.q.val() & (self.holds_more.q.val() | self.push.val());
 
-        // The ring, and the way from it into the window.
         self.ring.write_address.next = self.newest.q.val();
         self.ring.write_data.next = self.push_data.val();
         self.ring.write_enable.next = self.spills.val();
@@ -212,7 +209,6 @@ impl<const A: usize, const D: usize> Logic for DeepFifo<A, D> {
         }
         self.was_fetched.write_enable.next = self.advances.val();
 
-        // Pointers, and the three flags that follow from them.
         if self.joins.val() {
             self.newest.d.next = self.after_newest.val();
         }

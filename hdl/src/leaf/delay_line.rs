@@ -7,10 +7,9 @@
 //! Source: a counter writes, and another one `stages - 1` behind it reads into a register. Up to 16 stages a slice in an ECP5 keeps 4 bits;
 //! block RAM is dear, lies far from everything, and would be nearly empty.
 
+use super::lut_memory::LutMemory;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-use super::lut_memory::LutMemory;
 
 /// Bits of the counter; the ring uses as many of them as it needs.
 const COUNTER_BITS: usize = 6;

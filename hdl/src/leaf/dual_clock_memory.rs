@@ -11,9 +11,8 @@
 //! Source: block RAM with two clocks, which every family has. The Verilog is plain on all of them: no board with primitives of its own
 //! has two clocks.
 
-use rust_hdl_core::prelude::*;
-
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended};
+use rust_hdl_core::prelude::*;
 
 /// A memory between two clocks; see the top of this file.
 #[derive(LogicBlock)]

@@ -9,11 +9,10 @@
 //!
 //! Source: pointers into a [`LutMemory`]; a register says whether anything is stored, so no count is needed.
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
-
 use super::lut_memory::LutMemory;
 use super::memory_shape::MAX_ADDRESS_BITS;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// A buffer; see the top of this file.
 #[derive(LogicBlock)]

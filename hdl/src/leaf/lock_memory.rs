@@ -15,10 +15,10 @@
 //! With `INCIRCLE_ECP5` defined, the Verilog instantiates it, for up to 14 address bits; otherwise, and without it, it is plain Verilog
 //! that any tool maps to its block memories.
 
+use super::memory_shape::{assert_shape, low_part, unused_part, MAX_ADDRESS_BITS};
 use rust_hdl_core::prelude::*;
 
 use super::ecp5;
-use super::memory_shape::{assert_shape, low_part, unused_part, MAX_ADDRESS_BITS};
 
 /// A memory of lock bits; see the top of this file.
 #[derive(LogicBlock)]

@@ -8,9 +8,8 @@
 //!
 //! Source: distributed RAM, TRELLIS_DPR16X4 on ECP5 (16 words of 4 bits each).
 
-use rust_hdl_core::prelude::*;
-
 use super::memory_shape::{assert_shape, low_part, unused_part, zero_extended, MAX_ADDRESS_BITS};
+use rust_hdl_core::prelude::*;
 
 /// A memory with a combinational read; see the top of this file.
 #[derive(LogicBlock)]

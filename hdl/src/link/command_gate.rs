@@ -6,7 +6,7 @@
 //! Latency: none (combinational).
 
 use super::channels::CommandSink;
-use super::command_port::CommandState;
+use super::command_state::CommandState;
 use super::types::TakenWord;
 use crate::engine::EngineState;
 use rust_hdl_core::prelude::*;

@@ -23,29 +23,13 @@
 use super::channels::CommandSink;
 use super::clear_command::ClearCommand;
 use super::command_gate::CommandGate;
+use super::command_state::CommandState;
 use super::point_slot::PointSlot;
 use super::types::{Activity, AnswerProgress, Clearing, Request, Tally, VertexCount, Word};
 use crate::engine::{Arrival, Deal, EngineState};
 use incircle_protocol::{Opcode, PADDING};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-/// What the next word means, or what is awaited.
-#[derive(Clone, Copy, Debug, PartialEq, LogicState)]
-pub enum CommandState {
-    /// A command.
-    Command,
-    /// The first id of a read.
-    First,
-    /// The number of records or points.
-    Count,
-    /// Points.
-    Points,
-    /// The engine finishes.
-    Settle,
-    /// The answer is sent.
-    Answer,
-}
 
 /// The command stream; see the top of this file.
 #[derive(LogicBlock, Default)]

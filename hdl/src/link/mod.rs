@@ -1,4 +1,9 @@
-//! The command and answer streams.
+//! The core's two streams of words: commands in, answers out. The serial and the stream link stand around them.
+//!
+//! ```text
+//! command words -> CommandPort -> vertex memory, engine
+//! answers <- Responder <- RecordReads <- triangle memory      RecordWords answers Read; VertexPacker and VertexStream, Triangles
+//! ```
 
 mod answer_head;
 mod answer_words;
@@ -6,6 +11,7 @@ mod channels;
 mod clear_command;
 mod command_gate;
 mod command_port;
+mod command_state;
 mod payload_words;
 mod point_slot;
 mod record_buffer;
@@ -21,7 +27,8 @@ pub use answer_words::AnswerWords;
 pub use channels::{AnswerSink, AnswerSource, CommandSink, CommandSource};
 pub use clear_command::ClearCommand;
 pub use command_gate::CommandGate;
-pub use command_port::{CommandPort, CommandState};
+pub use command_port::CommandPort;
+pub use command_state::CommandState;
 pub use payload_words::PayloadWords;
 pub use point_slot::PointSlot;
 pub use record_buffer::RecordBuffer;

@@ -24,12 +24,12 @@
 //! ```
 
 use crate::engine::types::LockClear;
-use crate::leaf::{BlockMemory, LockMemory};
+use crate::leaf::{BlockMemory, LockMemory, Parameter};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// Locks and their owners; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct LockStore {
     pub clock: Signal<In, Clock>,
     /// The lock that a visit comes to, in clock 0.
@@ -89,8 +89,8 @@ pub struct LockStore {
     was_taken2: Signal<Local, Bit>,
     was_taken3: Signal<Local, Bit>,
     holder_is_owner: Signal<Local, Bit>,
-    kept_id_bits: Constant<Bits<15>>,
-    kept_owner_bits: Constant<Bits<5>>,
+    kept_id_bits: Parameter<Bits<15>>,
+    kept_owner_bits: Parameter<Bits<5>>,
 }
 
 impl LockStore {
@@ -105,60 +105,12 @@ impl LockStore {
     /// If `id_bits` is not in `1..=15` or `context_bits` not in `1..=5`.
     pub fn new(id_bits: usize, context_bits: usize) -> Self {
         Self {
-            clock: Signal::default(),
-            id: Signal::default(),
-            owner: Signal::default(),
-            takes: Signal::default(),
-            took: Signal::default(),
-            foreign: Signal::default(),
-            was_set: Signal::default(),
-            clear: Signal::default(),
             locks: LockMemory::new(id_bits),
             owners: BlockMemory::new(id_bits, context_bits),
-            lock: Signal::default(),
-            cleared: Signal::default(),
-            visitor: Signal::default(),
-            meets_clear: Signal::default(),
-            id1: DFF::default(),
-            id2: DFF::default(),
-            id3: DFF::default(),
-            id4: DFF::default(),
-            owner1: DFF::default(),
-            owner2: DFF::default(),
-            owner3: DFF::default(),
-            owner4: DFF::default(),
-            takes1: DFF::default(),
-            takes2: DFF::default(),
-            takes3: DFF::default(),
-            met_clear1: DFF::default(),
-            met_clear2: DFF::default(),
-            met_clear3: DFF::default(),
-            is_lock_before1: DFF::default(),
-            is_lock_before2: DFF::default(),
-            is_lock_before3: DFF::default(),
-            is_owner_before1: DFF::default(),
-            is_owner_before2: DFF::default(),
-            is_owner_before3: DFF::default(),
-            found_set: DFF::default(),
-            found_owner: DFF::default(),
-            is_told: DFF::default(),
-            told_is_owner: DFF::default(),
-            took4: DFF::default(),
-            took5: DFF::default(),
-            takes_lock: Signal::default(),
-            was_taken1: Signal::default(),
-            was_taken2: Signal::default(),
-            was_taken3: Signal::default(),
-            holder_is_owner: Signal::default(),
-            kept_id_bits: Constant::new(Bits::<15>::mask() >> (15 - id_bits) as u64),
-            kept_owner_bits: Constant::new(Bits::<5>::mask() >> (5 - context_bits) as u64),
+            kept_id_bits: Parameter::new(Bits::<15>::mask() >> (15 - id_bits) as u64),
+            kept_owner_bits: Parameter::new(Bits::<5>::mask() >> (5 - context_bits) as u64),
+            ..Self::default()
         }
-    }
-}
-
-impl Default for LockStore {
-    fn default() -> Self {
-        Self::new(15, 5)
     }
 }
 

@@ -11,10 +11,9 @@
 //!
 //! Source: the dot products of the Cline-Renka form of incircle.
 
+use crate::leaf::Multiplier;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-use crate::leaf::Multiplier;
 
 /// A dot product; see the top of this file.
 #[derive(LogicBlock, Default)]

@@ -8,11 +8,10 @@
 //!
 //! Source: the rules of the walk. Of two numbers with equal signs the lower bits decide, in two's complement also below zero.
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
-
 use super::signs::EdgeFlags;
 use crate::leaf::FlagDelay;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// Flags of three orientations; see the top of this file.
 #[derive(LogicBlock)]

@@ -1,4 +1,5 @@
 //! The exact predicates of one visit: three orientations, one incircle, and the order of the vertices.
+//! [`VisitPredicates`] states the formula of the incircle (its rule 3); [`WideProduct`] multiplies its two halves.
 //!
 //! All is integer arithmetic in two's complement, wide enough that nothing ever wraps; signs decide, there is no epsilon. Coordinates are
 //! unsigned; a difference of two is widened first, so no value is ever cut.

@@ -6,11 +6,10 @@
 //!
 //! Source: the canonical order of ties; a point as the number `x * 2^16 + y` sorts lexicographically.
 
-use rust_hdl_core::prelude::*;
-
 use super::signs::{Corners, OrderFlags};
 use super::widths::Point;
 use crate::leaf::FlagDelay;
+use rust_hdl_core::prelude::*;
 
 /// Order of four points; see the top of this file.
 #[derive(LogicBlock)]

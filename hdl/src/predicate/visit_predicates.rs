@@ -12,9 +12,6 @@
 //!
 //! Source: the Cline-Renka form of incircle (A. K. Cline, R. J. Renka, 1984). 20 multipliers: 12 for small products, 8 for large ones.
 
-use rust_hdl_core::prelude::*;
-use rust_hdl_widgets::prelude::*;
-
 use super::cross_product::CrossProduct;
 use super::dot_product::DotProduct;
 use super::edge_signs::EdgeSigns;
@@ -23,6 +20,8 @@ use super::signs::{Corners, Signs};
 use super::vertex_order::VertexOrder;
 use super::wide_product::WideProduct;
 use super::widths::Point;
+use rust_hdl_core::prelude::*;
+use rust_hdl_widgets::prelude::*;
 
 /// Predicates of a visit; see the top of this file.
 #[derive(LogicBlock)]

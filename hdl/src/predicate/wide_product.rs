@@ -10,10 +10,9 @@
 //! `a * b = h h' * 2^34 + (h l' + l h') * 2^17 + l l'`. `h h'` is at most `2^32`, `l l'` below `2^34`, so the two
 //! lie side by side in 68 bits without a carry between them. The middle is at most `2 * 2^16 * 2^17 = 2^34`, so 36 bits hold it.
 
+use crate::leaf::Multiplier;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
-
-use crate::leaf::Multiplier;
 
 /// A wide product; see the top of this file.
 #[derive(LogicBlock)]

@@ -1,4 +1,10 @@
-//! The serial link: frames on a line, with credits, check sums and sessions, around the core's two streams of words.
+//! The serial link: frames on a line, with credits, check sums and sessions, around the core's two streams of words. The frame itself:
+//! `protocol/SERIAL.md`, "Frames".
+//!
+//! ```text
+//! in:  UartReceiver -> CobsDecoder -> FrameReader -> FrameJudge
+//! out: FrameChoice -> FrameSender -> FrameHeader, FrameBytes, FramePart -> CobsEncoder -> UartTransmitter
+//! ```
 
 mod answer_packer;
 mod bit_clock;

@@ -19,7 +19,7 @@ use rust_hdl_core::prelude::*;
 /// The core; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Core {
-    /// One clock; synchronous reset, active high.
+    /// One clock; synchronous reset, active high: for four clocks or more at power-up, for one or more in a core that runs.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
     pub command: CommandSink,

@@ -121,8 +121,9 @@ pub const FAULTS: &[Fault] = &[
             "met_clear3$q | (takes3$q & found_set$q)",
         )],
     },
-    // The watchdog, and each place that hears of it, but for `CommandGate`: a core that gets stuck over a lock has its first triangle, and the
-    // gate has nothing to hold then. `tests/it/blocks/choices.rs` holds the gate.
+    // The watchdog, and each place that hears of it, but for `CommandGate`: the gate holds back a point only while a
+    // first triangle is looked at, and a job that hangs over a lock has its first triangle already.
+    // `tests/it/blocks/link/command_gate.rs` and `command_port.rs` hold the gate and its wire.
     Fault { name: "watchdog_is_silent", pieces: &[piece("is_stuck$d = @;", "1'b1", "1'b0")] },
     Fault {
         name: "command_port_ignores_stuck",

@@ -13,7 +13,7 @@
 use crate::engine::types::{
     context_bits, ring_bits, Attempt, Case, RingCount, RingEntry, Step, Token, ATTEMPT_BITS, CONTEXT_BITS, ENTRY_BITS,
 };
-use crate::leaf::{LutMemory, Unpack};
+use crate::leaf::{LutMemory, Parameter, Unpack};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
@@ -33,7 +33,7 @@ crate::packed! {
 }
 
 /// The states of all attempts; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct AttemptStore {
     pub clock: Signal<In, Clock>,
     /// Entries a boundary list holds, a constant.
@@ -84,7 +84,7 @@ pub struct AttemptStore {
     one: Signal<Local, RingCount>,
     second_entry: Signal<Local, RingEntry>,
     /// A bit for each entry that a list of this configuration may have: those above are never kept.
-    all_entries: Constant<Bits<64>>,
+    all_entries: Parameter<Bits<64>>,
 }
 
 impl AttemptStore {
@@ -94,56 +94,11 @@ impl AttemptStore {
         let entries = 1 << ring_bits(config);
         let kept = ATTEMPT_BITS - (1 << ENTRY_BITS) + entries;
         Self {
-            clock: Signal::default(),
-            ring: Signal::default(),
-            early_token: Signal::default(),
-            token: Signal::default(),
-            held: Signal::default(),
-            found: Signal::default(),
-            step: Signal::default(),
-            after: Signal::default(),
             states: LutMemory::new(bits, kept),
             flags: LutMemory::new(bits, 2),
-            stored: Unpack::default(),
-            written: Signal::default(),
-            written_bits: Signal::default(),
-            written_flags: Signal::default(),
-            state: DFF::default(),
-            flag_bits: DFF::default(),
-            kept_passed: DFF::default(),
-            stored_passed: DFF::default(),
-            went_round: DFF::default(),
-            named_entry: DFF::default(),
-            goes_round: Signal::default(),
-            is_same_entry: Signal::default(),
-            is_second_entry: Signal::default(),
-            kept_edges: Signal::default(),
-            edges_after: Signal::default(),
-            stored_edges: Signal::default(),
-            entry: Signal::default(),
-            wide_entry: Signal::default(),
-            first_bit: Signal::default(),
-            becomes_last: Signal::default(),
-            becomes_full: Signal::default(),
-            last_flag: Signal::default(),
-            full_flag: Signal::default(),
-            opens_full: Signal::default(),
-            flags_after: Signal::default(),
-            outstanding: Signal::default(),
-            count: Signal::default(),
-            before_full: Signal::default(),
-            two: Signal::default(),
-            three: Signal::default(),
-            one: Signal::default(),
-            second_entry: Signal::default(),
-            all_entries: Constant::new(Bits::<64>::mask() >> (64 - entries as u64)),
+            all_entries: Parameter::new(Bits::<64>::mask() >> (64 - entries as u64)),
+            ..Self::default()
         }
-    }
-}
-
-impl Default for AttemptStore {
-    fn default() -> Self {
-        Self::new(incircle_protocol::LARGE)
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a completed visit means for its context: the heart of the engine.
+//! Decides, when a visit completes, what its context does next.
 //!
 //! ```text
 //! visit, record, verdict -> VisitCase -> AttemptStep -> AttemptLists -> entries, inner triangles, locks, jobs: CommitPath
@@ -9,13 +9,13 @@
 //!                          NextVisits -> up to three visits: PushPort
 //! ```
 //! One insertion walks to the triangle of its point, locks it, and digs the cavity by tests, many of them in flight. Its whole state is
-//! one word of [`AttemptStore`], read, changed and written back in the clock in which one of its visits completes. So the visits of all
-//! contexts may complete in any order, one in each clock.
+//! one word of [`AttemptStore`], which is read a clock before one of its visits completes, and changed and written back in the clock in
+//! which the visit does. So the visits of all contexts may complete in any order, one in each clock.
 //!
 //! Lock rules (see `docs/engine.md`): L1, an attempt that meets a foreign lock drains and releases ([`VisitCase`], [`AttemptStep`],
 //! [`Aftermath`]); L2, the holder of the waiting token asks again instead ([`VisitCase`]); L5, the located triangle is visited once more
-//! under its lock ([`VisitCase`], [`NextVisits`]); L6, a walk looks again while its context's last commit or release is due
-//! ([`VisitCase`]); L7, a walk looks again at a record that was not written ([`VisitCase`]).
+//! under its lock ([`VisitCase`], [`NextVisits`]); L6, a walk visits its triangle again while its context's last commit or
+//! release is due ([`VisitCase`]); L7, a walk visits a record again that was not written ([`VisitCase`]).
 
 mod aftermath;
 mod attempt_lists;

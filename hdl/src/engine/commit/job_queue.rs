@@ -13,12 +13,12 @@
 //! ```
 
 use crate::engine::types::CONTEXT_BITS;
-use crate::leaf::LutMemory;
+use crate::leaf::{LutMemory, Parameter};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// A queue of jobs; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct JobQueue<const D: usize> {
     pub clock: Signal<In, Clock>,
     /// Reset forgets all jobs.
@@ -42,8 +42,8 @@ pub struct JobQueue<const D: usize> {
     after_newest: Signal<Local, Bits<CONTEXT_BITS>>,
     after_oldest: Signal<Local, Bits<CONTEXT_BITS>>,
     more_wait: Signal<Local, Bit>,
-    one: Constant<Bits<CONTEXT_BITS>>,
-    nothing: Constant<Bits<CONTEXT_BITS>>,
+    one: Parameter<Bits<CONTEXT_BITS>>,
+    nothing: Parameter<Bits<CONTEXT_BITS>>,
 }
 
 impl<const D: usize> JobQueue<D> {
@@ -53,32 +53,11 @@ impl<const D: usize> JobQueue<D> {
     /// If `context_bits` is not in `1..=CONTEXT_BITS`.
     pub fn new(context_bits: usize) -> Self {
         Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            enable: Signal::default(),
-            job: Signal::default(),
-            takes: Signal::default(),
-            waits: Signal::default(),
-            head: Signal::default(),
-            arrived: DFF::default(),
-            arrival: DFF::default(),
             jobs: LutMemory::new(context_bits, D),
-            holds_jobs: DFF::default(),
-            newest: DFF::default(),
-            oldest: DFF::default(),
-            pops: Signal::default(),
-            after_newest: Signal::default(),
-            after_oldest: Signal::default(),
-            more_wait: Signal::default(),
-            one: Constant::new(Bits::from(1)),
-            nothing: Constant::new(Bits::default()),
+            one: Parameter::new(Bits::from(1)),
+            nothing: Parameter::new(Bits::default()),
+            ..Self::default()
         }
-    }
-}
-
-impl<const D: usize> Default for JobQueue<D> {
-    fn default() -> Self {
-        Self::new(CONTEXT_BITS)
     }
 }
 

@@ -1,4 +1,5 @@
-//! From a finished ring to the records of the new star, and from a finished attempt to released locks.
+//! Replaces a cavity by the star of its point, and releases the locks of attempts that are over. A *ring* is the closed boundary of
+//! a cavity.
 //!
 //! ```text
 //! entries, rings -> RingReader -> Commit -----------------> WritePort
@@ -12,8 +13,9 @@
 //! A ring is written in one pass, an entry or a link in each clock, while the context that dug it walks on with its next point. The
 //! cavity's records are written in place under their old ids, and two new ids are taken.
 //!
-//! Lock rules (see `docs/engine.md`): L4, the locks of a ring are released after its last write ([`CommitPath`], [`Release`]); L7, new
-//! ids count as not written until their commit has ended ([`FreshIds`]).
+//! Lock rules (see `docs/engine.md`): L1, the locks of a failed attempt are released when its visits have run out ([`Release`]); L4, the
+//! locks of a ring are released after its last write ([`CommitPath`], [`Release`]); L7, new ids count as not written until their commit
+//! has ended ([`FreshIds`]).
 
 #[expect(clippy::module_inception, reason = "the room carries the name of its main block")]
 mod commit;

@@ -26,7 +26,7 @@ const COUNT_BITS: usize = 15;
 const _: () = assert!(LATENCY_BUCKETS == 128, "the address of this block's memory has seven bits");
 
 /// The histogram; see the top of this file.
-#[derive(LogicBlock)]
+#[derive(LogicBlock, Default)]
 pub struct Latencies {
     pub clock: Signal<In, Clock>,
     /// Reset and clear start a sweep.
@@ -50,38 +50,10 @@ pub struct Latencies {
     counted_bucket: DFF<Bits<7>>,
     found: DFF<Bits<15>>,
     bucket: LatencyBucket,
-    memory: LutMemory<7, 15>,
+    memory: LutMemory<7, COUNT_BITS>,
     last_bucket: Signal<Local, Bits<7>>,
     one_bucket: Signal<Local, Bits<7>>,
     one: Signal<Local, Bits<15>>,
-}
-
-impl Default for Latencies {
-    fn default() -> Self {
-        Self {
-            clock: Signal::default(),
-            reset: Signal::default(),
-            clears: Signal::default(),
-            comes: Signal::default(),
-            latency: Signal::default(),
-            sweeps: Signal::default(),
-            select: Signal::default(),
-            value: Signal::default(),
-            is_sweeping: DFF::default(),
-            sweep_bucket: DFF::default(),
-            shifts: DFF::default(),
-            seeks: DFF::default(),
-            finds: DFF::default(),
-            counts: DFF::default(),
-            counted_bucket: DFF::default(),
-            found: DFF::default(),
-            bucket: LatencyBucket::default(),
-            memory: LutMemory::new(7, COUNT_BITS),
-            last_bucket: Signal::default(),
-            one_bucket: Signal::default(),
-            one: Signal::default(),
-        }
-    }
 }
 
 impl Logic for Latencies {

@@ -10,10 +10,13 @@
 //!                       +-----> Watchdog -> stuck
 //! ```
 //! A pointer goes round the contexts, one a clock, and starts the one it stands at if that one has something to do. It costs a few
-//! clocks for an insertion and saves a search over all contexts, which would set the clock of the core.
+//! clocks for an insertion and avoids a search over all contexts, which would be the slowest path of the core.
+//! [`Watchdog`] says `stuck` when no point was finished for `incircle_protocol::patience` clocks; commands are then answered with
+//! `Stuck`.
 //!
-//! Lock rules (see `docs/engine.md`): L1, who has failed rests until a fourth round of the pointer ([`DueCheck`]); L2, one waiting token
-//! ([`ContextFlags`]); L3, nobody but the holder tries again once it has waited for long ([`ContextFlags`], [`Starter`]); L8, the first
+//! Lock rules (see `docs/engine.md`): L1, a context that has failed rests until a fourth round of the pointer ([`DueCheck`]); L2, one waiting token
+//! ([`ContextFlags`]); L3, when the holder of the token has met 8 foreign locks, no
+//! other context tries again until its point is in ([`ContextFlags`], [`DueCheck`]); L8, the first
 //! points go to context 0 ([`DueCheck`], [`Starter`], [`NextPoint`]).
 
 mod context_flags;

@@ -160,6 +160,13 @@ impl Logic for SoloStar {
             self.triangle.d.next.outer = self.beyond.q.val().apex_after_a;
         }
         if self.reset.val() {
+            // A phase that was under way must not write once the reset is over.
+            self.done_phase.d.next.is_locate = false;
+            self.done_phase.d.next.is_split = false;
+            self.done_phase.d.next.is_mend = false;
+            self.done_phase.d.next.is_fetch = false;
+            self.done_phase.d.next.is_test = false;
+            self.done_phase.d.next.is_flip = false;
             self.request.d.next.valid = false;
         }
     }

@@ -9,8 +9,9 @@
 //!                                                record                        VerdictLogic      Solo, Seeder
 //! clock       0        1 and 2                   3 and 4        5              5 to 15           16
 //! ```
-//! All contexts share one pipeline, because the read port of the triangle memory is what limits the core: every clock should read a
-//! record. Each visit takes the same time, so visits complete in the order in which they were issued and no arbiter is needed.
+//! All contexts share one pipeline, because the read port of the triangle memory limits the speed of the core: it should read a record in
+//! every clock. Each visit takes the same time, so visits complete in the order in which they were issued and no arbiter is needed.
+//! [`VerdictLogic`] takes the step of a walk: it says which link leads nearer to the point.
 //!
 //! Lock rules (see `docs/engine.md`): L7, the visit of a record that is not written yet, or is being written in the same clock, is
 //! marked `again` ([`VisitPipeline`]). The locks themselves, with their owners (L9), lie in [`LockStore`](crate::mesh::LockStore).

@@ -2,6 +2,7 @@
 //!
 //! The mesh does not depend on the order, the time does: a point whose predecessor lies near is found in a few steps,
 //! and random rounds keep any input from making many triangles that do not last. The orders by name are [`Order`].
+//! `hilbert` has the curve; `brio` cuts it into random rounds, the default; `z_curve` serves the engine on the processor.
 //!
 //! Indices are 32 bits wide: points past the 2^32nd are left out.
 

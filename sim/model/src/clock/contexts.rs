@@ -31,7 +31,7 @@ pub(super) struct Contexts {
     pub rest: bool,
 }
 
-/// Foreign locks that the waiting context meets until the others stop to try again.
+/// L3: foreign locks that the holder of the token meets before the others stop trying again.
 const URGENT: u32 = 8;
 
 impl Contexts {

@@ -1,9 +1,10 @@
-//! The core beside its model, every root port at every clock: random and adversarial jobs, crossed with idle and back-pressure,
-//! resets in mid-job, random initial states, 1 to 24 contexts; and broken cores, which must be caught. More than 30 million clocks
-//! in all.
+//! The core beside its model, every root port at every clock: random and adversarial jobs, crossed with idle and
+//! back-pressure, resets in mid-job, random initial states, 1 to 24 contexts; and broken cores, which must be caught.
+//! More than 30 million clocks in all.
 //!
-//! At the end of every job the host reads the whole triangle memory, lock bits included, so that is compared too (the vertex
-//! memory shows in every decision only), and all answers are compared with the model by commands, which knows no clock.
+//! At the end of every job the host reads the whole triangle memory, lock bits included, so that is compared too (the
+//! vertex memory shows in every decision only), and all answers are compared with the model by commands, which knows no
+//! clock.
 
 use crate::rig::lockstep::{ordered, word, Rig};
 use incircle_protocol::{
@@ -153,7 +154,8 @@ fn resets_in_mid_job() {
     rig.expect_clocks(500_000);
 }
 
-/// A command in any place: with any low bits, also where they mean nothing; batches; inserts of no point and of more than fit.
+/// A command in any place: with any low bits, also where they mean nothing; batches; inserts of no point and of more
+/// than fit.
 fn any_command(random: &mut SplitMix64, config: Config) -> Vec<u32> {
     let [most, records] = [config.points, 2 * config.points].map(u64::from);
     let mut below = |limit: u64| random.below(limit) as u32;
@@ -277,7 +279,7 @@ fn broken_cores_are_caught_and_reported() {
     expect_caught(FAULTY, &["comparison", "link", "tie"], SMALL, &jobs);
 }
 
-/// Rules of `docs/engine.md`, by number: each is left out in hardware, beside the model that has it.
+/// Rules of `docs/engine.md`, by their ids: each is left out in hardware, beside the model that has it.
 #[test]
 fn cores_without_a_rule_of_the_engine_are_caught() {
     let jobs: Vec<Job> = (0..40)
@@ -301,8 +303,9 @@ fn a_core_that_reads_what_is_not_written_yet_is_caught() {
     expect_caught("faulty_core_long_list_one", &["watermark"], ONE_CONTEXT_LONG_LIST, &jobs);
 }
 
-/// Twenty starts out of random flip-flops: the sound core passes all of them, and a core with a block that is not reset fails
-/// in a quarter of them at least, for most blocks in nearly all. The jobs clear nothing before they insert, so nothing but the reset mends what a block holds at first.
+/// Twenty starts out of random flip-flops: the sound core passes all of them, and a core with a block that is not reset
+/// fails in a quarter of them at least, for most blocks in nearly all. The jobs clear nothing before they insert, so
+/// nothing but the reset mends what a block holds at first.
 #[test]
 fn cores_with_a_block_that_is_not_reset_are_caught() {
     const STARTS: u32 = 20;

@@ -1,5 +1,6 @@
-//! The watchdog in the whole core: core and model both take a context's own locks for those of another one, so a job hangs in both, and both must
-//! say so in the same clock, refuse what comes then, and be mended by reset. Cores in which some block does not hear of it are caught.
+//! The watchdog in the whole core: core and model both take a context's own locks for those of another one, so a job
+//! hangs in both, and both must say so in the same clock, refuse what comes then, and be mended by reset. Cores in
+//! which some block does not hear of it are caught.
 
 use incircle_model::{Defect, Inputs};
 use incircle_protocol::{answer_status, command_word, patience, Opcode, Status, INSERT_REPORT_WORDS, SMALL};

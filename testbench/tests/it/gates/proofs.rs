@@ -1,5 +1,6 @@
-//! The FIFO between two clocks, the AXI4-Lite port and the clocks of the counters are proven: for every sequence of inputs, and of edges of two clocks, of any length. So that this says
-//! something, faults are put in, and must be found.
+//! The FIFO between two clocks, the AXI4-Lite port and the clocks of the counters are proven: for every sequence of
+//! inputs, and of edges of two clocks, of any length. So that this says something, faults are put in, and must be
+//! found.
 
 use incircle_hdl::export;
 use incircle_hdl::stream::AsyncFifo;
@@ -29,10 +30,10 @@ fn with_properties(verilog: &str, name: &str, properties: &str) -> String {
     replace(verilog, &end, &format!("{properties}{end}"))
 }
 
-/// A FIFO with pointers of `P` bits, so of `2^(P - 1)` entries, with its properties. They look into the memory and the synchronisers, so
-/// these show what they hold.
+/// A FIFO with pointers of `P` bits, so of `2^(P - 1)` entries, with its properties. They look into the memory and the
+/// synchronisers, so these show what they hold.
 fn fifo<const P: usize>() -> String {
-    let mut fifo = AsyncFifo::<P, 2>::default();
+    let mut fifo = AsyncFifo::<P, 2>::new();
     fifo.connect_all();
     let mut text = export::verilog(&fifo, FIFO).expect("a sound FIFO");
     let last = P - 1;

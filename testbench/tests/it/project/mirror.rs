@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Blocks without a file of their own: the test that runs the block, from `tests/it`, and why that is enough.
-const ELSEWHERE: [(&str, &str, &str); 26] = [
+const ELSEWHERE: [(&str, &str, &str); 27] = [
     (
         "engine/attempt/aftermath",
         "blocks/engine/attempt/attempts",
@@ -24,6 +24,7 @@ const ELSEWHERE: [(&str, &str, &str); 26] = [
     ("engine/insertions", "cores/lockstep", "wires between the rooms"),
     ("engine/solo/solo_star", "blocks/engine/solo/solo", "a part of solo that only solo's states drive"),
     ("engine/solo/solo_steps", "blocks/engine/solo/solo", "the states of solo, which alone uses them"),
+    ("leaf/parameter", "gates/blocks", "no block: its text has the words of one in an example"),
     ("leaf/spill_ring", "blocks/leaf/deep_fifo", "the memory behind the deep buffer"),
     ("leaf/unpack", "blocks/engine/visit/issue", "the fields of a structure as wires, in most blocks"),
     ("serial/link_receiver", "blocks/serial/serial_link", "the receiving half of the link, at its pins"),

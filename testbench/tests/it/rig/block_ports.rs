@@ -259,6 +259,8 @@ impl Places {
             for (field, offset, width) in layout(port).map(|layout| fields(&layout, 0)).unwrap_or_default() {
                 let place = Place { port: port.clone(), offset, width };
                 wholes.push((plain(&format!("{port}_{field}")), Some(place.clone())));
+                // With a dot a name is a field in any case, also where a port has the other form of that name.
+                wholes.push((format!("{port}.{field}"), Some(place.clone())));
                 // By itself, and without the structures around it.
                 for (start, _) in
                     std::iter::once((0, "")).chain(field.match_indices('.').map(|(at, dot)| (at + 1, dot)))
@@ -288,7 +290,7 @@ impl Places {
     }
 
     fn whole(&self, name: &str) -> Place {
-        match self.0.get(&plain(name)) {
+        match self.0.get(name).or_else(|| self.0.get(&plain(name))) {
             Some(Some(place)) => place.clone(),
             Some(None) => panic!("{name} is a field of several structures"),
             None => panic!("no port {name}; there are {:?}", self.0.keys()),

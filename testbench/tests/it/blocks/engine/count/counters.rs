@@ -14,7 +14,7 @@ named_ports!(
 );
 
 /// Events that add one to one counter.
-const EVENTS: [(&str, Counter); 19] = [
+const EVENTS: [(&str, Counter); 18] = [
     ("inserting", Counter::InsertCycles),
     ("waiting", Counter::WaitCycles),
     ("reading", Counter::ReadCycles),
@@ -31,7 +31,6 @@ const EVENTS: [(&str, Counter); 19] = [
     ("flip", Counter::Flips),
     // Of two ports that add to one counter, the later one is low where the earlier is high.
     ("test", Counter::Tests),
-    ("solo_test", Counter::Tests),
     ("duplicate", Counter::Duplicates),
     ("solo_duplicate", Counter::Duplicates),
     ("is_releasing", Counter::ReleaseCycles),

@@ -63,7 +63,7 @@ fn issue_makes_one_visit_a_clock_in_order() {
     });
     let mut is_known = false;
     Stepper::new("issue_5", Issue::new(5), 1).run(
-        &["reset", "push_valid", "push_bundle", "read_valid", "read_id"],
+        &["reset", "push_valid", "push_bundle", "read.valid", "read_id"],
         &["token_valid", "token", "read_valid", "token[40+:15]", "vertices_id", "links_id"],
         stimuli,
         |values| {
@@ -97,7 +97,7 @@ fn issue_shows_the_wave_of_its_header() {
         (1, "push_bundle", ring_bundle(&[1, 2, 3])),
         (2, "push_valid", 1),
         (2, "push_bundle", ring_bundle(&[4])),
-        (6, "read_valid", 1),
+        (6, "read.valid", 1),
         (6, "read_id", 9),
     ];
     let lanes = [
@@ -105,7 +105,7 @@ fn issue_shows_the_wave_of_its_header() {
         ("bundle.x", "push_bundle", 9, 6, When::If("push_valid")),
         ("token_valid", "token_valid", 0, 1, When::Always),
         ("token.x", "token", 7, 6, When::If("token_valid")),
-        ("read", "read_valid", 0, 1, When::Always),
+        ("read", "read.valid", 0, 1, When::Always),
         ("read_valid", "read_valid", 0, 1, When::Always),
         ("token.u", "token", 40, 15, When::If("read_valid")),
     ];

@@ -433,7 +433,13 @@ impl Visits {
 fn visits(name: &str, config: Config) {
     assert_eq!(VisitPipeline::STAGES, STAGES);
     let visits = RefCell::new(Visits::new(config));
-    let stimuli = (0..ROUND * ROUNDS).map(|cycle| visits.borrow_mut().stimulus(cycle));
+    // Before its reset a block that starts with anything may have taken a lock: all are cleared.
+    let clears = (0..=2 * u128::from(config.points)).map(|clock| {
+        let mut inputs = vec![0; INPUTS.len()];
+        (inputs[0], inputs[15], inputs[16]) = (u128::from(clock == 0), clock.saturating_sub(1), u128::from(clock > 0));
+        inputs
+    });
+    let stimuli = clears.chain((0..ROUND * ROUNDS).map(|cycle| visits.borrow_mut().stimulus(cycle)));
     let mut is_reset = false;
     Stepper::new(name, VisitPipeline::new(config), 1).run(&INPUTS, &OUTPUTS, stimuli, |values| {
         let shown = visits.borrow_mut().cycle(values);
