@@ -39,6 +39,16 @@ impl SplitMix64 {
         self.below(bound.into()) as u32
     }
 
+    /// A number of so many bits, from 1 to 64.
+    pub fn bits(&mut self, bits: u32) -> u64 {
+        self.next_u64() >> (u64::BITS - bits)
+    }
+
+    /// True once in `times`, by chance.
+    pub fn once_in(&mut self, times: u64) -> bool {
+        self.below(times) == 0
+    }
+
     /// One of these, each alike.
     ///
     /// # Panics
@@ -98,6 +108,7 @@ mod tests {
         let mut random = SplitMix64::new(2);
         assert!((0..1000).all(|_| random.below(7) < 7 && random.below_u32(3) < 3));
         assert_eq!((random.below(0), random.below_u32(1)), (0, 0));
+        assert!((0..1000).all(|_| random.bits(3) < 8 && random.once_in(1)));
         assert_eq!(random.pick(&[5]), 5);
         let points: Vec<[u32; 2]> = random.points(100, 4);
         assert!(points.len() == 100 && points.iter().flatten().all(|&value| value < 4));

@@ -5,6 +5,7 @@ use incircle_hdl::top::Core;
 use incircle_model::{ClockModel, Inputs, Record, Write};
 use incircle_protocol::TINY;
 use incircle_testbench::lockstep::{Job, Stalls};
+use incircle_testkit::SplitMix64;
 use rust_hdl_core::prelude::*;
 
 /// Passes the core may take to settle: far more than its depth.
@@ -42,11 +43,10 @@ fn two_jobs_and_a_batch_clock_by_clock() {
     let batch = [0, 9, 0x0009_0000, 0, 0x0005_0005, 0x0000_0005, 0x0003_0003, 0x0001_0003];
     commands.extend(Job::batch_of(&batch, 8, 0, TINY).commands);
     let mut rest = commands.as_slice();
-    let (mut chance, mut writes) = (1u64, 0);
+    let (mut random, mut writes) = (SplitMix64::new(1), 0);
     for clock in 0..5500 {
-        chance = chance.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         let reset = clock == 0;
-        let inputs = Inputs { reset, ..Stalls { idle: 20, back_pressure: 20 }.inputs(rest, chance >> 8) };
+        let inputs = Inputs { reset, ..Stalls { idle: 20, back_pressure: 20 }.inputs(rest, random.next_u64()) };
         core.clock.next = false.into();
         core.reset.next = inputs.reset;
         core.command.valid.next = inputs.command_valid;

@@ -1,7 +1,10 @@
 //! The state of an attempt in plain numbers.
 
-use super::stepper::bundles::pack;
+use super::stepper::bundles::{pack, Layout};
 use incircle_testkit::SplitMix64;
+
+/// drains, outstanding, count, inners, logged, and the halves of `half_open`.
+const ATTEMPT: Layout<7> = [1, 7, 7, 7, 7, 32, 32];
 
 /// An attempt's state.
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,15 +32,8 @@ impl State {
 
     /// As an `Attempt`.
     pub fn packed(self) -> u128 {
-        pack(&[
-            (self.drains.into(), 1),
-            (self.outstanding, 7),
-            (self.count, 7),
-            (self.inners, 7),
-            (self.logged, 7),
-            (self.half_open & 0xffff_ffff, 32),
-            (self.half_open >> 32, 32),
-        ])
+        let Self { drains, outstanding, count, inners, logged, half_open } = self;
+        pack(ATTEMPT, [drains.into(), outstanding, count, inners, logged, half_open & 0xffff_ffff, half_open >> 32])
     }
 
     /// An edge of entry `y`'s triangle is passed: whether it was its last.

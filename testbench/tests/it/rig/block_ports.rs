@@ -276,8 +276,20 @@ impl Places {
         Self(places)
     }
 
-    /// Where a name stands; it may be written with dots.
+    /// Where a name stands: a port, or a field of its structure. The name may be written with dots. `name[low+:width]`
+    /// stands for some of its bits.
     pub fn find(&self, name: &str) -> Place {
+        let Some((name, range)) = name.strip_suffix(']').and_then(|part| part.split_once('[')) else {
+            return self.whole(name);
+        };
+        let number = |digits: &str| digits.parse::<u32>().expect("a number");
+        let (low, width) = range.split_once("+:").expect("a range as [low+:width]");
+        let (place, low, width) = (self.whole(name), number(low), number(width));
+        assert!(low + width <= place.width, "{name} has {} bits, not {low} + {width}", place.width);
+        Place { offset: place.offset + low, width, ..place }
+    }
+
+    fn whole(&self, name: &str) -> Place {
         match self.0.get(name).or_else(|| self.0.get(&plain(name))) {
             Some(Some(place)) => place.clone(),
             Some(None) => panic!("{name} is a field of several structures"),

@@ -1,6 +1,6 @@
 //! Ids of triangles and vertices for the memories of the mesh.
 
-use crate::rig::cosimulation::Numbers;
+use incircle_testkit::SplitMix64;
 
 /// Bits of an id at a port.
 pub const ID: u32 = 15;
@@ -8,7 +8,7 @@ pub const ID: u32 = 15;
 pub const LAST_ID: u64 = (1 << ID) - 1;
 
 /// Ids that meet often in their low bits, with anything above them.
-pub fn id(numbers: &mut Numbers, stored_bits: u32) -> u64 {
+pub fn id(numbers: &mut SplitMix64, stored_bits: u32) -> u64 {
     let near = [0, LAST_ID - 3][numbers.bits(1) as usize] ^ numbers.bits(2);
     if stored_bits == ID {
         near

@@ -1,6 +1,7 @@
 //! What the tests of memories share: both forms, stimuli, and a memory as an array.
 
-use crate::rig::cosimulation::{Expected, NamedPorts, Numbers};
+use crate::rig::stepper::{Expected, NamedPorts};
+use incircle_testkit::SplitMix64;
 use rust_hdl_core::prelude::*;
 
 const CYCLES: usize = 20_000;
@@ -25,7 +26,7 @@ pub fn edge(block: &mut impl NamedPorts, inputs: &[(&str, u64)]) {
 
 /// Random reads and writes; a read never meets a write of the same word.
 pub fn memory_stimuli(port_bits: usize, data_bits: usize, word_bits: usize) -> Vec<Vec<u64>> {
-    let mut numbers = Numbers::new(2);
+    let mut numbers = SplitMix64::new(2);
     let word = (1 << word_bits) - 1;
     (0..CYCLES)
         .map(|_| {

@@ -1,7 +1,7 @@
 //! What a visit finds out, from the geometry alone. Shares no formula with the hardware: orientation is a sum over the corners,
 //! incircle the 3 x 3 determinant of the lifted points, the walk a minimum, the tie a minimum of four points.
 
-use crate::rig::structures::{pack, TURNED, VERDICT};
+use crate::rig::stepper::bundles::{turned, Finding, LockFinding};
 
 /// A verdict as outputs: conflict, what holds however the record is turned, what holds only where it is not.
 pub const VERDICT_PARTS: [&str; 3] = ["verdict[0+:1]", "verdict[1+:2]", "verdict[3+:17]"];
@@ -92,12 +92,9 @@ impl Record {
 
     /// This record, turned already, as the structure `Turned`; `lock` is took, foreign and again.
     pub fn pack_turned(&self, slot: usize, lock: [bool; 3], infinite: u64) -> u128 {
-        let [took, foreign, again] = lock.map(u64::from);
-        let [v0, v1, v2] = self.v;
-        let [n0, n1, n2] = self.n;
-        let [i0, i1, i2] = self.v.map(|vertex| u64::from(vertex == infinite));
-        let fields = [v0, v1, v2, n0, n1, n2, slot as u64, took, foreign, again, i0, i1, i2];
-        pack(TURNED, fields)
+        let [took, foreign, again] = lock;
+        let lock = LockFinding { took, foreign, again };
+        turned(self.v, self.n, slot as u64, lock, self.v.map(|vertex| vertex == infinite))
     }
 
     /// What a visit of this record, as stored, finds out about `p` if it turns it by `slot`; `r` are its corners, any word for the infinite
@@ -127,8 +124,7 @@ impl Record {
             let lowest = side.iter().min();
             next = side.iter().position(|side| Some(side) == lowest).unwrap_or(0);
         }
-        let flags = [conflict, located, falls_onto_corner, side[2] > 0, side[2] == 0];
-        let [conflict, located, corner, is_left, is_straight] = flags.map(u64::from);
-        pack(VERDICT, [conflict, located, corner, is_left, is_straight, self.n[next]])
+        let (is_left, is_straight, walk_next) = (side[2] > 0, side[2] == 0, self.n[next]);
+        Finding { conflict, located, falls_onto_corner, is_left, is_straight, walk_next }.verdict()
     }
 }

@@ -3,7 +3,8 @@
 //! The references share no formula with the hardware: orientation is a sum over the corners of the triangle, incircle the 3 x 3
 //! determinant of the lifted points.
 
-use crate::rig::cosimulation::{Cosimulation, Delay, Expected, NamedPorts, Numbers};
+use crate::rig::stepper::{Delay, Expected, NamedPorts, Stepper};
+use incircle_testkit::SplitMix64;
 
 const CYCLES: usize = 10_000;
 
@@ -94,13 +95,13 @@ pub fn shown(delayed: Option<Vec<u128>>, outputs: usize) -> Vec<Expected> {
 }
 
 /// Four points, as the ports take them: from every corner of the input space that is dangerous, in turn.
-pub fn visit(numbers: &mut Numbers) -> Vec<u64> {
-    let bits = [16, 16, 16, 4, 2, 8][(numbers.next() % 6) as usize];
-    let random = |numbers: &mut Numbers| (numbers.bits(bits) as i64, numbers.bits(bits) as i64);
+pub fn visit(numbers: &mut SplitMix64) -> Vec<u64> {
+    let bits = [16, 16, 16, 4, 2, 8][numbers.below(6) as usize];
+    let random = |numbers: &mut SplitMix64| (numbers.bits(bits) as i64, numbers.bits(bits) as i64);
     let mut points = [(); 4].map(|()| random(numbers));
-    match numbers.next() % 8 {
+    match numbers.below(8) {
         0 => points = points.map(|(x, y)| ((x & 1) * LARGEST, (y & 1) * LARGEST)),
-        1 => points[3] = points[(numbers.next() % 3) as usize],
+        1 => points[3] = points[numbers.below(3) as usize],
         2 => {
             // All on one line through the origin corner.
             let (x, y) = (numbers.bits(6) as i64, numbers.bits(6) as i64);
@@ -111,7 +112,7 @@ pub fn visit(numbers: &mut Numbers) -> Vec<u64> {
             let (x, y) = (numbers.bits(15) as i64, numbers.bits(15) as i64);
             let around = [(x, y), (-y, x), (-x, -y), (y, -x), (-x, y), (x, -y), (y, x)];
             points = points.map(|_| {
-                let turn = around[(numbers.next() % 7) as usize];
+                let turn = around[numbers.below(7) as usize];
                 (32768 + turn.0, 32768 + turn.1)
             });
             if numbers.once_in(3) {
@@ -131,7 +132,7 @@ pub fn run_visits<U: NamedPorts>(
     latency: usize,
     reference: impl Fn([Point; 3], Point) -> Vec<u128>,
 ) {
-    let mut numbers = Numbers::new(11);
+    let mut numbers = SplitMix64::new(11);
     let mut corners = vec![];
     for code in 0..256_u64 {
         let corner =
@@ -140,7 +141,7 @@ pub fn run_visits<U: NamedPorts>(
     }
     corners.extend((0..CYCLES).map(|_| visit(&mut numbers)));
     let mut delay = Delay::new(latency);
-    Cosimulation { name, rust, inputs: &POINT_PORTS, outputs }.run(corners, |values| {
+    Stepper::new(name, rust, 1).run(&POINT_PORTS, outputs, corners, |values| {
         let r = [point(values[0]), point(values[1]), point(values[2])];
         shown(delay.pass(reference(r, point(values[3]))), outputs.len())
     });
@@ -154,9 +155,9 @@ pub fn signed(value: u64, bits: u32) -> i128 {
 pub const DIFFERENCE_PORTS: [&str; 4] = ["a_x", "a_y", "b_x", "b_y"];
 
 /// Differences of coordinates as 18 bits, and what they stand for.
-fn difference(numbers: &mut Numbers) -> u64 {
-    let value = match numbers.next() % 4 {
-        0 => [0, 1, -1, LARGEST, -LARGEST][(numbers.next() % 5) as usize],
+fn difference(numbers: &mut SplitMix64) -> u64 {
+    let value = match numbers.below(4) {
+        0 => [0, 1, -1, LARGEST, -LARGEST][numbers.below(5) as usize],
         _ => numbers.bits(16) as i64 - numbers.bits(16) as i64,
     };
     bits_of(value.into(), 18) as u64
@@ -164,6 +165,6 @@ fn difference(numbers: &mut Numbers) -> u64 {
 
 /// Values for [`DIFFERENCE_PORTS`]: differences of coordinates.
 pub fn difference_stimuli() -> Vec<Vec<u64>> {
-    let mut numbers = Numbers::new(13);
+    let mut numbers = SplitMix64::new(13);
     (0..CYCLES).map(|_| (0..4).map(|_| difference(&mut numbers)).collect()).collect()
 }

@@ -1,7 +1,8 @@
 //! `BankedMemory`: Rust, Verilog and an independent reference agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Numbers};
+use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::leaf::BankedMemory;
+use incircle_testkit::SplitMix64;
 
 named_ports!([const M: usize, const B: usize, const A: usize, const D: usize] BankedMemory<M, B, A, D>,
     [write_bank, write_address, write_data, write_enable, read_banks, read_address], [read_data], clock);
@@ -12,7 +13,7 @@ fn banked_memory<const M: usize, const B: usize, const A: usize, const D: usize>
     name: &str,
     (banks, address_bits, stored_bits): (usize, usize, usize),
 ) {
-    let mut numbers = Numbers::new(9);
+    let mut numbers = SplitMix64::new(9);
     let stimuli: Vec<_> = (0..CYCLES)
         .map(|_| {
             // Banks that are there, and now and then one that is not; one bank is read, or none.
@@ -25,20 +26,19 @@ fn banked_memory<const M: usize, const B: usize, const A: usize, const D: usize>
         .collect();
     let last = (1u64 << address_bits) - 1;
     let mut words = vec![vec![None; 1 << address_bits]; banks];
-    Cosimulation {
-        name,
-        rust: BankedMemory::<M, B, A, D>::new(banks, address_bits, stored_bits),
-        inputs: &["write_bank", "write_address", "write_data", "write_enable", "read_banks", "read_address"],
-        outputs: &["read_data"],
-    }
-    .run(stimuli, |values| {
-        let bank = (0..banks).find(|bank| values[4] >> bank & 1 == 1);
-        let read = bank.map_or(Some(0), |bank| words[bank][(values[5] & last) as usize]);
-        if let Some(bank) = words.get_mut(values[0] as usize).filter(|_| values[3] == 1) {
-            bank[(values[1] & last) as usize] = Some(u128::from(values[2] & ((1 << stored_bits) - 1)));
-        }
-        vec![read]
-    });
+    Stepper::new(name, BankedMemory::<M, B, A, D>::new(banks, address_bits, stored_bits), 1).run(
+        &["write_bank", "write_address", "write_data", "write_enable", "read_banks", "read_address"],
+        &["read_data"],
+        stimuli,
+        |values| {
+            let bank = (0..banks).find(|bank| values[4] >> bank & 1 == 1);
+            let read = bank.map_or(Some(0), |bank| words[bank][(values[5] & last) as usize]);
+            if let Some(bank) = words.get_mut(values[0] as usize).filter(|_| values[3] == 1) {
+                bank[(values[1] & last) as usize] = Some(u128::from(values[2] & ((1 << stored_bits) - 1)));
+            }
+            vec![read]
+        },
+    );
 }
 
 #[test]

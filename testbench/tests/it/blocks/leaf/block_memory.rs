@@ -1,7 +1,7 @@
 //! `BlockMemory`: Rust, Verilog and an independent reference agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, NamedPorts};
 use crate::rig::memories::{both_forms, edge, memory_reference, memory_stimuli, MEMORY_PORTS};
+use crate::rig::stepper::{named_ports, Delay, NamedPorts, Stepper};
 use incircle_hdl::leaf::BlockMemory;
 use rust_hdl_core::prelude::*;
 
@@ -12,13 +12,12 @@ fn block_memory<const A: usize, const D: usize>(name: &str, address_bits: usize,
     for name in both_forms(name) {
         let mut reference = memory_reference(address_bits, stored_bits);
         let mut delay = Delay::new(BlockMemory::<A, D>::LATENCY);
-        Cosimulation {
-            name: &name,
-            rust: BlockMemory::<A, D>::new(address_bits, stored_bits),
-            inputs: &MEMORY_PORTS,
-            outputs: &["read_data"],
-        }
-        .run(memory_stimuli(A, D, address_bits), |values| vec![delay.pass(reference(values)).flatten()]);
+        Stepper::new(&name, BlockMemory::<A, D>::new(address_bits, stored_bits), 1).run(
+            &MEMORY_PORTS,
+            &["read_data"],
+            memory_stimuli(A, D, address_bits),
+            |values| vec![delay.pass(reference(values)).flatten()],
+        );
     }
 }
 

@@ -1,8 +1,9 @@
 //! `DeepFifo`: Rust, Verilog and an independent reference agree clock by clock.
 
 use super::fifo::queue;
-use crate::rig::cosimulation::{named_ports, Numbers};
+use crate::rig::stepper::named_ports;
 use incircle_hdl::leaf::DeepFifo;
+use incircle_testkit::SplitMix64;
 
 named_ports!([const A: usize, const D: usize] DeepFifo<A, D>,
     [reset, push, push_data, pop], [valid, data], clock);
@@ -11,15 +12,16 @@ const CYCLES: usize = 20_000;
 
 /// Pushes and pops as [`fifo_stimuli`], at any pair of rates, for so long that a deep buffer fills and empties.
 fn deep_fifo_stimuli(data_bits: usize, places: u32) -> Vec<Vec<u64>> {
-    let mut numbers = Numbers::new(9);
+    let mut numbers = SplitMix64::new(9);
     let (mut held, mut push_pace, mut pop_pace, mut left) = (0, 1, 1, 0);
     (0..4 * CYCLES)
         .map(|cycle| {
             if left == 0 {
                 // Short spells end in the middle of a fetch, long ones at either end of the buffer.
-                left = 1 + numbers.next() % if numbers.once_in(4) { 10 } else { u64::from(4 * places) };
+                let most = if numbers.once_in(4) { 10 } else { u64::from(4 * places) };
+                left = 1 + numbers.below(most);
                 // A rate of 0 is silence.
-                (push_pace, pop_pace) = (numbers.next() % 5, numbers.next() % 5);
+                (push_pace, pop_pace) = (numbers.below(5), numbers.below(5));
             }
             left -= 1;
             let reset = cycle == 0 || numbers.once_in(5000);

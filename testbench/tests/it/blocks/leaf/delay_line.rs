@@ -1,18 +1,19 @@
 //! `DelayLine`: Rust, Verilog and an independent reference agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Numbers};
+use crate::rig::stepper::{named_ports, Delay, Stepper};
 use incircle_hdl::leaf::DelayLine;
+use incircle_testkit::SplitMix64;
 
 named_ports!([const D: usize] DelayLine<D>, [data_in], [data_out], clock);
 
 const CYCLES: usize = 20_000;
 
 fn delay_line<const D: usize>(name: &str, stages: usize) {
-    let mut numbers = Numbers::new(5);
+    let mut numbers = SplitMix64::new(5);
     let stimuli: Vec<_> = (0..CYCLES).map(|_| vec![numbers.bits(D as u32)]).collect();
     let mut delay = Delay::new(stages);
-    Cosimulation { name, rust: DelayLine::<D>::new(stages), inputs: &["data_in"], outputs: &["data_out"] }
-        .run(stimuli, |values| vec![delay.pass(values[0].into())]);
+    Stepper::new(name, DelayLine::<D>::new(stages), 1)
+        .run(&["data_in"], &["data_out"], stimuli, |values| vec![delay.pass(values[0].into())]);
 }
 
 #[test]

@@ -2,8 +2,9 @@
 
 use std::collections::VecDeque;
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, NamedPorts, Numbers};
+use crate::rig::stepper::{named_ports, NamedPorts, Stepper};
 use incircle_hdl::leaf::Fifo;
+use incircle_testkit::SplitMix64;
 
 named_ports!([const A: usize, const D: usize] Fifo<A, D>,
     [reset, push, push_data, pop], [valid, data], clock);
@@ -12,7 +13,7 @@ const CYCLES: usize = 20_000;
 
 /// Pushes and pops at changing rates, within the contract: never more entries than places, no pop of nothing.
 fn fifo_stimuli(data_bits: usize, places: u32) -> Vec<Vec<u64>> {
-    let mut numbers = Numbers::new(7);
+    let mut numbers = SplitMix64::new(7);
     let mut held = 0;
     (0..CYCLES as u64)
         .map(|cycle| {
@@ -31,24 +32,21 @@ pub fn queue<U: NamedPorts>(name: &str, rust: U, places: usize, stored_bits: usi
     let mut entries = VecDeque::new();
     let mut times_full = 0;
     let mut times_empty = 0;
-    Cosimulation { name, rust, inputs: &["reset", "push", "push_data", "pop"], outputs: &["valid", "data"] }.run(
-        stimuli,
-        |values| {
-            if values[1] == 1 {
-                entries.push_back(u128::from(values[2]) & ((1 << stored_bits) - 1));
-            }
-            let shown = vec![Some(u128::from(!entries.is_empty())), entries.front().copied()];
-            if values[3] == 1 {
-                entries.pop_front();
-            }
-            if values[0] == 1 {
-                entries.clear();
-            }
-            times_full += usize::from(entries.len() == places);
-            times_empty += usize::from(entries.is_empty());
-            shown
-        },
-    );
+    Stepper::new(name, rust, 1).run(&["reset", "push", "push_data", "pop"], &["valid", "data"], stimuli, |values| {
+        if values[1] == 1 {
+            entries.push_back(u128::from(values[2]) & ((1 << stored_bits) - 1));
+        }
+        let shown = vec![Some(u128::from(!entries.is_empty())), entries.front().copied()];
+        if values[3] == 1 {
+            entries.pop_front();
+        }
+        if values[0] == 1 {
+            entries.clear();
+        }
+        times_full += usize::from(entries.len() == places);
+        times_empty += usize::from(entries.is_empty());
+        shown
+    });
     assert!(times_full > 10 && times_empty > 10, "full {times_full} times, empty {times_empty} times");
 }
 

@@ -1,7 +1,8 @@
 //! `FlagDelay`: Rust, Verilog and an independent reference agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Numbers};
+use crate::rig::stepper::{named_ports, Delay, Stepper};
 use incircle_hdl::leaf::FlagDelay;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] FlagDelay, [flag_in], [flag_out], clock);
 
@@ -10,10 +11,10 @@ const CYCLES: usize = 20_000;
 #[test]
 fn flag_delay_of_one_two_and_nine_stages() {
     for (name, stages) in [("flag_delay_1", 1), ("flag_delay_2", 2), ("flag_delay_9", 9)] {
-        let mut numbers = Numbers::new(6);
+        let mut numbers = SplitMix64::new(6);
         let stimuli: Vec<_> = (0..CYCLES).map(|_| vec![numbers.bits(1)]).collect();
         let mut delay = Delay::new(stages);
-        Cosimulation { name, rust: FlagDelay::new(stages), inputs: &["flag_in"], outputs: &["flag_out"] }
-            .run(stimuli, |values| vec![delay.pass(values[0].into())]);
+        Stepper::new(name, FlagDelay::new(stages), 1)
+            .run(&["flag_in"], &["flag_out"], stimuli, |values| vec![delay.pass(values[0].into())]);
     }
 }

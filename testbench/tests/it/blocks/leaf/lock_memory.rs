@@ -1,8 +1,9 @@
 //! `LockMemory`: Rust, Verilog and an independent reference agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Numbers};
 use crate::rig::memories::{both_forms, edge};
+use crate::rig::stepper::{named_ports, Delay, Stepper};
 use incircle_hdl::leaf::LockMemory;
+use incircle_testkit::SplitMix64;
 use rust_hdl_core::prelude::*;
 
 named_ports!([const A: usize] LockMemory<A>,
@@ -13,7 +14,7 @@ const CYCLES: usize = 20_000;
 const LOCK_PORTS: [&str; 4] = ["test_address", "test_set", "clear_address", "clear_enable"];
 
 fn lock_memory<const A: usize>(name: &str, address_bits: usize) {
-    let mut numbers = Numbers::new(4);
+    let mut numbers = SplitMix64::new(4);
     let last = (1u64 << address_bits) - 1;
     // Few locks, so that they meet often.
     let stimuli: Vec<_> = (0..CYCLES)
@@ -30,7 +31,7 @@ fn lock_memory<const A: usize>(name: &str, address_bits: usize) {
         let mut locks = vec![false; 1 << address_bits];
         let mut delay = Delay::new(LockMemory::<A>::LATENCY);
         let rust = LockMemory::<A>::new(address_bits);
-        Cosimulation { name: &name, rust, inputs: &LOCK_PORTS, outputs: &["was_set"] }.run(stimuli.clone(), |values| {
+        Stepper::new(&name, rust, 1).run(&LOCK_PORTS, &["was_set"], stimuli.clone(), |values| {
             let tested = (values[0] & last) as usize;
             let was_set = delay.pass(locks[tested].into());
             locks[tested] |= values[1] == 1;

@@ -1,7 +1,7 @@
 //! `LutMemory`: Rust, Verilog and an independent reference agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation};
 use crate::rig::memories::{memory_reference, memory_stimuli, MEMORY_PORTS};
+use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::leaf::LutMemory;
 
 named_ports!([const A: usize, const D: usize] LutMemory<A, D>,
@@ -9,13 +9,12 @@ named_ports!([const A: usize, const D: usize] LutMemory<A, D>,
 
 fn lut_memory<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
     let mut reference = memory_reference(address_bits, stored_bits);
-    Cosimulation {
-        name,
-        rust: LutMemory::<A, D>::new(address_bits, stored_bits),
-        inputs: &MEMORY_PORTS,
-        outputs: &["read_data"],
-    }
-    .run(memory_stimuli(A, D, address_bits), |values| vec![reference(values)]);
+    Stepper::new(name, LutMemory::<A, D>::new(address_bits, stored_bits), 1).run(
+        &MEMORY_PORTS,
+        &["read_data"],
+        memory_stimuli(A, D, address_bits),
+        |values| vec![reference(values)],
+    );
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! `Multiplier`: Rust, Verilog and an independent reference agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Numbers};
 use crate::rig::memories::both_forms;
+use crate::rig::stepper::{named_ports, Delay, Stepper};
 use incircle_hdl::leaf::Multiplier;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] Multiplier, [a, b], [product], clock);
 
@@ -15,17 +16,14 @@ fn signed(value: u64, bits: u32) -> i64 {
 #[test]
 fn multiplier_multiplies_in_three_clocks() {
     let corners = [0, 1, 0x1_ffff, 0x2_0000, 0x2_0001, 0x3_ffff];
-    let mut numbers = Numbers::new(1);
+    let mut numbers = SplitMix64::new(1);
     let mut stimuli: Vec<_> = corners.iter().flat_map(|a| corners.iter().map(|b| vec![*a, *b])).collect();
     stimuli.extend((0..CYCLES).map(|_| vec![numbers.bits(18), numbers.bits(18)]));
     for name in both_forms("multiplier") {
         let mut delay = Delay::new(Multiplier::LATENCY);
-        Cosimulation { name: &name, rust: Multiplier::default(), inputs: &["a", "b"], outputs: &["product"] }.run(
-            stimuli.clone(),
-            |values| {
-                let product = signed(values[0], 18) * signed(values[1], 18);
-                vec![delay.pass(u128::from(product as u64 & 0xf_ffff_ffff))]
-            },
-        );
+        Stepper::new(&name, Multiplier::default(), 1).run(&["a", "b"], &["product"], stimuli.clone(), |values| {
+            let product = signed(values[0], 18) * signed(values[1], 18);
+            vec![delay.pass(u128::from(product as u64 & 0xf_ffff_ffff))]
+        });
     }
 }

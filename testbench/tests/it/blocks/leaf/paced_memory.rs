@@ -1,15 +1,16 @@
 //! `PacedMemory`: Rust, Verilog and an independent reference agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, NamedPorts, Numbers};
 use crate::rig::memories::{both_forms, edge, memory_reference, memory_stimuli};
+use crate::rig::stepper::{named_ports, Delay, NamedPorts, Stepper};
 use incircle_hdl::leaf::PacedMemory;
+use incircle_testkit::SplitMix64;
 use rust_hdl_core::prelude::*;
 
 named_ports!([const A: usize, const D: usize] PacedMemory<A, D>,
     [write_address, write_data, write_enable, read_address, read_enable], [read_data], clock);
 
 fn paced_memory<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
-    let mut numbers = Numbers::new(8);
+    let mut numbers = SplitMix64::new(8);
     let mut stimuli = memory_stimuli(A, D, address_bits);
     for (cycle, values) in stimuli.iter_mut().enumerate() {
         // Reads at every edge, at most edges, at few.
@@ -28,20 +29,19 @@ fn paced_memory<const A: usize, const D: usize>(name: &str, address_bits: usize,
         let mut reference = memory_reference(address_bits, stored_bits);
         let mut delay = Delay::new(PacedMemory::<A, D>::LATENCY - 1);
         let mut shown = None;
-        Cosimulation {
-            name: &name,
-            rust: PacedMemory::<A, D>::new(address_bits, stored_bits),
-            inputs: &["write_address", "write_data", "write_enable", "read_address", "read_enable"],
-            outputs: &["read_data"],
-        }
-        .run(stimuli.clone(), |values| {
-            let before = shown;
-            let read = reference(values);
-            if values[4] == 1 {
-                shown = delay.pass(read).flatten();
-            }
-            vec![before]
-        });
+        Stepper::new(&name, PacedMemory::<A, D>::new(address_bits, stored_bits), 1).run(
+            &["write_address", "write_data", "write_enable", "read_address", "read_enable"],
+            &["read_data"],
+            stimuli.clone(),
+            |values| {
+                let before = shown;
+                let read = reference(values);
+                if values[4] == 1 {
+                    shown = delay.pass(read).flatten();
+                }
+                vec![before]
+            },
+        );
     }
 }
 

@@ -1,8 +1,9 @@
 //! `SharedMemory`: Rust, Verilog and plain arrays agree clock by clock.
 
 use crate::rig::cells::cells;
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Expected, NamedPorts, Numbers};
+use crate::rig::stepper::{named_ports, Delay, Expected, NamedPorts, Stepper};
 use incircle_hdl::leaf::SharedMemory;
+use incircle_testkit::SplitMix64;
 use rust_hdl_core::prelude::*;
 
 named_ports!([const A: usize, const D: usize] SharedMemory<A, D>,
@@ -11,7 +12,7 @@ named_ports!([const A: usize, const D: usize] SharedMemory<A, D>,
 const CYCLES: usize = 6_000;
 
 fn shared_memory<const A: usize, const D: usize>(name: &str, address_bits: usize, stored_bits: usize) {
-    let mut numbers = Numbers::new(25);
+    let mut numbers = SplitMix64::new(25);
     let stimuli: Vec<Vec<u64>> = (0..CYCLES)
         .map(|_| {
             let [read, shared] = [(); 2].map(|()| numbers.bits(A as u32));
@@ -23,24 +24,23 @@ fn shared_memory<const A: usize, const D: usize>(name: &str, address_bits: usize
     for name in [name.to_string(), format!("{name}_ecp5")] {
         let mut words: Vec<Expected> = vec![None; last + 1];
         let mut delay = Delay::new(SharedMemory::<A, D>::LATENCY);
-        Cosimulation {
-            name: &name,
-            rust: SharedMemory::<A, D>::new(address_bits, stored_bits),
-            inputs: &["read_address", "shared_address", "write_data", "write_enable"],
-            outputs: &["read_data", "shared_data"],
-        }
-        .run(stimuli.clone(), |values| {
-            let [read, shared] = [values[0], values[1]].map(|address| address as usize & last);
-            let mut seen = vec![words[read], words[shared]];
-            if values[3] == 1 {
-                seen[1] = None;
-                if read == shared {
-                    seen[0] = None;
+        Stepper::new(&name, SharedMemory::<A, D>::new(address_bits, stored_bits), 1).run(
+            &["read_address", "shared_address", "write_data", "write_enable"],
+            &["read_data", "shared_data"],
+            stimuli.clone(),
+            |values| {
+                let [read, shared] = [values[0], values[1]].map(|address| address as usize & last);
+                let mut seen = vec![words[read], words[shared]];
+                if values[3] == 1 {
+                    seen[1] = None;
+                    if read == shared {
+                        seen[0] = None;
+                    }
+                    words[shared] = Some(u128::from(values[2]) & ((1 << stored_bits) - 1));
                 }
-                words[shared] = Some(u128::from(values[2]) & ((1 << stored_bits) - 1));
-            }
-            delay.pass(seen).unwrap_or(vec![None; 2])
-        });
+                delay.pass(seen).unwrap_or(vec![None; 2])
+            },
+        );
     }
 }
 

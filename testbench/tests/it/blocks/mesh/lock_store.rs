@@ -1,10 +1,11 @@
 //! `LockStore`: Rust, Verilog and plain arrays agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Expected, Numbers};
 use crate::rig::drawing::{draw, When};
 use crate::rig::ids::id;
+use crate::rig::stepper::{named_ports, Delay, Expected, Stepper};
 use crate::rig::visit_model::Locks;
 use incircle_hdl::mesh::LockStore;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] LockStore, [id, owner, takes, clear], [took, foreign, was_set], clock);
 
@@ -91,7 +92,7 @@ impl LockDelay {
 }
 
 fn lock_store(name: &str, id_bits: u32, context_bits: u32) {
-    let mut numbers = Numbers::new(26);
+    let mut numbers = SplitMix64::new(26);
     let stimuli: Vec<Vec<u64>> = (0..CYCLES)
         .map(|cycle| {
             // In turn: visits at every clock, with gaps, with clears at every clock.
@@ -104,16 +105,15 @@ fn lock_store(name: &str, id_bits: u32, context_bits: u32) {
         .collect();
     let mut reference = LockReference::new(id_bits, context_bits);
     let mut delay = LockDelay::default();
-    Cosimulation {
-        name,
-        rust: LockStore::new(id_bits as usize, context_bits as usize),
-        inputs: &["id", "owner", "takes", "clear_id", "clear_valid"],
-        outputs: &["took", "foreign", "was_set"],
-    }
-    .run(stimuli, |values| {
-        let found = reference.edge(values[0], values[1], values[2] == 1, (values[4] == 1).then_some(values[3]));
-        delay.pass(found).to_vec()
-    });
+    Stepper::new(name, LockStore::new(id_bits as usize, context_bits as usize), 1).run(
+        &["id", "owner", "takes", "clear_id", "clear_valid"],
+        &["took", "foreign", "was_set"],
+        stimuli,
+        |values| {
+            let found = reference.edge(values[0], values[1], values[2] == 1, (values[4] == 1).then_some(values[3]));
+            delay.pass(found).to_vec()
+        },
+    );
     reference.assert_all_happened();
 }
 

@@ -1,11 +1,12 @@
 //! `TriangleStore`: Rust, Verilog and plain arrays agree clock by clock.
 
 use super::lock_store::{LockDelay, LockReference};
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Expected, Numbers};
 use crate::rig::drawing::{draw, When};
 use crate::rig::ids::id;
-use crate::rig::structures::{pack, random, unpack, write, WRITE};
+use crate::rig::stepper::bundles::{column_write, pack, random_fields, unpack, WRITE};
+use crate::rig::stepper::{named_ports, Delay, Expected, Stepper};
 use incircle_hdl::mesh::TriangleStore;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] TriangleStore, [write, enables, read_id, vertices_id, links_id, read_locks, owner, clear], [record, took, foreign], clock);
 
@@ -13,10 +14,10 @@ const CYCLES: usize = 6_000;
 
 /// Reads, writes and locks in any mixture.
 fn triangle_stimuli(stored_bits: u32) -> Vec<Vec<u128>> {
-    let mut numbers = Numbers::new(21);
+    let mut numbers = SplitMix64::new(21);
     (0..CYCLES)
         .map(|_| {
-            let mut write = random(WRITE, |bits| numbers.bits(bits));
+            let mut write = random_fields(WRITE, &mut numbers);
             write[1] = id(&mut numbers, stored_bits);
             let (read, clear) = (id(&mut numbers, stored_bits), id(&mut numbers, stored_bits));
             // Only the enables say what is written.
@@ -60,33 +61,12 @@ fn triangle_reference(
 fn triangle_store(name: &str, id_bits: u32, vertex_bits: u32, context_bits: u32) {
     let locks = LockReference::new(id_bits, context_bits);
     let mut reference = triangle_reference(id_bits, vertex_bits, locks);
-    Cosimulation {
-        name,
-        rust: TriangleStore::new(id_bits as usize, vertex_bits as usize, context_bits as usize),
-        inputs: &[
-            "write",
-            "enables",
-            "read_id",
-            "vertices_id",
-            "links_id",
-            "read_locks",
-            "owner",
-            "clear_id",
-            "clear_valid",
-        ],
-        outputs: &[
-            "record_v0",
-            "record_v1",
-            "record_v2",
-            "record_n0",
-            "record_n1",
-            "record_n2",
-            "took",
-            "foreign",
-            "was_set",
-        ],
-    }
-    .run(triangle_stimuli(id_bits), |values| reference(values));
+    Stepper::new(name, TriangleStore::new(id_bits as usize, vertex_bits as usize, context_bits as usize), 1).run(
+        &["write", "enables", "read_id", "vertices_id", "links_id", "read_locks", "owner", "clear_id", "clear_valid"],
+        &["record_v0", "record_v1", "record_v2", "record_n0", "record_n1", "record_n2", "took", "foreign", "was_set"],
+        triangle_stimuli(id_bits),
+        |values| reference(values),
+    );
 }
 
 #[test]
@@ -105,9 +85,9 @@ fn triangle_store_shows_the_wave_of_its_header() {
     const ANSWERS: [usize; 3] = [4, 5, 6];
     const KNOWN: [usize; 7] = [1, 2, 3, 4, 5, 6, 7];
     let stimuli = [
-        (0, "write", write(5, 15, 7, 8)),
+        (0, "write", column_write(5, 15, 7, 8)),
         (0, "enables", 15 | 5 << 4 | 5 << 19),
-        (1, "write", write(5, 4, 0, 9)),
+        (1, "write", column_write(5, 4, 0, 9)),
         (1, "enables", 4 | 5 << 4 | 5 << 19),
         (3, "read_locks", 1),
     ];

@@ -1,17 +1,18 @@
 //! `VertexStore`: Rust, Verilog and plain arrays agree clock by clock.
 
 use crate::rig::cells::cells;
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Expected, Numbers};
 use crate::rig::drawing::{draw, When};
 use crate::rig::ids::id;
+use crate::rig::stepper::{named_ports, Delay, Expected, Stepper};
 use incircle_hdl::mesh::VertexStore;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] VertexStore, [write, id0, id1, id2, fetch_id], [corners, fetched], clock);
 
 const CYCLES: usize = 6_000;
 
 fn vertex_store(name: &str, id_bits: u32) {
-    let mut numbers = Numbers::new(22);
+    let mut numbers = SplitMix64::new(22);
     let stimuli: Vec<Vec<u64>> = (0..CYCLES)
         .map(|_| {
             let ids = [(); 5].map(|()| id(&mut numbers, id_bits));
@@ -22,24 +23,23 @@ fn vertex_store(name: &str, id_bits: u32) {
     let last = (1 << id_bits) - 1;
     let mut positions: Vec<Expected> = vec![None; last + 1];
     let mut delay = Delay::new(VertexStore::LATENCY);
-    Cosimulation {
-        name,
-        rust: VertexStore::new(id_bits as usize),
-        inputs: &["write_id", "write_point", "write_came", "id0", "id1", "id2", "fetch_id"],
-        outputs: &["corners_r0", "corners_r1", "corners_r2", "fetched"],
-    }
-    .run(stimuli, |values| {
-        let written = (values[2] == 1).then_some(values[0] as usize & last);
-        let mut seen = [3, 4, 5, 6].map(|port| {
-            let read = values[port] as usize & last;
-            positions[read].filter(|_| written != Some(read))
-        });
-        if let Some(written) = written {
-            positions[written] = Some(values[1].into());
-            seen[3] = None;
-        }
-        delay.pass(seen.to_vec()).unwrap_or(vec![None; 4])
-    });
+    Stepper::new(name, VertexStore::new(id_bits as usize), 1).run(
+        &["write_id", "write_point", "write_came", "id0", "id1", "id2", "fetch_id"],
+        &["corners_r0", "corners_r1", "corners_r2", "fetched"],
+        stimuli,
+        |values| {
+            let written = (values[2] == 1).then_some(values[0] as usize & last);
+            let mut seen = [3, 4, 5, 6].map(|port| {
+                let read = values[port] as usize & last;
+                positions[read].filter(|_| written != Some(read))
+            });
+            if let Some(written) = written {
+                positions[written] = Some(values[1].into());
+                seen[3] = None;
+            }
+            delay.pass(seen.to_vec()).unwrap_or(vec![None; 4])
+        },
+    );
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `CrossProduct`: Rust, Verilog and plain integer arithmetic agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay};
+use crate::rig::stepper::{named_ports, Delay, Stepper};
 use crate::rig::visit_points::{bits_of, difference_stimuli, signed, DIFFERENCE_PORTS};
 use incircle_hdl::predicate::CrossProduct;
 
@@ -9,14 +9,13 @@ named_ports!([] CrossProduct, [a_x, a_y, b_x, b_y], [product], clock);
 #[test]
 fn cross_products() {
     let mut delay = Delay::new(CrossProduct::LATENCY);
-    Cosimulation {
-        name: "cross_product",
-        rust: CrossProduct::default(),
-        inputs: &DIFFERENCE_PORTS,
-        outputs: &["product"],
-    }
-    .run(difference_stimuli(), |values| {
-        let [a_x, a_y, b_x, b_y] = [0, 1, 2, 3].map(|k| signed(values[k], 18));
-        vec![delay.pass(bits_of(a_x * b_y - a_y * b_x, 36))]
-    });
+    Stepper::new("cross_product", CrossProduct::default(), 1).run(
+        &DIFFERENCE_PORTS,
+        &["product"],
+        difference_stimuli(),
+        |values| {
+            let [a_x, a_y, b_x, b_y] = [0, 1, 2, 3].map(|k| signed(values[k], 18));
+            vec![delay.pass(bits_of(a_x * b_y - a_y * b_x, 36))]
+        },
+    );
 }

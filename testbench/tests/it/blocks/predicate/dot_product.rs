@@ -1,6 +1,6 @@
 //! `DotProduct`: Rust, Verilog and plain integer arithmetic agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay};
+use crate::rig::stepper::{named_ports, Delay, Stepper};
 use crate::rig::visit_points::{bits_of, difference_stimuli, signed, DIFFERENCE_PORTS};
 use incircle_hdl::predicate::DotProduct;
 
@@ -9,9 +9,13 @@ named_ports!([] DotProduct, [a_x, a_y, b_x, b_y], [product], clock);
 #[test]
 fn dot_products() {
     let mut delay = Delay::new(DotProduct::LATENCY);
-    Cosimulation { name: "dot_product", rust: DotProduct::default(), inputs: &DIFFERENCE_PORTS, outputs: &["product"] }
-        .run(difference_stimuli(), |values| {
+    Stepper::new("dot_product", DotProduct::default(), 1).run(
+        &DIFFERENCE_PORTS,
+        &["product"],
+        difference_stimuli(),
+        |values| {
             let [a_x, a_y, b_x, b_y] = [0, 1, 2, 3].map(|k| signed(values[k], 18));
             vec![delay.pass(bits_of(a_x * b_x + a_y * b_y, 36))]
-        });
+        },
+    );
 }

@@ -1,8 +1,9 @@
 //! `EdgeSigns`: Rust, Verilog and plain integer arithmetic agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Numbers};
+use crate::rig::stepper::{named_ports, Delay, Stepper};
 use crate::rig::visit_points::{bits_of, edge_flags, shown, signed, EDGE_FLAGS};
 use incircle_hdl::predicate::EdgeSigns;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] EdgeSigns, [e0, e1, e2], [flags], clock);
 
@@ -10,13 +11,13 @@ const CYCLES: usize = 10_000;
 
 #[test]
 fn edge_signs_compare_signed() {
-    let mut numbers = Numbers::new(15);
+    let mut numbers = SplitMix64::new(15);
     let limit = 1_i64 << 32;
     let corners = [0, 1, -1, limit - 1, -limit];
     let stimuli: Vec<Vec<u64>> = (0..CYCLES)
         .map(|_| {
-            let mut value = || match numbers.next() % 3 {
-                0 => corners[(numbers.next() % 5) as usize],
+            let mut value = || match numbers.below(3) {
+                0 => corners[numbers.below(5) as usize],
                 1 => numbers.bits(2) as i64 - 2,
                 _ => numbers.bits(33) as i64 - limit,
             };
@@ -25,13 +26,7 @@ fn edge_signs_compare_signed() {
         .collect();
     let latency = 2;
     let mut delay = Delay::new(latency);
-    Cosimulation {
-        name: "edge_signs",
-        rust: EdgeSigns::new(latency),
-        inputs: &["e0", "e1", "e2"],
-        outputs: &EDGE_FLAGS,
-    }
-    .run(stimuli, |values| {
+    Stepper::new("edge_signs", EdgeSigns::new(latency), 1).run(&["e0", "e1", "e2"], &EDGE_FLAGS, stimuli, |values| {
         let e = [0, 1, 2].map(|k| signed(values[k], 36));
         shown(delay.pass(edge_flags(e)), EDGE_FLAGS.len())
     });

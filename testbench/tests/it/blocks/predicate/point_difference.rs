@@ -1,8 +1,9 @@
 //! `PointDifference`: Rust, Verilog and plain integer arithmetic agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Numbers};
+use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::visit_points::{bits_of, point};
 use incircle_hdl::predicate::PointDifference;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] PointDifference, [from, to], [x, y]);
 
@@ -10,7 +11,7 @@ const CYCLES: usize = 10_000;
 
 #[test]
 fn point_difference_never_wraps() {
-    let mut numbers = Numbers::new(12);
+    let mut numbers = SplitMix64::new(12);
     let ends = [0, 1, 0x7fff, 0x8000, 0xfffe, 0xffff];
     let mut stimuli: Vec<Vec<u64>> = vec![];
     for from in ends {
@@ -19,14 +20,13 @@ fn point_difference_never_wraps() {
         }
     }
     stimuli.extend((0..CYCLES).map(|_| vec![numbers.bits(32), numbers.bits(32)]));
-    Cosimulation {
-        name: "point_difference",
-        rust: PointDifference::default(),
-        inputs: &["from", "to"],
-        outputs: &["x", "y"],
-    }
-    .run(stimuli, |values| {
-        let (from, to) = (point(values[0]), point(values[1]));
-        [to.0 - from.0, to.1 - from.1].map(|part| Some(bits_of(part.into(), 18))).to_vec()
-    });
+    Stepper::new("point_difference", PointDifference::default(), 1).run(
+        &["from", "to"],
+        &["x", "y"],
+        stimuli,
+        |values| {
+            let (from, to) = (point(values[0]), point(values[1]));
+            [to.0 - from.0, to.1 - from.1].map(|part| Some(bits_of(part.into(), 18))).to_vec()
+        },
+    );
 }

@@ -1,6 +1,6 @@
 //! `VertexOrder` and `SortKey`: Rust, Verilog and plain integer arithmetic agree clock by clock.
 
-use crate::rig::cosimulation::named_ports;
+use crate::rig::stepper::named_ports;
 use crate::rig::visit_points::{order_flags, run_visits, ORDER_FLAGS};
 use incircle_hdl::predicate::VertexOrder;
 

@@ -1,12 +1,13 @@
 //! `VisitPredicates`: Rust, Verilog and plain integer arithmetic agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Numbers};
+use crate::rig::stepper::named_ports;
 use crate::rig::visit_points::{
     all_flags, lifted_incircle, orientation, point, run_visits, visit, Point, EDGE_FLAGS, INCIRCLE_FLAGS, LARGEST,
     ORDER_FLAGS,
 };
 use incircle_hdl::predicate::VisitPredicates;
 use incircle_testbench::gate::cell_count;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] VisitPredicates, [corners, p], [signs], clock);
 
@@ -21,7 +22,7 @@ fn visit_predicates_agree_with_the_lifted_determinant() {
 
 #[test]
 fn dangerous_visits_are_among_the_random_ones() {
-    let mut numbers = Numbers::new(11);
+    let mut numbers = SplitMix64::new(11);
     let mut seen = [0; 4];
     for _ in 0..CYCLES {
         let r: Vec<Point> = visit(&mut numbers).into_iter().map(point).collect();

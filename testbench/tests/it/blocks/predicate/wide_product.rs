@@ -1,8 +1,9 @@
 //! `WideProduct`: Rust, Verilog and plain integer arithmetic agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Numbers};
+use crate::rig::stepper::{named_ports, Delay, Stepper};
 use crate::rig::visit_points::{bits_of, signed};
 use incircle_hdl::predicate::WideProduct;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] WideProduct, [a, b], [product], clock);
 
@@ -10,7 +11,7 @@ const CYCLES: usize = 10_000;
 
 #[test]
 fn wide_product_of_all_limbs() {
-    let mut numbers = Numbers::new(14);
+    let mut numbers = SplitMix64::new(14);
     let limit = 1_i64 << 33;
     let corners = [0, 1, -1, 0x1_ffff, 0x2_0000, -0x1_ffff, -0x2_0000, -0x2_0001, limit - 1, -limit, 1 - limit];
     let mut stimuli = vec![];
@@ -20,6 +21,7 @@ fn wide_product_of_all_limbs() {
     stimuli.extend((0..CYCLES).map(|_| [(); 2].map(|()| numbers.bits(34) as i64 - limit)));
     let words = stimuli.into_iter().map(|pair| pair.map(|factor| bits_of(factor.into(), 36) as u64).to_vec());
     let mut delay = Delay::new(WideProduct::LATENCY);
-    Cosimulation { name: "wide_product", rust: WideProduct::default(), inputs: &["a", "b"], outputs: &["product"] }
-        .run(words, |values| vec![delay.pass(bits_of(signed(values[0], 36) * signed(values[1], 36), 68))]);
+    Stepper::new("wide_product", WideProduct::default(), 1).run(&["a", "b"], &["product"], words, |values| {
+        vec![delay.pass(bits_of(signed(values[0], 36) * signed(values[1], 36), 68))]
+    });
 }

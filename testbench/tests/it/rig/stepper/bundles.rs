@@ -5,14 +5,53 @@ use incircle_testkit::SplitMix64;
 /// Bits of a triangle or vertex id.
 pub const ID_BITS: u32 = 15;
 
-/// Fields, each a value and its bits, from the lowest bit up.
-pub fn pack(fields: &[(u64, u32)]) -> u128 {
-    let mut place = 0;
-    fields.iter().fold(0, |number, (value, bits)| {
-        assert!(value >> bits == 0, "{value:#x} has more than {bits} bits");
-        place += bits;
-        number | u128::from(*value) << (place - bits)
+/// Widths of the fields of a structure, the lowest first. The tests state them a second time, so that a field that
+/// moves is noticed.
+pub type Layout<const N: usize> = [u32; N];
+
+/// owner, rotates, locks, x, after, `f_entry`, f, u.
+pub const TOKEN: Layout<8> = [5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS];
+/// `is_pair`, `is_triple`, owner, rotates, locks, x, after, `f_entry`, f, u, after and u of the second visit, u of the
+/// third.
+pub const BUNDLE: Layout<13> = [1, 1, 5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS, 6, ID_BITS, ID_BITS];
+/// v0, v1, v2, n0, n1, n2, slot, took, foreign, again, and which vertex is infinite.
+pub const TURNED: Layout<13> = [ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS, 2, 1, 1, 1, 1, 1, 1];
+/// conflict, located, `falls_onto_corner`, `is_left`, `is_straight`, `walk_next`.
+pub const VERDICT: Layout<6> = [1, 1, 1, 1, 1, ID_BITS];
+/// valid, id, vertices, link0, link1, link2, v0, v1, v2, n0, n1, n2.
+pub const WRITE: Layout<12> = [1, ID_BITS, 1, 1, 1, 1, ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS];
+/// a, u, slot, f, after.
+pub const ENTRY: Layout<5> = [ID_BITS, ID_BITS, 2, ID_BITS, 6];
+/// owner, p, inners, locks, since.
+pub const COMMIT_JOB: Layout<5> = [5, ID_BITS, 7, 7, 22];
+/// owner, locks.
+pub const RELEASE_JOB: Layout<2> = [5, 7];
+
+/// The fields side by side, the first in the lowest bits.
+pub fn pack<const N: usize>(layout: Layout<N>, fields: [u64; N]) -> u128 {
+    let mut packed = 0;
+    let mut offset = 0;
+    for (width, field) in layout.into_iter().zip(fields) {
+        assert!(field >> width == 0, "{field:#x} has more than {width} bits");
+        packed |= u128::from(field) << offset;
+        offset += width;
+    }
+    packed
+}
+
+/// The fields of a packed structure.
+pub fn unpack<const N: usize>(layout: Layout<N>, packed: u128) -> [u64; N] {
+    let mut offset = 0;
+    layout.map(|width| {
+        let field = (packed >> offset) as u64 & ((1 << width) - 1);
+        offset += width;
+        field
     })
+}
+
+/// Fields of random bits.
+pub fn random_fields<const N: usize>(layout: Layout<N>, random: &mut SplitMix64) -> [u64; N] {
+    layout.map(|width| random.bits(width))
 }
 
 /// A random id.
@@ -25,21 +64,29 @@ pub fn flip(random: &mut SplitMix64) -> bool {
     random.below(2) == 1
 }
 
-fn ids(values: &[u64]) -> Vec<(u64, u32)> {
-    values.iter().map(|value| (*value, ID_BITS)).collect()
-}
-
 /// A `Write` of a whole record.
-pub fn record_write(id: u64, v: [u64; 3], n: [u64; 3]) -> u128 {
-    let head = [(1, 1), (id, ID_BITS), (1, 1), (1, 1), (1, 1), (1, 1)];
-    pack(&[&head[..], &ids(&v), &ids(&n)].concat())
+pub fn record_write(id: u64, [v0, v1, v2]: [u64; 3], [n0, n1, n2]: [u64; 3]) -> u128 {
+    pack(WRITE, [1, id, 1, 1, 1, 1, v0, v1, v2, n0, n1, n2])
 }
 
 /// A `Write` of one link.
 pub fn link_write(id: u64, slot: u64, value: u64) -> u128 {
-    let column = |k| (u64::from(slot == k), 1);
-    let head = [(1, 1), (id, ID_BITS), (0, 1), column(0), column(1), column(2)];
-    pack(&[&head[..], &ids(&[0; 3]), &ids(&[value; 3])].concat())
+    let [link0, link1, link2] = [0, 1, 2].map(|column| u64::from(column == slot));
+    pack(WRITE, [1, id, 0, link0, link1, link2, 0, 0, 0, value, value, value])
+}
+
+/// A `Write` of some columns of a record, all zero but `v0` and `n1`; `columns` has a bit for the vertices and one for
+/// each link.
+pub fn column_write(id: u64, columns: u64, v0: u64, n1: u64) -> u128 {
+    let [vertices, link0, link1, link2] = [0, 1, 2, 3].map(|bit| columns >> bit & 1);
+    pack(WRITE, [1, id, vertices, link0, link1, link2, v0, 0, 0, 0, n1, 0])
+}
+
+/// A `Bundle` of context 1 from these ring entries.
+pub fn ring_bundle(entries: &[u64]) -> u128 {
+    let [is_pair, is_triple] = [2, 3].map(|visits| u64::from(entries.len() >= visits));
+    let [x, x2, x3] = [0, 1, 2].map(|place| entries.get(place).copied().unwrap_or(0));
+    pack(BUNDLE, [is_pair, is_triple, 1, 1, 0, x, x2, 0, 0, 0, x3, 0, 0])
 }
 
 /// A visit.
@@ -75,45 +122,25 @@ impl Visit {
         }
     }
 
-    fn fields(self) -> [(u64, u32); 8] {
-        [
-            (self.owner, 5),
-            (self.rotates.into(), 1),
-            (self.locks.into(), 1),
-            (self.x, 6),
-            (self.after, 6),
-            (self.f_entry, 6),
-            (self.f, ID_BITS),
-            (self.u, ID_BITS),
-        ]
-    }
-
     /// As a `Token`.
     pub fn token(self) -> u128 {
-        pack(&self.fields())
+        let Self { owner, rotates, locks, x, after, f_entry, f, u } = self;
+        pack(TOKEN, [owner, rotates.into(), locks.into(), x, after, f_entry, f, u])
     }
 
     /// As a `Bundle` of `visits` visits: this one, the second with the entry after it and its record, and the third's record. What
     /// stands there for visits that are not made does not matter.
     pub fn bundle(self, visits: u64, second_after: u64, second_u: u64, third_u: u64) -> u128 {
-        let head = [(u64::from(visits > 1), 1), (u64::from(visits > 2), 1)];
-        let tail = [(second_after, 6), (second_u, ID_BITS), (third_u, ID_BITS)];
-        pack(&[&head[..], &self.fields(), &tail].concat())
+        let [is_pair, is_triple] = [visits > 1, visits > 2].map(u64::from);
+        let [owner, rotates, locks, x, after, f_entry, f, u] = unpack(TOKEN, self.token());
+        let (after2, u2, u3) = (second_after, second_u, third_u);
+        pack(BUNDLE, [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3])
     }
 
     /// The visit at the head of a `Bundle`.
     pub fn of_bundle(bundle: u128) -> Self {
-        let field = |place: u32, bits: u32| (bundle >> place) as u64 & ((1 << bits) - 1);
-        Self {
-            owner: field(2, 5),
-            rotates: field(7, 1) == 1,
-            locks: field(8, 1) == 1,
-            x: field(9, 6),
-            after: field(15, 6),
-            f_entry: field(21, 6),
-            f: field(27, ID_BITS),
-            u: field(42, ID_BITS),
-        }
+        let [_, _, owner, rotates, locks, x, after, f_entry, f, u, ..] = unpack(BUNDLE, bundle);
+        Self { owner, rotates: rotates == 1, locks: locks == 1, x, after, f_entry, f, u }
     }
 }
 
@@ -127,26 +154,19 @@ pub struct LockFinding {
 
 /// A `Turned`: vertices, links, slot, what was found at the lock, which vertices are infinite.
 pub fn turned(v: [u64; 3], n: [u64; 3], slot: u64, lock: LockFinding, infinite: [bool; 3]) -> u128 {
-    let tail = [
-        (slot, 2),
-        (lock.took.into(), 1),
-        (lock.foreign.into(), 1),
-        (lock.again.into(), 1),
-        (infinite[0].into(), 1),
-        (infinite[1].into(), 1),
-        (infinite[2].into(), 1),
-    ];
-    pack(&[&ids(&v), &ids(&n), &tail[..]].concat())
+    let ([v0, v1, v2], [n0, n1, n2], [i0, i1, i2]) = (v, n, infinite.map(u64::from));
+    let [took, foreign, again] = [lock.took, lock.foreign, lock.again].map(u64::from);
+    pack(TURNED, [v0, v1, v2, n0, n1, n2, slot, took, foreign, again, i0, i1, i2])
 }
 
 /// A `CommitJob`.
 pub fn commit_job(owner: u64, p: u64, inners: u64, locks: u64, since: u64) -> u128 {
-    pack(&[(owner, 5), (p, ID_BITS), (inners, 7), (locks, 7), (since, 22)])
+    pack(COMMIT_JOB, [owner, p, inners, locks, since])
 }
 
 /// A `ReleaseJob`.
 pub fn release_job(owner: u64, locks: u64) -> u128 {
-    pack(&[(owner, 5), (locks, 7)])
+    pack(RELEASE_JOB, [owner, locks])
 }
 
 /// What a visit found out.
@@ -163,14 +183,9 @@ pub struct Finding {
 impl Finding {
     /// As a `Verdict`.
     pub fn verdict(self) -> u128 {
-        pack(&[
-            (self.conflict.into(), 1),
-            (self.located.into(), 1),
-            (self.falls_onto_corner.into(), 1),
-            (self.is_left.into(), 1),
-            (self.is_straight.into(), 1),
-            (self.walk_next, ID_BITS),
-        ])
+        let flags = [self.conflict, self.located, self.falls_onto_corner, self.is_left, self.is_straight];
+        let [conflict, located, falls_onto_corner, is_left, is_straight] = flags.map(u64::from);
+        pack(VERDICT, [conflict, located, falls_onto_corner, is_left, is_straight, self.walk_next])
     }
 }
 
@@ -187,7 +202,7 @@ pub struct Edge {
 impl Edge {
     /// As an `Entry`.
     pub fn entry(self) -> u128 {
-        pack(&[(self.a, ID_BITS), (self.u, ID_BITS), (self.slot, 2), (self.f, ID_BITS), (self.after, 6)])
+        pack(ENTRY, [self.a, self.u, self.slot, self.f, self.after])
     }
 }
 

@@ -1,24 +1,31 @@
-//! One block in two forms, its Rust `update()` and its Verilated Verilog, stepped together in a closed loop: the test looks at
-//! the outputs of a clock, says what they must be, and answers with inputs.
+//! One block in two forms, its Rust `update()` and its Verilated Verilog, stepped together and compared with what the
+//! test says of the block. A test either closes the loop itself (it looks at the outputs of a clock, says what they
+//! must be, and answers with inputs), or hands all inputs and a reference to [`Stepper::run`].
 //!
 //! A clock: inputs are set, [`Stepper::settle`], outputs are compared, [`Stepper::edge`]. Packed structures are numbers here, put
 //! together by `bundles`, which is a statement of their layout of its own.
 
 pub mod bundles;
+mod delay;
 mod wave;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Debug;
 
 use incircle_testbench::blocks;
 use verilated::{Model, PortId};
 
 pub(crate) use crate::rig::block_ports::{named_ports, NamedPorts};
-use crate::rig::block_ports::{number, plain, set_number, settle, Places, Whole};
+use crate::rig::block_ports::{number, plain, set_number, settle, Place, Places, Whole};
+pub use delay::Delay;
 pub use wave::{Cell, Wave};
+
+/// What a reference says of an output: a value, or nothing where the contract leaves it open.
+pub type Expected = Option<u128>;
 
 /// Both forms of a block, and the clocks that have passed.
 pub struct Stepper<U> {
-    name: &'static str,
+    name: String,
     rust: U,
     model: Model,
     ports: BTreeMap<String, PortId>,
@@ -33,9 +40,10 @@ pub struct Stepper<U> {
 impl<U: NamedPorts> Stepper<U> {
     /// The block of this name in `incircle_blocks::blocks`. Its Verilog starts with random registers and memories, which
     /// shows where an output depends on what nobody wrote.
-    pub fn new(name: &'static str, mut rust: U, seed: u32) -> Self {
+    pub fn new(name: impl Into<String>, mut rust: U, seed: u32) -> Self {
+        let name = name.into();
         rust.connect_all();
-        let model = blocks::randomized(name, seed);
+        let model = blocks::randomized(&name, seed);
         let ports = model.description().ports();
         let ports = ports.map(|port| (plain(port.name), model.port(port.name).expect("a port it lists"))).collect();
         let places = Places::new(&model, |port| rust.layout(port));
@@ -49,10 +57,13 @@ impl<U: NamedPorts> Stepper<U> {
 
     /// Sets an input, or a field of one that carries a structure.
     pub fn set(&mut self, port: &str, number: impl Into<u128>) {
-        let place = self.places.find(port);
+        self.set_place(&self.places.find(port), number.into());
+    }
+
+    fn set_place(&mut self, place: &Place, number: u128) {
         let whole = self.inputs.entry(place.port.clone()).or_default();
-        *whole = place.put_into(*whole, number.into());
-        self.changed.insert(place.port);
+        *whole = place.put_into(*whole, number);
+        self.changed.insert(place.port.clone());
     }
 
     fn drive(&mut self) {
@@ -67,7 +78,7 @@ impl<U: NamedPorts> Stepper<U> {
     pub fn settle(&mut self) {
         self.drive();
         self.rust.set_clock(false);
-        settle(&mut self.rust, self.name);
+        settle(&mut self.rust, &self.name);
         self.model.eval();
     }
 
@@ -123,13 +134,54 @@ impl<U: NamedPorts> Stepper<U> {
     pub fn edge(&mut self) {
         self.drive();
         self.rust.set_clock(true);
-        settle(&mut self.rust, self.name);
+        settle(&mut self.rust, &self.name);
         self.model.clock();
         self.clocks += 1;
     }
 
+    /// Runs the block over `stimuli`, which hold a value for each of `inputs` in each clock, and compares every one of
+    /// `outputs` that `reference` fixes. `reference` is told the inputs of each clock in order and answers with the
+    /// outputs of that clock, which follow from those inputs and from the edges before.
+    ///
+    /// Inputs and outputs are named as [`Places::find`] takes them.
+    pub fn run<V: Copy + Into<u128> + Debug>(
+        mut self,
+        inputs: &[&str],
+        outputs: &[&str],
+        stimuli: impl IntoIterator<Item = Vec<V>>,
+        mut reference: impl FnMut(&[V]) -> Vec<Expected>,
+    ) {
+        let places = |names: &[&str]| names.iter().map(|name| self.places.find(name)).collect();
+        let (input_places, output_places): (Vec<Place>, Vec<Place>) = (places(inputs), places(outputs));
+        let is_clocked = self.ports.contains_key("clock");
+        for (clock, values) in stimuli.into_iter().enumerate() {
+            assert_eq!(values.len(), inputs.len(), "a value for each input");
+            for (place, value) in input_places.iter().zip(&values) {
+                self.set_place(place, (*value).into());
+            }
+            self.settle();
+            let expected = reference(&values);
+            assert_eq!(expected.len(), outputs.len(), "a value for each output");
+            for ((output, place), expected) in outputs.iter().zip(&output_places).zip(expected) {
+                let Some(expected) = expected else { continue };
+                assert_eq!(
+                    self.both_at(place),
+                    (expected, expected),
+                    "{} in clock {clock}: {output} in Rust and in Verilog, against the reference; inputs {values:x?}",
+                    self.name
+                );
+            }
+            if is_clocked {
+                self.edge();
+            }
+        }
+    }
+
     fn both(&self, port: &str) -> (u128, u128) {
-        let place = self.places.find(port);
+        self.both_at(&self.places.find(port))
+    }
+
+    fn both_at(&self, place: &Place) -> (u128, u128) {
         let whole = (self.rust.get(&place.port), number(&self.model, self.ports[&place.port]));
         (place.part_of(whole.0), place.part_of(whole.1))
     }

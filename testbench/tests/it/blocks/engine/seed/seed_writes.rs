@@ -1,8 +1,8 @@
 //! `SeedWrites`: Rust, Verilog and plain arrays agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation};
 use crate::rig::ids::LAST_ID;
-use crate::rig::structures::{pack, WRITE};
+use crate::rig::stepper::bundles::record_write;
+use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::engine::SeedWrites;
 
 named_ports!([] SeedWrites, [step, first_vertex, first_record, turns_left, infinite], [write]);
@@ -18,25 +18,23 @@ fn seed_writes_are_the_first_triangle_and_its_ghosts() {
             }
         }
     }
-    Cosimulation {
-        name: "seed_writes",
-        rust: SeedWrites::default(),
-        inputs: &["step", "turns_left", "infinite", "first_vertex", "first_record"],
-        outputs: &["write"],
-    }
-    .run(stimuli, |values| {
-        let infinite = values[2];
-        let (a, first) = (values[3], values[4]);
-        let (b, c) = if values[1] == 1 { (a + 1, a + 2) } else { (a + 2, a + 1) };
-        let (id, v, n) = match values[0] {
-            0 => (0, [a, a + 1, a + 2], [0, 0, 0]),
-            1 => (0, [a, b, c], [1, 2, 3]),
-            2 => (1, [c, b, infinite], [3, 2, 0]),
-            3 => (2, [a, c, infinite], [1, 3, 0]),
-            _ => (3, [b, a, infinite], [2, 1, 0]),
-        };
-        let (id, n) = (first + id, n.map(|n| first + n));
-        let write = [1, id, 1, 1, 1, 1, v[0], v[1], v[2], n[0], n[1], n[2]];
-        vec![Some(pack(WRITE, write))]
-    });
+    Stepper::new("seed_writes", SeedWrites::default(), 1).run(
+        &["step", "turns_left", "infinite", "first_vertex", "first_record"],
+        &["write"],
+        stimuli,
+        |values| {
+            let infinite = values[2];
+            let (a, first) = (values[3], values[4]);
+            let (b, c) = if values[1] == 1 { (a + 1, a + 2) } else { (a + 2, a + 1) };
+            let (id, v, n) = match values[0] {
+                0 => (0, [a, a + 1, a + 2], [0, 0, 0]),
+                1 => (0, [a, b, c], [1, 2, 3]),
+                2 => (1, [c, b, infinite], [3, 2, 0]),
+                3 => (2, [a, c, infinite], [1, 3, 0]),
+                _ => (3, [b, a, infinite], [2, 1, 0]),
+            };
+            let (id, n) = (first + id, n.map(|n| first + n));
+            vec![Some(record_write(id, v, n))]
+        },
+    );
 }

@@ -3,10 +3,11 @@
 use std::cell::RefCell;
 use std::collections::VecDeque;
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Expected, Numbers};
 use crate::rig::drawing::{draw, When};
-use crate::rig::structures::{bundle, pack, random, unpack, BUNDLE, TOKEN};
+use crate::rig::stepper::bundles::{pack, random_fields, ring_bundle, unpack, BUNDLE, TOKEN};
+use crate::rig::stepper::{named_ports, Expected, Stepper};
 use incircle_hdl::engine::Issue;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] Issue, [reset, push, read], [token_valid, token, vertices_id, links_id, read_valid], clock);
 
@@ -42,7 +43,7 @@ impl Queue {
 #[test]
 fn issue_makes_one_visit_a_clock_in_order() {
     const PLACES: usize = 32;
-    let queue = RefCell::new((Queue::default(), Numbers::new(31)));
+    let queue = RefCell::new((Queue::default(), SplitMix64::new(31)));
     let stimuli = (0..CYCLES).map(|cycle| {
         let (queue, numbers) = &mut *queue.borrow_mut();
         // In turn: floods, drops, droughts.
@@ -50,7 +51,7 @@ fn issue_makes_one_visit_a_clock_in_order() {
         let has_place = queue.bundles() < PLACES;
         let push = has_place && numbers.once_in(rate);
         let read = queue.waiting.is_empty() && !push && numbers.bits(1) == 1;
-        let mut bundle = random(BUNDLE, |bits| numbers.bits(bits));
+        let mut bundle = random_fields(BUNDLE, numbers);
         bundle[1] &= bundle[0];
         vec![
             u128::from(cycle == 0 || numbers.once_in(200)),
@@ -61,32 +62,31 @@ fn issue_makes_one_visit_a_clock_in_order() {
         ]
     });
     let mut is_known = false;
-    Cosimulation {
-        name: "issue_5",
-        rust: Issue::new(5),
-        inputs: &["reset", "push_valid", "push_bundle", "read.valid", "read_id"],
-        outputs: &["token_valid", "token", "read_valid", "token[40+:15]", "vertices_id", "links_id"],
-    }
-    .run(stimuli, |values| {
-        let queue = &mut queue.borrow_mut().0;
-        let token_valid = Some(queue.issued.is_some().into());
-        let read_valid = Some(queue.read_id.is_some().into());
-        let read_id = queue.read_id.map(u128::from);
-        let record = queue.issued.map(|token| unpack(TOKEN, token)[7].into()).or(read_id);
-        let outputs = vec![token_valid, queue.issued, read_valid, read_id, record, record];
-        if values[1] == 1 {
-            queue.push(values[2]);
-        }
-        queue.issued = queue.waiting.pop_front().map(|(token, _)| token);
-        queue.read_id = (values[3] == 1).then_some(values[4] as u64);
-        if values[0] == 1 {
-            let fullest = queue.fullest;
-            *queue = Queue { fullest, ..Queue::default() };
-        }
-        let shown = if is_known { outputs } else { vec![None; 6] };
-        is_known |= values[0] == 1;
-        shown
-    });
+    Stepper::new("issue_5", Issue::new(5), 1).run(
+        &["reset", "push_valid", "push_bundle", "read.valid", "read_id"],
+        &["token_valid", "token", "read_valid", "token[40+:15]", "vertices_id", "links_id"],
+        stimuli,
+        |values| {
+            let queue = &mut queue.borrow_mut().0;
+            let token_valid = Some(queue.issued.is_some().into());
+            let read_valid = Some(queue.read_id.is_some().into());
+            let read_id = queue.read_id.map(u128::from);
+            let record = queue.issued.map(|token| unpack(TOKEN, token)[7].into()).or(read_id);
+            let outputs = vec![token_valid, queue.issued, read_valid, read_id, record, record];
+            if values[1] == 1 {
+                queue.push(values[2]);
+            }
+            queue.issued = queue.waiting.pop_front().map(|(token, _)| token);
+            queue.read_id = (values[3] == 1).then_some(values[4] as u64);
+            if values[0] == 1 {
+                let fullest = queue.fullest;
+                *queue = Queue { fullest, ..Queue::default() };
+            }
+            let shown = if is_known { outputs } else { vec![None; 6] };
+            is_known |= values[0] == 1;
+            shown
+        },
+    );
     assert_eq!(queue.into_inner().0.fullest, PLACES, "the test fills every place");
 }
 
@@ -94,9 +94,9 @@ fn issue_makes_one_visit_a_clock_in_order() {
 fn issue_shows_the_wave_of_its_header() {
     let stimuli = [
         (1, "push_valid", 1),
-        (1, "push_bundle", bundle(&[1, 2, 3])),
+        (1, "push_bundle", ring_bundle(&[1, 2, 3])),
         (2, "push_valid", 1),
-        (2, "push_bundle", bundle(&[4])),
+        (2, "push_bundle", ring_bundle(&[4])),
         (6, "read.valid", 1),
         (6, "read_id", 9),
     ];

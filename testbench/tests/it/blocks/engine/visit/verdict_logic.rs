@@ -1,9 +1,10 @@
 //! `VerdictLogic`: Rust, Verilog and plain arithmetic agree, clock by clock.
 
 use super::visit_reader::record;
-use crate::rig::cosimulation::{named_ports, Cosimulation, Numbers};
+use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::visit_model::{incircle, orientation, verdict_parts, Point, VERDICT_PARTS};
 use incircle_hdl::engine::VerdictLogic;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] VerdictLogic, [turned, signs], [verdict]);
 
@@ -12,8 +13,8 @@ const CYCLES: usize = 6_000;
 const INFINITE: u64 = 0x7fff;
 
 /// Four points: few places, so that lines, circles and equal points are common; or the whole range.
-pub fn points(numbers: &mut Numbers) -> [Point; 4] {
-    let bits = [1, 2, 2, 3, 4, 16][(numbers.next() % 6) as usize];
+pub fn points(numbers: &mut SplitMix64) -> [Point; 4] {
+    let bits = [1, 2, 2, 3, 4, 16][numbers.below(6) as usize];
     let shift = if bits < 16 { [0, 12][numbers.bits(1) as usize] } else { 0 };
     let mut coordinate = || (numbers.bits(bits) << shift) as i64;
     [(); 4].map(|()| (coordinate(), coordinate()))
@@ -21,14 +22,14 @@ pub fn points(numbers: &mut Numbers) -> [Point; 4] {
 
 #[test]
 fn verdict_logic_agrees_with_the_geometry() {
-    let mut numbers = Numbers::new(34);
+    let mut numbers = SplitMix64::new(34);
     let mut cases = vec![];
     let stimuli: Vec<Vec<u128>> = (0..4 * CYCLES)
         .map(|_| {
             let [r0, r1, r2, p] = points(&mut numbers);
             let r = [r0, r1, r2];
             let record = record(&mut numbers);
-            let slot = (numbers.next() % 3) as usize;
+            let slot = numbers.below(3) as usize;
             cases.push((record, slot, r, p));
             let e = [0, 1, 2].map(|k| orientation(r[(k + 1) % 3], r[(k + 2) % 3], p));
             let inside = incircle(r, p);
@@ -60,10 +61,8 @@ fn verdict_logic_agrees_with_the_geometry() {
         .collect();
     let mut cases = cases.into_iter();
     let mut seen = [0; 5];
-    Cosimulation {
-        name: "verdict_logic",
-        rust: VerdictLogic::default(),
-        inputs: &[
+    Stepper::new("verdict_logic", VerdictLogic::default(), 1).run(
+        &[
             "turned",
             "e0_negative",
             "e1_negative",
@@ -86,18 +85,19 @@ fn verdict_logic_agrees_with_the_geometry() {
             "r0_before_r2",
             "r1_before_r2",
         ],
-        outputs: &VERDICT_PARTS,
-    }
-    .run(stimuli, |_| {
-        let (record, slot, r, p) = cases.next().expect("a case for each stimulus");
-        let verdict = record.verdict(slot, r, p, INFINITE);
-        seen[0] += usize::from(verdict & 1 == 1);
-        seen[1] += usize::from(verdict >> 1 & 1 == 1);
-        seen[2] += usize::from(incircle(r, p) == 0 && !r.contains(&p));
-        seen[3] += usize::from(record.v.contains(&INFINITE));
-        seen[4] += usize::from(slot > 0 && incircle(r, p) == 0 && verdict & 1 == 1);
-        verdict_parts(verdict, slot, r).to_vec()
-    });
+        &VERDICT_PARTS,
+        stimuli,
+        |_| {
+            let (record, slot, r, p) = cases.next().expect("a case for each stimulus");
+            let verdict = record.verdict(slot, r, p, INFINITE);
+            seen[0] += usize::from(verdict & 1 == 1);
+            seen[1] += usize::from(verdict >> 1 & 1 == 1);
+            seen[2] += usize::from(incircle(r, p) == 0 && !r.contains(&p));
+            seen[3] += usize::from(record.v.contains(&INFINITE));
+            seen[4] += usize::from(slot > 0 && incircle(r, p) == 0 && verdict & 1 == 1);
+            verdict_parts(verdict, slot, r).to_vec()
+        },
+    );
     assert!(
         seen.iter().all(|count| *count > CYCLES / 10),
         "conflicts, located, cocircular, ghosts, turned ties: {seen:?}"

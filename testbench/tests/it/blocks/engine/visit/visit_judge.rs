@@ -2,11 +2,12 @@
 
 use super::verdict_logic::points;
 use super::visit_reader::record;
-use crate::rig::cosimulation::{named_ports, Cosimulation, Numbers};
 use crate::rig::drawing::{draw, When};
-use crate::rig::structures::{pack, TURNED};
+use crate::rig::stepper::bundles::{pack, TURNED};
+use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::visit_model::{verdict_parts, word, Record, VERDICT_PARTS};
 use incircle_hdl::engine::VisitJudge;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] VisitJudge, [corners, p, turned], [verdict], clock);
 
@@ -17,9 +18,9 @@ const INFINITE: u64 = 0x7fff;
 #[test]
 fn visit_judge_answers_ten_clocks_after_the_corners() {
     const LATENCY: usize = 10;
-    let mut numbers = Numbers::new(35);
+    let mut numbers = SplitMix64::new(35);
     let cases: Vec<_> =
-        (0..CYCLES).map(|_| (points(&mut numbers), record(&mut numbers), (numbers.next() % 3) as usize)).collect();
+        (0..CYCLES).map(|_| (points(&mut numbers), record(&mut numbers), numbers.below(3) as usize)).collect();
     let stimuli = cases.iter().enumerate().map(|(cycle, (points, ..))| {
         // The record of the visit whose corners came before.
         let before = cycle.checked_sub(LATENCY).map(|before| &cases[before]);
@@ -29,24 +30,23 @@ fn visit_judge_answers_ten_clocks_after_the_corners() {
     });
     let mut seen = [0; 3];
     let mut cycle = 0usize;
-    Cosimulation {
-        name: "visit_judge",
-        rust: VisitJudge::default(),
-        inputs: &["corners_r0", "corners_r1", "corners_r2", "p", "turned"],
-        outputs: &VERDICT_PARTS,
-    }
-    .run(stimuli, |_| {
-        let parts = cycle.checked_sub(LATENCY).map(|before| {
-            let ([r0, r1, r2, p], record, slot) = cases[before];
-            let verdict = record.verdict(slot, [r0, r1, r2], p, INFINITE);
-            for (bit, count) in seen.iter_mut().enumerate() {
-                *count += usize::from(verdict >> bit & 1 == 1);
-            }
-            verdict_parts(verdict, slot, [r0, r1, r2]).to_vec()
-        });
-        cycle += 1;
-        parts.unwrap_or(vec![None; VERDICT_PARTS.len()])
-    });
+    Stepper::new("visit_judge", VisitJudge::default(), 1).run(
+        &["corners_r0", "corners_r1", "corners_r2", "p", "turned"],
+        &VERDICT_PARTS,
+        stimuli,
+        |_| {
+            let parts = cycle.checked_sub(LATENCY).map(|before| {
+                let ([r0, r1, r2, p], record, slot) = cases[before];
+                let verdict = record.verdict(slot, [r0, r1, r2], p, INFINITE);
+                for (bit, count) in seen.iter_mut().enumerate() {
+                    *count += usize::from(verdict >> bit & 1 == 1);
+                }
+                verdict_parts(verdict, slot, [r0, r1, r2]).to_vec()
+            });
+            cycle += 1;
+            parts.unwrap_or(vec![None; VERDICT_PARTS.len()])
+        },
+    );
     assert!(seen.iter().all(|count| *count > CYCLES / 50), "conflicts, located, on a corner: {seen:?}");
 }
 

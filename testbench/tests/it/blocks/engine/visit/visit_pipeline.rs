@@ -8,12 +8,13 @@
 use std::cell::RefCell;
 use std::collections::VecDeque;
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Delay, Expected, Numbers};
 use crate::rig::drawing::{draw, When};
-use crate::rig::structures::{bundle, pack, random, unpack, BUNDLE, TOKEN, WRITE};
+use crate::rig::stepper::bundles::{pack, random_fields, ring_bundle, unpack, BUNDLE, TOKEN, WRITE};
+use crate::rig::stepper::{named_ports, Delay, Expected, Stepper};
 use crate::rig::visit_model::{point, verdict_parts, word, Locks, Point, Record, VERDICT_PARTS};
 use incircle_hdl::engine::VisitPipeline;
 use incircle_protocol::{infinite_vertex, Config, SMALL, TINY};
+use incircle_testkit::SplitMix64;
 
 named_ports!([] VisitPipeline, [reset, infinite, records, push, position, read, write, enables, arrival, fetch_id, clear], [is_issuing, visit, early, read_out, fetched], clock);
 
@@ -121,7 +122,7 @@ struct Visits {
     vertices: u64,
     contexts: u64,
     infinite: u64,
-    numbers: Numbers,
+    numbers: SplitMix64,
     records: Vec<Record>,
     locks: Locks,
     positions: Vec<u64>,
@@ -151,7 +152,7 @@ impl Visits {
             vertices: config.points.into(),
             contexts: config.contexts.into(),
             infinite: infinite_vertex(config.points).into(),
-            numbers: Numbers::new(51),
+            numbers: SplitMix64::new(51),
             records: vec![Record::default(); 2 * config.points as usize],
             locks: Locks::new(2 * config.points as usize),
             positions: vec![0; config.points as usize],
@@ -168,7 +169,7 @@ impl Visits {
 
     /// A record of the pool, spread over the memory.
     fn record_id(&mut self) -> u64 {
-        self.numbers.next() % POOL * (self.records.len() as u64 / POOL)
+        self.numbers.below(POOL) * (self.records.len() as u64 / POOL)
     }
 
     /// A record of the pool; every second time the one that a visit reads in this clock.
@@ -190,7 +191,7 @@ impl Visits {
     }
 
     fn write(&mut self, id: u64, whole: bool) -> u128 {
-        let mut corners = [(); 3].map(|()| self.numbers.next());
+        let mut corners = [(); 3].map(|()| self.numbers.next_u64());
         for corner in &mut corners {
             *corner = self.vertex_id(*corner);
         }
@@ -200,7 +201,7 @@ impl Visits {
         }
         let last = self.records.len() as u64 - 1;
         // Links of different columns differ, also when they are written one by one.
-        let n = [0, 1, 2].map(|column| self.numbers.next() & last & !3 | column);
+        let n = [0, 1, 2].map(|column| self.numbers.next_u64() & last & !3 | column);
         let columns = if whole { 0b1111 } else { self.numbers.bits(4) };
         let [vertices, link0, link1, link2] = [0, 1, 2, 3].map(|bit| columns >> bit & 1);
         let [v0, v1, v2] = corners;
@@ -209,13 +210,13 @@ impl Visits {
     }
 
     fn bundle(&mut self) -> u128 {
-        let mut bundle = random(BUNDLE, |bits| self.numbers.bits(bits));
+        let mut bundle = random_fields(BUNDLE, &mut self.numbers);
         bundle[1] &= bundle[0];
-        bundle[2] = self.numbers.next() % self.contexts;
+        bundle[2] = self.numbers.below(self.contexts);
         for place in [9, 11, 12] {
             bundle[place] = self.record_id();
         }
-        let link = self.numbers.next() as usize % 3;
+        let link = self.numbers.below(3) as usize;
         bundle[8] = self.records[bundle[9] as usize].n[link];
         pack(BUNDLE, bundle)
     }
@@ -223,8 +224,8 @@ impl Visits {
     /// First everything is written; then each round writes at every second clock before its visits and at every sixth during them.
     fn writes(&mut self, round: usize, clock: usize) -> Writes {
         let mut writes = Writes::default();
-        let place = self.numbers.next();
-        let owner = self.numbers.next() % self.contexts;
+        let place = self.numbers.next_u64();
+        let owner = self.numbers.below(self.contexts);
         if round == 0 && clock < POOL as usize {
             let id = clock as u64 * (self.records.len() as u64 / POOL);
             writes.write = self.write(id, true);
@@ -255,7 +256,7 @@ impl Visits {
         let reset = cycle == 0 || (round % 4 == 1 && (20..102).contains(&clock) && self.numbers.once_in(25));
         let all = self.records.len() as u64;
         let records = if self.numbers.once_in(4) { self.record_id() } else { all };
-        let fetch = self.numbers.next();
+        let fetch = self.numbers.next_u64();
         vec![
             reset.into(),
             self.infinite.into(),
@@ -440,16 +441,13 @@ fn visits(name: &str, config: Config) {
     });
     let stimuli = clears.chain((0..ROUND * ROUNDS).map(|cycle| visits.borrow_mut().stimulus(cycle)));
     let mut is_reset = false;
-    Cosimulation { name, rust: VisitPipeline::new(config), inputs: &INPUTS, outputs: &OUTPUTS }.run(
-        stimuli,
-        |values| {
-            let shown = visits.borrow_mut().cycle(values);
-            // Registers start with anything.
-            let shown = if is_reset { shown } else { vec![None; OUTPUTS.len()] };
-            is_reset = true;
-            shown
-        },
-    );
+    Stepper::new(name, VisitPipeline::new(config), 1).run(&INPUTS, &OUTPUTS, stimuli, |values| {
+        let shown = visits.borrow_mut().cycle(values);
+        // Registers start with anything.
+        let shown = if is_reset { shown } else { vec![None; OUTPUTS.len()] };
+        is_reset = true;
+        shown
+    });
     let seen = visits.into_inner().seen;
     assert!(seen.counts().iter().all(|count| *count > ROUNDS), "{seen:?}");
 }
@@ -466,7 +464,7 @@ fn visit_pipeline_of_a_small_core() {
 
 #[test]
 fn visit_pipeline_shows_the_wave_of_its_header() {
-    let stimuli = [(0, "push_valid", 1), (0, "push_bundle", bundle(&[1, 2])), (19, "read_valid", 1)];
+    let stimuli = [(0, "push_valid", 1), (0, "push_bundle", ring_bundle(&[1, 2])), (19, "read_valid", 1)];
     let lanes = [
         ("push", "push_valid", 0, 1, When::Always),
         ("bundle.owner", "push_bundle", 2, 5, When::If("push_valid")),

@@ -1,10 +1,11 @@
 //! `VisitReader`: Rust, Verilog and plain arithmetic agree, clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, Numbers};
 use crate::rig::drawing::{draw, When};
-use crate::rig::structures::{pack, random, unpack, TOKEN};
+use crate::rig::stepper::bundles::{pack, random_fields, unpack, TOKEN};
+use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::visit_model::Record;
 use incircle_hdl::engine::VisitReader;
+use incircle_testkit::SplitMix64;
 
 named_ports!([] VisitReader, [infinite, token, record, again, took, foreign, stored_corners], [turned, token_at_record, corners], clock);
 
@@ -13,7 +14,7 @@ const CYCLES: usize = 6_000;
 const INFINITE: u64 = 0x7fff;
 
 /// A record with three links that differ, and the infinite vertex on one corner or none.
-pub fn record(numbers: &mut Numbers) -> Record {
+pub fn record(numbers: &mut SplitMix64) -> Record {
     let mut v = [(); 3].map(|()| numbers.bits(15) % INFINITE);
     let place = numbers.bits(3) as usize;
     if place < 3 {
@@ -25,14 +26,14 @@ pub fn record(numbers: &mut Numbers) -> Record {
 
 #[test]
 fn visit_reader_turns_record_and_corners() {
-    let mut numbers = Numbers::new(33);
+    let mut numbers = SplitMix64::new(33);
     let mut records: Vec<Record> = (0..CYCLES).map(|_| record(&mut numbers)).collect();
     records.push(Record::default());
     records.push(Record::default());
     let stimuli: Vec<Vec<u128>> = (0..CYCLES)
         .map(|cycle| {
             // The visit's record is there two clocks later; it came through one of its links, or through none.
-            let mut token = random(TOKEN, |bits| numbers.bits(bits));
+            let mut token = random_fields(TOKEN, &mut numbers);
             let link = numbers.bits(2) as usize;
             if link < 3 {
                 token[6] = records[cycle + 2].n[link];
@@ -48,10 +49,8 @@ fn visit_reader_turns_record_and_corners() {
         .collect();
     let mut past: Vec<Vec<u128>> = vec![];
     let mut turns = [0; 3];
-    Cosimulation {
-        name: "visit_reader",
-        rust: VisitReader::default(),
-        inputs: &[
+    Stepper::new("visit_reader", VisitReader::default(), 1).run(
+        &[
             "infinite",
             "token",
             "record_v0",
@@ -67,26 +66,28 @@ fn visit_reader_turns_record_and_corners() {
             "stored_corners_r1",
             "stored_corners_r2",
         ],
-        outputs: &["token_at_record", "turned", "corners_r0", "corners_r1", "corners_r2"],
-    }
-    .run(stimuli, |values| {
-        past.push(values.to_vec());
-        let ago = |clocks: usize| past.len().checked_sub(1 + clocks).map(|at| &past[at]);
-        // The record that stood on the columns three clocks ago, the slot that its visit puts first, and its lock a clock later.
-        let visit = || {
-            let (columns, lock, token) = (ago(3)?, ago(2)?, unpack(TOKEN, ago(5)?[1]));
-            let column = |port: usize| columns[port] as u64;
-            let record = Record { v: [2, 3, 4].map(column), n: [5, 6, 7].map(column) };
-            let found = [lock[8], lock[9], columns[10]].map(|flag| flag == 1);
-            Some((record, record.slot(token[1] == 1, token[6]), found))
-        };
-        let turned = visit().map(|(record, slot, found)| {
-            turns[slot] += 1;
-            record.turned(slot).pack_turned(slot, found, INFINITE)
-        });
-        let corners = [11, 12, 13].map(|port| ago(1).map(|then| then[port]));
-        [&[ago(2).map(|then| then[1]), turned][..], &corners].concat()
-    });
+        &["token_at_record", "turned", "corners_r0", "corners_r1", "corners_r2"],
+        stimuli,
+        |values| {
+            past.push(values.to_vec());
+            let ago = |clocks: usize| past.len().checked_sub(1 + clocks).map(|at| &past[at]);
+            // The record that stood on the columns three clocks ago, the slot that its visit puts first, and its lock a
+            // clock later.
+            let visit = || {
+                let (columns, lock, token) = (ago(3)?, ago(2)?, unpack(TOKEN, ago(5)?[1]));
+                let column = |port: usize| columns[port] as u64;
+                let record = Record { v: [2, 3, 4].map(column), n: [5, 6, 7].map(column) };
+                let found = [lock[8], lock[9], columns[10]].map(|flag| flag == 1);
+                Some((record, record.slot(token[1] == 1, token[6]), found))
+            };
+            let turned = visit().map(|(record, slot, found)| {
+                turns[slot] += 1;
+                record.turned(slot).pack_turned(slot, found, INFINITE)
+            });
+            let corners = [11, 12, 13].map(|port| ago(1).map(|then| then[port]));
+            [&[ago(2).map(|then| then[1]), turned][..], &corners].concat()
+        },
+    );
     assert!(turns.iter().all(|turn| *turn > CYCLES / 10), "{turns:?}");
 }
 

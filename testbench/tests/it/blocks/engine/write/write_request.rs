@@ -1,9 +1,10 @@
 //! `RecordWrite` and `LinkWrite`: Rust, Verilog and plain arrays agree clock by clock.
 
-use crate::rig::cosimulation::{named_ports, Cosimulation, NamedPorts, Numbers};
 use crate::rig::ids::ID;
-use crate::rig::structures::{pack, WRITE};
+use crate::rig::stepper::bundles::{pack, WRITE};
+use crate::rig::stepper::{named_ports, NamedPorts, Stepper};
 use incircle_hdl::engine::{LinkWrite, RecordWrite};
+use incircle_testkit::SplitMix64;
 
 named_ports!([] RecordWrite, [id, v0, v1, v2, n0, n1, n2], [write]);
 named_ports!([] LinkWrite, [id, slot, value], [write]);
@@ -17,11 +18,10 @@ fn write_form<U: NamedPorts>(
     widths: &[u32],
     write: impl Fn(&[u64]) -> [u64; 12],
 ) {
-    let mut numbers = Numbers::new(24);
+    let mut numbers = SplitMix64::new(24);
     let stimuli: Vec<Vec<u64>> =
         (0..CYCLES).map(|_| widths.iter().map(|width| numbers.bits(*width)).collect()).collect();
-    Cosimulation { name, rust, inputs, outputs: &["write"] }
-        .run(stimuli, |values| vec![Some(pack(WRITE, write(values)))]);
+    Stepper::new(name, rust, 1).run(inputs, &["write"], stimuli, |values| vec![Some(pack(WRITE, write(values)))]);
 }
 
 #[test]
