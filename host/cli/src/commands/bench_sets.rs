@@ -34,9 +34,9 @@ pub(super) fn points_of(
     set: Distribution,
     n: u32,
     seed: u64,
-    arguments: &BenchArguments,
+    coord_bits: u32,
 ) -> Result<Vec<Point>, Failure> {
-    let points = make(set, n, arguments.coord_bits, seed)?;
+    let points = make(set, n, coord_bits, seed)?;
     Ok(points.into_iter().map(Point::from).collect())
 }
 
