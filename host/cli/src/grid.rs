@@ -38,7 +38,8 @@ pub fn lay(table: &PointTable, grid: &Grid) -> Result<Laid, Failure> {
             Err(error) => return Err(refuse(&error, table, grid, false)),
         },
     };
-    let (points, quantization) = quantize(&table.points, bits, how).map_err(|error| refuse(&error, table, grid, true))?;
+    let (points, quantization) =
+        quantize(&table.points, bits, how).map_err(|error| refuse(&error, table, grid, true))?;
     Ok(Laid { points, quantization: Some(quantization) })
 }
 

@@ -81,12 +81,7 @@ fn room_for(choice: &Choice, sets: &[Distribution], arguments: &BenchArguments) 
     Ok(most)
 }
 
-fn measure(
-    session: &mut Session<'_>,
-    set: Distribution,
-    runs: usize,
-    bench: &Bench<'_>,
-) -> Result<Measured, Failure> {
+fn measure(session: &mut Session<'_>, set: Distribution, runs: usize, bench: &Bench<'_>) -> Result<Measured, Failure> {
     let &Bench { arguments, coord_bits, .. } = bench;
     let points = points_of(set, arguments.n, arguments.seed, coord_bits)?;
     let mut best = run_once(session, set, &points, arguments)?;

@@ -70,12 +70,7 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
     }
     let choice = Choice::of(&arguments.backend, arguments.coord_bits, DEFAULT_BACKEND)?;
     let runs = if choice.is_software() { SOFTWARE_RUNS } else { 1 };
-    let mut backend = backend::open_with_room(
-        &choice,
-        Some(room(&choice, arguments)),
-        None,
-        arguments.job.timeout,
-    )?;
+    let mut backend = backend::open_with_room(&choice, Some(room(&choice, arguments)), None, arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
     let (name, config) = (backend.name, backend.config);
     let mut session = backend.device.session().map_err(|error| failure_of(&error))?;
@@ -111,12 +106,7 @@ fn room(choice: &Choice, arguments: &BenchArguments) -> usize {
     arguments.n.max(least) as usize
 }
 
-fn measure(
-    session: &mut Session<'_>,
-    set: Distribution,
-    runs: usize,
-    table: &Table<'_>,
-) -> Result<Measured, Failure> {
+fn measure(session: &mut Session<'_>, set: Distribution, runs: usize, table: &Table<'_>) -> Result<Measured, Failure> {
     let &Table { arguments, coord_bits, jobs, .. } = table;
     let points = |job: u32| points_of(set, arguments.n, arguments.seed.wrapping_add(job.into()), coord_bits);
     let jobs = (0..jobs).map(points).collect::<Result<Vec<_>, _>>()?;

@@ -30,12 +30,7 @@ pub(super) fn sets_of(arguments: &BenchArguments) -> Vec<Distribution> {
 }
 
 /// The points of a set, without duplicates taken out.
-pub(super) fn points_of(
-    set: Distribution,
-    n: u32,
-    seed: u64,
-    coord_bits: u32,
-) -> Result<Vec<Point>, Failure> {
+pub(super) fn points_of(set: Distribution, n: u32, seed: u64, coord_bits: u32) -> Result<Vec<Point>, Failure> {
     let points = make(set, n, coord_bits, seed)?;
     Ok(points.into_iter().map(Point::from).collect())
 }

@@ -27,16 +27,12 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let table = source::read_points(&arguments.points, arguments.from)?;
     watch.ended("load");
     interrupt::check()?;
-    let Laid { points, quantization } =
-        grid::lay(&table, &choice.grid(arguments.grid.quantize)).map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
+    let Laid { points, quantization } = grid::lay(&table, &choice.grid(arguments.grid.quantize))
+        .map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
     watch.ended("quantise");
     let trace = trace.map(Output::reserve).transpose()?;
-    let mut backend = backend::open(
-        &choice,
-        Some(&points),
-        trace.as_ref().and_then(Written::part),
-        arguments.job.timeout,
-    )?;
+    let mut backend =
+        backend::open(&choice, Some(&points), trace.as_ref().and_then(Written::part), arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
     tell_if_long(&backend, points.len(), arguments);
     watch.ended("open");
