@@ -222,8 +222,10 @@ impl<P> Command<P> {
 }
 
 impl<P: AsRef<[u32]>> Command<P> {
-    /// An `Insert` of points in these words.
+    /// An `Insert` of the points in these words, which must be whole points of this layout: their count is in the head,
+    /// and the device takes words left over for its next command.
     pub fn insert(points: P, layout: Layout) -> Self {
+        debug_assert!(points.as_ref().len().is_multiple_of(layout.point_words), "the words are whole points");
         Self::Insert { count: (points.as_ref().len() / layout.point_words) as u32, points }
     }
 

@@ -59,9 +59,9 @@ pub enum Command {
 /// How coordinates come onto the grid.
 #[derive(Debug, Args)]
 pub struct GridArguments {
-    /// Bits of a coordinate: points lie on the grid 0 to 2^BITS - 1
-    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(8..=31))]
-    pub coord_bits: u32,
+    /// Bits of a coordinate: points lie on the grid 0 to 2^BITS - 1 (default: 16)
+    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(8..=31))]
+    pub coord_bits: Option<u32>,
     /// Lay the points onto the grid: 'fit' (the bounding box fills it, one scale), or 'SCALE' or 'SCALE,X0,Y0' for
     /// (x - X0) * SCALE; integers on the grid are untouched without it, others are fitted
     #[arg(long, value_name = "HOW", value_parser = quantize_from, allow_hyphen_values = true)]
@@ -219,9 +219,9 @@ pub struct BenchArguments {
     /// out; a core is taken in the configuration full unless chosen. At most 67,108,864 points in all
     #[arg(long, value_name = "JOBS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub batch: Option<u32>,
-    /// Bits of a coordinate
-    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=31))]
-    pub coord_bits: u32,
+    /// Bits of a coordinate (default: 16)
+    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(1..=31))]
+    pub coord_bits: Option<u32>,
     /// Seed of the sets: the same seed gives the same points on every machine
     #[arg(long, default_value_t = 1)]
     pub seed: u64,

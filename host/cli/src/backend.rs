@@ -6,11 +6,12 @@ use std::time::Duration;
 
 use incircle::pcie::{CardAddress, CardRegisters, PcieTransport};
 use incircle::serial::{Address, SerialTransport};
-use incircle::{Device, DeviceAddress, Error, Point, MAX_POINTS};
+use incircle::{Device, DeviceAddress, Error, Point, Quantize, MAX_POINTS};
 use incircle_protocol::{Config, Greeting, CORE_COORD_BITS, LARGE, NAMED};
 
 use crate::arguments::{BackendArguments, ConfigName, JobArguments};
 use crate::failure::{failure_of, Exit, Failure};
+use crate::grid::Grid;
 
 /// Fewest points a model is made for.
 const LEAST_CAPACITY: usize = 4;
@@ -95,13 +96,17 @@ pub struct Choice {
     threads: Option<NonZeroU32>,
     /// The configuration of a core, where one is asked for.
     pub config: Option<Config>,
+    /// Bits of a coordinate, of the grid as of a model.
+    pub coord_bits: u32,
 }
 
 impl Choice {
-    /// The back end that the arguments ask for, or else the one at `default`. An address and an argument may not both
-    /// choose the same.
-    pub fn of(arguments: &BackendArguments, default: &str) -> Result<Self, Failure> {
+    /// The back end that the arguments ask for, or else the one at `default`; coordinates have the bits of
+    /// `--coord-bits` or of the address, or else [`CORE_COORD_BITS`]. An address and an argument may not both choose
+    /// the same.
+    pub fn of(arguments: &BackendArguments, coord_bits: Option<u32>, default: &str) -> Result<Self, Failure> {
         let address = arguments.or(default)?;
+        let coord_bits = once(bits_in(&address), coord_bits, "coord-bits")?.unwrap_or(CORE_COORD_BITS);
         let asked = arguments.config.map(ConfigName::config);
         let (threads, config) = match address {
             DeviceAddress::Cpu { threads } => (once(threads, arguments.threads, "threads")?, asked),
@@ -110,7 +115,7 @@ impl Choice {
             }
             _ => (arguments.threads, asked),
         };
-        let choice = Self { address, threads, config };
+        let choice = Self { address, threads, config, coord_bits };
         if choice.threads.is_some() && !matches!(choice.address, DeviceAddress::Cpu { .. }) {
             return Err(Failure::usage("--threads is for the engine on the processor: it needs --backend cpu"));
         }
@@ -122,6 +127,11 @@ impl Choice {
         Ok(choice)
     }
 
+    /// The grid of this back end, onto which points come so.
+    pub fn grid(&self, quantize: Option<Quantize>) -> Grid {
+        Grid { coord_bits: self.coord_bits, is_addressed: bits_in(&self.address).is_some(), quantize }
+    }
+
     /// A core in simulation, which is as large as we choose it.
     pub fn is_core(&self) -> bool {
         matches!(self.address, DeviceAddress::Clock { .. } | DeviceAddress::Sim { .. })
@@ -130,6 +140,14 @@ impl Choice {
     /// It runs in this process and is timed, not counted in cycles.
     pub fn is_software(&self) -> bool {
         matches!(self.address, DeviceAddress::Cpu { .. } | DeviceAddress::Model { .. })
+    }
+}
+
+/// Bits of a coordinate that an address chooses.
+fn bits_in(address: &DeviceAddress) -> Option<u32> {
+    match address {
+        &DeviceAddress::Model { coord_bits, .. } => coord_bits,
+        _ => None,
     }
 }
 
@@ -146,19 +164,17 @@ fn once<T>(in_address: Option<T>, argument: Option<T>, name: &str) -> Result<Opt
 /// ends have none. A board is greeted, which takes no longer than `timeout`, and is what it is.
 pub fn open(
     choice: &Choice,
-    coord_bits: u32,
     points: Option<&[Point]>,
     trace: Option<&Path>,
     timeout: Option<Duration>,
 ) -> Result<Backend, Failure> {
     let room = points.map(|points| if choice.is_core() { count_distinct(points) } else { points.len() });
-    open_with_room(choice, coord_bits, room, trace, timeout)
+    open_with_room(choice, room, trace, timeout)
 }
 
 /// As [`open`], for jobs of up to `room` points: all of them for the model, distinct ones for a core.
 pub fn open_with_room(
     choice: &Choice,
-    coord_bits: u32,
     room: Option<usize>,
     trace: Option<&Path>,
     timeout: Option<Duration>,
@@ -167,16 +183,16 @@ pub fn open_with_room(
         DeviceAddress::Serial(address) => return open_serial(address, timeout),
         DeviceAddress::Pcie(address) => return open_card(address),
         DeviceAddress::Cpu { .. } => (Ok(Device::cpu(choice.threads)), None),
-        &DeviceAddress::Model { coord_bits: bits, capacity } => {
-            (open_model(bits.unwrap_or(coord_bits), capacity, room.unwrap_or(MAX_POINTS)), None)
+        &DeviceAddress::Model { capacity, .. } => {
+            (open_model(choice.coord_bits, capacity, room.unwrap_or(MAX_POINTS)), None)
         }
         DeviceAddress::Clock { .. } => {
-            let config = config_for(choice, coord_bits, room)?;
+            let config = config_for(choice, room)?;
             (Device::clock_model(config), Some(config))
         }
         DeviceAddress::Sim { .. } => {
             check_sim()?;
-            let config = config_for(choice, coord_bits, room)?;
+            let config = config_for(choice, room)?;
             (Ok(open_sim(config, trace)?), Some(config))
         }
         other => (Device::at(other), None),
@@ -231,7 +247,8 @@ fn open_sim(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
 
 /// The configuration for a job of so many distinct points, or why there is none; without a job the one asked for, or
 /// the largest.
-fn config_for(choice: &Choice, coord_bits: u32, distinct: Option<usize>) -> Result<Config, Failure> {
+fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failure> {
+    let coord_bits = choice.coord_bits;
     if coord_bits > CORE_COORD_BITS {
         return Err(Failure::new(
             Exit::Capacity,

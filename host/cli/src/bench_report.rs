@@ -25,6 +25,8 @@ pub struct Measured {
 pub struct Bench<'a> {
     /// The command.
     pub arguments: &'a BenchArguments,
+    /// Bits of a coordinate of the sets.
+    pub coord_bits: u32,
     /// Name of the back end.
     pub backend: &'static str,
     /// Name of the configuration, of a core that is our choice.
@@ -71,7 +73,8 @@ const SET_WIDTH: usize = 15;
 impl Bench<'_> {
     /// The lines above the rows.
     pub fn header(&self) -> String {
-        let BenchArguments { n, coord_bits, seed, job, .. } = self.arguments;
+        let BenchArguments { n, seed, job, .. } = self.arguments;
+        let coord_bits = self.coord_bits;
         let mhz = self.mhz;
         let config = self.config.map_or(String::new(), |config| format!(" {config}"));
         let rate = self.rate.map_or(String::new(), |rate| format!(" at {rate} bits per second"));
@@ -151,7 +154,8 @@ impl Bench<'_> {
 
     /// The object that `--json` prints.
     pub fn to_json(&self, rows: &[Measured]) -> Value {
-        let BenchArguments { n, coord_bits, seed, job, .. } = self.arguments;
+        let BenchArguments { n, seed, job, .. } = self.arguments;
+        let coord_bits = self.coord_bits;
         let mut object = json!({
             "backend": self.backend,
             "config": self.config,

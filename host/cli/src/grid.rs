@@ -3,9 +3,18 @@
 use incircle::quantize::{integers, quantize};
 use incircle::{Error, Point, Quantization, Quantize, Shown};
 
-use crate::arguments::GridArguments;
 use crate::failure::{failure_of, Failure};
 use crate::points::PointTable;
+
+/// A grid, and how points come onto it.
+pub struct Grid {
+    /// Bits of a coordinate.
+    pub coord_bits: u32,
+    /// The address of the back end chooses the bits, not `--coord-bits`.
+    pub is_addressed: bool,
+    /// How points are laid onto the grid, if that is asked for.
+    pub quantize: Option<Quantize>,
+}
 
 /// Points on the grid, and how they came there.
 pub struct Laid {
@@ -17,7 +26,7 @@ pub struct Laid {
 
 /// Lays points onto the grid. Integers of the grid stay as they are unless quantisation is asked for; values with
 /// fractions are fitted; integers outside the grid are refused with their place.
-pub fn lay(table: &PointTable, grid: &GridArguments) -> Result<Laid, Failure> {
+pub fn lay(table: &PointTable, grid: &Grid) -> Result<Laid, Failure> {
     let bits = grid.coord_bits;
     let how = match grid.quantize {
         Some(how) => how,
@@ -26,15 +35,16 @@ pub fn lay(table: &PointTable, grid: &GridArguments) -> Result<Laid, Failure> {
                 return Ok(Laid { points, quantization: None });
             }
             Err(Error::NotInteger { .. }) => Quantize::Fit,
-            Err(error) => return Err(refuse(&error, table, false)),
+            Err(error) => return Err(refuse(&error, table, grid, false)),
         },
     };
-    let (points, quantization) = quantize(&table.points, bits, how).map_err(|error| refuse(&error, table, true))?;
+    let (points, quantization) =
+        quantize(&table.points, bits, how).map_err(|error| refuse(&error, table, grid, true))?;
     Ok(Laid { points, quantization: Some(quantization) })
 }
 
 /// Library errors that name a point name its place in the file here.
-fn refuse(error: &Error, table: &PointTable, quantized: bool) -> Failure {
+fn refuse(error: &Error, table: &PointTable, grid: &Grid, quantized: bool) -> Failure {
     let Error::OutOfGrid { index, axis, value, coord_bits } = error else {
         return failure_of(error);
     };
@@ -48,6 +58,7 @@ fn refuse(error: &Error, table: &PointTable, quantized: bool) -> Failure {
     }
     let needed = (*coord_bits..=31).find(|bits| (0.0..=((1u64 << bits) - 1) as f64).contains(value));
     let advice = match needed {
+        Some(bits) if grid.is_addressed => format!("give the back end coord-bits={bits} or give --quantize fit"),
         Some(bits) => format!("give --coord-bits {bits} or --quantize fit"),
         None => "give --quantize fit".to_owned(),
     };

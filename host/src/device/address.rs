@@ -145,7 +145,8 @@ impl FromStr for DeviceAddress {
 }
 
 impl fmt::Display for DeviceAddress {
-    /// The address, from which the same can be parsed.
+    /// The address as text. Of an address that was parsed the text gives the same again; others may hold what no text
+    /// says, such as a configuration without a name.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut items = Vec::new();
         let mut add = |key: &str, value: Option<String>| items.extend(value.map(|value| format!("{key}={value}")));

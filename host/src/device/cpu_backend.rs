@@ -11,6 +11,7 @@ use incircle_protocol::{Identity, MAGIC, PROTOCOL_VERSION};
 
 use super::backend::{Backend, JobLeft, Terms, Together};
 use crate::error::Error;
+use crate::job::batch::{JOBS_PER_LOOK, MAX_JOB_POINTS};
 use crate::job::watch::{tell, Stopwatch};
 use crate::job::{Options, Report, Solution, Stage};
 use crate::limit::Limit;
@@ -21,11 +22,6 @@ pub(crate) const CPU_NAME: &str = "cpu";
 const ORDER: &str = "z-curve";
 /// What a watch that goes over time is told to be doing.
 const DURING: &str = "the triangulation";
-
-/// Most points of a job that one thread does, beside others.
-const MAX_JOB_POINTS: usize = 8192;
-/// Jobs for each thread between two looks at the listener.
-const JOBS_PER_LOOK: usize = 64;
 
 /// The engine in this process, with so many threads at most.
 pub(crate) struct CpuBackend {

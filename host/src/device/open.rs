@@ -139,6 +139,17 @@ mod tests {
     }
 
     #[test]
+    fn an_address_without_choices_opens_what_is_documented() {
+        let mut device = Device::open("clock").expect("the clock model");
+        let core = *device.session().expect("a session").identity();
+        assert_eq!((core.capacity, core.ring_capacity, core.contexts), (LARGE.points, LARGE.ring, LARGE.contexts));
+        assert_eq!(core.coord_bits, 16);
+        let mut device = Device::open("model").expect("the model");
+        let model = *device.session().expect("a session").identity();
+        assert_eq!((model.coord_bits, model.capacity), (16, (1 << 30) - 1));
+    }
+
+    #[test]
     fn a_model_that_is_made_also_greets() {
         for capacity in [4, MAX_MODEL_POINTS] {
             let mut device = Device::model(16, capacity).expect("possible");

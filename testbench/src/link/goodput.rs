@@ -90,7 +90,7 @@ pub fn measure(detail: Detail, rate: u32, points: usize) -> Result<[Goodput; 2],
 pub fn document() -> Result<String, Box<dyn Error>> {
     let mut text = String::from(
         "# Goodput of the serial link\n\n\
-         Made by `cargo run --release -p incircle-testbench --bin goodput`: the driver's engine before the Verilated `incircle_serial_top`, its pins\n\
+         Made by `cargo run --release -p incircle-testbench --bin goodput`: the driver's protocol before the Verilated `incircle_serial_top`, its pins\n\
          driven and sampled bit by bit, with 1 ms of round trip besides the bits, in virtual time, so the same everywhere. The core is `full`,\n\
          its link has 16,384 bytes of FIFO.\n\n\
          Payload is what the core and its user see: the words of one `Insert` with its points, the words of one `Read` answer with its\n\

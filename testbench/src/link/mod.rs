@@ -1,6 +1,6 @@
-//! The driver's engine of the serial link before simulated boards, in virtual time, and what it reaches there.
+//! The driver's protocol of the serial link before simulated boards, in virtual time, and what it reaches there.
 //!
-//! [`VirtualLine`] joins the two: the same engine that runs over ports of the operating system, a board with its pins or without, faults
+//! [`VirtualLine`] joins the two: the same protocol that runs over ports of the operating system, a board with its pins or without, faults
 //! between, and a delay each way. It waits for no clock on the wall, so every run can be repeated. [`Served`] is a board behind a pseudo-terminal, in real time.
 
 mod goodput;

@@ -1,10 +1,11 @@
-//! An engine of the driver, a line with faults and delays, and a board, in one virtual time.
+//! The driver's protocol, a line with faults and delays, and a board, in one virtual time.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
+use incircle::serial::SerialFault;
 use incircle::transports::parts::{Params, SerialProtocol, Statistics};
 use incircle::transports::{receive_in_pieces, AnswerHead, Capabilities};
 use incircle::{Transport, TransportError};
@@ -17,7 +18,7 @@ const SLICE: u64 = 80;
 
 /// Driver, line and board.
 pub struct VirtualLine {
-    engine: SerialProtocol,
+    protocol: SerialProtocol,
     board: Box<dyn Board>,
     proxy: Proxy,
     /// Nanoseconds that a byte takes each way, besides its bits.
@@ -25,7 +26,7 @@ pub struct VirtualLine {
     /// Bytes on their way, and when they arrive.
     to_device: VecDeque<(u64, u8)>,
     to_host: VecDeque<(u64, u8)>,
-    /// When the engine wants to be asked, if nothing comes.
+    /// When the protocol wants to be asked, if nothing comes.
     wakes_at: Option<u64>,
     out: Vec<u8>,
     came: Vec<u8>,
@@ -35,7 +36,7 @@ impl VirtualLine {
     /// A driver that wishes for `rate`, before a board; each round trip takes `trip` besides the bits.
     pub fn new(board: Box<dyn Board>, rate: u32, trip: Duration, faults: &FaultSpec) -> Self {
         Self {
-            engine: SerialProtocol::new(Params::with_rate(rate)),
+            protocol: SerialProtocol::new(Params::with_rate(rate)),
             board,
             proxy: Proxy::new(faults),
             delay: (trip.as_nanos() / 2) as u64,
@@ -54,7 +55,7 @@ impl VirtualLine {
 
     /// What the driver did.
     pub fn statistics(&self) -> Statistics {
-        self.engine.statistics()
+        self.protocol.statistics()
     }
 
     /// Faults of the line so far.
@@ -64,12 +65,12 @@ impl VirtualLine {
 
     /// Bits per second now.
     pub fn rate(&self) -> u32 {
-        self.engine.rate()
+        self.protocol.rate()
     }
 
     /// Another driver in the place of this one, without a goodbye: as after the program was killed.
     pub fn restart_host(&mut self, rate: u32, session: u8) {
-        self.engine = SerialProtocol::new(Params { session, ..Params::with_rate(rate) });
+        self.protocol = SerialProtocol::new(Params { session, ..Params::with_rate(rate) });
         self.to_device.clear();
         self.wakes_at = Some(0);
     }
@@ -80,26 +81,26 @@ impl VirtualLine {
     /// As [`VirtualLine::ask`].
     pub fn open(&mut self, limit: Duration) -> Result<(), TransportError> {
         let now = self.now();
-        self.engine.open(now);
-        self.drive(now + limit, |engine| engine.is_open().then_some(()))
+        self.protocol.open(now);
+        self.drive(now + limit, |protocol| protocol.is_open().then_some(()))
     }
 
     /// One command and its whole answer, within this time.
     ///
     /// # Errors
-    /// The time passed, or the engine gives up.
+    /// The time passed, or the protocol gives up.
     pub fn ask(&mut self, command: &Command<impl AsRef<[u32]>>, limit: Duration) -> Result<Vec<u32>, TransportError> {
         let now = self.now();
-        self.engine.ask(command.borrowed(), now)?;
+        self.protocol.ask(command.borrowed(), now)?;
         self.drive(now + limit, SerialProtocol::take_answer)
     }
 
     /// Says goodbye.
     pub fn close(&mut self) {
         let now = self.now();
-        self.engine.close(now);
+        self.protocol.close(now);
         // Whether it was heard or not, the next driver finds its way.
-        let _ = self.drive(now + Duration::from_secs(1), |engine| engine.is_closed().then_some(()));
+        let _ = self.drive(now + Duration::from_secs(1), |protocol| protocol.is_closed().then_some(()));
     }
 
     fn drive<T>(
@@ -109,8 +110,8 @@ impl VirtualLine {
     ) -> Result<T, TransportError> {
         self.wakes_at = Some(0);
         loop {
-            self.engine.check()?;
-            if let Some(result) = ready(&mut self.engine) {
+            self.protocol.check()?;
+            if let Some(result) = ready(&mut self.protocol) {
                 return Ok(result);
             }
             if self.now() >= deadline {
@@ -124,10 +125,10 @@ impl VirtualLine {
     fn step(&mut self) {
         let now = self.nanoseconds();
         if self.wakes_at.is_some_and(|at| at <= now) {
-            self.engine.transmit(Duration::from_nanos(now), &mut self.out);
+            self.protocol.transmit(Duration::from_nanos(now), &mut self.out);
             let arrives = now + self.delay;
             self.to_device.extend(self.out.drain(..).map(|byte| (arrives, byte)));
-            self.wakes_at = self.engine.next_wake().map(|at| at.as_nanos() as u64);
+            self.wakes_at = self.protocol.next_wake().map(|at| at.as_nanos() as u64);
         }
         while let Some((_, byte)) = self.to_device.pop_front_if(|(at, _)| *at <= now) {
             self.proxy.from_host(byte, now);
@@ -136,7 +137,7 @@ impl VirtualLine {
             self.board.send(symbol);
         }
         if self.to_device.is_empty() && self.board.waiting() == 0 {
-            self.board.set_rate(self.engine.rate());
+            self.board.set_rate(self.protocol.rate());
         }
         self.board.run(SLICE);
         self.listen();
@@ -154,7 +155,7 @@ impl VirtualLine {
             self.came.push(byte);
         }
         if !self.came.is_empty() {
-            self.engine.receive(&self.came, Duration::from_nanos(now));
+            self.protocol.receive(&self.came, Duration::from_nanos(now));
             self.came.clear();
             self.wakes_at = Some(now);
         }
@@ -199,10 +200,12 @@ impl Transport for VirtualTransport {
     }
 
     fn submit(&mut self, commands: &[Command<&[u32]>], _deadline: Instant) -> Result<(), TransportError> {
-        for command in commands {
-            self.taken = 0;
-            self.answer = self.line.borrow_mut().ask(command, self.limit)?;
-        }
+        let [command] = commands else {
+            return Err(SerialFault::Command("the virtual line takes one command at a time").into());
+        };
+        self.answer.clear();
+        self.taken = 0;
+        self.answer = self.line.borrow_mut().ask(command, self.limit)?;
         Ok(())
     }
 

@@ -24,16 +24,17 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
         return bench_batch::run(arguments, jobs);
     }
     let sets = sets_of(arguments);
-    let choice = Choice::of(&arguments.backend, DEFAULT_BACKEND)?;
+    let choice = Choice::of(&arguments.backend, arguments.coord_bits, DEFAULT_BACKEND)?;
     let runs = if choice.is_software() { SOFTWARE_RUNS } else { 1 };
     let room = room_for(&choice, &sets, arguments)?;
-    let mut backend = backend::open_with_room(&choice, arguments.coord_bits, Some(room), None, arguments.job.timeout)?;
+    let mut backend = backend::open_with_room(&choice, Some(room), None, arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
     let Backend { name, config, board, .. } = backend;
     let has_clock = backend.has_clock();
     let mut session = backend.device.session().map_err(|error| failure_of(&error))?;
     let bench = Bench {
         arguments,
+        coord_bits: choice.coord_bits,
         backend: name,
         config: config.map(|config| config.name),
         has_clock,
@@ -44,9 +45,9 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     };
     let mut rows = Vec::with_capacity(sets.len());
     for set in sets {
-        let mut measured = measure(&mut session, set, runs, arguments)?;
+        let mut measured = measure(&mut session, set, runs, &bench)?;
         if board.is_some() {
-            measured.fit = fit(&mut session, &measured, arguments)?;
+            measured.fit = fit(&mut session, &measured, &bench)?;
         }
         if !arguments.json {
             // The header comes with the first row: what fails before it has its sentence to itself.
@@ -75,18 +76,14 @@ fn room_for(choice: &Choice, sets: &[Distribution], arguments: &BenchArguments) 
     }
     let mut most = 0;
     for &set in sets {
-        most = most.max(backend::count_distinct(&points_of(set, arguments.n, arguments.seed, arguments)?));
+        most = most.max(backend::count_distinct(&points_of(set, arguments.n, arguments.seed, choice.coord_bits)?));
     }
     Ok(most)
 }
 
-fn measure(
-    session: &mut Session<'_>,
-    set: Distribution,
-    runs: usize,
-    arguments: &BenchArguments,
-) -> Result<Measured, Failure> {
-    let points = points_of(set, arguments.n, arguments.seed, arguments)?;
+fn measure(session: &mut Session<'_>, set: Distribution, runs: usize, bench: &Bench<'_>) -> Result<Measured, Failure> {
+    let &Bench { arguments, coord_bits, .. } = bench;
+    let points = points_of(set, arguments.n, arguments.seed, coord_bits)?;
     let mut best = run_once(session, set, &points, arguments)?;
     for _ in 1..runs {
         let next = run_once(session, set, &points, arguments)?;
@@ -98,10 +95,11 @@ fn measure(
 }
 
 /// The time of jobs of several sizes, as a line.
-fn fit(session: &mut Session<'_>, whole: &Measured, arguments: &BenchArguments) -> Result<Option<Fit>, Failure> {
+fn fit(session: &mut Session<'_>, whole: &Measured, bench: &Bench<'_>) -> Result<Option<Fit>, Failure> {
+    let &Bench { arguments, coord_bits, .. } = bench;
     let mut jobs = Vec::with_capacity(PARTS.len() + 1);
     for part in PARTS.map(|part| arguments.n / part).into_iter().filter(|&n| n > 0) {
-        let points = points_of(whole.set, part, arguments.seed, arguments)?;
+        let points = points_of(whole.set, part, arguments.seed, coord_bits)?;
         let measured = run_once(session, whole.set, &points, arguments)?;
         jobs.push((measured.report.distinct, measured.seconds));
     }

@@ -46,6 +46,7 @@ struct Measured {
 /// What all rows have in common.
 struct Table<'a> {
     arguments: &'a BenchArguments,
+    coord_bits: u32,
     jobs: u32,
     backend: &'static str,
     config: Option<&'static str>,
@@ -67,20 +68,15 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
             arguments.n
         )));
     }
-    let choice = Choice::of(&arguments.backend, DEFAULT_BACKEND)?;
+    let choice = Choice::of(&arguments.backend, arguments.coord_bits, DEFAULT_BACKEND)?;
     let runs = if choice.is_software() { SOFTWARE_RUNS } else { 1 };
-    let mut backend = backend::open_with_room(
-        &choice,
-        arguments.coord_bits,
-        Some(room(&choice, arguments)),
-        None,
-        arguments.job.timeout,
-    )?;
+    let mut backend = backend::open_with_room(&choice, Some(room(&choice, arguments)), None, arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
     let (name, config) = (backend.name, backend.config);
     let mut session = backend.device.session().map_err(|error| failure_of(&error))?;
     let table = Table {
         arguments,
+        coord_bits: choice.coord_bits,
         jobs,
         backend: name,
         config: config.map(|config| config.name),
@@ -90,7 +86,7 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
     };
     let mut rows = Vec::new();
     for set in sets_of(arguments) {
-        let measured = measure(&mut session, set, jobs, runs, arguments)?;
+        let measured = measure(&mut session, set, runs, &table)?;
         if !arguments.json {
             let header = if rows.is_empty() { table.header() } else { String::new() };
             output::print(&format!("{header}{}\n", table.row(&measured)))?;
@@ -110,14 +106,9 @@ fn room(choice: &Choice, arguments: &BenchArguments) -> usize {
     arguments.n.max(least) as usize
 }
 
-fn measure(
-    session: &mut Session<'_>,
-    set: Distribution,
-    jobs: u32,
-    runs: usize,
-    arguments: &BenchArguments,
-) -> Result<Measured, Failure> {
-    let points = |job: u32| points_of(set, arguments.n, arguments.seed.wrapping_add(job.into()), arguments);
+fn measure(session: &mut Session<'_>, set: Distribution, runs: usize, table: &Table<'_>) -> Result<Measured, Failure> {
+    let &Table { arguments, coord_bits, jobs, .. } = table;
+    let points = |job: u32| points_of(set, arguments.n, arguments.seed.wrapping_add(job.into()), coord_bits);
     let jobs = (0..jobs).map(points).collect::<Result<Vec<_>, _>>()?;
     let mut best = run_once(session, set, &jobs, arguments)?;
     for _ in 1..runs {
@@ -164,7 +155,8 @@ fn engine_of(solutions: &[Solution]) -> Option<u64> {
 
 impl Table<'_> {
     fn header(&self) -> String {
-        let BenchArguments { n, coord_bits, seed, job, .. } = self.arguments;
+        let BenchArguments { n, seed, job, .. } = self.arguments;
+        let coord_bits = self.coord_bits;
         let config = self.config.map_or(String::new(), |config| format!(" {config}"));
         let is_cpu = self.backend == "cpu";
         let contexts = counted(self.contexts as usize, if is_cpu { "thread" } else { "context" });
@@ -212,7 +204,8 @@ impl Table<'_> {
     }
 
     fn to_json(&self, rows: &[Measured]) -> Value {
-        let BenchArguments { n, coord_bits, seed, job, .. } = self.arguments;
+        let BenchArguments { n, seed, job, .. } = self.arguments;
+        let coord_bits = self.coord_bits;
         let mut object = json!({
             "backend": self.backend,
             "config": self.config,

@@ -30,13 +30,8 @@ pub(super) fn sets_of(arguments: &BenchArguments) -> Vec<Distribution> {
 }
 
 /// The points of a set, without duplicates taken out.
-pub(super) fn points_of(
-    set: Distribution,
-    n: u32,
-    seed: u64,
-    arguments: &BenchArguments,
-) -> Result<Vec<Point>, Failure> {
-    let points = make(set, n, arguments.coord_bits, seed)?;
+pub(super) fn points_of(set: Distribution, n: u32, seed: u64, coord_bits: u32) -> Result<Vec<Point>, Failure> {
+    let points = make(set, n, coord_bits, seed)?;
     Ok(points.into_iter().map(Point::from).collect())
 }
 

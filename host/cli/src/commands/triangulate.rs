@@ -21,30 +21,24 @@ pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     let format = format_of(arguments)?;
     let output = prepare_mesh(arguments)?;
     let default = if arguments.job.wants_insertion() { "model" } else { "cpu" };
-    let choice = Choice::of(&arguments.backend, default)?;
+    let choice = Choice::of(&arguments.backend, arguments.grid.coord_bits, default)?;
     let trace = prepare_trace(arguments, &choice, &output)?;
     let mut watch = Watch::start();
     let table = source::read_points(&arguments.points, arguments.from)?;
     watch.ended("load");
     interrupt::check()?;
-    let Laid { points, quantization } =
-        grid::lay(&table, &arguments.grid).map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
+    let Laid { points, quantization } = grid::lay(&table, &choice.grid(arguments.grid.quantize))
+        .map_err(|failure| failure.in_file(source::name(&arguments.points)))?;
     watch.ended("quantise");
     let trace = trace.map(Output::reserve).transpose()?;
-    let mut backend = backend::open(
-        &choice,
-        arguments.grid.coord_bits,
-        Some(&points),
-        trace.as_ref().and_then(Written::part),
-        arguments.job.timeout,
-    )?;
+    let mut backend =
+        backend::open(&choice, Some(&points), trace.as_ref().and_then(Written::part), arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
     tell_if_long(&backend, points.len(), arguments);
     watch.ended("open");
     let Solution { mesh, report: about, .. } = triangulate(&mut backend, points, arguments)?;
     watch.stages.extend(&about.stages);
-    let bits = arguments.grid.coord_bits;
-    let mut report = RunReport::new(&about, &backend, bits, quantization.as_ref());
+    let mut report = RunReport::new(&about, &backend, choice.coord_bits, quantization.as_ref());
     // The simulation ends here, which completes its waveform.
     drop(backend);
     watch.since = Instant::now();

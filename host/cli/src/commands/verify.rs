@@ -1,10 +1,12 @@
 //! `incircle verify`: is this mesh the canonical Delaunay triangulation of these points?
 
 use incircle::{Quantization, VerifySummary};
+use incircle_protocol::CORE_COORD_BITS;
 use serde_json::{json, Value};
 
-use crate::arguments::VerifyArguments;
+use crate::arguments::{GridArguments, VerifyArguments};
 use crate::failure::{counted, Exit, Failure};
+use crate::grid::Grid;
 use crate::report::quantization_json;
 use crate::{grid, output, source};
 
@@ -12,7 +14,9 @@ use crate::{grid, output, source};
 pub fn run(arguments: &VerifyArguments) -> Result<(), Failure> {
     let table = source::read_points(&arguments.points, arguments.from)?;
     let points_name = source::name(&arguments.points);
-    let laid = grid::lay(&table, &arguments.grid).map_err(|failure| failure.in_file(&points_name))?;
+    let GridArguments { coord_bits, quantize } = arguments.grid;
+    let grid = Grid { coord_bits: coord_bits.unwrap_or(CORE_COORD_BITS), is_addressed: false, quantize };
+    let laid = grid::lay(&table, &grid).map_err(|failure| failure.in_file(&points_name))?;
     let mesh_name = source::name(&arguments.mesh);
     let checked = source::read_mesh(&arguments.mesh, arguments.format).and_then(|triangles| {
         incircle::verify(&laid.points, &triangles).map_err(|error| {

@@ -21,12 +21,13 @@ use incircle_geometry::Order;
 use incircle_geometry::Point;
 use plan::{Part, Plan};
 
-/// Most points of a job that is one of a group: the records of a group are read at once.
-const MAX_JOB_POINTS: usize = 8192;
+/// Most points of a job that others are done beside: in a group on a device, whose records are read at once, or by the
+/// other threads of the processor.
+pub(crate) const MAX_JOB_POINTS: usize = 8192;
 /// Most points of a frame: its records are read at once.
 const MAX_FRAME_POINTS: usize = 65_536;
-/// Jobs that are taken between two looks at the listener.
-const JOBS_PER_LOOK: usize = 64;
+/// Jobs that are taken between two looks at the listener; where threads share the jobs, for each thread.
+pub(crate) const JOBS_PER_LOOK: usize = 64;
 
 /// A batch on a device.
 pub(crate) struct Batch<'b> {

@@ -1,4 +1,4 @@
-//! The engine and a board on a line with a delay and faults, in virtual time; a transport of the two for whole jobs.
+//! The serial protocol and a board on a line with a delay and faults, in virtual time; a transport of the two for whole jobs.
 
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -37,11 +37,11 @@ pub enum Fate {
 pub type Faults = Box<dyn FnMut(bool, usize) -> Fate>;
 
 pub struct Rig {
-    pub engine: SerialProtocol,
+    pub protocol: SerialProtocol,
     pub board: Board,
     pub now: Duration,
     pub delay: Duration,
-    /// The line carries bytes at once, as the pseudo-terminal of a simulated board does; the engine reckons by the rate all the same.
+    /// The line carries bytes at once, as the pseudo-terminal of a simulated board does; the protocol reckons by the rate all the same.
     pub is_instant: bool,
     /// Errors per bit.
     pub noise: f64,
@@ -67,7 +67,7 @@ pub struct Rig {
 impl Rig {
     pub fn new(params: Params, fifo: u32) -> Self {
         Self {
-            engine: SerialProtocol::new(params),
+            protocol: SerialProtocol::new(params),
             board: Board::new(fifo),
             now: Duration::from_secs(5),
             delay: Duration::from_micros(500),
@@ -142,7 +142,7 @@ impl Rig {
     }
 
     fn arrive(&mut self, to_host: bool) {
-        let rate = if to_host { self.engine.rate() } else { self.board.rate };
+        let rate = if to_host { self.protocol.rate() } else { self.board.rate };
         while let Some((arrival, _, _)) = self.wires[usize::from(to_host)].under_way.front() {
             if *arrival > self.now {
                 return;
@@ -155,14 +155,14 @@ impl Rig {
                 }
             }
             if to_host {
-                self.engine.receive(&bytes, self.now);
+                self.protocol.receive(&bytes, self.now);
             } else {
                 self.board.take(&bytes, self.now);
             }
         }
     }
 
-    /// Runs until the engine is through; false if the time is over before.
+    /// Runs until the protocol is through; false if the time is over before.
     pub fn run(&mut self, until: Duration, mut done: impl FnMut(&mut SerialProtocol) -> bool) -> bool {
         loop {
             if self.reset_at.is_some_and(|at| at <= self.now) {
@@ -182,19 +182,19 @@ impl Rig {
                 }
             }
             self.arrive(true);
-            if done(&mut self.engine) {
+            if done(&mut self.protocol) {
                 return true;
             }
             let mut out = Vec::new();
-            let before = self.engine.rate();
-            self.engine.transmit(self.now, &mut out);
-            assert!(out.is_empty() || before == self.engine.rate(), "bytes with a change of rate");
+            let before = self.protocol.rate();
+            self.protocol.transmit(self.now, &mut out);
+            assert!(out.is_empty() || before == self.protocol.rate(), "bytes with a change of rate");
             self.carry(false, &out, before);
-            if done(&mut self.engine) {
+            if done(&mut self.protocol) {
                 return true;
             }
             let next = [
-                self.engine.next_wake(),
+                self.protocol.next_wake(),
                 self.wires[0].under_way.front().map(|(arrival, _, _)| *arrival),
                 self.wires[1].under_way.front().map(|(arrival, _, _)| *arrival),
                 self.speaks.then_some(self.speaks_until),
@@ -217,7 +217,7 @@ impl Rig {
 
     /// A command and its answer.
     pub fn ask(&mut self, command: &Command<impl AsRef<[u32]>>) -> Result<Vec<u32>, TransportError> {
-        self.engine.ask(command.borrowed(), self.now)?;
+        self.protocol.ask(command.borrowed(), self.now)?;
         self.finish()
     }
 
@@ -225,11 +225,11 @@ impl Rig {
     pub fn finish(&mut self) -> Result<Vec<u32>, TransportError> {
         let mut answer = None;
         let until = self.now + self.patience;
-        let is_done = self.run(until, |engine| {
-            answer = engine.take_answer();
-            answer.is_some() || engine.check().is_err()
+        let is_done = self.run(until, |protocol| {
+            answer = protocol.take_answer();
+            answer.is_some() || protocol.check().is_err()
         });
-        self.engine.check()?;
+        self.protocol.check()?;
         answer.filter(|_| is_done).ok_or(TransportError::Timeout { done: 0, wanted: 0 })
     }
 }

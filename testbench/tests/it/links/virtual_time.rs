@@ -1,4 +1,4 @@
-//! The driver's engine before simulated boards, in virtual time.
+//! The driver's protocol before simulated boards, in virtual time.
 
 use std::time::Duration;
 

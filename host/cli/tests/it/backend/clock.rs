@@ -172,6 +172,42 @@ fn an_address_chooses_what_an_argument_chooses() {
 }
 
 #[test]
+fn an_address_chooses_the_bits_of_the_grid() {
+    let scratch = Scratch::new();
+    scratch.write("p.csv", "0,0\n70000,0\n0,70000\n70000,70000\n3,5\n");
+    let report = |arguments: &str| -> Value {
+        let run = scratch.run(arguments).ok();
+        serde_json::from_str(&run.stdout).expect("the report is JSON")
+    };
+    let about = report("triangulate p.csv -o m.obj --json --backend model?coord-bits=20");
+    assert_eq!((&about["coord_bits"], &about["quantisation"]), (&20.into(), &Value::Null));
+    assert!(scratch.read("m.obj").contains("70000"), "integers of the grid stay as they are");
+    let run = scratch.run("triangulate p.csv -o m.obj --backend model?coord-bits=8");
+    run.fails(3, &["70000", "255 (8 bits)", "coord-bits=17 or give --quantize fit"]);
+    scratch.write("half.csv", "0,0\n0.5,0\n0,0.5\n");
+    let about = report("triangulate half.csv -o m.ele --json --backend model?coord-bits=10");
+    assert_eq!((&about["coord_bits"], &about["quantisation"]["scale"]), (&10.into(), &2046.0.into()));
+
+    // A grid of 8 bits has 256 times 256 places: fewer distinct points than on one of 16.
+    let distinct = |arguments: &str| report(&format!("bench uniform -n 5000 --json {arguments}"));
+    let (by_address, by_argument) = (distinct("--backend model?coord-bits=8"), distinct("--coord-bits 8"));
+    assert_eq!(by_address["coord_bits"], 8);
+    assert_eq!(by_address["sets"][0]["distinct"], by_argument["sets"][0]["distinct"]);
+    assert_ne!(by_address["sets"][0]["distinct"], distinct("")["sets"][0]["distinct"]);
+    let batch = report("bench uniform -n 50 --batch 3 --json --backend model?coord-bits=8");
+    assert_eq!(batch["coord_bits"], 8);
+    let run = scratch.run("bench uniform -n 50 --backend model?coord-bits=8").ok();
+    assert!(run.stdout.contains("sets of 50 points, 8 bits"), "{run:?}");
+
+    for command in ["triangulate p.csv -o n.ele", "bench uniform -n 50", "bench uniform -n 50 --batch 2"] {
+        let run = scratch.run(&format!("{command} --backend model?coord-bits=20 --coord-bits 20"));
+        run.fails(2, &["the address of the back end and --coord-bits both choose: leave one out"]);
+        scratch.run(&format!("{command} --backend model?coord-bits=32")).fails(2, &["32"]);
+    }
+    assert_eq!(scratch.files(), ["half.csv", "m.ele", "m.obj", "p.csv"]);
+}
+
+#[test]
 fn verbose_is_a_table_with_latencies() {
     let scratch = Scratch::new();
     scratch.run("generate uniform -n 500 -o p.csv").ok();

@@ -1,4 +1,4 @@
-//! Serial devices that lie, and lines that babble: whatever comes, the engine neither panics nor hangs, holds no more than the job needs, and
+//! Serial devices that lie, and lines that babble: whatever comes, the protocol neither panics nor hangs, holds no more than the job needs, and
 //! hands out nothing but a whole answer of the right length or a fault of its own.
 
 use std::collections::VecDeque;
@@ -14,12 +14,12 @@ use proptest::test_runner::{Config, TestRunner};
 
 /// Of each property.
 const CASES: u32 = 36_000;
-/// What the engine may hold besides command and answer: frames under way, a frame that comes, small change.
+/// What the protocol may hold besides command and answer: frames under way, a frame that comes, small change.
 const BESIDES: isize = 48 * 1024;
 /// Words of the longest legal answer that is not a range of records.
 const LONGEST: usize = 2 + 128;
 
-/// Something that happens to the engine.
+/// Something that happens to the protocol.
 #[derive(Clone, Debug)]
 enum Event {
     /// Time passes, in microseconds.
@@ -146,9 +146,9 @@ fn bytes_of(session: u8, kind: u8, header: [u8; 5], body: &Body) -> Vec<u8> {
     frame(&plain)
 }
 
-/// The engine under test, with what is held of it.
+/// The protocol under test, with what is held of it.
 struct Bench {
-    engine: SerialProtocol,
+    protocol: SerialProtocol,
     now: Duration,
     session: u8,
     last: Vec<u8>,
@@ -163,24 +163,24 @@ static HANDED_OUT: AtomicUsize = AtomicUsize::new(0);
 
 impl Bench {
     fn new(rates: Vec<u32>) -> Self {
-        let engine = SerialProtocol::new(Params { rates, session: 41 });
+        let protocol = SerialProtocol::new(Params { rates, session: 41 });
         let (now, last, digests) = (Duration::from_secs(1), Vec::new(), VecDeque::from([0]));
-        Self { engine, now, session: 42, last, frames: 0, answers: 0, digests }
+        Self { protocol, now, session: 42, last, frames: 0, answers: 0, digests }
     }
 
-    /// Lets the engine say what is due, as often as it wants within the time.
+    /// Lets the protocol say what is due, as often as it wants within the time.
     fn wait(&mut self, until: Duration) {
         let (mut last, mut idle) = (self.now, 0);
         for _ in 0..10_000 {
             let mut out = Vec::new();
-            self.engine.transmit(self.now, &mut out);
+            self.protocol.transmit(self.now, &mut out);
             assert!(out.len() < 64 * 1024, "{} bytes at once", out.len());
             self.heed(&out);
             // Whoever waits until it wants to be called must not wait in vain.
             idle = if out.is_empty() && self.now == last { idle + 1 } else { 0 };
             assert!(idle < 4, "it wakes for nothing at {:?}", self.now);
             last = self.now;
-            match self.engine.next_wake() {
+            match self.protocol.next_wake() {
                 Some(wake) if wake <= until => self.now = self.now.max(wake),
                 _ => {
                     self.now = until;
@@ -211,24 +211,24 @@ impl Bench {
         let behind = behind.min(self.digests.len() - 1);
         let digest = Body::Digest(self.digests[self.digests.len() - 1 - behind]);
         let header = [(self.frames - behind) as u8, self.answers, 0, 16, 1];
-        self.engine.receive(&bytes_of(self.session, 0x83, header, &digest), self.now);
+        self.protocol.receive(&bytes_of(self.session, 0x83, header, &digest), self.now);
     }
 
     fn happen(&mut self, event: &Event) {
         match event {
             Event::Wait(microseconds) => self.wait(self.now + Duration::from_micros(u64::from(*microseconds))),
-            Event::Noise(bytes) => self.engine.receive(bytes, self.now),
+            Event::Noise(bytes) => self.protocol.receive(bytes, self.now),
             Event::Frame { session, kind, header, body } => {
                 let session = if *session == 1 { self.session } else { *session };
                 self.last = bytes_of(session, *kind, *header, body);
-                self.engine.receive(&self.last, self.now);
+                self.protocol.receive(&self.last, self.now);
             }
             Event::Proof { behind } => self.prove(*behind),
             Event::Again { bytes } => {
                 let bytes = (*bytes).min(self.last.len());
-                self.engine.receive(&self.last[..bytes], self.now);
+                self.protocol.receive(&self.last[..bytes], self.now);
             }
-            Event::Close => self.engine.close(self.now),
+            Event::Close => self.protocol.close(self.now),
         }
         self.wait(self.now);
     }
@@ -242,20 +242,20 @@ impl Bench {
     fn open_with(&mut self, place: usize, value: u32) {
         self.wait(self.now);
         let greeting = Body::Greeting { place, value };
-        self.engine.receive(&bytes_of(0, 0x81, [0, 0, 0, 16, 0], &greeting), self.now);
-        self.engine.receive(&bytes_of(self.session, 0x82, [0, 0, 0, 16, 1], &Body::Raw(vec![])), self.now);
+        self.protocol.receive(&bytes_of(0, 0x81, [0, 0, 0, 16, 0], &greeting), self.now);
+        self.protocol.receive(&bytes_of(self.session, 0x82, [0, 0, 0, 16, 1], &Body::Raw(vec![])), self.now);
         self.wait(self.now);
     }
 }
 
-/// Runs the events; the engine must stay within its bounds at each of them.
+/// Runs the events; the protocol must stay within its bounds at each of them.
 fn check(bench: &mut Bench, command: &Command<Vec<u32>>, events: &[Event]) -> Result<(), TestCaseError> {
     let most = most_words(command);
     let bound = 4 * (command.words() + most) as isize + BESIDES;
     for event in events {
         bench.happen(event);
         prop_assert!(heap::held() <= bound, "{} bytes held, {bound} allowed", heap::held());
-        if let Some(answer) = bench.engine.take_answer() {
+        if let Some(answer) = bench.protocol.take_answer() {
             prop_assert!(answer.len() >= 2 && answer.len() <= most, "{} words", answer.len());
             prop_assert!(answer.len() == 2 + answer[1] as usize || answer.len() == 2, "{} words", answer.len());
             HANDED_OUT.fetch_add(1, Ordering::Relaxed);
@@ -263,7 +263,7 @@ fn check(bench: &mut Bench, command: &Command<Vec<u32>>, events: &[Event]) -> Re
     }
     // Left alone it comes to an end, or goes on asking without haste.
     bench.wait(bench.now + Duration::from_secs(8));
-    prop_assert!(bench.engine.check().is_err() || bench.engine.is_closed() || !bench.engine.is_open());
+    prop_assert!(bench.protocol.check().is_err() || bench.protocol.is_closed() || !bench.protocol.is_open());
     Ok(())
 }
 
@@ -272,10 +272,10 @@ fn run(cases: u32, strategy: impl Strategy<Value = (Command<Vec<u32>>, Vec<Event
     let result = runner.run(&strategy, |(command, events)| {
         heap::watch();
         let mut bench = Bench::new(rates.to_vec());
-        bench.engine.ask(command.borrowed(), bench.now).map_err(|fault| TestCaseError::fail(fault.to_string()))?;
+        bench.protocol.ask(command.borrowed(), bench.now).map_err(|fault| TestCaseError::fail(fault.to_string()))?;
         if is_open {
             bench.open();
-            prop_assert!(bench.engine.is_open());
+            prop_assert!(bench.protocol.is_open());
         }
         check(&mut bench, &command, &events)
     });
@@ -310,24 +310,24 @@ fn whatever_bytes_come() {
 fn an_answer_without_end() {
     for command in [Command::Hello, read(0, 3000), Command::Latencies] {
         let mut bench = Bench::new(vec![]);
-        bench.engine.ask(command.borrowed(), bench.now).expect("a command");
+        bench.protocol.ask(command.borrowed(), bench.now).expect("a command");
         bench.open();
         let mut index = 0u16;
-        while bench.engine.check().is_ok() {
+        while bench.protocol.check().is_ok() {
             assert!(index < 1024, "it is not stopped");
             let part = Body::Part { number: 0, index, header: 1 << 24, length: u32::MAX, words: 256, is_sound: true };
-            bench.engine.receive(&bytes_of(42, 0x85, [1, 0, 0, 16, 1], &part), bench.now);
+            bench.protocol.receive(&bytes_of(42, 0x85, [1, 0, 0, 16, 1], &part), bench.now);
             index += 256;
         }
-        let fault = bench.engine.check().expect_err("stopped").to_string();
+        let fault = bench.protocol.check().expect_err("stopped").to_string();
         assert!(fault.contains("more than the"), "{fault}");
     }
 }
 
-/// The engine with a session open and this command asked.
+/// The protocol with a session open and this command asked.
 fn asked(command: &Command<Vec<u32>>) -> Bench {
     let mut bench = Bench::new(vec![]);
-    bench.engine.ask(command.borrowed(), bench.now).expect("a command");
+    bench.protocol.ask(command.borrowed(), bench.now).expect("a command");
     bench.open();
     bench
 }
@@ -351,25 +351,25 @@ const REPORT: Body = Body::Part { number: 0, index: 0, header: 3 << 24, length: 
 fn an_answer_needs_a_question_that_was_taken() {
     for command in commands() {
         let mut bench = asked(&command);
-        bench.engine.receive(&bytes_of(42, 0x86, [0, 0, 0, 16, 1], &REPORT), bench.now);
-        let fault = bench.engine.check().expect_err("it has taken nothing").to_string();
+        bench.protocol.receive(&bytes_of(42, 0x86, [0, 0, 0, 16, 1], &REPORT), bench.now);
+        let fault = bench.protocol.check().expect_err("it has taken nothing").to_string();
         assert!(fault.contains("has taken 0"), "{fault}");
-        assert_eq!(bench.engine.take_answer(), None);
+        assert_eq!(bench.protocol.take_answer(), None);
         let mut bench = asked(&command);
-        bench.engine.receive(&bytes_of(42, 0x83, [0, 1, 0, 16, 1], &Body::Digest(0)), bench.now);
-        let fault = bench.engine.check().expect_err("it has taken nothing").to_string();
+        bench.protocol.receive(&bytes_of(42, 0x83, [0, 1, 0, 16, 1], &Body::Digest(0)), bench.now);
+        let fault = bench.protocol.check().expect_err("it has taken nothing").to_string();
         assert!(fault.contains("has taken 0"), "{fault}");
     }
     // A question that was taken in part was not taken.
     let mut bench = asked(&insert(3000));
-    bench.engine.receive(&bytes_of(42, 0x86, [1, 0, 0, 16, 1], &REPORT), bench.now);
-    let fault = bench.engine.check().expect_err("more is to come").to_string();
+    bench.protocol.receive(&bytes_of(42, 0x86, [1, 0, 0, 16, 1], &REPORT), bench.now);
+    let fault = bench.protocol.check().expect_err("more is to come").to_string();
     assert!(fault.contains("ends at byte 12008") && fault.contains("has taken 256"), "{fault}");
     let mut bench = asked(&insert(3));
-    bench.engine.receive(&bytes_of(42, 0x86, [1, 0, 0, 16, 1], &REPORT), bench.now);
-    assert_eq!(bench.engine.take_answer(), None, "what it has taken is not proved");
+    bench.protocol.receive(&bytes_of(42, 0x86, [1, 0, 0, 16, 1], &REPORT), bench.now);
+    assert_eq!(bench.protocol.take_answer(), None, "what it has taken is not proved");
     bench.prove(0);
-    assert_eq!(bench.engine.take_answer().map(|answer| answer.len()), Some(7));
+    assert_eq!(bench.protocol.take_answer().map(|answer| answer.len()), Some(7));
 }
 
 /// A device that counts answers for ever makes nothing grow, whether it takes what is asked or not.
@@ -390,10 +390,10 @@ fn answers_that_are_counted_and_never_come() {
             }
             let expected = if takes { bench.frames as u8 } else { 0 };
             let frame = bytes_of(42, 0x82, [expected, bench.answers, 0, 16, 1], &Body::Raw(vec![]));
-            bench.engine.receive(&frame, bench.now);
+            bench.protocol.receive(&frame, bench.now);
             assert!(heap::held() <= bound, "{} bytes held, {bound} allowed", heap::held());
         }
-        assert_eq!(bench.engine.check().is_ok(), takes);
+        assert_eq!(bench.protocol.check().is_ok(), takes);
     }
 }
 
@@ -403,10 +403,10 @@ fn no_answer_is_longer_than_its_command_may_bring() {
         let mut bench = asked(&Command::Hello);
         let length = words as u32 - 2;
         let part = Body::Part { number: 0, index: 0, header: 1 << 24, length, words, is_sound: true };
-        bench.engine.receive(&bytes_of(42, 0x86, [1, 0, 0, 16, 1], &part), bench.now);
+        bench.protocol.receive(&bytes_of(42, 0x86, [1, 0, 0, 16, 1], &part), bench.now);
         bench.prove(0);
-        match bench.engine.check() {
-            Ok(()) => assert!(is_longest && bench.engine.take_answer().is_some_and(|answer| answer.len() == words)),
+        match bench.protocol.check() {
+            Ok(()) => assert!(is_longest && bench.protocol.take_answer().is_some_and(|answer| answer.len() == words)),
             Err(fault) => assert!(!is_longest && fault.to_string().contains("more than the 130 words"), "{fault}"),
         }
     }
@@ -416,8 +416,8 @@ fn no_answer_is_longer_than_its_command_may_bring() {
 #[test]
 fn what_is_due_waits_for_the_line() {
     let mut bench = Bench::new(vec![]);
-    bench.engine.ask(insert(3000).borrowed(), bench.now).expect("a command");
+    bench.protocol.ask(insert(3000).borrowed(), bench.now).expect("a command");
     bench.open_with(5, 20);
     bench.wait(bench.now + Duration::from_millis(300));
-    assert!(bench.frames > 0 && bench.engine.statistics().polls > 0);
+    assert!(bench.frames > 0 && bench.protocol.statistics().polls > 0);
 }

@@ -1,4 +1,4 @@
-//! The serial link's engine against a board in virtual time: sound lines, faults of every kind at every place, and what ends a job.
+//! The serial link's protocol against a board in virtual time: sound lines, faults of every kind at every place, and what ends a job.
 
 use std::time::Duration;
 
@@ -58,7 +58,7 @@ fn a_sound_line_carries_a_job_at_the_rate_that_was_asked_for() {
     let mut rig = rig();
     let answer = rig.ask(&HELLO).expect("a sound line");
     assert_eq!(answer[..3], [1 << 24, 7, 0x696e_4369]);
-    assert_eq!(rig.engine.rate(), 12_000_000);
+    assert_eq!(rig.protocol.rate(), 12_000_000);
     assert!(rig.board.rate.abs_diff(12_000_000) < 10, "{}", rig.board.rate);
     let points = points(2000);
     let solution = triangulate(rig, &points).expect("a sound line");
@@ -77,7 +77,7 @@ fn nothing_is_sent_twice_on_a_sound_line() {
         let answer = rig.ask(&read(records)).expect("a sound line");
         assert_eq!(answer.len(), 2 + 3 * records as usize);
         assert_eq!(rig.board.overflows, 0);
-        let statistics = rig.engine.statistics();
+        let statistics = rig.protocol.statistics();
         assert_eq!(
             (statistics.frames_resent, statistics.answers_repeated, statistics.frames_broken),
             (0, 0, 0),
@@ -194,13 +194,13 @@ fn a_rate_that_does_not_work_is_left_for_a_lower_one() {
         let mut rig = rig();
         rig.board.usable = usable;
         rig.ask(&HELLO).unwrap_or_else(|error| panic!("{usable}: {error}"));
-        assert_eq!(rig.engine.rate(), found);
+        assert_eq!(rig.protocol.rate(), found);
     }
     // The device's own limit is known before.
     let mut rig = rig();
     rig.board.greeting[4] = 2_000_000;
     rig.ask(&HELLO).expect("a sound line");
-    assert_eq!(rig.engine.rate(), 1_000_000);
+    assert_eq!(rig.protocol.rate(), 1_000_000);
     assert!(rig.now < Duration::from_secs(6));
 }
 
@@ -270,9 +270,9 @@ fn no_answer_is_believed_before_the_digest() {
     let acknowledgement = rig.frames[1];
     rig.faults =
         Box::new(move |to_host, frame| if to_host && frame == acknowledgement { Fate::Lost } else { Fate::Passes });
-    let polls = rig.engine.statistics().polls;
+    let polls = rig.protocol.statistics().polls;
     rig.ask(&HELLO).expect("one frame is lost");
-    assert_eq!(rig.engine.statistics().polls, polls + 1);
+    assert_eq!(rig.protocol.statistics().polls, polls + 1);
 }
 
 #[test]
@@ -299,7 +299,7 @@ fn a_host_that_was_killed_leaves_a_device_that_the_next_one_finds() {
     let mut rig = rig();
     rig.ask(&HELLO).expect("a sound line");
     let killed =
-        std::mem::replace(&mut rig.engine, incircle::transports::parts::SerialProtocol::new(Params::default()));
+        std::mem::replace(&mut rig.protocol, incircle::transports::parts::SerialProtocol::new(Params::default()));
     assert_eq!(killed.rate(), 12_000_000);
     let since = rig.now;
     rig.ask(&HELLO).expect("after the silence");
@@ -312,11 +312,11 @@ fn closing_brings_the_device_back_at_once() {
     let mut rig = rig();
     rig.ask(&HELLO).expect("a sound line");
     let since = rig.now;
-    rig.engine.close(rig.now);
+    rig.protocol.close(rig.now);
     let until = rig.now + Duration::from_secs(1);
-    assert!(rig.run(until, |engine| engine.is_closed()));
+    assert!(rig.run(until, |protocol| protocol.is_closed()));
     assert!(rig.now - since < Duration::from_millis(10));
-    assert_eq!((rig.board.rate, rig.board.session, rig.engine.rate()), (115_200, 0, 115_200));
+    assert_eq!((rig.board.rate, rig.board.session, rig.protocol.rate()), (115_200, 0, 115_200));
     // And it is opened again when asked.
     rig.ask(&HELLO).expect("a sound line");
 }

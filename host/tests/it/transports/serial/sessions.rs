@@ -1,4 +1,4 @@
-//! Sessions of the serial link's engine, one after the other, in virtual time: what is late of one, what is left of one, and rates that do not work.
+//! Sessions of the serial link's protocol, one after the other, in virtual time: what is late of one, what is left of one, and rates that do not work.
 
 use std::time::Duration;
 
@@ -26,8 +26,8 @@ fn a_late_frame_of_a_session_is_nothing_to_the_next() {
     let mut rig = slow_rig(7);
     rig.ask(&HELLO).expect("a sound line");
     // The host says `Poll`, and sleeps while the `Ack` is on its way.
-    let polls = rig.engine.statistics().polls;
-    assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.statistics().polls > polls));
+    let polls = rig.protocol.statistics().polls;
+    assert!(rig.run(rig.now + Duration::from_secs(1), |protocol| protocol.statistics().polls > polls));
     rig.run(rig.now + Duration::from_micros(2500), |_| false);
     assert_eq!(rig.under_way(true), 1);
     // So long that the session is opened anew for a command that needs nothing of it.
@@ -39,8 +39,8 @@ fn a_late_frame_of_a_session_is_nothing_to_the_next() {
 #[test]
 fn a_frame_without_a_session_is_nothing_to_a_greeting() {
     let mut rig = slow_rig(0);
-    rig.engine.ask(HELLO, rig.now).expect("a command");
-    rig.engine.receive(&board::frame(&NO_SESSION), rig.now);
+    rig.protocol.ask(HELLO, rig.now).expect("a command");
+    rig.protocol.receive(&board::frame(&NO_SESSION), rig.now);
     rig.finish().expect("a sound line");
 }
 
@@ -53,8 +53,8 @@ fn every_session_has_another_number() {
             rig.ask(&HELLO).expect("a sound line");
             assert_eq!(rig.board.session, last.checked_add(1).unwrap_or(1), "after {before}");
             last = rig.board.session;
-            rig.engine.close(rig.now);
-            assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.is_closed()));
+            rig.protocol.close(rig.now);
+            assert!(rig.run(rig.now + Duration::from_secs(1), |protocol| protocol.is_closed()));
         }
     }
 }
@@ -68,19 +68,19 @@ fn a_rate_that_does_not_work_is_left_also_where_silence_is_short() {
     rig.faults = Box::new(|to_host, frame| if to_host && frame == 2 { Fate::Lost } else { Fate::Passes });
     let since = rig.now;
     rig.ask(&HELLO).expect("the first rate works");
-    assert_eq!(rig.engine.rate(), FIRST_RATE);
+    assert_eq!(rig.protocol.rate(), FIRST_RATE);
     assert!(rig.now - since < Duration::from_secs(5), "{:?}", rig.now - since);
 }
 
 #[test]
 fn a_device_without_a_session_is_greeted_at_the_first_rate() {
     let mut rig = rig();
-    rig.engine.ask(HELLO, rig.now).expect("a command");
-    assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.rate() != FIRST_RATE));
-    rig.engine.receive(&board::frame(&NO_SESSION), rig.now);
-    assert_eq!(rig.engine.rate(), FIRST_RATE);
+    rig.protocol.ask(HELLO, rig.now).expect("a command");
+    assert!(rig.run(rig.now + Duration::from_secs(1), |protocol| protocol.rate() != FIRST_RATE));
+    rig.protocol.receive(&board::frame(&NO_SESSION), rig.now);
+    assert_eq!(rig.protocol.rate(), FIRST_RATE);
     rig.finish().expect("after the silence");
-    assert_eq!(rig.engine.rate(), 3_000_000);
+    assert_eq!(rig.protocol.rate(), 3_000_000);
 }
 
 #[test]
@@ -88,9 +88,9 @@ fn a_device_with_the_longest_silence_is_found_at_any_rate() {
     let mut rig = rig();
     rig.board.greeting[5] = MAX_SILENCE_MS;
     rig.ask(&HELLO).expect("a sound line");
-    rig.engine = SerialProtocol::new(Params { session: 77, ..Params::with_rate(3_000_000) });
+    rig.protocol = SerialProtocol::new(Params { session: 77, ..Params::with_rate(3_000_000) });
     rig.ask(&HELLO).expect("after the silence");
-    assert_eq!(rig.engine.rate(), 3_000_000);
+    assert_eq!(rig.protocol.rate(), 3_000_000);
 }
 
 /// The longest way to a session: a device at a high rate, then no rate that works and no acknowledgement that comes.
@@ -98,7 +98,7 @@ fn a_device_with_the_longest_silence_is_found_at_any_rate() {
 fn the_ladder_of_rates_is_done_in_the_time_for_a_greeting() {
     let mut rig = rig();
     rig.ask(&HELLO).expect("a sound line");
-    rig.engine = SerialProtocol::new(Params { session: 77, ..Params::with_rate(12_000_000) });
+    rig.protocol = SerialProtocol::new(Params { session: 77, ..Params::with_rate(12_000_000) });
     rig.board.usable = 200_000;
     // `Hello`, `Opened`, `Ack`, three times.
     let first = rig.frames[1];
@@ -119,24 +119,24 @@ fn the_ladder_of_rates_is_done_in_the_time_for_a_greeting() {
 #[test]
 fn a_command_may_follow_a_greeting_at_once() {
     let mut rig = rig();
-    rig.engine.greet(rig.now);
+    rig.protocol.greet(rig.now);
     rig.ask(&HELLO).expect("a sound line");
     rig.ask(&HELLO).expect("a sound line");
     let mut rig = self::rig();
-    rig.engine.greet(rig.now);
-    rig.engine.open(rig.now);
-    assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.is_open()));
+    rig.protocol.greet(rig.now);
+    rig.protocol.open(rig.now);
+    assert!(rig.run(rig.now + Duration::from_secs(1), |protocol| protocol.is_open()));
 }
 
 #[test]
 fn closing_gives_up_the_command_under_way() {
     for microseconds in [0, 300, 3_000, 20_000, 100_000] {
         let mut rig = rig();
-        rig.engine.ask(HELLO, rig.now).expect("a command");
+        rig.protocol.ask(HELLO, rig.now).expect("a command");
         rig.run(rig.now + Duration::from_micros(microseconds), |_| false);
-        rig.engine.close(rig.now);
-        assert!(rig.run(rig.now + Duration::from_secs(1), |engine| engine.is_closed()));
-        assert_eq!(rig.engine.take_answer(), None, "{microseconds}");
+        rig.protocol.close(rig.now);
+        assert!(rig.run(rig.now + Duration::from_secs(1), |protocol| protocol.is_closed()));
+        assert_eq!(rig.protocol.take_answer(), None, "{microseconds}");
         rig.ask(&HELLO).unwrap_or_else(|error| panic!("{microseconds}: {error}"));
     }
 }
