@@ -433,20 +433,25 @@ impl Visits {
 fn visits(name: &str, config: Config) {
     assert_eq!(VisitPipeline::STAGES, STAGES);
     let visits = RefCell::new(Visits::new(config));
-    // Before its reset a block that starts with anything may have taken a lock: all are cleared.
-    let clears = (0..=2 * u128::from(config.points)).map(|clock| {
+    // Before its reset a block that starts with anything may have taken a lock: all are cleared, and nothing is compared until then, nor
+    // in the two clocks in which a vertex comes that nobody wrote.
+    let clears = 2 * config.points as usize;
+    let clearing = (0..=clears + STAGES).map(|clock| {
         let mut inputs = vec![0; INPUTS.len()];
-        (inputs[0], inputs[15], inputs[16]) = (u128::from(clock == 0), clock.saturating_sub(1), u128::from(clock > 0));
+        let is_lock = (1..=clears).contains(&clock);
+        (inputs[0], inputs[15], inputs[16]) = (u128::from(clock == 0), clock.saturating_sub(1) as u128, is_lock.into());
         inputs
     });
-    let stimuli = clears.chain((0..ROUND * ROUNDS).map(|cycle| visits.borrow_mut().stimulus(cycle)));
-    let mut is_reset = false;
+    let stimuli = clearing.chain((0..ROUND * ROUNDS).map(|cycle| visits.borrow_mut().stimulus(cycle)));
+    let mut clocks = 0;
     Stepper::new(name, VisitPipeline::new(config), 1).run(&INPUTS, &OUTPUTS, stimuli, |values| {
         let shown = visits.borrow_mut().cycle(values);
-        // Registers start with anything.
-        let shown = if is_reset { shown } else { vec![None; OUTPUTS.len()] };
-        is_reset = true;
-        shown
+        clocks += 1;
+        if clocks > clears + STAGES + 3 {
+            shown
+        } else {
+            vec![None; OUTPUTS.len()]
+        }
     });
     let seen = visits.into_inner().seen;
     assert!(seen.counts().iter().all(|count| *count > ROUNDS), "{seen:?}");
