@@ -30,13 +30,19 @@ fn fifo_stimuli(data_bits: usize, places: u32) -> Vec<Vec<u64>> {
 /// Runs a buffer against a queue; the stimuli must fill it to its last place and empty it again.
 pub fn queue<U: NamedPorts>(name: &str, rust: U, places: usize, stored_bits: usize, stimuli: Vec<Vec<u64>>) {
     let mut entries = VecDeque::new();
+    let mut is_reset = false;
     let mut times_full = 0;
     let mut times_empty = 0;
     Stepper::new(name, rust, 1).run(&["reset", "push", "push_data", "pop"], &["valid", "data"], stimuli, |values| {
         if values[1] == 1 {
             entries.push_back(u128::from(values[2]) & ((1 << stored_bits) - 1));
         }
-        let shown = vec![Some(u128::from(!entries.is_empty())), entries.front().copied()];
+        // Registers start with anything: what the buffer shows before its first reset is open.
+        let shown = match is_reset {
+            true => vec![Some(u128::from(!entries.is_empty())), entries.front().copied()],
+            false => vec![None, None],
+        };
+        is_reset |= values[0] == 1;
         if values[3] == 1 {
             entries.pop_front();
         }
