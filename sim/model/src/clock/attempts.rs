@@ -120,6 +120,7 @@ impl Outcome {
             self.sleeps = true;
             return self;
         }
+        // L7: the record was not written yet, or was being written.
         if done.again {
             return self.again(done);
         }
@@ -142,6 +143,7 @@ impl Outcome {
         let u = done.token.u;
         let trusts = around.defect == Some(Defect::TrustsTheWalk);
         let (located, on_corner) = (done.located || trusts, done.falls_onto_corner && !trusts);
+        // L1, L2: the root belongs to another context.
         if done.foreign {
             if around.waits(self.context) {
                 self.waits = true;
@@ -197,6 +199,7 @@ impl Outcome {
         } else {
             self.split(done, &mut state);
         }
+        // L1: the locks are released when the attempt's visits have run out.
         let ends = match around.defect {
             Some(Defect::ReleasesBeforeDrained) => state.outstanding == 0 && !around.attempt.drains || self.aborts,
             _ => state.outstanding == 0,

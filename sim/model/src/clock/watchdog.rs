@@ -1,4 +1,4 @@
-//! Counts down what is left to do, and notices that nothing is finished any more.
+//! `Watchdog` notices that no point is finished any more; `Progress` counts down the points that are left.
 
 use super::wires::{Registers, Wires};
 use incircle_protocol::{patience, Config};
