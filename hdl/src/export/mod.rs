@@ -100,10 +100,12 @@ pub fn verilog<U: Block>(uut: &U, name: &str) -> Result<String, ExportError> {
 /// # Errors
 /// If a parameter is out of range, or the design is not fit for export.
 pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
-    let mut uut = Core::new(config)?;
-    uut.connect_all();
-    let inside = format!("{CORE_NAME}_logic");
-    Ok(format!("{}{}", verilog(&uut, &inside)?, wrapper(&inside, with_probe)))
+    on_large_stack(|| {
+        let mut uut = Core::new(config)?;
+        uut.connect_all();
+        let inside = format!("{CORE_NAME}_logic");
+        Ok(format!("{}{}", verilog(&uut, &inside)?, wrapper(&inside, with_probe)))
+    })
 }
 
 /// The whole Verilog of a core behind a serial link: the device and the ANSI wrapper

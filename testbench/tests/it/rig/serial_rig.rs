@@ -45,14 +45,15 @@ impl Pins for Stepper<SerialLink> {
 /// The Verilog alone: fast.
 pub struct Verilog {
     model: Model,
-    ports: BTreeMap<&'static str, PortId>,
+    /// By their names in the exported device: a signal of a channel is `command_valid`, not `command$valid`.
+    ports: BTreeMap<String, PortId>,
 }
 
 impl Verilog {
     pub fn new(seed: u32) -> Self {
         let model = blocks::randomized("serial_link", seed);
         let ports = model.description().ports();
-        let ports = ports.map(|port| (port.name, model.port(port.name).expect("a port it lists"))).collect();
+        let ports = ports.map(|port| (port.name.replace('$', "_"), model.port(port.name).expect("a port it lists"))).collect();
         Self { model, ports }
     }
 }
