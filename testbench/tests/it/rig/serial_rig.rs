@@ -53,7 +53,8 @@ impl Verilog {
     pub fn new(seed: u32) -> Self {
         let model = blocks::randomized("serial_link", seed);
         let ports = model.description().ports();
-        let ports = ports.map(|port| (port.name.replace('$', "_"), model.port(port.name).expect("a port it lists"))).collect();
+        let ports =
+            ports.map(|port| (port.name.replace('$', "_"), model.port(port.name).expect("a port it lists"))).collect();
         Self { model, ports }
     }
 }
