@@ -42,6 +42,9 @@ impl Pins for Stepper<SerialLink> {
     }
 }
 
+/// Fields of the bundle `lamps`, the first in its lowest bit.
+const LAMPS: [&str; 3] = ["alive", "busy", "error"];
+
 /// The Verilog alone: fast.
 pub struct Verilog {
     model: Model,
@@ -67,7 +70,10 @@ impl Pins for Verilog {
         self.model.eval();
     }
     fn get(&self, port: &'static str) -> u32 {
-        self.model.get(self.ports[port]) as u32
+        match LAMPS.iter().position(|lamp| *lamp == port) {
+            Some(bit) => (self.model.get(self.ports["lamps"]) >> bit) as u32 & 1,
+            None => self.model.get(self.ports[port]) as u32,
+        }
     }
     fn edge(&mut self) {
         self.model.clock();
