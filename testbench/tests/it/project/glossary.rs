@@ -1,0 +1,101 @@
+//! The glossary is kept: each term's file exists, and no retired word stands where it is refused.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn glossary() -> String {
+    std::fs::read_to_string(root().join("docs/glossary.md")).expect("the glossary is there")
+}
+
+/// The cells of all rows of three columns below `heading`, without the table's head.
+fn rows<'a>(page: &'a str, heading: &str) -> Vec<[&'a str; 3]> {
+    let (_, section) = page.split_once(&format!("## {heading}\n")).unwrap_or_else(|| panic!("no section {heading}"));
+    let section = section.split("\n## ").next().unwrap_or_default();
+    let rows = section.lines().filter(|line| line.starts_with('|') && !line.starts_with("|---")).skip(1);
+    rows.map(|row| {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+        <[&str; 3]>::try_from(cells).unwrap_or_else(|cells| panic!("not three columns: {cells:?}"))
+    })
+    .collect()
+}
+
+/// `text` as words of small letters with one blank between them; an underscore separates words, and so does a line's end with
+/// the marks of a comment.
+fn words(text: &str) -> String {
+    let mut words = String::from(" ");
+    for word in text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()) {
+        words.push_str(&word.to_lowercase());
+        words.push(' ');
+    }
+    words
+}
+
+/// The text files that git tracks, but for this test, the glossary, and what is generated or recorded.
+fn sources() -> Vec<(String, String)> {
+    let output = Command::new("git").arg("-C").arg(root()).args(["ls-files", "-z"]).output().expect("git runs");
+    assert!(output.status.success(), "git ls-files: {}", String::from_utf8_lossy(&output.stderr));
+    let list = String::from_utf8(output.stdout).expect("names in UTF-8");
+    list.split('\0')
+        .filter(|name| [".rs", ".md", ".toml", "check"].iter().any(|end| name.ends_with(end)))
+        .filter(|name| *name != "docs/glossary.md" && !name.ends_with("project/glossary.rs"))
+        .filter_map(|name| Some((name.to_owned(), std::fs::read_to_string(root().join(name)).ok()?)))
+        .collect()
+}
+
+/// The folders or files in backquotes, or the root for `everywhere`.
+fn places(cell: &str) -> Vec<&str> {
+    if cell == "everywhere" { vec![""] } else { cell.split('`').skip(1).step_by(2).collect() }
+}
+
+#[test]
+fn no_retired_word_is_used() {
+    let page = glossary();
+    let retired = rows(&page, "Retired words");
+    assert!(retired.len() >= 8, "{} rows of retired words", retired.len());
+    let sources: Vec<_> = sources().into_iter().map(|(name, text)| (name, words(&text))).collect();
+    assert!(sources.len() > 500, "{} sources", sources.len());
+    let mut found = Vec::new();
+    for [refused, cell, instead] in retired {
+        for place in places(cell) {
+            assert!(place.is_empty() || root().join(place).exists(), "the glossary names {place}, which does not exist");
+            for word in refused.split(", ") {
+                let looked_for = words(word);
+                let uses = sources.iter().filter(|(name, _)| name.starts_with(place));
+                let uses = uses.filter(|(_, text)| text.contains(&looked_for));
+                found.extend(uses.map(|(name, _)| format!("{name}: '{word}', say '{instead}'")));
+            }
+        }
+    }
+    found.sort();
+    found.dedup();
+    assert!(found.is_empty(), "retired words:\n{}", found.join("\n"));
+}
+
+#[test]
+fn a_retired_word_is_found_in_names_and_across_lines() {
+    assert!(words("self.takes_Token.next").contains(&words("token")));
+    assert!(words("/// It gives\n/// up.").contains(&words("gives up")));
+    assert!(!words("tokenize").contains(&words("token")));
+}
+
+#[test]
+fn the_file_of_each_term_exists() {
+    let page = glossary();
+    let mut terms = Vec::new();
+    for heading in ["The triangulation", "One insertion", "Many insertions", "Jobs"] {
+        for [term, meaning, place] in rows(&page, heading) {
+            assert!(meaning.ends_with('.'), "{term}: its meaning is no sentence");
+            assert!(!terms.contains(&term), "{term} is explained twice");
+            terms.push(term);
+            // Links are held by the test of all documents.
+            if let Some(path) = place.strip_prefix('`').and_then(|rest| rest.strip_suffix('`')) {
+                assert!(root().join(path).exists(), "{term}: {path} does not exist");
+            }
+        }
+    }
+    assert!(terms.len() >= 40, "{} terms", terms.len());
+}
