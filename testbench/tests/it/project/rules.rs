@@ -100,6 +100,16 @@ fn the_rooms_of_the_engine_name_each_rule_and_no_other() {
 }
 
 #[test]
+fn a_room_of_the_engine_names_the_rules_that_its_kernels_carry_out() {
+    let folders = std::fs::read_dir(at("hdl/src/engine")).expect("the folder of the engine");
+    for room in folders.map(|entry| entry.unwrap().path()).filter(|path| path.is_dir()) {
+        let named = cited(&[room.join("mod.rs")], |line| line.starts_with("//!"));
+        let carried_out = cited(&sources(&room), |line| line.starts_with("// "));
+        assert!(carried_out.is_subset(&named), "{}: {carried_out:?} carried out, {named:?} named", room.display());
+    }
+}
+
+#[test]
 fn the_model_cites_each_rule_and_no_other() {
     let mut files = sources(&at("sim/model/src/clock"));
     files.retain(|path| !path.ends_with("defect.rs"));
