@@ -26,6 +26,7 @@
 extern crate alloc;
 
 pub mod cpu;
+pub mod double;
 mod edges;
 mod mesh;
 pub mod order;

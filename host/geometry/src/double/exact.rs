@@ -1,0 +1,160 @@
+//! The last stage of the predicates: doubles as whole multiples of one power of two, and integers that hold all that is
+//! made of them.
+//!
+//! A double is `m * 2^e` with an integer `m` of 53 bits. The smallest `e` of the points at hand makes all coordinates whole.
+//! Where these have at most 61 bits, which is so unless the exponents of neighbours differ much, differences have 62
+//! bits, cross and dot products fit 126 bits, and the determinant of incircle is compared as two products of 256
+//! bits. All others take [`Big`] integers: at most 2098 bits for a coordinate, and thousands of times as long.
+
+use core::cmp::Ordering;
+
+use super::big::Big;
+
+/// Most bits of a coordinate for which the products are worked out in machine integers.
+const NARROW_BITS: i32 = 61;
+/// Bits of the mantissa of a double behind the leading one.
+const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
+
+/// A finite double as an odd integer times a power of two; zero as `0 * 2^i32::MAX`.
+fn parts(value: f64) -> (i64, i32) {
+    let bits = value.to_bits();
+    let fraction = (bits & ((1 << FRACTION_BITS) - 1)) as i64;
+    let biased = (bits >> FRACTION_BITS & 0x7ff) as i32;
+    // Denormals have no leading one and the exponent of the smallest normal double.
+    let (mantissa, exponent) = if biased == 0 { (fraction, 1) } else { (fraction | 1 << FRACTION_BITS, biased) };
+    if mantissa == 0 {
+        return (0, i32::MAX);
+    }
+    let zeros = mantissa.trailing_zeros();
+    let odd = mantissa >> zeros;
+    // 1075 = 1023, the bias, and 52 bits of fraction.
+    (if value < 0.0 { -odd } else { odd }, exponent - 1075 + zeros as i32)
+}
+
+/// Coordinates of some points as whole multiples of one power of two.
+enum Whole<const N: usize> {
+    Narrow([[i64; 2]; N]),
+    Wide([[Big; 2]; N]),
+}
+
+fn whole<const N: usize>(points: [[f64; 2]; N]) -> Whole<N> {
+    let parts = points.map(|point| point.map(parts));
+    let all = parts.iter().flatten();
+    let least = all.clone().map(|&(_, exponent)| exponent).min().unwrap_or(0);
+    let bits = |&(odd, exponent): &(i64, i32)| match odd {
+        0 => 0,
+        odd => (u64::BITS - odd.unsigned_abs().leading_zeros()) as i32 + exponent - least,
+    };
+    let shift = |exponent: i32| if exponent == i32::MAX { 0 } else { (exponent - least) as u32 };
+    if all.map(bits).max().unwrap_or(0) <= NARROW_BITS {
+        Whole::Narrow(parts.map(|point| point.map(|(odd, exponent)| odd << shift(exponent))))
+    } else {
+        Whole::Wide(parts.map(|point| point.map(|(odd, exponent)| Big::shifted(odd, shift(exponent)))))
+    }
+}
+
+/// `orient2d(a, b, c)` compared with zero, of finite coordinates.
+#[cold]
+pub(super) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
+    match whole([a, b, c]) {
+        Whole::Narrow([a, b, c]) => View::of(a, b, c).cross.cmp(&0),
+        Whole::Wide([a, b, c]) => WideView::of(&a, &b, &c).cross.sign(),
+    }
+}
+
+/// `incircle(a, b, c, d)` compared with zero, of finite coordinates.
+#[cold]
+pub(super) fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Ordering {
+    match whole([a, b, c, d]) {
+        Whole::Narrow([a, b, c, d]) => {
+            let (c, d) = (View::of(a, b, c), View::of(a, b, d));
+            product(c.dot, d.cross).cmp(&product(d.dot, c.cross))
+        }
+        Whole::Wide([a, b, c, d]) => {
+            let (c, d) = (WideView::of(&a, &b, &c), WideView::of(&a, &b, &d));
+            c.dot.times(&d.cross).minus(&d.dot.times(&c.cross)).sign()
+        }
+    }
+}
+
+/// Cross and dot product of the vectors from a point to `a` and `b`; see `cpu/view.rs`.
+struct View {
+    cross: i128,
+    dot: i128,
+}
+
+impl View {
+    fn of(a: [i64; 2], b: [i64; 2], p: [i64; 2]) -> Self {
+        // Differences of 61 bits have 62 bits, their products 124.
+        let vector = |to: [i64; 2]| [i128::from(to[0] - p[0]), i128::from(to[1] - p[1])];
+        let ([ax, ay], [bx, by]) = (vector(a), vector(b));
+        Self { cross: ax * by - ay * bx, dot: ax * bx + ay * by }
+    }
+}
+
+/// A [`View`] in integers of any size.
+struct WideView {
+    cross: Big,
+    dot: Big,
+}
+
+impl WideView {
+    fn of(a: &[Big; 2], b: &[Big; 2], p: &[Big; 2]) -> Self {
+        let vector = |to: &[Big; 2]| [to[0].minus(&p[0]), to[1].minus(&p[1])];
+        let ([ax, ay], [bx, by]) = (vector(a), vector(b));
+        Self { cross: ax.times(&by).minus(&ay.times(&bx)), dot: ax.times(&bx).plus(&ay.times(&by)) }
+    }
+}
+
+/// The product as a number of 256 bits in two's complement, the upper half first, so that the order is that of numbers.
+fn product(one: i128, other: i128) -> (i128, u128) {
+    const LOW: u128 = u64::MAX as u128;
+    let (a, b) = (one.unsigned_abs(), other.unsigned_abs());
+    let (a1, a0, b1, b0) = (a >> 64, a & LOW, b >> 64, b & LOW);
+    let (middle, carry) = (a1 * b0).overflowing_add(a0 * b1);
+    let (low, carry_of_low) = (a0 * b0).overflowing_add(middle << 64);
+    let high = a1 * b1 + (middle >> 64) + (u128::from(carry) << 64) + u128::from(carry_of_low);
+    if (one < 0) == (other < 0) {
+        return (high as i128, low);
+    }
+    ((!high).wrapping_add(u128::from(low == 0)) as i128, low.wrapping_neg())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_double_is_its_parts() {
+        for value in
+            [0.0, 1.0, -1.0, 0.1, -3.0e300, f64::MAX, f64::MIN_POSITIVE, 5e-324, -2.5e-310, 4_503_599_627_370_497.0]
+        {
+            let (odd, exponent) = parts(value);
+            if value == 0.0 {
+                assert_eq!((odd, exponent), (0, i32::MAX));
+                continue;
+            }
+            assert!(odd % 2 != 0, "{value}");
+            // In two steps, because 2^exponent may be smaller than all doubles.
+            let half = exponent / 2;
+            assert_eq!(odd as f64 * 2f64.powi(half) * 2f64.powi(exponent - half), value);
+        }
+        assert_eq!(parts(-0.0), (0, i32::MAX));
+    }
+
+    proptest! {
+        #[test]
+        fn products_of_256_bits_are_ordered_like_those_of_any_size(
+            a in any::<i64>(), b in any::<i64>(), c in any::<i64>(), d in any::<i64>(), shifts in prop::array::uniform4(0u32..62),
+        ) {
+            let [a, b, c, d] = [(a, shifts[0]), (b, shifts[1]), (c, shifts[2]), (d, shifts[3])]
+                .map(|(value, shift)| (value, shift, i128::from(value) << shift));
+            let big = |(value, shift, _): (i64, u32, i128)| Big::shifted(value, shift);
+            let expected = big(a).times(&big(b)).minus(&big(c).times(&big(d))).sign();
+            prop_assert_eq!(product(a.2, b.2).cmp(&product(c.2, d.2)), expected);
+            prop_assert_eq!(product(a.2, b.2).cmp(&product(b.2, a.2)), Ordering::Equal);
+            prop_assert_eq!(product(a.2, b.2).cmp(&(0, 0)), big(a).times(&big(b)).sign());
+        }
+    }
+}
