@@ -6,8 +6,9 @@ use super::hilbert::{along_curve, Hilbert};
 use crate::point::{Duplicate, Point};
 use crate::sort::Entry;
 
-/// The distinct points along the Hilbert curve, each under its lowest index, and the duplicates by index. O(n), 16
-/// bytes per point while it runs (32 where a coordinate has more than 16 bits).
+/// The distinct points along the Hilbert curve, each under its lowest index, and the duplicates sorted by index.
+///
+/// O(n), with 16 bytes a point while it runs, or 32 where a coordinate has more than 16 bits.
 pub fn distinct(points: &[Point]) -> (Hilbert, Vec<Duplicate>) {
     let mut curve = along_curve(points);
     let mut duplicates = match &mut curve {
@@ -18,7 +19,7 @@ pub fn distinct(points: &[Point]) -> (Hilbert, Vec<Duplicate>) {
     (curve, duplicates)
 }
 
-/// Keeps the first entry of each key, which has the lowest index because the sort was stable.
+/// Keeps the first entry of each key, which has the lowest index because the sort was stable, and returns the others.
 fn remove_duplicates<E: Entry>(entries: &mut Vec<E>) -> Vec<Duplicate> {
     let mut duplicates = Vec::new();
     entries.dedup_by(|later, kept| {
