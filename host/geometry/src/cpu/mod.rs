@@ -27,6 +27,9 @@ mod buckets;
 mod collect;
 mod conquer;
 mod edges;
+mod filtered;
+mod filtered_sites;
+mod kernel;
 mod merge;
 #[cfg(test)]
 mod oracle;
@@ -39,4 +42,6 @@ mod tests;
 mod triangulator;
 mod view;
 
-pub use triangulator::{threads_for, triangulate, Error, Progress, Stage, Watch};
+pub use triangulator::{
+    connect, connect_doubles, connect_integers, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch,
+};

@@ -15,7 +15,8 @@
 //! **Widths.** Let coordinates have `w` bits and `S = 2^w - 1`. `|cross|` is at most `S²`, `|dot|` at most `2 S²`: both
 //! fit 64 bits for `w` up to 31. The determinant is at most `S⁴ / 2` in magnitude, so it has `4 w` bits with its sign,
 //! and **for `w` up to 16 64-bit arithmetic gives it exactly, however its two products overflow**, because their
-//! difference is right modulo 2^64.
+//! difference is right modulo 2^64. For the same reason 128 bits are enough for `w` up to 32, whose cross and dot
+//! products take 128 bits too.
 //!
 //! Why `S⁴ / 2`: the determinant is `Σ λ_v |v|²` over the four points, where `λ_v` does not depend on `v` and `Σ λ_v =
 //! 0`, `Σ λ_v v = 0`. Take a place of its maximum over the square with as many points in corners as possible. As a
@@ -29,66 +30,60 @@
 //!   both is 0, or one is `√½`, its largest value, and then at most `1/2`.
 //! - Three points are outside: a corner would lie inside their triangle, which cannot be.
 
+use core::cmp::Ordering;
+use core::marker::PhantomData;
+
 use bytemuck::Zeroable;
 
+use super::kernel::Kernel;
 use crate::point::Point;
 
 /// Determinants fit 64 bits if coordinates have up to this many bits.
 pub(super) const NARROW_BITS: u32 = 16;
+/// Cross and dot products fit 64 bits if coordinates have up to this many bits.
+pub(super) const WIDE_BITS: u32 = 31;
 
-/// A point of the grid with signed coordinates from 0 to 2^31 - 1.
+/// A point of the grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
 pub(super) struct Site {
-    pub(super) x: i32,
-    pub(super) y: i32,
-}
-
-impl Site {
-    /// The site with its axes swapped, which compares by y, then x.
-    #[inline(always)]
-    pub(super) fn swapped(self) -> Self {
-        Self { x: self.y, y: self.x }
-    }
+    pub(super) x: u32,
+    pub(super) y: u32,
 }
 
 impl From<Point> for Site {
-    /// Converts a point with coordinates below 2^31.
     fn from(point: Point) -> Self {
-        Self { x: point.x as i32, y: point.y as i32 }
+        Self { x: point.x, y: point.y }
     }
 }
 
 /// The edge from `a` to `b`, seen from a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
+pub(super) struct View<P> {
     /// `orient2d` of the edge and the point: positive if the point lies to the left of the edge, zero if on its line.
-    pub(super) cross: i64,
-    dot: i64,
+    pub(super) cross: P,
+    dot: P,
 }
 
-impl View {
-    /// The edge from `a` to `b`, seen from `p`.
-    #[inline(always)]
-    pub(super) fn of(a: Site, b: Site, p: Site) -> Self {
-        let minus = |one: i32, other: i32| i64::from(one) - i64::from(other);
-        let (ax, ay, bx, by) = (minus(a.x, p.x), minus(a.y, p.y), minus(b.x, p.x), minus(b.y, p.y));
-        Self { cross: ax * by - ay * bx, dot: ax * bx + ay * by }
-    }
-}
-
-/// Twice the signed area of a triangle: positive if the triangle is counter-clockwise.
-#[inline(always)]
-pub(super) fn orient2d(a: Site, b: Site, p: Site) -> i64 {
-    View::of(a, b, p).cross
-}
-
-/// The integers in which determinants are computed.
-pub(super) trait Width: Copy + Sync {
+/// The integers in which views and determinants are computed.
+pub(super) trait Width: Copy + Sync + 'static {
+    /// The integer that holds a cross or a dot product.
+    type Product: Copy + Ord + Default;
     /// The integer that holds the determinant.
     type Determinant: Ord + Default;
 
+    /// Views the edge from `a` to `b` from `p`.
+    fn view(a: Site, b: Site, p: Site) -> View<Self::Product>;
+
     /// Computes the determinant of the views from `c` and `q`, `dot(c) cross(q) - dot(q) cross(c)`.
-    fn determinant(c: View, q: View) -> Self::Determinant;
+    fn determinant(c: View<Self::Product>, q: View<Self::Product>) -> Self::Determinant;
+}
+
+/// The view in 64 bits, of coordinates of up to [`WIDE_BITS`] bits.
+#[inline(always)]
+fn view_in_64_bits(a: Site, b: Site, p: Site) -> View<i64> {
+    let minus = |one: u32, other: u32| i64::from(one) - i64::from(other);
+    let (ax, ay, bx, by) = (minus(a.x, p.x), minus(a.y, p.y), minus(b.x, p.x), minus(b.y, p.y));
+    View { cross: ax * by - ay * bx, dot: ax * bx + ay * by }
 }
 
 /// Arithmetic for coordinates of up to [`NARROW_BITS`] bits.
@@ -96,70 +91,117 @@ pub(super) trait Width: Copy + Sync {
 pub(super) struct Narrow;
 
 impl Width for Narrow {
+    type Product = i64;
     type Determinant = i64;
 
     #[inline(always)]
-    fn determinant(c: View, q: View) -> i64 {
+    fn view(a: Site, b: Site, p: Site) -> View<i64> {
+        view_in_64_bits(a, b, p)
+    }
+
+    #[inline(always)]
+    fn determinant(c: View<i64>, q: View<i64>) -> i64 {
         c.dot.wrapping_mul(q.cross).wrapping_sub(q.dot.wrapping_mul(c.cross))
     }
 }
 
-/// Arithmetic for coordinates of up to 31 bits.
+/// Arithmetic for coordinates of up to [`WIDE_BITS`] bits.
 #[derive(Clone, Copy)]
 pub(super) struct Wide;
 
 impl Width for Wide {
+    type Product = i64;
     type Determinant = i128;
 
     #[inline(always)]
-    fn determinant(c: View, q: View) -> i128 {
+    fn view(a: Site, b: Site, p: Site) -> View<i64> {
+        view_in_64_bits(a, b, p)
+    }
+
+    #[inline(always)]
+    fn determinant(c: View<i64>, q: View<i64>) -> i128 {
         i128::from(c.dot) * i128::from(q.cross) - i128::from(q.dot) * i128::from(c.cross)
     }
 }
 
+/// Arithmetic for coordinates of up to 32 bits.
+#[derive(Clone, Copy)]
+pub(super) struct Widest;
+
+impl Width for Widest {
+    type Product = i128;
+    type Determinant = i128;
+
+    #[inline(always)]
+    fn view(a: Site, b: Site, p: Site) -> View<i128> {
+        let minus = |one: u32, other: u32| i64::from(one) - i64::from(other);
+        let (ax, ay, bx, by) = (minus(a.x, p.x), minus(a.y, p.y), minus(b.x, p.x), minus(b.y, p.y));
+        let times = |one: i64, other: i64| i128::from(one) * i128::from(other);
+        View { cross: times(ax, by) - times(ay, bx), dot: times(ax, bx) + times(ay, by) }
+    }
+
+    #[inline(always)]
+    fn determinant(c: View<i128>, q: View<i128>) -> i128 {
+        c.dot.wrapping_mul(q.cross).wrapping_sub(q.dot.wrapping_mul(c.cross))
+    }
+}
+
+/// The kernel of grid points.
+#[derive(Clone, Copy)]
+pub(super) struct Integers<W>(PhantomData<W>);
+
 /// A point and the base edge seen from it.
 #[derive(Clone, Copy)]
-pub(super) struct Seen {
+pub(super) struct Seen<P> {
     pub(super) site: Site,
-    pub(super) view: View,
+    pub(super) view: View<P>,
 }
 
-impl Seen {
+impl<W: Width> Kernel for Integers<W> {
+    type Site = Site;
+    type Seen = Seen<W::Product>;
+    type Place = Site;
+
     #[inline(always)]
-    pub(super) fn new(a: Site, b: Site, site: Site) -> Self {
-        Self { site, view: View::of(a, b, site) }
+    fn swapped(site: Site) -> Site {
+        Site { x: site.y, y: site.x }
+    }
+
+    #[inline(always)]
+    fn orient2d(a: Site, b: Site, c: Site) -> Ordering {
+        W::view(a, b, c).cross.cmp(&W::Product::default())
+    }
+
+    #[inline(always)]
+    fn see(a: Site, b: Site, site: Site) -> Self::Seen {
+        Seen { site, view: W::view(a, b, site) }
+    }
+
+    #[inline(always)]
+    fn site(seen: Self::Seen) -> Site {
+        seen.site
+    }
+
+    #[inline(always)]
+    fn is_left(seen: Self::Seen) -> bool {
+        seen.view.cross > W::Product::default()
+    }
+
+    #[inline(always)]
+    fn incircle(_: Site, _: Site, c: Self::Seen, q: Self::Seen) -> Ordering {
+        W::determinant(c.view, q.view).cmp(&W::Determinant::default())
+    }
+
+    #[inline(always)]
+    fn level(one: Site, other: Site) -> u32 {
+        level(one.x ^ other.x, one.y ^ other.y)
     }
 }
 
-/// Whether `q` lies inside the circle through `a`, `b` and `c`. If `q` lies on the circle, the tie rule decides: the
-/// lexicographically smallest of the four points is lowered on the lifted paraboloid.
-///
-/// `c` must lie to the left of the edge from `a` to `b`. The answer is `false` for a `q` that does not lie to the left:
-/// the merge asks only where no such point can be inside the circle, and a tie with such a point is refused.
+/// The level in the quadtree of the cut between two cells whose coordinates differ in these bits: each bit of x, then of y, from the
+/// lowest on; odd for x.
 #[inline(always)]
-pub(super) fn incircle<W: Width>(a: Site, b: Site, c: Seen, q: Seen) -> bool {
-    let determinant = W::determinant(c.view, q.view);
-    let zero = W::Determinant::default();
-    if determinant == zero {
-        return tie_is_inside(a, b, c.site, q);
-    }
-    determinant > zero
-}
-
-/// Decides a tie: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`.
-#[inline(never)]
-fn tie_is_inside(a: Site, b: Site, c: Site, q: Seen) -> bool {
-    if q.view.cross <= 0 {
-        return false;
-    }
-    let smallest = a.min(b).min(c).min(q.site);
-    // Lowering a corner moves `q` inside iff the other three turn right around that corner. Lowering `q` always moves
-    // it inside, and lowering `c` never does, because `c` and `q` lie on one side of the edge.
-    if smallest == a {
-        orient2d(q.site, b, c) < 0
-    } else if smallest == b {
-        orient2d(q.site, c, a) < 0
-    } else {
-        smallest == q.site
-    }
+pub(super) fn level(x: u32, y: u32) -> u32 {
+    let bits = |difference: u32| u32::BITS - difference.leading_zeros();
+    (2 * bits(x) + 1).max(2 * bits(y))
 }

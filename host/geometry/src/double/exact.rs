@@ -9,36 +9,18 @@
 use core::cmp::Ordering;
 
 use super::big::Big;
+use super::coordinate::Coordinate;
 
 /// Most bits of a coordinate for which the products are worked out in machine integers.
 const NARROW_BITS: i32 = 61;
-/// Bits of the mantissa of a double behind the leading one.
-const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
-
-/// A finite double as an odd integer times a power of two; zero as `0 * 2^i32::MAX`.
-fn parts(value: f64) -> (i64, i32) {
-    let bits = value.to_bits();
-    let fraction = (bits & ((1 << FRACTION_BITS) - 1)) as i64;
-    let biased = (bits >> FRACTION_BITS & 0x7ff) as i32;
-    // Denormals have no leading one and the exponent of the smallest normal double.
-    let (mantissa, exponent) = if biased == 0 { (fraction, 1) } else { (fraction | 1 << FRACTION_BITS, biased) };
-    if mantissa == 0 {
-        return (0, i32::MAX);
-    }
-    let zeros = mantissa.trailing_zeros();
-    let odd = mantissa >> zeros;
-    // 1075 = 1023, the bias, and 52 bits of fraction.
-    (if value < 0.0 { -odd } else { odd }, exponent - 1075 + zeros as i32)
-}
-
 /// Coordinates of some points as whole multiples of one power of two.
 enum Whole<const N: usize> {
     Narrow([[i64; 2]; N]),
     Wide([[Big; 2]; N]),
 }
 
-fn whole<const N: usize>(points: [[f64; 2]; N]) -> Whole<N> {
-    let parts = points.map(|point| point.map(parts));
+fn whole<C: Coordinate, const N: usize>(points: [[C; 2]; N]) -> Whole<N> {
+    let parts = points.map(|point| point.map(C::parts));
     let all = parts.iter().flatten();
     let least = all.clone().map(|&(_, exponent)| exponent).min().unwrap_or(0);
     let bits = |&(odd, exponent): &(i64, i32)| match odd {
@@ -53,18 +35,18 @@ fn whole<const N: usize>(points: [[f64; 2]; N]) -> Whole<N> {
     }
 }
 
-/// `orient2d(a, b, c)` compared with zero, of finite coordinates.
+/// `orient2d(a, b, c)` compared with zero, of coordinates that are finite.
 #[cold]
-pub(super) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
+pub(super) fn orient2d<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2]) -> Ordering {
     match whole([a, b, c]) {
         Whole::Narrow([a, b, c]) => View::of(a, b, c).cross.cmp(&0),
         Whole::Wide([a, b, c]) => WideView::of(&a, &b, &c).cross.sign(),
     }
 }
 
-/// `incircle(a, b, c, d)` compared with zero, of finite coordinates.
+/// `incircle(a, b, c, d)` compared with zero, of coordinates that are finite.
 #[cold]
-pub(super) fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Ordering {
+pub(super) fn incircle<C: Coordinate>(a: [C; 2], b: [C; 2], c: [C; 2], d: [C; 2]) -> Ordering {
     match whole([a, b, c, d]) {
         Whole::Narrow([a, b, c, d]) => {
             let (c, d) = (View::of(a, b, c), View::of(a, b, d));
@@ -124,24 +106,6 @@ fn product(one: i128, other: i128) -> (i128, u128) {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-
-    #[test]
-    fn a_double_is_its_parts() {
-        for value in
-            [0.0, 1.0, -1.0, 0.1, -3.0e300, f64::MAX, f64::MIN_POSITIVE, 5e-324, -2.5e-310, 4_503_599_627_370_497.0]
-        {
-            let (odd, exponent) = parts(value);
-            if value == 0.0 {
-                assert_eq!((odd, exponent), (0, i32::MAX));
-                continue;
-            }
-            assert!(odd % 2 != 0, "{value}");
-            // In two steps, because 2^exponent may be smaller than all doubles.
-            let half = exponent / 2;
-            assert_eq!(odd as f64 * 2f64.powi(half) * 2f64.powi(exponent - half), value);
-        }
-        assert_eq!(parts(-0.0), (0, i32::MAX));
-    }
 
     proptest! {
         #[test]

@@ -14,9 +14,12 @@
 //! exact stage decides.
 
 mod big;
+mod coordinate;
 mod exact;
 
 use core::cmp::Ordering;
+
+pub(crate) use coordinate::Coordinate;
 
 /// The unit of rounding of a double.
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -41,8 +44,8 @@ pub(crate) struct View {
 impl View {
     /// The edge from `a` to `b`, seen from `p`.
     #[inline(always)]
-    pub(crate) fn of(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> Self {
-        let (ax, ay, bx, by) = (a[0] - p[0], a[1] - p[1], b[0] - p[0], b[1] - p[1]);
+    pub(crate) fn of<C: Coordinate>(a: [C; 2], b: [C; 2], p: [C; 2]) -> Self {
+        let (ax, ay, bx, by) = (a[0].minus(p[0]), a[1].minus(p[1]), b[0].minus(p[0]), b[1].minus(p[1]));
         let (axby, aybx, axbx, ayby) = (ax * by, ay * bx, ax * bx, ay * by);
         Self {
             cross: axby - aybx,
@@ -79,7 +82,7 @@ fn sign(value: f64) -> Ordering {
 
 /// The side of the edge from `a` to `b` on which `p` lies, given its view: `Greater` is left.
 #[inline(always)]
-pub(crate) fn side(view: View, a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> Ordering {
+pub(crate) fn side<C: Coordinate>(view: View, a: [C; 2], b: [C; 2], p: [C; 2]) -> Ordering {
     match view.side() {
         Some(side) => side,
         None => exact::orient2d(a, b, p),
@@ -88,10 +91,10 @@ pub(crate) fn side(view: View, a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> Orderin
 
 /// The sign of `incircle(a, b, c, d)`, given the views of the edge from `a` to `b` from `c` and from `d`.
 #[inline(always)]
-pub(crate) fn incircle_of_views(
-    [a, b]: [[f64; 2]; 2],
-    (c_view, c): (View, [f64; 2]),
-    (d_view, d): (View, [f64; 2]),
+pub(crate) fn incircle_of_views<C: Coordinate>(
+    [a, b]: [[C; 2]; 2],
+    (c_view, c): (View, [C; 2]),
+    (d_view, d): (View, [C; 2]),
 ) -> Ordering {
     let determinant = c_view.dot * d_view.cross - d_view.dot * c_view.cross;
     let size = c_view.dot_size * d_view.cross_size + d_view.dot_size * c_view.cross_size;
