@@ -42,6 +42,4 @@ mod tests;
 mod triangulator;
 mod view;
 
-pub use triangulator::{
-    connect, connect_doubles, connect_integers, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch,
-};
+pub use triangulator::{connect, threads_for, triangulate, Connectivity, Error, Progress, Stage, Watch};

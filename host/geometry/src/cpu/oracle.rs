@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 
 use incircle_testkit::{delaunay, delaunay_of_doubles, hull_of_doubles, SplitMix64};
 
-use super::triangulator::{connect_doubles, connect_integers, threads_for, triangulate, Connectivity};
+use super::triangulator::{connect, threads_for, triangulate, Connectivity};
 use super::triangulator::{Error, Progress, Stage};
 use crate::mesh::Mesh;
+use crate::plane_point::PlanePoint;
 use crate::point::Point;
 
 fn threads(count: usize) -> NonZeroUsize {
@@ -114,8 +115,9 @@ fn double(random: &mut SplitMix64, kind: u64) -> f64 {
     }
 }
 
-fn of_doubles(points: &[[f64; 2]], count: usize) -> Connectivity {
-    connect_doubles(points, threads(count), &mut |_| ControlFlow::Continue(())).expect("finite coordinates")
+/// The triangulation in the numbers themselves, whether they have a lattice or not.
+fn connected<P: PlanePoint>(points: &[P], count: usize) -> Connectivity {
+    connect(&P::numbers(points), threads(count), &mut |_| ControlFlow::Continue(())).expect("finite coordinates")
 }
 
 #[test]
@@ -130,7 +132,10 @@ fn small_sets_of_doubles_have_the_triangles_of_the_definition() {
                 [double(&mut random, kind), double(&mut random, kind)]
             })
             .collect();
-        let found = of_doubles(&points, 1);
+        let found = connected(&points, 1);
+        let mesh = triangulate(points.clone(), threads(1), &mut |_| ControlFlow::Continue(())).expect("a mesh");
+        assert!((&mesh.triangles, &mesh.hull) == (&found.triangles, &found.hull), "{points:?}");
+        mesh.verify().unwrap_or_else(|error| panic!("{error}: {points:?}"));
         assert_eq!(found.triangles, delaunay_of_doubles(&points), "{points:?}");
         assert_eq!(found.hull, hull_of_doubles(&points), "{points:?}");
         for (index, point) in points.iter().enumerate() {
@@ -155,11 +160,10 @@ fn whole_numbers_give_one_mesh_as_points_as_doubles_and_as_integers() {
         let integers: Vec<[i64; 2]> =
             points.iter().map(|p| [p.x, p.y].map(|value| (i64::from(value) << 32) + i64::MIN)).collect();
         for count in [1, 3] {
-            let found = of_doubles(&doubles, count);
+            let found = connected(&doubles, count);
             assert!((&found.triangles, &found.hull) == (&expected.triangles, &expected.hull));
             assert_eq!(found.duplicates, expected.duplicates);
-            let found = connect_integers(&integers, threads(count), &mut |_| ControlFlow::Continue(()));
-            let found = found.expect("a mesh");
+            let found = connected(&integers, count);
             assert!((&found.triangles, &found.hull) == (&expected.triangles, &expected.hull));
             assert_eq!(found.duplicates, expected.duplicates);
         }
@@ -175,7 +179,7 @@ fn a_crowd_beside_a_far_point_has_the_mesh_of_the_crowd() {
     let mut doubles: Vec<[f64; 2]> = crowd.iter().map(|p| [f64::from(p.x), f64::from(p.y)]).collect();
     doubles.push([1e200, 3e199]);
     for count in [1, 2] {
-        let found = of_doubles(&doubles, count);
+        let found = connected(&doubles, count);
         let far = doubles.len() as u32 - 1;
         let near: Vec<[u32; 3]> = found.triangles.iter().copied().filter(|t| !t.contains(&far)).collect();
         assert!(near == expected.triangles);
@@ -187,7 +191,7 @@ fn a_crowd_beside_a_far_point_has_the_mesh_of_the_crowd() {
 fn coordinates_that_are_no_numbers_are_refused_with_their_place() {
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let points = [[0.0, 1.0], [2.0, value]];
-        let found = connect_doubles(&points, threads(1), &mut |_| ControlFlow::Continue(()));
+        let found = triangulate(points.to_vec(), threads(1), &mut |_| ControlFlow::Continue(()));
         assert_eq!(found, Err(Error::NotFinite { index: 1 }));
     }
 }

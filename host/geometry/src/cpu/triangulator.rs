@@ -16,8 +16,10 @@ use super::sites::{sort, Sites};
 use super::view::{Integers, Narrow, Wide, Widest, Width, NARROW_BITS, WIDE_BITS};
 use super::{collect, conquer::GoOn, merge::Part};
 use crate::double::Coordinate;
+use crate::lattice::Numbers;
 use crate::mesh::Mesh;
 use crate::pages;
+use crate::plane_point::PlanePoint;
 use crate::point::{Duplicate, Point, MAX_POINTS};
 
 /// Points that justify one more thread.
@@ -114,16 +116,32 @@ pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
 ///
 /// # Errors
 /// There are more than [`MAX_POINTS`] points, or the watch ends the work.
-pub fn triangulate(points: Vec<Point>, threads: NonZeroUsize, watch: Watch<'_>) -> Result<Mesh, Error> {
-    let Connectivity { triangles, hull, duplicates } = connect(&points, threads, watch)?;
+pub fn triangulate<P: PlanePoint>(points: Vec<P>, threads: NonZeroUsize, watch: Watch<'_>) -> Result<Mesh<P>, Error> {
+    let (numbers, _) = P::numbers(&points).on_lattice();
+    let Connectivity { triangles, hull, duplicates } = connect(&numbers, threads, watch)?;
     Ok(Mesh { points, triangles, hull, duplicates })
 }
 
-/// The canonical Delaunay triangulation of grid points, without a copy of the points; see [`triangulate`].
+/// The triangles, hull and duplicates of points in the numbers in which they are given; see [`triangulate`]. Whole numbers and doubles are not
+/// looked at for a lattice, which [`Numbers::on_lattice`] finds, and take longer here than on one.
 ///
 /// # Errors
-/// There are more than [`MAX_POINTS`] points, or the watch ends the work.
-pub fn connect(points: &[Point], threads: NonZeroUsize, watch: Watch<'_>) -> Result<Connectivity, Error> {
+/// As those of [`triangulate`].
+pub fn connect(numbers: &Numbers<'_>, threads: NonZeroUsize, watch: Watch<'_>) -> Result<Connectivity, Error> {
+    match numbers {
+        Numbers::Grid(points) => connect_grid(points, threads, watch),
+        Numbers::Whole(points) => connect_filtered(points, threads, watch),
+        Numbers::Doubles(points) => {
+            let is_finite = |point: &[f64; 2]| point.iter().all(|value| value.is_finite());
+            match points.iter().position(|point| !is_finite(point)) {
+                Some(index) => Err(Error::NotFinite { index }),
+                None => connect_filtered(points, threads, watch),
+            }
+        }
+    }
+}
+
+fn connect_grid(points: &[Point], threads: NonZeroUsize, watch: Watch<'_>) -> Result<Connectivity, Error> {
     check(points.len())?;
     let threads = threads_for(points.len(), threads).get();
     tell(watch, Stage::Order, 0, points.len())?;
@@ -151,41 +169,6 @@ fn connect_sites<W: Width>(
     drop(sites);
     let (triangles, hull) = assemble(halves, &ids, points.len(), threads, watch)?;
     Ok(Connectivity { triangles, hull, duplicates })
-}
-
-/// The canonical Delaunay triangulation of points with coordinates that are doubles: exact for all finite values, whatever their
-/// exponents. -0 equals 0.
-///
-/// Cost: about 1.3 times that of [`triangulate`]; sets whose points are nearly on lines or circles take longer, up to some
-/// microseconds a predicate where neighbours' exponents differ by more than 2^8. Memory: some 80 bytes a point more.
-///
-/// ```
-/// use core::num::NonZeroUsize;
-/// use core::ops::ControlFlow;
-/// use incircle_geometry::cpu;
-///
-/// let points = [[0.1, 0.1], [0.7, 0.1], [0.3, 0.9], [1e-300, 0.2]];
-/// let mesh = cpu::connect_doubles(&points, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(()))?;
-/// assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
-/// # Ok::<(), cpu::Error>(())
-/// ```
-///
-/// # Errors
-/// There are more than [`MAX_POINTS`] points, a coordinate is infinite or not a number, or the watch ends the work.
-pub fn connect_doubles(points: &[[f64; 2]], threads: NonZeroUsize, watch: Watch<'_>) -> Result<Connectivity, Error> {
-    if let Some(index) = points.iter().position(|point| !point.iter().all(|value| value.is_finite())) {
-        return Err(Error::NotFinite { index });
-    }
-    connect_filtered(points, threads, watch)
-}
-
-/// The canonical Delaunay triangulation of points whose coordinates are integers of 64 bits; exact for all. A set with a span
-/// below 2^32 is done in half the time by [`connect`], after a subtraction.
-///
-/// # Errors
-/// There are more than [`MAX_POINTS`] points, or the watch ends the work.
-pub fn connect_integers(points: &[[i64; 2]], threads: NonZeroUsize, watch: Watch<'_>) -> Result<Connectivity, Error> {
-    connect_filtered(points, threads, watch)
 }
 
 fn connect_filtered<C: Coordinate>(
