@@ -195,7 +195,9 @@ fn only_types_come_from_the_rest_of_the_library() {
         sources.iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
     assert!(modules.len() >= 5 && modules.iter().any(|module| module == "mod"), "{modules:?}");
     for path in &sources {
-        for line in std::fs::read_to_string(path).unwrap().lines() {
+        // Tests come last in a file, and may use what they like.
+        let text = std::fs::read_to_string(path).unwrap();
+        for line in text.lines().take_while(|line| *line != "#[cfg(test)]") {
             assert!(!shares_code(line, &modules), "{}: {line}", path.display());
         }
     }
