@@ -3,8 +3,8 @@
 //! Latency: none.
 
 use super::axi::RegisterIndex;
+use crate::commands::types::Word;
 use crate::leaf::Parameter;
-use crate::link::types::Word;
 use incircle_protocol::{
     Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
 };

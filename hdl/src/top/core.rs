@@ -10,9 +10,9 @@
 //!                 +--- AnswerHead, AnswerWords <- Counters, Latencies <- events
 //! ```
 
+use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
 use crate::engine::{Counters, InsertionEngine, Latencies, Write};
 use crate::leaf::Parameter;
-use crate::link::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 

@@ -122,7 +122,7 @@ pub const FAULTS: &[Fault] = &[
         )],
     },
     // The watchdog, and each place that hears of it, but for `CommandGate`: a core that gets stuck over a lock has its first triangle, and the
-    // gate has nothing to hold then. `tests/it/blocks/link/command_gate.rs` holds the gate.
+    // gate has nothing to hold then. `tests/it/blocks/commands/command_gate.rs` holds the gate.
     Fault { name: "watchdog_is_silent", pieces: &[piece("is_stuck$d = @;", "1'b1", "1'b0")] },
     Fault {
         name: "command_port_ignores_stuck",

@@ -3,7 +3,7 @@
 //! 1. What becomes of a context is noted a clock after its visit completes: from then on it may start, and is asked whether it waits.
 
 use super::context_flags::ContextFlags;
-use super::progress::Progress;
+use super::finished_points::FinishedPoints;
 use super::starter::Starter;
 use super::watchdog::Watchdog;
 use crate::engine::types::{
@@ -53,7 +53,7 @@ pub struct Dispatcher {
     taker2: DFF<ContextId>,
     flags: ContextFlags,
     starter: Starter,
-    progress: Progress,
+    finished_points: FinishedPoints,
     watchdog: Watchdog,
 }
 
@@ -68,14 +68,14 @@ impl Logic for Dispatcher {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, found, taken1, taken2, taker1, taker2);
-        clock!(self, clock, flags, starter, progress, watchdog);
+        clock!(self, clock, flags, starter, finished_points, watchdog);
         self.flags.reset.next = self.reset.val();
         self.starter.reset.next = self.reset.val();
-        self.progress.reset.next = self.reset.val();
+        self.finished_points.reset.next = self.reset.val();
         self.watchdog.reset.next = self.reset.val();
         self.flags.clears.next = self.clears.val();
         self.starter.clears.next = self.clears.val();
-        self.progress.clears.next = self.clears.val();
+        self.finished_points.clears.next = self.clears.val();
 
         // What a visit leads to is known late: it is noted in the next clock.
         self.found.d.next = self.outcome.val();
@@ -123,17 +123,17 @@ impl Logic for Dispatcher {
         self.fetched.next.owner = self.taker2.q.val();
 
         // What is finished.
-        self.progress.arrived.next = self.arrived.val();
-        self.progress.seeds.next = self.seed.val().seeds;
-        self.progress.commit_ends.next = self.committed.val().valid;
-        self.progress.solo_ends.next = self.solo.val().ends;
-        self.progress.duplicate.next = self.found.q.val().duplicate;
-        self.progress.has_no_start.next = self.seed.val().has_no_start;
-        self.progress.all_rest.next = self.flags.contexts.val().all_rest;
-        self.is_quiet.next = self.progress.is_quiet.val();
+        self.finished_points.arrived.next = self.arrived.val();
+        self.finished_points.seeds.next = self.seed.val().seeds;
+        self.finished_points.commit_ends.next = self.committed.val().valid;
+        self.finished_points.solo_ends.next = self.solo.val().ends;
+        self.finished_points.duplicate.next = self.found.q.val().duplicate;
+        self.finished_points.has_no_start.next = self.seed.val().has_no_start;
+        self.finished_points.all_rest.next = self.flags.contexts.val().all_rest;
+        self.is_quiet.next = self.finished_points.is_quiet.val();
         self.watchdog.patience.next = self.patience.val();
-        self.watchdog.finishes.next = self.progress.finishes.val();
-        self.watchdog.is_quiet.next = self.progress.is_quiet.val();
+        self.watchdog.finishes.next = self.finished_points.finishes.val();
+        self.watchdog.is_quiet.next = self.finished_points.is_quiet.val();
         self.stuck.next = self.watchdog.stuck.val();
     }
 }

@@ -5,7 +5,7 @@
 //!                       waiting token,                               |    ^
 //!                       wish to be alone                             v    |
 //!                                                  DueCheck, PlanTable, NextPoint: is it due, with which point?
-//! finished points -> Progress -> quiet
+//! finished points -> FinishedPoints -> quiet
 //!                       |
 //!                       +-----> Watchdog -> stuck
 //! ```
@@ -22,9 +22,9 @@
 mod context_flags;
 mod dispatcher;
 mod due_check;
+mod finished_points;
 mod next_point;
 mod plan_table;
-mod progress;
 mod start_pointer;
 mod starter;
 mod watchdog;
@@ -32,9 +32,9 @@ mod watchdog;
 pub use context_flags::ContextFlags;
 pub use dispatcher::Dispatcher;
 pub use due_check::DueCheck;
+pub use finished_points::FinishedPoints;
 pub use next_point::{Following, NextPoint, Passed, Pointer};
 pub use plan_table::{PlanTable, PlanWrite};
-pub use progress::Progress;
 pub use start_pointer::StartPointer;
 pub use starter::{Candidate, Starter};
 pub use watchdog::Watchdog;

@@ -19,7 +19,7 @@ use super::ring::Head;
 use super::seeder::Seeder;
 use super::solo::Solo;
 use super::starter::{Start, Starter};
-use super::watchdog::{Progress, Watchdog};
+use super::watchdog::{FinishedPoints, Watchdog};
 use super::ClockModel;
 use crate::predicate::Point;
 use incircle_protocol::Config;
@@ -36,7 +36,7 @@ pub(super) struct Registers {
     pub seeder: Seeder,
     pub commit: Commit,
     pub solo: Solo,
-    pub progress: Progress,
+    pub finished_points: FinishedPoints,
     pub watchdog: Watchdog,
     pub counters: Counters,
     /// The counters as they were a clock ago: the hardware counts an event a clock after it.
@@ -130,7 +130,7 @@ impl ClockModel {
             record_read: self.pipeline.record_read().map(|id| self.memory.record_words(id)),
             read: was.responder.read_request(was),
             answer_ends: was.responder.ends(inputs.response_ready),
-            is_quiet: was.progress.is_done(was) && rests,
+            is_quiet: was.finished_points.is_done(was) && rests,
             new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
             start: wanted.filter(|_| !lacks_port && !lacks_queue),
             start_is_held: wanted.is_some() && (lacks_port || outcome.is_some()),

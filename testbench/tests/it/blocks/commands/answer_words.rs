@@ -3,7 +3,7 @@
 
 use crate::rig::answer_words::{commands, percent, Asked};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::link::AnswerWords;
+use incircle_hdl::commands::AnswerWords;
 use incircle_protocol::LATENCY_BUCKETS;
 use incircle_testkit::SplitMix64;
 
