@@ -26,7 +26,7 @@ pub struct Insertions {
     pub now: Signal<In, Clocks>,
     /// The visit that completes in the next clock, none while an insertion alone is at work, and the one that completes.
     pub early: Signal<In, Upcoming>,
-    pub visit: Signal<In, Completion>,
+    pub completion: Signal<In, Completion>,
     pub seed: Signal<In, SeedProgress>,
     pub solo: Signal<In, SoloProgress>,
     /// The visits that follow the one that completes.
@@ -81,7 +81,7 @@ impl Logic for Insertions {
         // A visit completes.
         self.attempts.ring.next = self.limits.val().ring;
         self.attempts.early.next = self.early.val();
-        self.attempts.visit.next = self.visit.val();
+        self.attempts.completion.next = self.completion.val();
         self.attempts.seeded.next = self.seed.val().seeded;
         self.attempts.now.next = self.now.val();
         self.attempts.contexts.next = self.dispatcher.contexts.val();
@@ -127,7 +127,7 @@ impl Logic for Insertions {
         self.visit_events.next = self.attempts.events.val();
         self.visit_events.next.test = self.attempts.events.val().test | self.solo.val().tests;
         self.visit_events.next.flip = self.solo.val().flips;
-        self.visit_events.next.takes_token = self.dispatcher.takes_token.val();
+        self.visit_events.next.takes_priority = self.dispatcher.takes_priority.val();
         self.job.next = self.commits.committed.val().job;
         self.events.next.visits = self.visit_events.val();
         self.events.next.seeds = self.seed.val().seeds;

@@ -134,7 +134,7 @@ impl Bench<'_> {
             asked(shown(mean(counters.walk_visits), 2)),
             asked(shown(mean(counters.tests), 2)),
             asked(counters.aborts.to_string()),
-            asked(counters.waiting_tokens.to_string()),
+            asked(counters.priorities_taken.to_string()),
             asked(counters.root_retries.to_string()),
             shown(percent(counters.issue_cycles), 1),
             shown(percent(counters.write_cycles), 1),

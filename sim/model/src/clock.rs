@@ -111,12 +111,12 @@ impl ClockModel {
     pub fn describe(&self) -> String {
         let now = &self.registers;
         format!(
-            "asleep {:x}, keeping {:x}, busy {:x}, waiter {:?}, alone {:?}, {} of {} points finished, commit {:?}, \
+            "asleep {:x}, keeping {:x}, busy {:x}, priority_context {:?}, alone {:?}, {} of {} points finished, commit {:?}, \
              solo {:?}, command {:?}",
             now.contexts.asleep,
             now.contexts.keeps,
             now.contexts.busy,
-            now.contexts.waiter,
+            now.contexts.priority_context,
             now.contexts.solo,
             now.contexts.finished,
             now.command.arrived,

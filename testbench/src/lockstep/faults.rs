@@ -52,7 +52,7 @@ pub const FAULTS: &[Fault] = &[
         name: "foreign_lock",
         pieces: &[
             piece("test_counts$d = @;", "tests & (~foreign)", "tests"),
-            piece("test_is_refused$d = @;", "tests & foreign & (~is_waiter)", "1'b0"),
+            piece("test_is_refused$d = @;", "tests & foreign & (~holds_priority)", "1'b0"),
         ],
     },
     // L1: an attempt that fails releases its locks while visits of it are still out.
@@ -62,9 +62,9 @@ pub const FAULTS: &[Fault] = &[
     },
     // L1: an attempt that has failed does not rest.
     Fault { name: "rest", pieces: &[piece("is_rested = @;", "(~busy[index]) & rests_over", "~busy[index]")] },
-    // L2: nobody takes the waiting token.
+    // L2: nobody takes the priority.
     Fault {
-        name: "token",
+        name: "priority",
         pieces: &[piece("takes = @;", "outcome[(64'h8)+:(1)] & (~state$q[(64'h78)+:(1)])", "1'b0")],
     },
     // L3: the others do not yield to the context that waits.
@@ -106,7 +106,7 @@ pub const FAULTS: &[Fault] = &[
         name: "torn",
         pieces: &[piece(
             "is_torn = @;",
-            "write[(64'h0)+:(1)] & (write[(64'h1)+:(15)] == issue$token[(64'h28)+:(15)])",
+            "write[(64'h0)+:(1)] & (write[(64'h1)+:(15)] == issue$visit[(64'h28)+:(15)])",
             "1'b0",
         )],
     },

@@ -25,7 +25,7 @@
 //! bundle.after      .  .  1  9  .
 //! ```
 
-use crate::engine::types::{Bundle, Case, RingEntry, Token, TriangleId, Turned};
+use crate::engine::types::{Bundle, Case, RingEntry, TriangleId, Turned, Visit};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -34,7 +34,7 @@ use rust_hdl_widgets::prelude::*;
 pub struct NextVisits {
     pub clock: Signal<In, Clock>,
     /// The visit that completes in the next clock.
-    pub early_token: Signal<In, Token>,
+    pub early_visit: Signal<In, Visit>,
     pub early_turned: Signal<In, Turned>,
     /// What the visit of this clock means.
     pub found: Signal<In, Case>,
@@ -56,32 +56,32 @@ impl Logic for NextVisits {
     fn update(&mut self) {
         dff_setup!(self, clock, prepared, halves);
         self.opens.next =
-            (!self.early_token.val().rotates) & self.early_token.val().locks & (!self.early_turned.val().foreign);
-        self.splits.next = self.early_token.val().rotates & (!self.early_turned.val().foreign);
+            (!self.early_visit.val().rotates) & self.early_visit.val().locks & (!self.early_turned.val().foreign);
+        self.splits.next = self.early_visit.val().rotates & (!self.early_turned.val().foreign);
 
         // The same visit again, but for what each case changes.
         self.prepared.d.next.is_pair = self.opens.val() | self.splits.val();
         self.prepared.d.next.is_triple = self.opens.val();
-        self.prepared.d.next.owner = self.early_token.val().owner;
-        self.prepared.d.next.rotates = self.early_token.val().rotates | self.opens.val();
-        self.prepared.d.next.locks = self.early_token.val().locks;
-        self.prepared.d.next.x = self.early_token.val().x;
-        self.prepared.d.next.after = self.early_token.val().after;
-        self.prepared.d.next.f_entry = self.early_token.val().f_entry;
-        self.prepared.d.next.f = self.early_token.val().f;
-        self.prepared.d.next.u = self.early_token.val().u;
-        self.prepared.d.next.second_after = self.early_token.val().after;
+        self.prepared.d.next.owner = self.early_visit.val().owner;
+        self.prepared.d.next.rotates = self.early_visit.val().rotates | self.opens.val();
+        self.prepared.d.next.locks = self.early_visit.val().locks;
+        self.prepared.d.next.x = self.early_visit.val().x;
+        self.prepared.d.next.after = self.early_visit.val().after;
+        self.prepared.d.next.f_entry = self.early_visit.val().f_entry;
+        self.prepared.d.next.f = self.early_visit.val().f;
+        self.prepared.d.next.u = self.early_visit.val().u;
+        self.prepared.d.next.second_after = self.early_visit.val().after;
         self.prepared.d.next.second_u = self.early_turned.val().n2;
         self.prepared.d.next.third_u = self.early_turned.val().n2;
         if self.splits.val() {
-            self.prepared.d.next.f = self.early_token.val().u;
+            self.prepared.d.next.f = self.early_visit.val().u;
             self.prepared.d.next.u = self.early_turned.val().n1;
         }
         if self.opens.val() {
             self.prepared.d.next.x = 0.into();
             self.prepared.d.next.after = 1.into();
             self.prepared.d.next.f_entry = 0.into();
-            self.prepared.d.next.f = self.early_token.val().u;
+            self.prepared.d.next.f = self.early_visit.val().u;
             self.prepared.d.next.u = self.early_turned.val().n0;
             self.prepared.d.next.second_after = 2.into();
             self.prepared.d.next.second_u = self.early_turned.val().n1;

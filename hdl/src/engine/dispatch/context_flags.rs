@@ -1,32 +1,32 @@
-//! What each context is at, a bit each; who holds the waiting token, and who wants to be alone.
+//! What each context is at, a bit each; who holds the priority, and who wants to be alone.
 //!
-//! 1. One waiting token: whoever gives up while it is free takes it, and keeps it until its point is in (L2). Nobody else ever waits
+//! 1. One priority: whoever gives up while it is free takes it, and keeps it until its point is in (L2). Nobody else ever waits
 //!    while it holds locks. But others that fail again and again could keep it from its locks for ever, in step with it: when it has met
 //!    8 foreign locks, nobody else tries again until its point is in (L3). New points may start: they finish, or fail and then rest, so
 //!    something is always finished in the end.
 //! 2. The first to overflow is alone first; another that overflows meanwhile tries again later.
-//! 3. What becomes of a context comes from one visit: who asks for the token neither waits nor gives it back. None of them comes with `solo_ends`,
+//! 3. What becomes of a context comes from one visit: who asks for the priority neither waits nor gives it back. None of them comes with `solo_ends`,
 //!    because then all visits are the insertion alone's. All other events may come together. Who hands over falls asleep with it.
 //!
 //! Latency: 1 clock.
 //!
-//! Of two contexts, 1 starts, gives up and takes the token, starts again, and hands over a ring:
+//! Of two contexts, 1 starts, gives up and takes the priority, starts again, and hands over a ring:
 //! ```text
-//! starts          ___/^^\________/^^\_______________________
-//! sleeps          _________/^^\________/^^\_________________
-//! keeps           _________/^^\_____________________________
-//! asks_to_wait    _________/^^\_____________________________
-//! stops_waiting   _____________________/^^\_________________
-//! hands_over      _____________________/^^\_________________
-//! commit_ends     ___________________________/^^\___________
-//! released        _________________________________/^^\_____
-//! asleep            3  3  1  1  3  3  1  1  3  3  3  3  3  3
-//! keeping           0  0  0  0  2  2  0  0  0  0  0  0  0  0
-//! busy              0  0  0  0  0  0  0  0  2  2  2  2  0  0
-//! began             0  0  2  2  2  2  2  2  2  2  2  2  2  2
-//! hinted            0  0  0  0  0  0  0  0  0  0  2  2  2  2
-//! waiter_valid    ____________/^^^^^^^^^^^\_________________
-//! all_rest        ___/^^\________/^^\____________________/^^
+//! starts            ___/^^\________/^^\_______________________
+//! sleeps            _________/^^\________/^^\_________________
+//! keeps             _________/^^\_____________________________
+//! asks_for_priority _________/^^\_____________________________
+//! returns_priority   _____________________/^^\_________________
+//! hands_over         _____________________/^^\_________________
+//! commit_ends        ___________________________/^^\___________
+//! released           _________________________________/^^\_____
+//! asleep               3  3  1  1  3  3  1  1  3  3  3  3  3  3
+//! keeping              0  0  0  0  2  2  0  0  0  0  0  0  0  0
+//! busy                 0  0  0  0  0  0  0  0  2  2  2  2  0  0
+//! began                0  0  2  2  2  2  2  2  2  2  2  2  2  2
+//! hinted               0  0  0  0  0  0  0  0  0  0  2  2  2  2
+//! priority_is_held   ____________/^^^^^^^^^^^\_________________
+//! all_rest           ___/^^\________/^^\____________________/^^
 //! ```
 
 use crate::engine::types::{CommitJob, Committed, ContextSet, ContextState, Outcome, Released, Start};
@@ -51,8 +51,8 @@ pub struct ContextFlags {
     /// The insertion alone is over.
     pub solo_ends: Signal<In, Bit>,
     pub contexts: Signal<Out, ContextState>,
-    /// Event: the waiting token is taken.
-    pub takes_token: Signal<Out, Bit>,
+    /// Event: the priority is taken.
+    pub takes_priority: Signal<Out, Bit>,
     state: DFF<ContextState>,
     waited: DFF<Bits<4>>,
     job: Signal<Local, CommitJob>,
@@ -143,19 +143,19 @@ impl Logic for ContextFlags {
         self.state.d.next.began = self.state.q.val().began | self.starting.val();
         self.state.d.next.hinted = self.state.q.val().hinted | self.had_commit.val();
 
-        // L2: the waiting token goes to who asks while it is free. And the wish to be alone.
-        self.takes.next = self.outcome.val().asks_to_wait & (!self.state.q.val().waiter_valid);
-        self.takes_token.next = self.takes.val();
-        self.is_holder.next = (self.outcome.val().stops_waiting
-            & (self.state.q.val().waiter == self.outcome.val().owner))
-            | (self.solo_ends.val() & (self.state.q.val().waiter == self.state.q.val().solo_owner));
+        // L2: the priority goes to who asks while it is free. And the wish to be alone.
+        self.takes.next = self.outcome.val().asks_for_priority & (!self.state.q.val().priority_is_held);
+        self.takes_priority.next = self.takes.val();
+        self.is_holder.next = (self.outcome.val().returns_priority
+            & (self.state.q.val().priority_context == self.outcome.val().owner))
+            | (self.solo_ends.val() & (self.state.q.val().priority_context == self.state.q.val().solo_owner));
         if self.takes.val() {
-            self.state.d.next.waiter_valid = true;
-            self.state.d.next.waiter = self.outcome.val().owner;
+            self.state.d.next.priority_is_held = true;
+            self.state.d.next.priority_context = self.outcome.val().owner;
         }
-        // L3: who has met 8 foreign locks with the token keeps all others from trying again.
+        // L3: who has met 8 foreign locks with the priority keeps all others from trying again.
         self.has_waited_long.next = self.waited.q.val().get_bit(3);
-        self.contexts.next.is_urgent = self.state.q.val().waiter_valid & self.has_waited_long.val();
+        self.contexts.next.is_urgent = self.state.q.val().priority_is_held & self.has_waited_long.val();
         if self.outcome.val().waits & (!self.has_waited_long.val()) {
             self.waited.d.next = self.waited.q.val() + self.one_wait.val();
         }
@@ -163,7 +163,7 @@ impl Logic for ContextFlags {
             self.waited.d.next = 0.into();
         }
         if self.is_holder.val() {
-            self.state.d.next.waiter_valid = false;
+            self.state.d.next.priority_is_held = false;
         }
         if self.outcome.val().overflows & (!self.state.q.val().solo_valid) {
             self.state.d.next.solo_valid = true;
@@ -179,7 +179,7 @@ impl Logic for ContextFlags {
             self.state.d.next.busy = 0.into();
             self.state.d.next.began = 0.into();
             self.state.d.next.hinted = 0.into();
-            self.state.d.next.waiter_valid = false;
+            self.state.d.next.priority_is_held = false;
             self.state.d.next.solo_valid = false;
             self.state.d.next.all_rest = false;
         }

@@ -41,8 +41,8 @@ pub struct Dispatcher {
     pub fetched: Signal<Out, Fetched>,
     pub contexts: Signal<Out, ContextState>,
     pub solo_start: Signal<Out, SoloStart>,
-    /// Event: the waiting token is taken.
-    pub takes_token: Signal<Out, Bit>,
+    /// Event: the priority is taken.
+    pub takes_priority: Signal<Out, Bit>,
     /// Every point is finished; nothing is finished any more.
     pub is_quiet: Signal<Out, Bit>,
     pub stuck: Signal<Out, Bit>,
@@ -83,9 +83,9 @@ impl Logic for Dispatcher {
             self.found.d.next.sleeps = false;
             self.found.d.next.keeps = false;
             self.found.d.next.hands_over = false;
-            self.found.d.next.asks_to_wait = false;
+            self.found.d.next.asks_for_priority = false;
             self.found.d.next.waits = false;
-            self.found.d.next.stops_waiting = false;
+            self.found.d.next.returns_priority = false;
             self.found.d.next.overflows = false;
             self.found.d.next.duplicate = false;
         }
@@ -98,7 +98,7 @@ impl Logic for Dispatcher {
         self.flags.committed.next = self.committed.val();
         self.flags.solo_ends.next = self.solo.val().ends;
         self.contexts.next = self.flags.contexts.val();
-        self.takes_token.next = self.flags.takes_token.val();
+        self.takes_priority.next = self.flags.takes_priority.val();
 
         // Who starts.
         self.starter.deal.next = self.deal.val();

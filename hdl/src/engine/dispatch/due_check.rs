@@ -65,7 +65,8 @@ impl Logic for DueCheck {
 
         // L1: who has failed rests until a fourth round. L3: and while another is urgent.
         self.is_rested.next = (!self.busy.val().get_bit(self.index.val().index())) & self.rests_over.val();
-        self.may_try.next = (!self.contexts.val().is_urgent) | (self.passed.val().owner == self.contexts.val().waiter);
+        self.may_try.next =
+            (!self.contexts.val().is_urgent) | (self.passed.val().owner == self.contexts.val().priority_context);
         self.wants_again.next = self.is_asleep.val() & self.keeps.val() & self.is_rested.val() & self.may_try.val();
 
         // L8: the first points are context 0's.

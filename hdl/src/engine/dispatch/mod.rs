@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! outcome of a visit -> ContextFlags -> asleep, trying again, due -> Starter -> a walk starts: PushPort
-//!                       waiting token,                               |    ^
+//!                       priority,                               |    ^
 //!                       wish to be alone                             v    |
 //!                                                  DueCheck, PlanTable, NextPoint: is it due, with which point?
 //! finished points -> FinishedPoints -> quiet
@@ -14,8 +14,8 @@
 //! [`Watchdog`] says `stuck` when no point was finished for `incircle_protocol::patience` clocks; commands are then answered with
 //! `Stuck`.
 //!
-//! Lock rules (see `docs/engine.md`): L1, a context that has failed rests until a fourth round of the pointer ([`DueCheck`]); L2, one waiting token
-//! ([`ContextFlags`]); L3, when the holder of the token has met 8 foreign locks, no
+//! Lock rules (see `docs/engine.md`): L1, a context that has failed rests until a fourth round of the pointer ([`DueCheck`]); L2, one priority
+//! ([`ContextFlags`]); L3, when the holder of the priority has met 8 foreign locks, no
 //! other context tries again until its point is in ([`ContextFlags`], [`DueCheck`]); L8, the first
 //! points go to context 0 ([`DueCheck`], [`Starter`], [`NextPoint`]).
 

@@ -99,10 +99,10 @@ crate::packed! {
         pub keeps: bool,
         /// A commit or a release of it is due.
         pub hands_over: bool,
-        /// It wants the waiting token; meets a foreign lock with it; needs it no more.
-        pub asks_to_wait: bool,
+        /// It wants the priority; meets a foreign lock with it; needs it no more.
+        pub asks_for_priority: bool,
         pub waits: bool,
-        pub stops_waiting: bool,
+        pub returns_priority: bool,
         /// Its list has overflowed.
         pub overflows: bool,
         /// Its point is one already.

@@ -85,9 +85,9 @@ crate::packed! {
         /// There has been a point; a commit.
         pub began: ContextSet,
         pub hinted: ContextSet,
-        /// Somebody holds the waiting token; who; it has waited for long: nobody else may try again.
-        pub waiter_valid: bool,
-        pub waiter: ContextId,
+        /// Somebody holds the priority; who; it has waited for long: nobody else may try again.
+        pub priority_is_held: bool,
+        pub priority_context: ContextId,
         pub is_urgent: bool,
         /// Somebody wants to be alone: nobody starts; who.
         pub solo_valid: bool,

@@ -19,8 +19,8 @@ crate::packed! {
         /// An attempt is given up for a foreign lock; a root had changed.
         pub gives_up: bool,
         pub retries: bool,
-        /// The waiting token is taken.
-        pub takes_token: bool,
+        /// The priority is taken.
+        pub takes_priority: bool,
         /// A ring is finished; its cavity's triangles.
         pub cavity_ends: bool,
         pub cavity_triangles: RingCount,

@@ -4,8 +4,8 @@ use super::widths::{ContextId, RingEntry, Slot, TriangleId, VertexId};
 use crate::predicate::Point;
 use rust_hdl_core::prelude::*;
 
-/// Bits of [`Token`].
-pub const TOKEN_BITS: usize = Token::BITS;
+/// Bits of [`Visit`].
+pub const VISIT_BITS: usize = Visit::BITS;
 
 /// Bits of [`Bundle`].
 pub const BUNDLE_BITS: usize = Bundle::BITS;
@@ -15,7 +15,7 @@ pub const TURNED_BITS: usize = Turned::BITS;
 
 crate::packed! {
     /// One visit of a record.
-    pub struct Token {
+    pub struct Visit {
         /// The context it belongs to.
         pub owner: ContextId,
         /// The record is turned so that its link to `f` comes first.
@@ -101,7 +101,7 @@ crate::packed! {
     pub struct Upcoming {
         /// There is one.
         pub done: bool,
-        pub token: Token,
+        pub visit: Visit,
         pub turned: Turned,
     }
 
@@ -109,7 +109,7 @@ crate::packed! {
     pub struct Completion {
         /// There is one.
         pub done: bool,
-        pub token: Token,
+        pub visit: Visit,
         pub turned: Turned,
         pub verdict: Verdict,
     }

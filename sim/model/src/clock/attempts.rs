@@ -50,10 +50,10 @@ pub(super) struct Outcome {
     pub lock: Option<(u32, u32)>,
     pub commit: Option<CommitJob>,
     pub release: Option<ReleaseJob>,
-    /// It takes the waiting token, if that is free.
-    pub asks_to_wait: bool,
-    /// It gives the waiting token back, if it holds it.
-    pub stops_waiting: bool,
+    /// It takes the priority, if that is free.
+    pub asks_for_priority: bool,
+    /// It gives the priority back, if it holds it.
+    pub returns_priority: bool,
     /// Its list has overflowed: it asks to be alone.
     pub overflows: bool,
     pub aborts: bool,
@@ -82,16 +82,16 @@ impl Around<'_> {
         self.was.noted.busy & 1 << context != 0 && self.defect != Some(Defect::OpensWhileBusy)
     }
 
-    /// L2: the context holds the waiting token.
-    fn waits(&self, context: usize) -> bool {
-        self.was.noted.waiter == Some(context)
+    /// L2: the context holds the priority.
+    fn holds_priority(&self, context: usize) -> bool {
+        self.was.noted.priority_context == Some(context)
     }
 }
 
 impl Outcome {
     pub(super) fn of(done: &Completion, around: &Around) -> Self {
-        let out = Self { context: done.token.context, ..Self::default() };
-        match (done.token.rotates, done.token.locks) {
+        let out = Self { context: done.visit.context, ..Self::default() };
+        match (done.visit.rotates, done.visit.locks) {
             (false, false) => out.walk(done, around),
             (false, true) => out.root(done, around),
             _ => out.test(done, around),
@@ -100,13 +100,13 @@ impl Outcome {
 
     /// The same visit again.
     fn again(mut self, done: &Completion) -> Self {
-        self.push = Some(Bundle::one(done.token));
+        self.push = Some(Bundle::one(done.visit));
         self.is_again = true;
         self
     }
 
     /// The context sleeps, and tries again later from this triangle.
-    fn back_off(mut self, root: u32) -> Self {
+    fn abort(mut self, root: u32) -> Self {
         self.sleeps = true;
         self.keeps = true;
         self.root = Some(root);
@@ -114,7 +114,7 @@ impl Outcome {
     }
 
     fn walk(mut self, done: &Completion, around: &Around) -> Self {
-        let context = done.token.context;
+        let context = done.visit.context;
         if !around.was.seeder.seeded {
             self.looks = true;
             self.sleeps = true;
@@ -128,30 +128,30 @@ impl Outcome {
             self.push = Some(Bundle::look(context, done.walk_next));
         } else if done.falls_onto_corner {
             self.duplicate = true;
-            self.stops_waiting = true;
+            self.returns_priority = true;
             self.sleeps = true;
         } else if around.is_busy(context) {
             return self.again(done);
         } else {
-            self.push = Some(Bundle::root(context, done.token.u));
+            self.push = Some(Bundle::root(context, done.visit.u));
         }
         self
     }
 
     /// L5: the visit of the root under its lock; what the walk saw may not be true any more.
     fn root(mut self, done: &Completion, around: &Around) -> Self {
-        let u = done.token.u;
+        let u = done.visit.u;
         let trusts = around.defect == Some(Defect::TrustsTheWalk);
         let (located, on_corner) = (done.located || trusts, done.falls_onto_corner && !trusts);
         // L1, L2: the root belongs to another context.
         if done.foreign {
-            if around.waits(self.context) {
+            if around.holds_priority(self.context) {
                 self.waits = true;
                 return self.again(done);
             }
             self.aborts = true;
-            self.asks_to_wait = true;
-            return self.back_off(u);
+            self.asks_for_priority = true;
+            return self.abort(u);
         }
         self.lock = Some((0, u));
         if located && !on_corner {
@@ -163,25 +163,25 @@ impl Outcome {
         self.release = Some(ReleaseJob { context: self.context, locks: 1 });
         if located {
             self.duplicate = true;
-            self.stops_waiting = true;
+            self.returns_priority = true;
             self.sleeps = true;
             self.root = Some(u);
             return self;
         }
         self.retries_root = true;
-        self.back_off(done.walk_next)
+        self.abort(done.walk_next)
     }
 
     fn test(mut self, done: &Completion, around: &Around) -> Self {
         let mut state = around.attempt;
         let foreign = done.foreign && around.defect != Some(Defect::IgnoresForeignLocks);
         if done.took {
-            self.lock = Some((state.logged, done.token.u));
+            self.lock = Some((state.logged, done.visit.u));
             state.logged += 1;
         }
         state.outstanding -= 1;
         if state.drains {
-        } else if foreign && around.waits(self.context) {
+        } else if foreign && around.holds_priority(self.context) {
             self = self.again(done);
             self.waits = true;
             state.outstanding += 1;
@@ -189,10 +189,10 @@ impl Outcome {
             // L1: the attempt fails; its visits run out before its locks are released.
             state.drains = true;
             self.aborts = true;
-            self.asks_to_wait = true;
+            self.asks_for_priority = true;
         } else if !done.conflict {
-            let Completion { token, record, slot, .. } = *done;
-            self.entry = Some((token.x, Entry { a: record.v[2], u: token.u, slot, f: token.f, next: token.next }));
+            let Completion { visit, record, slot, .. } = *done;
+            self.entry = Some((visit.x, Entry { a: record.v[2], u: visit.u, slot, f: visit.f, next: visit.next }));
         } else if state.count == around.config.ring {
             state.drains = true;
             self.overflows = true;
@@ -216,8 +216,8 @@ impl Outcome {
         self.push = Some(Bundle::split(done, y));
         state.count += 1;
         state.outstanding += 2;
-        if state.passes_last_edge(done.token.f_entry) {
-            self.inner = Some((state.inners, done.token.f));
+        if state.passes_last_edge(done.visit.f_entry) {
+            self.inner = Some((state.inners, done.visit.f));
             state.inners += 1;
         }
     }
@@ -229,7 +229,7 @@ impl Outcome {
             self.keeps = true;
             self.release = Some(ReleaseJob { context: self.context, locks: state.logged });
         } else {
-            self.stops_waiting = true;
+            self.returns_priority = true;
             self.commit = Some(CommitJob {
                 context: self.context,
                 p: around.p,

@@ -155,7 +155,7 @@ impl Solo {
 
     fn mend(&mut self, was: &Registers, done: &Completion) {
         self.awaits = false;
-        self.write = Write::link(done.token.u, done.slot, was.commit.records + was.solo.step);
+        self.write = Write::link(done.visit.u, done.slot, was.commit.records + was.solo.step);
         self.step = 1;
         if was.solo.step == 1 {
             self.id = was.solo.root_id;

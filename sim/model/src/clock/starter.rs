@@ -8,7 +8,7 @@ use super::wires::{Registers, Wires};
 use incircle_protocol::FIRST_ROUND;
 
 /// Rounds of the pointer per round in which contexts that backed off may try again.
-const BACK_OFF_ROUNDS: u32 = 4;
+const REST_ROUNDS: u32 = 4;
 
 /// The context that the pointer has left last, and the vertex it would take.
 #[derive(Clone, Copy, Debug, Default)]
@@ -69,7 +69,7 @@ impl Starter {
         }
         if flags.keeps & bit != 0 {
             // L1: who has failed rests. L3: nobody else tries again beside a holder that has waited for long.
-            let rested = self.round == 0 || defect == Some(Defect::NeverBacksOff);
+            let rested = self.round == 0 || defect == Some(Defect::NeverRests);
             let may = flags.may_try_again(context) || defect == Some(Defect::NobodyYields);
             let ready = flags.busy & bit == 0 && rested && may;
             return ready.then(|| Start { context, id: None, push: Bundle::look(context, tables.root[context]) });
@@ -110,7 +110,7 @@ impl Starter {
             if self.turn as u32 == was.command.contexts {
                 self.turn = 0;
                 self.is_planned = true;
-                self.round = (self.round + 1) % BACK_OFF_ROUNDS;
+                self.round = (self.round + 1) % REST_ROUNDS;
             }
         }
         if let Some(Start { context, id: Some(id), .. }) = wires.start {

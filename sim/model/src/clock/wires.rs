@@ -149,7 +149,7 @@ impl ClockModel {
 
     /// What becomes of the context whose visit completes.
     fn outcome(&self, done: &Completion) -> Outcome {
-        let context = done.token.context;
+        let context = done.visit.context;
         let around = Around {
             was: &self.registers,
             attempt: self.tables.attempts[context],

@@ -10,7 +10,7 @@
 //!           X                              b
 //!           p                         p
 //! ```
-//! Tests are carried out in the order in which they arose, as the core's token queue does.
+//! Tests are carried out in the order in which they arose, as the core's queue of visits does.
 
 use super::record::Record;
 

@@ -10,7 +10,7 @@ use incircle_hdl::engine::{
     Attempt, Beyond, Bundle, Case, CommitJob, CommitRequest, Committed, Completion, ContextState, Deal, Entry,
     EntryWrite, Events, Follow, Following, Held, InnerWrite, LockClear, LockWrite, Outcome, Passed, Plan, PlanWrite,
     Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead, SeedProgress, SoloPhase,
-    SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Token, Turned, Upcoming, Verdict, VisitEvents, Write,
+    SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit, VisitEvents, Write,
     WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
@@ -119,7 +119,7 @@ macro_rules! packed_values {
     )*};
 }
 packed_values!(
-    Token,
+    Visit,
     Bundle,
     Turned,
     Attempt,

@@ -95,7 +95,7 @@ pub struct Completion {
 pub struct Around {
     pub seeded: bool,
     pub ring: u64,
-    pub is_waiter: bool,
+    pub holds_priority: bool,
     pub is_busy: bool,
 }
 
@@ -113,8 +113,8 @@ pub struct Outcome {
     pub commit: Option<u128>,
     pub triangles: u64,
     pub release: Option<u128>,
-    pub asks_to_wait: bool,
-    pub stops_waiting: bool,
+    pub asks_for_priority: bool,
+    pub returns_priority: bool,
     pub overflows: bool,
     pub duplicate: bool,
     pub looks: bool,
@@ -181,7 +181,7 @@ impl Context {
             return Outcome { push: self.push(&[look]), ..Outcome::default() };
         }
         if done.finding.falls_onto_corner {
-            return Outcome { duplicate: true, stops_waiting: true, ..Outcome::default() };
+            return Outcome { duplicate: true, returns_priority: true, ..Outcome::default() };
         }
         if around.is_busy {
             return Outcome { revisit: true, ..Outcome::default() };
@@ -193,13 +193,13 @@ impl Context {
         let u = done.visit.u;
         let root = Some(u);
         if done.lock.foreign {
-            let waits = around.is_waiter;
+            let waits = around.holds_priority;
             return Outcome {
                 root,
                 revisit: waits,
                 keeps: !waits,
                 gives_up: !waits,
-                asks_to_wait: !waits,
+                asks_for_priority: !waits,
                 ..Outcome::default()
             };
         }
@@ -209,7 +209,7 @@ impl Context {
             return Outcome { root, lock, release, keeps: true, retries: true, ..Outcome::default() };
         }
         if done.finding.falls_onto_corner {
-            return Outcome { root, lock, release, duplicate: true, stops_waiting: true, ..Outcome::default() };
+            return Outcome { root, lock, release, duplicate: true, returns_priority: true, ..Outcome::default() };
         }
         self.growth = Growth { log: vec![u], closed_edges: [(u, 3)].into(), ..Growth::default() };
         let test = |x, after, neighbour| {
@@ -230,11 +230,11 @@ impl Context {
         let is_full = self.growth.closed_edges.len() as u64 + 2 == around.ring;
         match (done.lock.foreign, done.finding.conflict) {
             _ if self.growth.has_failed => {}
-            (true, _) if around.is_waiter => outcome.revisit = true,
+            (true, _) if around.holds_priority => outcome.revisit = true,
             (true, _) => {
                 self.growth.has_failed = true;
                 outcome.gives_up = true;
-                outcome.asks_to_wait = true;
+                outcome.asks_for_priority = true;
             }
             (false, true) if is_full => {
                 self.growth.has_failed = true;
@@ -276,7 +276,7 @@ impl Context {
             outcome.keeps = true;
             outcome.release = Some(release_job(self.owner, locks));
         } else {
-            outcome.stops_waiting = true;
+            outcome.returns_priority = true;
             outcome.triangles = self.growth.closed_edges.len() as u64;
             let inners = self.growth.inner.len() as u64;
             outcome.commit = Some(commit_job(self.owner, self.p, inners, locks, self.since));

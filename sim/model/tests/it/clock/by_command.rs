@@ -152,7 +152,7 @@ fn check_counters(bench: &mut Bench, job: &Job, counters: &Answer) {
         .max();
     expect(busiest <= Some(of(Counter::InsertCycles)), "nothing is counted twice in a clock");
     expect(of(Counter::ReadCycles) >= 3 * (2 * insertions - 2), "a word a clock is read");
-    expect(of(Counter::WaitingTokens) <= of(Counter::Aborts), "only who aborts asks to wait");
+    expect(of(Counter::PrioritiesTaken) <= of(Counter::Aborts), "only who aborts asks to wait");
 
     let (least, most) = (of(Counter::LatencyMin) as u32, of(Counter::LatencyMax) as u32);
     let first = latencies.iter().position(|&count| count != 0).map(latency_of_bucket);
@@ -201,7 +201,7 @@ fn answers_as_the_model_by_commands() {
     least(Counter::Aborts, 20_000);
     least(Counter::RootRetries, 300);
     least(Counter::Revisits, 8000);
-    least(Counter::WaitingTokens, 3000);
+    least(Counter::PrioritiesTaken, 3000);
 }
 
 #[test]

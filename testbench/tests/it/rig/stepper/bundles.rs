@@ -10,7 +10,7 @@ pub const ID_BITS: u32 = 15;
 pub type Layout<const N: usize> = [u32; N];
 
 /// owner, rotates, locks, x, after, `f_entry`, f, u.
-pub const TOKEN: Layout<8> = [5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS];
+pub const VISIT: Layout<8> = [5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS];
 /// `is_pair`, `is_triple`, owner, rotates, locks, x, after, `f_entry`, f, u, after and u of the second visit, u of the
 /// third.
 pub const BUNDLE: Layout<13> = [1, 1, 5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS, 6, ID_BITS, ID_BITS];
@@ -122,17 +122,17 @@ impl Visit {
         }
     }
 
-    /// As a `Token`.
-    pub fn token(self) -> u128 {
+    /// As a `Visit`.
+    pub fn packed(self) -> u128 {
         let Self { owner, rotates, locks, x, after, f_entry, f, u } = self;
-        pack(TOKEN, [owner, rotates.into(), locks.into(), x, after, f_entry, f, u])
+        pack(VISIT, [owner, rotates.into(), locks.into(), x, after, f_entry, f, u])
     }
 
     /// As a `Bundle` of `visits` visits: this one, the second with the entry after it and its record, and the third's record. What
     /// stands there for visits that are not made does not matter.
     pub fn bundle(self, visits: u64, second_after: u64, second_u: u64, third_u: u64) -> u128 {
         let [is_pair, is_triple] = [visits > 1, visits > 2].map(u64::from);
-        let [owner, rotates, locks, x, after, f_entry, f, u] = unpack(TOKEN, self.token());
+        let [owner, rotates, locks, x, after, f_entry, f, u] = unpack(VISIT, self.packed());
         let (after2, u2, u3) = (second_after, second_u, third_u);
         pack(BUNDLE, [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3])
     }

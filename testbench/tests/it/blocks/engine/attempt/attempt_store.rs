@@ -7,7 +7,7 @@ use incircle_hdl::engine::AttemptStore;
 use incircle_protocol::SMALL;
 use incircle_testkit::SplitMix64;
 
-named_ports!(AttemptStore, [ring, early_token, token, found, step, after], [held], clock);
+named_ports!(AttemptStore, [ring, early_visit, visit, found, step, after], [held], clock);
 
 const ROUNDS: usize = 6000;
 
@@ -31,10 +31,10 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
         // No other visit of a context that opens is out.
         let early_owner = if opens && next_owner == owner { (owner + 1) % 4 } else { next_owner };
         for (port, value) in [
-            ("early_token_owner", early_owner),
-            ("early_token_f_entry", early_entry),
-            ("token_owner", owner),
-            ("token_f_entry", f_entry),
+            ("early_visit_owner", early_owner),
+            ("early_visit_f_entry", early_entry),
+            ("visit_owner", owner),
+            ("visit_f_entry", f_entry),
         ] {
             block.set(port, value);
         }

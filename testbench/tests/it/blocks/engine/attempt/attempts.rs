@@ -13,7 +13,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Attempts,
-    [ring, early, visit, seeded, contexts, start, now],
+    [ring, early, completion, seeded, contexts, start, now],
     [is_done, follow, outcome, looks, entry, inner, lock, commit, releases, events],
     clock
 );
@@ -51,7 +51,7 @@ struct Rig {
     lives: Vec<Life>,
     /// The context that holds each lock.
     locks: BTreeMap<u64, u64>,
-    waiter: Option<u64>,
+    priority_context: Option<u64>,
     /// The visit that completes in this clock, as it was announced in the clock before.
     announced: Option<Announced>,
     now: u64,
@@ -89,9 +89,22 @@ impl Rig {
         let now = (1 << 22) - 500;
         let block = Stepper::new("attempts_small", Attempts::new(SMALL), seed as u32);
         let lives = lives.collect();
-        let (locks, waiter, tally) = (BTreeMap::new(), None, Tally::new());
+        let (locks, priority_context, tally) = (BTreeMap::new(), None, Tally::new());
         let announced = None;
-        Self { block, random, ground, targets, ring, lives, locks, waiter, announced, now, is_calm: false, tally }
+        Self {
+            block,
+            random,
+            ground,
+            targets,
+            ring,
+            lives,
+            locks,
+            priority_context,
+            announced,
+            now,
+            is_calm: false,
+            tally,
+        }
     }
 
     fn one_in(&mut self, times: u64) -> bool {
@@ -108,7 +121,7 @@ impl Rig {
             if may && life.has_overflowed {
                 // It inserts its point alone.
                 (life.keeps, life.has_overflowed) = (false, false);
-                self.waiter = self.waiter.filter(|waiter| *waiter != owner);
+                self.priority_context = self.priority_context.filter(|priority_context| *priority_context != owner);
             }
             if may {
                 let u = if life.keeps { life.root } else { start };
@@ -160,18 +173,19 @@ impl Rig {
         let seeded = !self.one_in(100);
         let busy = self.lives.iter().enumerate().filter(|(_, life)| life.due.is_some());
         let busy = busy.fold(0u64, |set, (owner, _)| set | 1 << owner);
-        let (waiter, is_held) = (self.waiter.unwrap_or(self.random.below(CONTEXTS)), self.waiter.is_some());
-        for (port, value) in [("ring", self.ring), ("busy", busy), ("waiter", waiter)] {
+        let (priority_context, is_held) =
+            (self.priority_context.unwrap_or(self.random.below(CONTEXTS)), self.priority_context.is_some());
+        for (port, value) in [("ring", self.ring), ("busy", busy), ("priority_context", priority_context)] {
             self.block.set(port, value);
         }
         self.block.set("seeded", seeded);
-        self.block.set("waiter_valid", is_held);
+        self.block.set("priority_is_held", is_held);
         self.block.set("early_done", visit.is_some());
         let anything = Visit { owner: self.random.below(CONTEXTS), f_entry: self.random.below(64), ..Visit::look(0) };
-        self.block.set("early_token", visit.unwrap_or(anything).token());
+        self.block.set("early_visit", visit.unwrap_or(anything).packed());
         let visit = visit?;
-        let is_waiter = self.waiter == Some(visit.owner);
-        let around = Around { seeded, ring: self.ring, is_waiter, is_busy: busy >> visit.owner & 1 == 1 };
+        let holds_priority = self.priority_context == Some(visit.owner);
+        let around = Around { seeded, ring: self.ring, holds_priority, is_busy: busy >> visit.owner & 1 == 1 };
         let done = self.read(visit);
         let infinite = [self.one_in(2); 3];
         let turned = turned(done.record.v.map(spread), done.record.n, done.slot, done.lock, infinite);
@@ -184,8 +198,8 @@ impl Rig {
         let next = self.announce(upcoming);
         let announced = std::mem::replace(&mut self.announced, next);
         let seen = announced.map(|Announced { done, turned, around }| {
-            self.block.set("visit_token", done.visit.token());
-            self.block.set("visit_turned", turned);
+            self.block.set("completion_visit", done.visit.packed());
+            self.block.set("completion_turned", turned);
             self.block.set("verdict", done.finding.verdict());
             let outcome = self.lives[done.visit.owner as usize].context.complete(&done, &around);
             (done, outcome)
@@ -243,7 +257,7 @@ impl Rig {
             ("looks again while busy", outcome.revisit && !done.visit.locks && !done.lock.again),
             ("gives up a root", outcome.gives_up && is_root),
             ("gives up a test", outcome.gives_up && done.visit.rotates),
-            ("takes the token", outcome.asks_to_wait && self.waiter.is_none()),
+            ("takes the visit", outcome.asks_for_priority && self.priority_context.is_none()),
             ("locks while it drains", done.lock.took && outcome.entry.is_none() && outcome.push.is_none() && !is_root),
             ("outcome_overflows", outcome.overflows),
             ("duplicates of walks", outcome.duplicate && !is_root),
@@ -253,10 +267,10 @@ impl Rig {
         ] {
             *self.tally.entry(event).or_default() += usize::from(happens);
         }
-        if outcome.stops_waiting && self.waiter == Some(owner) {
-            self.waiter = None;
-        } else if outcome.asks_to_wait && self.waiter.is_none() {
-            self.waiter = Some(owner);
+        if outcome.returns_priority && self.priority_context == Some(owner) {
+            self.priority_context = None;
+        } else if outcome.asks_for_priority && self.priority_context.is_none() {
+            self.priority_context = Some(owner);
         }
     }
 
@@ -307,9 +321,9 @@ fn compare(block: &Stepper<Attempts>, seen: Option<&(Completion, Outcome)>) {
         ("lock_valid", outcome.lock.is_some()),
         ("commit_valid", outcome.commit.is_some()),
         ("releases_valid", outcome.release.is_some()),
-        ("asks_to_wait", outcome.asks_to_wait),
+        ("asks_for_priority", outcome.asks_for_priority),
         ("waits", outcome.revisit && !is(false, false)),
-        ("stops_waiting", outcome.stops_waiting),
+        ("returns_priority", outcome.returns_priority),
         ("outcome_overflows", outcome.overflows),
         ("duplicate", outcome.duplicate),
         ("looks", outcome.looks),

@@ -6,7 +6,7 @@ use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::VisitCase;
 use incircle_testkit::SplitMix64;
 
-named_ports!(VisitCase, [early, seeded, is_busy, is_waiter, verdict, drains, is_full], [found], clock);
+named_ports!(VisitCase, [early, seeded, is_busy, holds_priority, verdict, drains, is_full], [found], clock);
 
 /// Outputs of `VisitCase` of which at most one is high.
 const CASES: [&str; 13] = [
@@ -34,7 +34,7 @@ struct Bits {
     lock: LockFinding,
     finding: Finding,
     is_busy: bool,
-    is_waiter: bool,
+    holds_priority: bool,
     drains: bool,
     is_full: bool,
 }
@@ -52,7 +52,7 @@ impl Bits {
             lock: LockFinding { foreign: bit(7), again: bit(8), took: false },
             finding,
             is_busy: bit(9),
-            is_waiter: bit(10),
+            holds_priority: bit(10),
             drains: bit(11),
             is_full: bit(12),
         }
@@ -67,7 +67,7 @@ impl Bits {
         if self.rotates {
             return match (self.drains, self.lock.foreign, conflict) {
                 (true, ..) => None,
-                (_, true, _) if self.is_waiter => Some("repeats"),
+                (_, true, _) if self.holds_priority => Some("repeats"),
                 (_, true, _) => Some("gives_up"),
                 (.., false) => Some("settles"),
                 (.., true) if self.is_full => Some("overflows"),
@@ -76,7 +76,7 @@ impl Bits {
         }
         if self.locks {
             return Some(match (self.lock.foreign, located) {
-                (true, _) if self.is_waiter => "repeats",
+                (true, _) if self.holds_priority => "repeats",
                 (true, _) => "gives_up_root",
                 (_, false) => "retries",
                 (_, true) if falls_onto_corner => "root_duplicate",
@@ -96,12 +96,12 @@ impl Bits {
 
 /// Drives what is looked at a clock ahead.
 fn set_early(block: &mut Stepper<VisitCase>, bits: &Bits, random: &mut SplitMix64) {
-    let token = Visit { rotates: bits.rotates, locks: bits.locks, ..Visit::random(random) };
+    let visit = Visit { rotates: bits.rotates, locks: bits.locks, ..Visit::random(random) };
     let lock = LockFinding { took: flip(random), ..bits.lock };
     block.set("early_done", bits.done);
-    block.set("early_token", token.token());
+    block.set("early_visit", visit.packed());
     block.set("early_turned", turned([id(random); 3], [id(random); 3], 1, lock, [flip(random); 3]));
-    for (port, value) in [("seeded", bits.seeded), ("is_busy", bits.is_busy), ("is_waiter", bits.is_waiter)] {
+    for (port, value) in [("seeded", bits.seeded), ("is_busy", bits.is_busy), ("holds_priority", bits.holds_priority)] {
         block.set(port, value);
     }
 }

@@ -26,7 +26,7 @@ const EVENTS: [(&str, Counter); 18] = [
     ("revisit", Counter::Revisits),
     ("gives_up", Counter::Aborts),
     ("retries", Counter::RootRetries),
-    ("takes_token", Counter::WaitingTokens),
+    ("takes_priority", Counter::PrioritiesTaken),
     ("overflows", Counter::Overflows),
     ("flip", Counter::Flips),
     // Of two ports that add to one counter, the later one is low where the earlier is high.

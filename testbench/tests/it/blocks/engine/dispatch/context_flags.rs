@@ -8,7 +8,7 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     ContextFlags,
     [reset, clears, all, outcome, start, released, committed, solo_ends],
-    [contexts, takes_token],
+    [contexts, takes_priority],
     clock
 );
 
@@ -22,9 +22,9 @@ struct Events {
     sleeps: bool,
     keeps: bool,
     hands_over: bool,
-    asks_to_wait: bool,
+    asks_for_priority: bool,
     waits: bool,
-    stops_waiting: bool,
+    returns_priority: bool,
     overflows: bool,
     starter: Option<u64>,
     released: Option<u64>,
@@ -42,11 +42,11 @@ struct Flags {
     hinted: bool,
 }
 
-/// All contexts, the waiting token, and who is alone or wants to be.
+/// All contexts, the priority, and who is alone or wants to be.
 #[derive(Clone, Debug)]
 struct FlagsReference {
     contexts: Vec<Flags>,
-    waiter: Option<u64>,
+    priority_context: Option<u64>,
     /// Foreign locks that the waiting context has met.
     met: u64,
     alone: Option<u64>,
@@ -57,7 +57,7 @@ struct FlagsReference {
 impl FlagsReference {
     fn new(contexts: u64) -> Self {
         let rests = Flags { asleep: true, keeping: false, busy: false, began: false, hinted: false };
-        Self { contexts: vec![rests; contexts as usize], waiter: None, met: 0, alone: None, rested: false }
+        Self { contexts: vec![rests; contexts as usize], priority_context: None, met: 0, alone: None, rested: false }
     }
 
     fn set(&self, flag: impl Fn(&Flags) -> bool) -> u64 {
@@ -92,9 +92,11 @@ impl FlagsReference {
         if let Some(context) = events.committed {
             self.at(context).hinted = true;
         }
-        match self.waiter {
-            None if events.asks_to_wait => (self.waiter, self.met) = (Some(events.owner), 0),
-            Some(waiter) if events.stops_waiting && waiter == events.owner => self.waiter = None,
+        match self.priority_context {
+            None if events.asks_for_priority => (self.priority_context, self.met) = (Some(events.owner), 0),
+            Some(priority_context) if events.returns_priority && priority_context == events.owner => {
+                self.priority_context = None
+            }
             _ => {}
         }
         self.met += u64::from(events.waits);
@@ -104,7 +106,7 @@ impl FlagsReference {
         if events.solo_ends {
             if let Some(context) = self.alone.take() {
                 self.at(context).keeping = false;
-                self.waiter = self.waiter.filter(|waiter| *waiter != context);
+                self.priority_context = self.priority_context.filter(|priority_context| *priority_context != context);
             }
         }
     }
@@ -119,9 +121,9 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
         ("sleeps", events.sleeps),
         ("keeps", events.keeps),
         ("hands_over", events.hands_over),
-        ("asks_to_wait", events.asks_to_wait),
+        ("asks_for_priority", events.asks_for_priority),
         ("waits", events.waits),
-        ("stops_waiting", events.stops_waiting),
+        ("returns_priority", events.returns_priority),
         ("overflows", events.overflows),
         ("start_valid", events.starter.is_some()),
         ("released_valid", events.released.is_some()),
@@ -143,12 +145,15 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
         block.expect("busy", reference.set(|flags| flags.busy));
         block.expect("began", reference.set(|flags| flags.began));
         block.expect("hinted", reference.set(|flags| flags.hinted));
-        block.expect("waiter_valid", reference.waiter.is_some());
-        block.expect("is_urgent", reference.waiter.is_some() && reference.met >= 8);
+        block.expect("priority_is_held", reference.priority_context.is_some());
+        block.expect("is_urgent", reference.priority_context.is_some() && reference.met >= 8);
         block.expect("solo_valid", reference.alone.is_some());
         block.expect("all_rest", reference.rested);
-        block.expect("takes_token", events.asks_to_wait && reference.waiter.is_none());
-        reference.waiter.into_iter().for_each(|waiter| block.expect("waiter", waiter));
+        block.expect("takes_priority", events.asks_for_priority && reference.priority_context.is_none());
+        reference
+            .priority_context
+            .into_iter()
+            .for_each(|priority_context| block.expect("priority_context", priority_context));
         reference.alone.into_iter().for_each(|alone| block.expect("solo_owner", alone));
     }
     block.edge();
@@ -165,7 +170,7 @@ fn any(reference: &FlagsReference, random: &mut SplitMix64, holds: impl Fn(&Flag
 fn events(reference: &FlagsReference, random: &mut SplitMix64) -> Events {
     let mut flip = |times: u64| random.below(times) == 0;
     let (reset, clears, over) = (flip(900), flip(900), flip(2));
-    let (keeps, hands_over, asks_to_wait, overflows) = (flip(2), flip(2), flip(4), flip(12));
+    let (keeps, hands_over, asks_for_priority, overflows) = (flip(2), flip(2), flip(4), flip(12));
     let (ends_alone, gives_back, meets) = (flip(4), flip(8), !flip(8));
     let alone_works = reference.alone.is_some() && reference.rests();
     let mut events =
@@ -175,18 +180,18 @@ fn events(reference: &FlagsReference, random: &mut SplitMix64) -> Events {
         events.solo_ends = ends_alone;
     } else if let Some(owner) = any(reference, random, |flags| !flags.asleep) {
         let is_free = !reference.contexts[owner as usize].busy;
-        // Who meets a foreign lock with the token waits, and neither asks for it nor ends.
-        let waits = reference.waiter == Some(owner) && meets;
+        // Who meets a foreign lock with the priority waits, and neither asks for it nor ends.
+        let waits = reference.priority_context == Some(owner) && meets;
         let sleeps = over && !waits;
-        let asks_to_wait = asks_to_wait && !waits;
+        let asks_for_priority = asks_for_priority && !waits;
         events = Events {
             owner,
             sleeps,
             keeps: sleeps && keeps,
             hands_over: sleeps && hands_over && is_free,
-            asks_to_wait,
+            asks_for_priority,
             waits,
-            stops_waiting: sleeps && !asks_to_wait && gives_back,
+            returns_priority: sleeps && !asks_for_priority && gives_back,
             overflows: overflows && !waits,
             ..events
         };
@@ -208,11 +213,11 @@ fn context_flags_are_those_of_lists_of_contexts() {
         let mut reference = FlagsReference::new(contexts);
         for clock in 0..12_000 {
             let events = Events { reset: clock == 0, ..events(&reference, &mut random) };
-            let waits = reference.waiter.is_some();
+            let waits = reference.priority_context.is_some();
             for (seen, happens) in seen.iter_mut().zip([
-                events.asks_to_wait && waits,
-                events.stops_waiting && reference.waiter == Some(events.owner),
-                events.solo_ends && reference.waiter == reference.alone,
+                events.asks_for_priority && waits,
+                events.returns_priority && reference.priority_context == Some(events.owner),
+                events.solo_ends && reference.priority_context == reference.alone,
                 events.overflows && reference.alone.is_some(),
                 events.waits && reference.met > 8,
                 events.sleeps && events.starter.is_some() && events.released.is_some() && events.committed.is_some(),
@@ -236,8 +241,8 @@ fn context_flags_show_the_wave_of_their_header() {
     for clock in 0..14 {
         let events = match clock {
             1 | 5 => Events { starter: Some(owner), ..base },
-            3 => Events { sleeps: true, keeps: true, asks_to_wait: true, ..base },
-            7 => Events { sleeps: true, hands_over: true, stops_waiting: true, ..base },
+            3 => Events { sleeps: true, keeps: true, asks_for_priority: true, ..base },
+            7 => Events { sleeps: true, hands_over: true, returns_priority: true, ..base },
             9 => Events { committed: Some(owner), ..base },
             11 => Events { released: Some(owner), ..base },
             _ => base,
@@ -248,8 +253,8 @@ fn context_flags_show_the_wave_of_their_header() {
             ("starts", Cell::Bit(events.starter.is_some())),
             ("sleeps", Cell::Bit(events.sleeps)),
             ("keeps", Cell::Bit(events.keeps)),
-            ("asks_to_wait", Cell::Bit(events.asks_to_wait)),
-            ("stops_waiting", Cell::Bit(events.stops_waiting)),
+            ("asks_for_priority", Cell::Bit(events.asks_for_priority)),
+            ("returns_priority", Cell::Bit(events.returns_priority)),
             ("hands_over", Cell::Bit(events.hands_over)),
             ("commit_ends", Cell::Bit(events.committed.is_some())),
             ("released", Cell::Bit(events.released.is_some())),
@@ -258,7 +263,7 @@ fn context_flags_show_the_wave_of_their_header() {
             ("busy", set(|flags| flags.busy)),
             ("began", set(|flags| flags.began)),
             ("hinted", set(|flags| flags.hinted)),
-            ("waiter_valid", Cell::Bit(reference.waiter.is_some())),
+            ("priority_is_held", Cell::Bit(reference.priority_context.is_some())),
             ("all_rest", Cell::Bit(reference.rested)),
         ]);
         reference.edge(&events);

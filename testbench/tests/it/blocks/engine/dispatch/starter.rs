@@ -188,7 +188,7 @@ impl Rig {
         let (root, hint) = (root.unwrap_or((1, 0x7fff)), hint.unwrap_or((0, 0x7fff)));
         for (port, value) in [
             ("solo_owner", inputs.special),
-            ("waiter", inputs.special),
+            ("priority_context", inputs.special),
             ("arrived", self.arrived),
             ("asleep", self.set(|life| !life.awake)),
             ("keeping", self.set(|life| life.keeps)),

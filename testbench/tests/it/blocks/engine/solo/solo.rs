@@ -7,7 +7,7 @@ use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::Solo;
 use incircle_testkit::SplitMix64;
 
-named_ports!(Solo, [reset, start, records, visit], [push, write, progress], clock);
+named_ports!(Solo, [reset, start, records, completion], [push, write, progress], clock);
 
 /// A write as it stands on the port.
 fn packed(written: Written) -> u128 {
@@ -88,11 +88,11 @@ impl Rig {
     /// Answers the visit that is due, from the mesh as the writes have left it.
     fn set_completion(&mut self, mesh: &Mesh, job: &Job, seen: &mut Seen) {
         let due = self.visit.filter(|(_, clocks)| *clocks == 0);
-        self.block.set("visit_done", due.is_some());
+        self.block.set("completion_done", due.is_some());
         let mut finding = self.noise();
         let Some((visit, _)) = due else {
             self.block.set("verdict", finding.verdict());
-            self.block.set("token", Visit::look(self.random.below(1 << 15)).token());
+            self.block.set("visit", Visit::look(self.random.below(1 << 15)).packed());
             self.block.set("turned", u128::from(self.random.next_u64()));
             return;
         };
@@ -107,7 +107,7 @@ impl Rig {
             [] => {}
         }
         self.block.set("verdict", finding.verdict());
-        self.block.set("token", visit.token());
+        self.block.set("visit", visit.packed());
         self.block.set("turned", packed_record(&record, slot));
         self.visit = None;
         seen.completed += 1;

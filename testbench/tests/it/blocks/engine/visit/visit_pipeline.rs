@@ -9,14 +9,14 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 
 use crate::rig::drawing::{draw, When};
-use crate::rig::stepper::bundles::{pack, random_fields, ring_bundle, unpack, BUNDLE, TOKEN, WRITE};
+use crate::rig::stepper::bundles::{pack, random_fields, ring_bundle, unpack, BUNDLE, VISIT, WRITE};
 use crate::rig::stepper::{named_ports, Delay, Expected, Stepper};
 use crate::rig::visit_model::{point, verdict_parts, word, Locks, Point, Record, VERDICT_PARTS};
 use incircle_hdl::engine::VisitPipeline;
 use incircle_protocol::{infinite_vertex, Config, SMALL, TINY};
 use incircle_testkit::SplitMix64;
 
-named_ports!([] VisitPipeline, [reset, infinite, records, push, position, read, write, enables, arrival, fetch_id, clear], [is_issuing, visit, early, read_out, fetched], clock);
+named_ports!([] VisitPipeline, [reset, infinite, records, push, position, read, write, enables, arrival, fetch_id, clear], [is_issuing, completion, early, read_out, fetched], clock);
 
 const INPUTS: [&str; 18] = [
     "reset",
@@ -43,11 +43,11 @@ const INPUTS: [&str; 18] = [
 /// parts of `VERDICT_PARTS`.
 const OUTPUTS: [&str; 18] = [
     "is_issuing",
-    "visit_done",
-    "visit_token",
-    "visit_turned[0+:92]",
-    "visit_turned[92+:3]",
-    "visit_turned[95+:3]",
+    "completion_done",
+    "completion_visit",
+    "completion_turned[0+:92]",
+    "completion_turned[92+:3]",
+    "completion_turned[95+:3]",
     "read_out_valid",
     "read_out_record_v0",
     "read_out_record_v1",
@@ -81,7 +81,7 @@ const ROUNDS: usize = 45;
 /// A visit under way: what is known of it so far, and nothing where it is arbitrary.
 #[derive(Clone, Copy)]
 struct Flight {
-    token: u128,
+    visit: u128,
     owner: usize,
     /// took, foreign, again.
     lock: [bool; 3],
@@ -175,7 +175,7 @@ impl Visits {
     /// A record of the pool; every second time the one that a visit reads in this clock.
     fn visited_id(&mut self) -> u64 {
         let any = self.record_id();
-        self.issued.filter(|_| self.numbers.bits(1) == 1).map_or(any, |token| unpack(TOKEN, token)[7])
+        self.issued.filter(|_| self.numbers.bits(1) == 1).map_or(any, |visit| unpack(VISIT, visit)[7])
     }
 
     /// A vertex of the pool; the last one stands where the infinite vertex reads.
@@ -290,8 +290,8 @@ impl Visits {
         self.flights.push_back(None);
         self.read_outs.pop_front();
         self.read_outs.push_back(None);
-        if let Some(token) = self.issued {
-            self.visit(token, values);
+        if let Some(visit) = self.issued {
+            self.visit(visit, values);
         }
         self.edge(values);
         shown
@@ -306,7 +306,7 @@ impl Visits {
             let turned =
                 |record: Record| record.turned(flight.slot).pack_turned(flight.slot, flight.lock, self.infinite);
             let lock = Record::default().pack_turned(0, flight.lock, self.infinite) >> 92 & 7;
-            shown[2] = Some(flight.token);
+            shown[2] = Some(flight.visit);
             shown[3] = flight.record.map(|record| turned(record) & ((1 << 92) - 1));
             shown[4] = Some(lock);
             shown[5] = flight.record.map(|record| turned(record) >> 95);
@@ -328,8 +328,8 @@ impl Visits {
     }
 
     /// The visit in the issue register reads its record at this edge and comes out `STAGES` clocks later.
-    fn visit(&mut self, token: u128, values: &[u128]) {
-        let [owner, rotates, locks, .., f, u] = unpack(TOKEN, token);
+    fn visit(&mut self, visit: u128, values: &[u128]) {
+        let [owner, rotates, locks, .., f, u] = unpack(VISIT, visit);
         let write = unpack(WRITE, values[10]);
         let is_torn = write[0] == 1 && write[1] == u;
         let is_written = u128::from(u) < values[2];
@@ -344,7 +344,7 @@ impl Visits {
         self.seen.unwritten += usize::from(!is_written);
         self.seen.torn += usize::from(is_torn);
         self.flights[STAGES - 1] = Some(Flight {
-            token,
+            visit,
             owner: owner as usize,
             lock: [took, foreign, is_torn || !is_written],
             slot,
@@ -384,7 +384,7 @@ impl Visits {
             unpack(BUNDLE, bundle);
         let visits = [(x, after, u), (after, after2, u2), (after2, 0, u3)];
         for (x, after, u) in visits.into_iter().take(1 + (is_pair + is_triple) as usize) {
-            self.waiting.push_back(pack(TOKEN, [owner, rotates, locks, x, after, f_entry, f, u]));
+            self.waiting.push_back(pack(VISIT, [owner, rotates, locks, x, after, f_entry, f, u]));
         }
         self.seen.triples += is_triple as usize;
     }
@@ -459,12 +459,12 @@ fn visits(name: &str, config: Config) {
 
 #[test]
 fn visit_pipeline_of_a_tiny_core() {
-    visits("visit_pipeline_tiny", TINY);
+    visits("completion_pipeline_tiny", TINY);
 }
 
 #[test]
 fn visit_pipeline_of_a_small_core() {
-    visits("visit_pipeline_small", SMALL);
+    visits("completion_pipeline_small", SMALL);
 }
 
 #[test]
@@ -475,12 +475,12 @@ fn visit_pipeline_shows_the_wave_of_its_header() {
         ("bundle.owner", "push_bundle", 2, 5, When::If("push_valid")),
         ("bundle.x", "push_bundle", 9, 6, When::If("push_valid")),
         ("is_issuing", "is_issuing", 0, 1, When::Always),
-        ("done", "visit_done", 0, 1, When::Always),
-        ("token.owner", "visit_token", 0, 5, When::If("visit_done")),
-        ("token.x", "visit_token", 7, 6, When::If("visit_done")),
+        ("done", "completion_done", 0, 1, When::Always),
+        ("visit.owner", "completion_visit", 0, 5, When::If("completion_done")),
+        ("visit.x", "completion_visit", 7, 6, When::If("completion_done")),
         ("read", "read_valid", 0, 1, When::Always),
         ("read_done", "read_out_valid", 0, 1, When::Always),
     ];
     let pipeline = VisitPipeline::new(TINY);
-    draw("visit_pipeline_tiny", pipeline, &stimuli, 24, &lanes).assert_drawn_in("visit_pipeline");
+    draw("completion_pipeline_tiny", pipeline, &stimuli, 24, &lanes).assert_drawn_in("completion_pipeline");
 }
