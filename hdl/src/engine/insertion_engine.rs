@@ -92,7 +92,7 @@ impl Logic for InsertionEngine {
         self.pipeline.records.next = self.insertions.records.val();
         self.pipeline.push.next = self.push_port.push.val();
         self.pipeline.position.next.valid = self.insertions.fetched.val().valid;
-        self.pipeline.position.next.owner = self.insertions.fetched.val().owner;
+        self.pipeline.position.next.context = self.insertions.fetched.val().context;
         self.pipeline.position.next.point = self.pipeline.fetched.val();
         self.pipeline.read.next = self.read.val();
         self.pipeline.write.next = self.write_port.write.val();

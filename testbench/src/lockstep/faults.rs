@@ -117,7 +117,7 @@ pub const FAULTS: &[Fault] = &[
         name: "own_lock",
         pieces: &[piece(
             "foreign = @;",
-            "met_clear3$q | (takes3$q & found_set$q & (~holder_is_owner))",
+            "met_clear3$q | (takes3$q & found_set$q & (~holder_is_own))",
             "met_clear3$q | (takes3$q & found_set$q)",
         )],
     },

@@ -36,7 +36,7 @@ impl Logic for Aftermath {
         self.ends_at_root.next = self.found.val().root_duplicate | self.found.val().retries;
         self.fails.next = self.is_failure.val();
         self.stops_at_root.next = self.ends_at_root.val();
-        self.outcome.next.owner = self.visit.val().owner;
+        self.outcome.next.context = self.visit.val().context;
         self.outcome.next.sleeps = self.found.val().looks
             | self.found.val().walk_duplicate
             | self.found.val().gives_up_root

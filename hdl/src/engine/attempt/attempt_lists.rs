@@ -52,24 +52,24 @@ impl Logic for AttemptLists {
         self.boundary.next.f = self.visit.val().f;
         self.boundary.next.after = self.visit.val().after;
         self.entry.next.valid = self.found.val().settles;
-        self.entry.next.owner = self.visit.val().owner;
+        self.entry.next.context = self.visit.val().context;
         self.entry.next.place = self.visit.val().x;
         self.entry.next.entry = self.boundary.val();
 
         self.inner.next.valid = self.step.val().finds_inner;
-        self.inner.next.owner = self.visit.val().owner;
+        self.inner.next.context = self.visit.val().context;
         self.inner.next.place = self.inners.val().get_bits::<6>(0);
         self.inner.next.id = self.visit.val().f;
 
         self.lock.next.valid = self.found.val().is_done & self.turned.val().took;
-        self.lock.next.owner = self.visit.val().owner;
+        self.lock.next.context = self.visit.val().context;
         self.lock.next.place = self.attempt.val().logged;
         self.lock.next.id = self.visit.val().u;
         if self.found.val().is_root {
             self.lock.next.place = 0.into();
         }
 
-        self.ring.next.owner = self.visit.val().owner;
+        self.ring.next.context = self.visit.val().context;
         self.ring.next.p = self.p.val();
         self.ring.next.inners = self.inners.val();
         self.ring.next.locks = self.after.val().logged;
@@ -77,7 +77,7 @@ impl Logic for AttemptLists {
         self.commit.next.valid = self.step.val().succeeds;
         self.commit.next.job = self.ring.val();
 
-        self.locks.next.owner = self.visit.val().owner;
+        self.locks.next.context = self.visit.val().context;
         self.locks.next.locks = self.after.val().logged;
         if self.stops_at_root.val() {
             self.locks.next.locks = 1.into();

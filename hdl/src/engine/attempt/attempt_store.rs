@@ -161,14 +161,14 @@ impl Logic for AttemptStore {
         self.written_bits.next = self.written.val().into();
 
         // The memory.
-        self.states.write_address.next = self.visit.val().owner;
+        self.states.write_address.next = self.visit.val().context;
         self.states.write_data.next = self.written_bits.val();
         self.states.write_enable.next = self.found.val().is_test | self.found.val().opens;
-        self.states.read_address.next = self.early_visit.val().owner;
-        self.flags.write_address.next = self.visit.val().owner;
+        self.states.read_address.next = self.early_visit.val().context;
+        self.flags.write_address.next = self.visit.val().context;
         self.flags.write_data.next = self.written_flags.val();
         self.flags.write_enable.next = self.found.val().is_test | self.found.val().opens;
-        self.flags.read_address.next = self.early_visit.val().owner;
+        self.flags.read_address.next = self.early_visit.val().context;
         self.stored.bits.next = self.states.read_data.val();
 
         // The edge that the next visit asks for.
@@ -189,7 +189,7 @@ impl Logic for AttemptStore {
         self.edges_after.next = self.after.val().half_open;
 
         // What the next visit sees: the memory, or what goes into it now.
-        self.goes_round.next = self.found.val().is_test & (self.early_visit.val().owner == self.visit.val().owner);
+        self.goes_round.next = self.found.val().is_test & (self.early_visit.val().context == self.visit.val().context);
         self.went_round.d.next = self.goes_round.val();
         self.state.d.next = self.stored.value.val();
         self.flag_bits.d.next = self.flags.read_data.val();

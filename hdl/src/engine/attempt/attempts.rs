@@ -115,19 +115,19 @@ impl Logic for Attempts {
         self.store.visit.next = self.visit.val();
         self.attempt.next = self.store.held.val().attempt;
         self.count.next = self.attempt.val().count;
-        self.points.owner.next = self.visit.val().owner;
+        self.points.context_id.next = self.visit.val().context;
         self.points.start.next = self.start.val();
         self.points.now.next = self.now.val();
 
         // What the visit means.
-        self.context_index.next = self.early_visit.val().owner;
+        self.context_index.next = self.early_visit.val().context;
         self.busy.next = self.contexts.val().busy;
         self.meaning.early.next = self.early.val();
         self.meaning.verdict.next = self.verdict.val();
         self.meaning.seeded.next = self.seeded.val();
         self.meaning.is_busy.next = self.busy.val().get_bit(self.context_index.val().index());
         self.meaning.holds_priority.next = self.contexts.val().priority_is_held
-            & (self.contexts.val().priority_context == self.early_visit.val().owner);
+            & (self.contexts.val().priority_context == self.early_visit.val().context);
         self.meaning.drains.next = self.attempt.val().drains;
         self.meaning.is_full.next = self.store.held.val().is_full;
         self.is_done.next = self.meaning.found.val().is_done;

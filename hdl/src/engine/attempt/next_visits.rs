@@ -62,7 +62,7 @@ impl Logic for NextVisits {
         // The same visit again, but for what each case changes.
         self.prepared.d.next.is_pair = self.opens.val() | self.splits.val();
         self.prepared.d.next.is_triple = self.opens.val();
-        self.prepared.d.next.owner = self.early_visit.val().owner;
+        self.prepared.d.next.context = self.early_visit.val().context;
         self.prepared.d.next.rotates = self.early_visit.val().rotates | self.opens.val();
         self.prepared.d.next.locks = self.early_visit.val().locks;
         self.prepared.d.next.x = self.early_visit.val().x;

@@ -98,7 +98,7 @@ impl Logic for Commit {
         self.takes.next = self.steps.takes.val();
         self.takes_fresh.next = self.steps.advances.val() & self.star_id.is_fresh.val();
         self.inner_list.inner.next = self.inner.val();
-        self.inner_list.reader.next = self.head_job.val().owner;
+        self.inner_list.reader.next = self.head_job.val().context;
         self.inner_list.inners.next = self.head_job.val().inners;
         self.inner_list.restarts.next = self.steps.loads.val();
         self.inner_list.steps.next = self.steps.advances.val() & self.star_id.is_inner.val();

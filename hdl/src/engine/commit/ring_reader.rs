@@ -16,15 +16,15 @@
 //! Two rings of three, of contexts 1 and 0, whose entries stand in the order 0, 2, 1 with `a` = 10, 12, 11 and 20, 22, 21; behind
 //! the first two of each lies one triangle:
 //! ```text
-//! entry_enable    ___/^^^^^^^^^^^^^^^^^\_____________________________
-//! entry_place       .  0  1  2  0  1  2  .  .  .  .  .  .  .  .  .  .
-//! job_enable      _________/^^\_____/^^\_____________________________
-//! head_valid      ___________________________/^^^^^^^^^^^\__/^^^^^^^^
-//! head.a            .  .  .  .  .  .  .  .  . 10 12 12 11  . 20 22 21
-//! head_is_last    ____________________________________/^^\________/^^
-//! head_shares     ______________________________/^^^^^\________/^^\__
-//! head_job.owner    .  .  .  .  .  .  .  .  .  1  .  .  .  .  0  .  .
-//! takes           ___________________________/^^\__/^^^^^\__/^^^^^^^^
+//! entry_enable      ___/^^^^^^^^^^^^^^^^^\_____________________________
+//! entry_place         .  0  1  2  0  1  2  .  .  .  .  .  .  .  .  .  .
+//! job_enable        _________/^^\_____/^^\_____________________________
+//! head_valid        ___________________________/^^^^^^^^^^^\__/^^^^^^^^
+//! head.a              .  .  .  .  .  .  .  .  . 10 12 12 11  . 20 22 21
+//! head_is_last      ____________________________________/^^\________/^^
+//! head_shares       ______________________________/^^^^^\________/^^\__
+//! head_job.context    .  .  .  .  .  .  .  .  .  1  .  .  .  .  0  .  .
+//! takes             ___________________________/^^\__/^^^^^\__/^^^^^^^^
 //! ```
 
 use super::job_queue::JobQueue;
@@ -94,7 +94,7 @@ pub struct RingReader {
     shares_with_first: Signal<Local, Bit>,
     first_place: Signal<Local, RingEntry>,
     first_bit: Signal<Local, ContextSet>,
-    wide_owner: Signal<Local, ContextSet>,
+    wide_context: Signal<Local, ContextSet>,
     oldest_bit: Signal<Local, ContextSet>,
 }
 
@@ -123,7 +123,7 @@ impl Logic for RingReader {
 
         // The list.
         self.list.entry.next = self.entry.val();
-        self.list.reader.next = self.ring.q.val().owner;
+        self.list.reader.next = self.ring.q.val().context;
         self.list.reader_bit.next = self.ring_bit.q.val();
         self.list.read_place.next = self.pointer.q.val();
         self.list.moves.next = self.moves.val();
@@ -139,8 +139,8 @@ impl Logic for RingReader {
         self.rings.takes.next = self.moves.val() & self.ring_is_through.val();
         self.oldest.bits.next = self.rings.head.val();
         self.first_bit.next = 1.into();
-        self.wide_owner.next = bit_cast::<24, 5>(self.oldest.value.val().owner);
-        self.oldest_bit.next = self.first_bit.val() << self.wide_owner.val();
+        self.wide_context.next = bit_cast::<24, 5>(self.oldest.value.val().context);
+        self.oldest_bit.next = self.first_bit.val() << self.wide_context.val();
         self.shares_with_last.next = self.arrival.q.val().f == self.last_entry.q.val().f;
         self.shares_with_first.next = self.arrival.q.val().f == self.first_f.q.val();
         if self.moves.val() {

@@ -16,17 +16,17 @@
 //! sleeps            _________/^^\________/^^\_________________
 //! keeps             _________/^^\_____________________________
 //! asks_for_priority _________/^^\_____________________________
-//! returns_priority   _____________________/^^\_________________
-//! hands_over         _____________________/^^\_________________
-//! commit_ends        ___________________________/^^\___________
-//! released           _________________________________/^^\_____
-//! asleep               3  3  1  1  3  3  1  1  3  3  3  3  3  3
-//! keeping              0  0  0  0  2  2  0  0  0  0  0  0  0  0
-//! busy                 0  0  0  0  0  0  0  0  2  2  2  2  0  0
-//! began                0  0  2  2  2  2  2  2  2  2  2  2  2  2
-//! hinted               0  0  0  0  0  0  0  0  0  0  2  2  2  2
-//! priority_is_held   ____________/^^^^^^^^^^^\_________________
-//! all_rest           ___/^^\________/^^\____________________/^^
+//! returns_priority      _____________________/^^\_________________
+//! hands_over            _____________________/^^\_________________
+//! commit_ends           ___________________________/^^\___________
+//! released              _________________________________/^^\_____
+//! asleep                  3  3  1  1  3  3  1  1  3  3  3  3  3  3
+//! keeping                 0  0  0  0  2  2  0  0  0  0  0  0  0  0
+//! busy                    0  0  0  0  0  0  0  0  2  2  2  2  0  0
+//! began                   0  0  2  2  2  2  2  2  2  2  2  2  2  2
+//! hinted                  0  0  0  0  0  0  0  0  0  0  2  2  2  2
+//! priority_is_held      ____________/^^^^^^^^^^^\_________________
+//! all_rest              ___/^^\________/^^\____________________/^^
 //! ```
 
 use crate::engine::types::{CommitJob, Committed, ContextSet, ContextState, Outcome, Released, Start};
@@ -58,12 +58,12 @@ pub struct ContextFlags {
     job: Signal<Local, CommitJob>,
     sleeping: Signal<Local, ContextSet>,
     due: Signal<Local, ContextSet>,
-    owner_bit: Signal<Local, ContextSet>,
+    context_bit: Signal<Local, ContextSet>,
     starter_bit: Signal<Local, ContextSet>,
     released_bit: Signal<Local, ContextSet>,
     commit_bit: Signal<Local, ContextSet>,
     solo_bit: Signal<Local, ContextSet>,
-    wide_owner: Signal<Local, ContextSet>,
+    wide_context: Signal<Local, ContextSet>,
     wide_starter: Signal<Local, ContextSet>,
     wide_released: Signal<Local, ContextSet>,
     wide_commit: Signal<Local, ContextSet>,
@@ -98,12 +98,12 @@ impl Logic for ContextFlags {
             (self.sleeping.val() == self.all.val()) & (self.due.val() == self.none.val()) & (!self.start.val().valid);
 
         // Each context as a bit. Those that are not built never show, or their flags would be built.
-        self.wide_owner.next = bit_cast::<24, 5>(self.outcome.val().owner);
-        self.wide_starter.next = bit_cast::<24, 5>(self.start.val().owner);
-        self.wide_released.next = bit_cast::<24, 5>(self.released.val().owner);
-        self.wide_commit.next = bit_cast::<24, 5>(self.job.val().owner);
-        self.wide_solo.next = bit_cast::<24, 5>(self.state.q.val().solo_owner);
-        self.owner_bit.next = self.one.val() << self.wide_owner.val();
+        self.wide_context.next = bit_cast::<24, 5>(self.outcome.val().context);
+        self.wide_starter.next = bit_cast::<24, 5>(self.start.val().context);
+        self.wide_released.next = bit_cast::<24, 5>(self.released.val().context);
+        self.wide_commit.next = bit_cast::<24, 5>(self.job.val().context);
+        self.wide_solo.next = bit_cast::<24, 5>(self.state.q.val().solo_context);
+        self.context_bit.next = self.one.val() << self.wide_context.val();
         self.starter_bit.next = self.one.val() << self.wide_starter.val();
         self.released_bit.next = self.one.val() << self.wide_released.val();
         self.commit_bit.next = self.one.val() << self.wide_commit.val();
@@ -116,13 +116,13 @@ impl Logic for ContextFlags {
         self.had_commit.next = 0.into();
         self.alone_ended.next = 0.into();
         if self.outcome.val().sleeps {
-            self.falls_asleep.next = self.owner_bit.val() & self.all.val();
+            self.falls_asleep.next = self.context_bit.val() & self.all.val();
         }
         if self.outcome.val().keeps {
-            self.tries.next = self.owner_bit.val() & self.all.val();
+            self.tries.next = self.context_bit.val() & self.all.val();
         }
         if self.outcome.val().hands_over {
-            self.becomes_due.next = self.owner_bit.val() & self.all.val();
+            self.becomes_due.next = self.context_bit.val() & self.all.val();
         }
         if self.start.val().valid {
             self.starting.next = self.starter_bit.val() & self.all.val();
@@ -147,11 +147,11 @@ impl Logic for ContextFlags {
         self.takes.next = self.outcome.val().asks_for_priority & (!self.state.q.val().priority_is_held);
         self.takes_priority.next = self.takes.val();
         self.is_holder.next = (self.outcome.val().returns_priority
-            & (self.state.q.val().priority_context == self.outcome.val().owner))
-            | (self.solo_ends.val() & (self.state.q.val().priority_context == self.state.q.val().solo_owner));
+            & (self.state.q.val().priority_context == self.outcome.val().context))
+            | (self.solo_ends.val() & (self.state.q.val().priority_context == self.state.q.val().solo_context));
         if self.takes.val() {
             self.state.d.next.priority_is_held = true;
-            self.state.d.next.priority_context = self.outcome.val().owner;
+            self.state.d.next.priority_context = self.outcome.val().context;
         }
         // L3: who has met 8 foreign locks with the priority keeps all others from trying again.
         self.has_waited_long.next = self.waited.q.val().get_bit(3);
@@ -167,7 +167,7 @@ impl Logic for ContextFlags {
         }
         if self.outcome.val().overflows & (!self.state.q.val().solo_valid) {
             self.state.d.next.solo_valid = true;
-            self.state.d.next.solo_owner = self.outcome.val().owner;
+            self.state.d.next.solo_context = self.outcome.val().context;
         }
         if self.solo_ends.val() {
             self.state.d.next.solo_valid = false;

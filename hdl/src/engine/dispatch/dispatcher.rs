@@ -117,10 +117,10 @@ impl Logic for Dispatcher {
         // The coordinates of a point that is taken come 2 clocks later.
         self.taken1.d.next = self.starter.start.val().takes & (!self.reset.val());
         self.taken2.d.next = self.taken1.q.val() & (!self.reset.val());
-        self.taker1.d.next = self.starter.start.val().owner;
+        self.taker1.d.next = self.starter.start.val().context;
         self.taker2.d.next = self.taker1.q.val();
         self.fetched.next.valid = self.taken2.q.val();
-        self.fetched.next.owner = self.taker2.q.val();
+        self.fetched.next.context = self.taker2.q.val();
 
         // What is finished.
         self.finished_points.arrived.next = self.arrived.val();

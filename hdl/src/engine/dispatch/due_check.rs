@@ -53,7 +53,7 @@ impl Logic for DueCheck {
     #[hdl_gen]
     fn update(&mut self) {
         self.first_context.next = 0.into();
-        self.index.next = self.passed.val().owner;
+        self.index.next = self.passed.val().context;
         self.asleep.next = self.contexts.val().asleep;
         self.keeping.next = self.contexts.val().keeping;
         self.busy.next = self.contexts.val().busy;
@@ -66,12 +66,12 @@ impl Logic for DueCheck {
         // L1: who has failed rests until a fourth round. L3: and while another is urgent.
         self.is_rested.next = (!self.busy.val().get_bit(self.index.val().index())) & self.rests_over.val();
         self.may_try.next =
-            (!self.contexts.val().is_urgent) | (self.passed.val().owner == self.contexts.val().priority_context);
+            (!self.contexts.val().is_urgent) | (self.passed.val().context == self.contexts.val().priority_context);
         self.wants_again.next = self.is_asleep.val() & self.keeps.val() & self.is_rested.val() & self.may_try.val();
 
         // L8: the first points are context 0's.
         self.may_work.next = self.all_work.val();
-        if self.passed.val().owner == self.first_context.val() {
+        if self.passed.val().context == self.first_context.val() {
             self.may_work.next = self.seeded.val() | (!self.began.val().get_bit(0));
         }
         self.is_there.next = self.is_planned.val() & (self.passed.val().id < self.arrived.val());

@@ -50,7 +50,7 @@ pub struct Solo {
     /// The next new id.
     pub records: Signal<In, TriangleId>,
     pub completion: Signal<In, Completion>,
-    /// A visit to make; it bears the owner.
+    /// A visit to make; it names the context.
     pub push: Signal<Out, Push>,
     /// A record or a link, registered.
     pub write: Signal<Out, Write>,
@@ -85,7 +85,7 @@ impl Logic for Solo {
         self.works.d.next = (!self.steps.is_idle.val()) & (!self.reset.val());
 
         self.star.reset.next = self.reset.val();
-        self.star.owner.next = self.at_work_for.q.val();
+        self.star.context_id.next = self.at_work_for.q.val();
         self.star.phase.next = self.steps.phase.val();
         self.star.step.next = self.steps.step.val();
         self.star.p.next = self.vertex.q.val();
@@ -113,7 +113,7 @@ impl Logic for Solo {
         self.progress.next.ends = self.ended.q.val();
 
         if self.steps.is_idle.val() & self.start.val().valid {
-            self.at_work_for.d.next = self.start.val().owner;
+            self.at_work_for.d.next = self.start.val().context;
             self.vertex.d.next = self.start.val().p;
             self.root_id.d.next = self.start.val().u;
         }

@@ -26,7 +26,7 @@ pub struct SoloStar {
     pub phase: Signal<In, SoloPhase>,
     /// Which record of the split, link of the mend, write of the flip.
     pub step: Signal<In, Bits<2>>,
-    pub owner: Signal<In, ContextId>,
+    pub context_id: Signal<In, ContextId>,
     pub p: Signal<In, VertexId>,
     /// The next new id.
     pub records: Signal<In, TriangleId>,
@@ -106,7 +106,7 @@ impl Logic for SoloStar {
         self.tests.next = self.done_phase.q.val().is_test & self.comes.q.val();
         self.flips.next = self.ends_flip.q.val();
 
-        self.visits.owner.next = self.owner.val();
+        self.visits.context_id.next = self.context_id.val();
         self.visits.phase.next = self.done_phase.q.val();
         self.visits.is_second.next = self.turn.q.val().mend2;
         self.visits.root_id.next = self.root_id.val();

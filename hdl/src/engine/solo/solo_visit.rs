@@ -10,7 +10,7 @@ use rust_hdl_core::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct SoloVisit {
     /// The context.
-    pub owner: Signal<In, ContextId>,
+    pub context_id: Signal<In, ContextId>,
     /// What is done; a test if nothing else. An outer neighbour of the split is the second one.
     pub phase: Signal<In, SoloPhase>,
     pub is_second: Signal<In, Bit>,
@@ -27,7 +27,7 @@ impl Logic for SoloVisit {
     fn update(&mut self) {
         self.bundle.next.is_pair = false;
         self.bundle.next.is_triple = false;
-        self.bundle.next.owner = self.owner.val();
+        self.bundle.next.context = self.context_id.val();
         self.bundle.next.rotates = (!self.phase.val().is_fetch) & (!self.phase.val().is_locate);
         self.bundle.next.locks = false;
         self.bundle.next.x = 0.into();

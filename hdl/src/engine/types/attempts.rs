@@ -92,7 +92,7 @@ crate::packed! {
 
     /// What becomes of the context whose visit completes.
     pub struct Outcome {
-        pub owner: ContextId,
+        pub context: ContextId,
         /// None of its visits is out any more.
         pub sleeps: bool,
         /// It will try its point again.
@@ -115,7 +115,7 @@ crate::packed! {
     /// A final edge of a boundary, for the list of its context.
     pub struct EntryWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub place: RingEntry,
         pub entry: Entry,
     }
@@ -123,7 +123,7 @@ crate::packed! {
     /// An inner triangle, for the list of its context.
     pub struct InnerWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub place: RingEntry,
         pub id: TriangleId,
     }
@@ -131,7 +131,7 @@ crate::packed! {
     /// A lock that was taken, for the log of its context.
     pub struct LockWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub place: LockCount,
         pub id: TriangleId,
     }

@@ -29,7 +29,7 @@ crate::packed! {
     /// A context starts to walk.
     pub struct Start {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         /// The record at which it starts.
         pub u: TriangleId,
         /// It takes this new point.
@@ -40,13 +40,13 @@ crate::packed! {
     /// The coordinates of the point that a context has taken stand on the vertex memory's port.
     pub struct Fetched {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
     }
 
     /// A context starts to insert its point alone.
     pub struct SoloStart {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub p: VertexId,
         /// The record at which its walk starts.
         pub u: TriangleId,
@@ -91,7 +91,7 @@ crate::packed! {
         pub is_urgent: bool,
         /// Somebody wants to be alone: nobody starts; who.
         pub solo_valid: bool,
-        pub solo_owner: ContextId,
+        pub solo_context: ContextId,
         /// No visit is out and no lock held; said a clock after it has come true.
         pub all_rest: bool,
     }

@@ -17,7 +17,7 @@ crate::packed! {
     /// One visit of a record.
     pub struct Visit {
         /// The context it belongs to.
-        pub owner: ContextId,
+        pub context: ContextId,
         /// The record is turned so that its link to `f` comes first.
         pub rotates: bool,
         /// The record's lock is taken.
@@ -41,7 +41,7 @@ crate::packed! {
         pub is_pair: bool,
         /// There are a second and a third visit; `is_pair` is set too.
         pub is_triple: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub rotates: bool,
         pub locks: bool,
         pub x: RingEntry,
@@ -139,7 +139,7 @@ crate::packed! {
     /// The point that a context inserts from now on.
     pub struct Position {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub point: Point,
     }
 }

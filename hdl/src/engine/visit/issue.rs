@@ -109,7 +109,7 @@ impl Logic for Issue {
 
         self.issued_valid.d.next = self.queue.valid.val();
         self.issued_read.d.next = self.read.val().valid;
-        self.issued.d.next.owner = self.head.value.val().owner;
+        self.issued.d.next.context = self.head.value.val().context;
         self.issued.d.next.rotates = self.head.value.val().rotates;
         self.issued.d.next.locks = self.head.value.val().locks;
         self.issued.d.next.f_entry = self.head.value.val().f_entry;

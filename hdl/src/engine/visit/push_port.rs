@@ -50,7 +50,7 @@ impl Logic for PushPort {
         if !self.follow.val().may_ask {
             self.pushed.d.next.is_pair = false;
             self.pushed.d.next.is_triple = false;
-            self.pushed.d.next.owner = self.start.val().owner;
+            self.pushed.d.next.context = self.start.val().context;
             self.pushed.d.next.rotates = false;
             self.pushed.d.next.locks = false;
             self.pushed.d.next.u = self.start.val().u;

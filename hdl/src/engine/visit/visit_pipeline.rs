@@ -14,11 +14,11 @@
 //! A bundle of two visits of context 1, then a read-out:
 //! ```text
 //! push            /^^\____________________________________________________________________
-//! bundle.owner      1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! bundle.context    1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
 //! bundle.x          1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
 //! is_issuing      ___/^^^^^\______________________________________________________________
 //! done            ___________________________________________________/^^^^^\______________
-//! visit.owner       .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  1  .  .  .  .  .
+//! visit.context     .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  1  .  .  .  .  .
 //! visit.x           .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  2  .  .  .  .  .
 //! read            _________________________________________________________/^^\___________
 //! read_done       __________________________________________________________________/^^\__
@@ -81,8 +81,8 @@ pub struct VisitPipeline {
     again1: DFF<Bit>,
     again2: DFF<Bit>,
     /// The context of the visit in clocks 3 and 4.
-    owner3: DFF<ContextId>,
-    owner4: DFF<ContextId>,
+    context3: DFF<ContextId>,
+    context4: DFF<ContextId>,
     visit_bits: Signal<Local, Bits<VISIT_BITS>>,
     turned_bits: Signal<Local, Bits<TURNED_BITS>>,
     visit_delay: DelayLine<VISIT_BITS>,
@@ -131,7 +131,7 @@ impl VisitPipeline {
 impl Logic for VisitPipeline {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, again1, again2, owner3, owner4, point, valid, read_valid1, read_valid2);
+        dff_setup!(self, clock, again1, again2, context3, context4, point, valid, read_valid1, read_valid2);
         dff_setup!(self, clock, judged, completes);
         clock!(self, clock, issue, triangles, vertices, reader, positions, judge, visit_delay, turned_delay);
         self.one.next = 1.into();
@@ -152,7 +152,7 @@ impl Logic for VisitPipeline {
         self.triangles.vertices_id.next = self.issue.vertices_id.val();
         self.triangles.links_id.next = self.issue.links_id.val();
         self.triangles.read_locks.next = self.issue.visit_valid.val() & self.issue.visit.val().locks;
-        self.triangles.owner.next = self.issue.visit.val().owner;
+        self.triangles.context_id.next = self.issue.visit.val().context;
         self.triangles.write.next = self.write.val();
         self.triangles.enables.next = self.enables.val();
         self.triangles.clear.next = self.clear.val();
@@ -174,12 +174,12 @@ impl Logic for VisitPipeline {
         self.reader.stored_corners.next = self.vertices.corners.val();
         self.vertices.fetch_id.next = self.fetch_id.val();
         self.fetched.next = self.vertices.fetched.val();
-        self.owner3.d.next = self.reader.visit_at_record.val().owner;
-        self.owner4.d.next = self.owner3.q.val();
-        self.positions.write_address.next = self.position.val().owner;
+        self.context3.d.next = self.reader.visit_at_record.val().context;
+        self.context4.d.next = self.context3.q.val();
+        self.positions.write_address.next = self.position.val().context;
         self.positions.write_data.next = self.position.val().point;
         self.positions.write_enable.next = self.position.val().valid;
-        self.positions.read_address.next = self.owner4.q.val();
+        self.positions.read_address.next = self.context4.q.val();
         self.point.d.next = self.positions.read_data.val();
 
         // Clocks 5 to 15: the signs, and beside them the visit and its record.

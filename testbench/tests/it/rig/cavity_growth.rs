@@ -139,7 +139,7 @@ pub struct Growth {
 /// A context: the point it has, and the visits of it that are out.
 #[derive(Clone, Debug, Default)]
 pub struct Context {
-    pub owner: u64,
+    pub index: u64,
     pub target: usize,
     pub p: u64,
     pub since: u64,
@@ -170,7 +170,7 @@ impl Context {
     }
 
     fn complete_walk(&mut self, done: &Completion, around: &Around) -> Outcome {
-        let look = Visit { owner: self.owner, ..Visit::look(done.finding.walk_next) };
+        let look = Visit { context: self.index, ..Visit::look(done.finding.walk_next) };
         if !around.seeded {
             return Outcome { looks: true, ..Outcome::default() };
         }
@@ -203,7 +203,7 @@ impl Context {
                 ..Outcome::default()
             };
         }
-        let (lock, release) = (Some((0, u)), Some(release_job(self.owner, 1)));
+        let (lock, release) = (Some((0, u)), Some(release_job(self.index, 1)));
         if !done.finding.located {
             let root = Some(done.finding.walk_next);
             return Outcome { root, lock, release, keeps: true, retries: true, ..Outcome::default() };
@@ -214,7 +214,7 @@ impl Context {
         self.growth = Growth { log: vec![u], closed_edges: [(u, 3)].into(), ..Growth::default() };
         let test = |x, after, neighbour| {
             let f_entry = 0;
-            Visit { owner: self.owner, rotates: true, locks: true, x, after, f_entry, f: u, u: neighbour }
+            Visit { context: self.index, rotates: true, locks: true, x, after, f_entry, f: u, u: neighbour }
         };
         let [n0, n1, n2] = done.record.n;
         Outcome { root, lock, push: self.push(&[test(0, 1, n0), test(1, 2, n1), test(2, 0, n2)]), ..Outcome::default() }
@@ -274,12 +274,12 @@ impl Context {
         let locks = self.growth.log.len() as u64;
         if self.growth.has_failed {
             outcome.keeps = true;
-            outcome.release = Some(release_job(self.owner, locks));
+            outcome.release = Some(release_job(self.index, locks));
         } else {
             outcome.returns_priority = true;
             outcome.triangles = self.growth.closed_edges.len() as u64;
             let inners = self.growth.inner.len() as u64;
-            outcome.commit = Some(commit_job(self.owner, self.p, inners, locks, self.since));
+            outcome.commit = Some(commit_job(self.index, self.p, inners, locks, self.since));
         }
     }
 }

@@ -12,7 +12,7 @@ pub const OLD_IDS: u64 = 1 << 14;
 /// A finished ring of a context.
 #[derive(Clone, Debug, Default)]
 pub struct Ring {
-    pub owner: u64,
+    pub context: u64,
     pub p: u64,
     pub locks: u64,
     pub since: u64,
@@ -24,7 +24,7 @@ pub struct Ring {
 
 impl Ring {
     /// A ring of this many edges.
-    pub fn random(edges: usize, owner: u64, random: &mut SplitMix64) -> Self {
+    pub fn random(edges: usize, context: u64, random: &mut SplitMix64) -> Self {
         let mut edges_of = BTreeMap::new();
         let root = new_triangle(3, &mut edges_of, random);
         let mut entries: Vec<Edge> = [1, 2, 0].map(|after| Edge { f: root, after, ..Edge::default() }).to_vec();
@@ -45,12 +45,12 @@ impl Ring {
             (entry.a, entry.u, entry.slot) = (random.below(1 << 15), random.below(1 << 15), random.below(3));
         }
         let (p, locks, since) = (random.below(1 << 15), 1 + random.below(126), random.below(1 << 22));
-        Self { owner, p, locks, since, entries, inner }
+        Self { context, p, locks, since, entries, inner }
     }
 
     /// As a `CommitJob`.
     pub fn job(&self) -> u128 {
-        commit_job(self.owner, self.p, self.inner.len() as u64, self.locks, self.since)
+        commit_job(self.context, self.p, self.inner.len() as u64, self.locks, self.since)
     }
 
     /// The triangle behind the entry with this place in the order lies behind the one before it or the first one too.

@@ -54,12 +54,12 @@ impl Locks {
     }
 
     /// A visit of this context wants the lock; `is_cleared` at the same edge. Tells whether it took it, and whether it is foreign.
-    pub fn take(&mut self, id: usize, owner: u64, is_cleared: bool) -> (bool, bool) {
+    pub fn take(&mut self, id: usize, context: u64, is_cleared: bool) -> (bool, bool) {
         match self.0[id] {
             _ if is_cleared => (false, true),
-            Some(holder) => (false, holder != owner),
+            Some(holder) => (false, holder != context),
             None => {
-                self.0[id] = Some(owner);
+                self.0[id] = Some(context);
                 (true, false)
             }
         }

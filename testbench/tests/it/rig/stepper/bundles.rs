@@ -92,7 +92,7 @@ pub fn ring_bundle(entries: &[u64]) -> u128 {
 /// A visit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visit {
-    pub owner: u64,
+    pub context: u64,
     pub rotates: bool,
     pub locks: bool,
     pub x: u64,
@@ -111,7 +111,7 @@ impl Visit {
     /// Every field random.
     pub fn random(random: &mut SplitMix64) -> Self {
         Self {
-            owner: random.below(24),
+            context: random.below(24),
             rotates: flip(random),
             locks: flip(random),
             x: random.below(64),
@@ -124,23 +124,23 @@ impl Visit {
 
     /// As a `Visit`.
     pub fn packed(self) -> u128 {
-        let Self { owner, rotates, locks, x, after, f_entry, f, u } = self;
-        pack(VISIT, [owner, rotates.into(), locks.into(), x, after, f_entry, f, u])
+        let Self { context, rotates, locks, x, after, f_entry, f, u } = self;
+        pack(VISIT, [context, rotates.into(), locks.into(), x, after, f_entry, f, u])
     }
 
     /// As a `Bundle` of `visits` visits: this one, the second with the entry after it and its record, and the third's record. What
     /// stands there for visits that are not made does not matter.
     pub fn bundle(self, visits: u64, second_after: u64, second_u: u64, third_u: u64) -> u128 {
         let [is_pair, is_triple] = [visits > 1, visits > 2].map(u64::from);
-        let [owner, rotates, locks, x, after, f_entry, f, u] = unpack(VISIT, self.packed());
+        let [context, rotates, locks, x, after, f_entry, f, u] = unpack(VISIT, self.packed());
         let (after2, u2, u3) = (second_after, second_u, third_u);
-        pack(BUNDLE, [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3])
+        pack(BUNDLE, [is_pair, is_triple, context, rotates, locks, x, after, f_entry, f, u, after2, u2, u3])
     }
 
     /// The visit at the head of a `Bundle`.
     pub fn of_bundle(bundle: u128) -> Self {
-        let [_, _, owner, rotates, locks, x, after, f_entry, f, u, ..] = unpack(BUNDLE, bundle);
-        Self { owner, rotates: rotates == 1, locks: locks == 1, x, after, f_entry, f, u }
+        let [_, _, context, rotates, locks, x, after, f_entry, f, u, ..] = unpack(BUNDLE, bundle);
+        Self { context, rotates: rotates == 1, locks: locks == 1, x, after, f_entry, f, u }
     }
 }
 
@@ -160,13 +160,13 @@ pub fn turned(v: [u64; 3], n: [u64; 3], slot: u64, lock: LockFinding, infinite: 
 }
 
 /// A `CommitJob`.
-pub fn commit_job(owner: u64, p: u64, inners: u64, locks: u64, since: u64) -> u128 {
-    pack(COMMIT_JOB, [owner, p, inners, locks, since])
+pub fn commit_job(context: u64, p: u64, inners: u64, locks: u64, since: u64) -> u128 {
+    pack(COMMIT_JOB, [context, p, inners, locks, since])
 }
 
 /// A `ReleaseJob`.
-pub fn release_job(owner: u64, locks: u64) -> u128 {
-    pack(RELEASE_JOB, [owner, locks])
+pub fn release_job(context: u64, locks: u64) -> u128 {
+    pack(RELEASE_JOB, [context, locks])
 }
 
 /// What a visit found out.

@@ -48,8 +48,8 @@ fn attempt_lists_add_what_was_found_and_hand_over_what_was_counted() {
         block.expect("lock_place", if is_root { 0 } else { before.logged });
         block.expect("lock_id", visit.u);
         block.expect("commit_valid", succeeds);
-        block.expect("commit_job", commit_job(visit.owner, p, before.inners, after.logged, since));
+        block.expect("commit_job", commit_job(visit.context, p, before.inners, after.logged, since));
         block.expect("releases_valid", fails || stops_at_root);
-        block.expect("releases_job", release_job(visit.owner, if stops_at_root { 1 } else { after.logged }));
+        block.expect("releases_job", release_job(visit.context, if stops_at_root { 1 } else { after.logged }));
     }
 }

@@ -18,22 +18,22 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
     let ring = u64::from(SMALL.ring);
     // Whatever the memory holds at first, these are written before they are read.
     let mut states = [(); 4].map(|()| None::<State>);
-    let (mut owner, mut f_entry, mut seen) = (0, 0, [0; 4]);
+    let (mut context, mut f_entry, mut seen) = (0, 0, [0; 4]);
     block.set("ring", ring);
     for _ in 0..4 * ROUNDS {
         let entries = [2, ring][random.below(2) as usize];
-        let (next_owner, early_entry) = (random.below(4), random.below(entries));
-        let before = states[owner as usize];
+        let (next_context, early_entry) = (random.below(4), random.below(entries));
+        let before = states[context as usize];
         let opens = random.below(12) == 0 || before.is_none_or(|state| state.outstanding == 0);
         let splits = !opens && flip(&mut random) && before.is_some_and(|state| state.count < ring);
         let repeats = !opens && !splits && random.below(4) == 0;
         let is_test = !opens && (splits || random.below(4) > 0);
         // No other visit of a context that opens is out.
-        let early_owner = if opens && next_owner == owner { (owner + 1) % 4 } else { next_owner };
+        let early_context = if opens && next_context == context { (context + 1) % 4 } else { next_context };
         for (port, value) in [
-            ("early_visit_owner", early_owner),
+            ("early_visit_context", early_context),
             ("early_visit_f_entry", early_entry),
-            ("visit_owner", owner),
+            ("visit_context", context),
             ("visit_f_entry", f_entry),
         ] {
             block.set(port, value);
@@ -71,13 +71,13 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
                 block.expect(port, flag);
                 *seen += usize::from(flag);
             }
-            seen[3] += usize::from(is_test && early_owner == owner);
+            seen[3] += usize::from(is_test && early_context == context);
         }
         block.edge();
         if is_test || opens {
-            states[owner as usize] = Some(after);
+            states[context as usize] = Some(after);
         }
-        (owner, f_entry) = (early_owner, early_entry);
+        (context, f_entry) = (early_context, early_entry);
     }
     assert!(seen.iter().all(|times| *times > 100), "{seen:?}");
 }

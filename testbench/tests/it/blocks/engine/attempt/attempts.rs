@@ -85,7 +85,7 @@ impl Rig {
         wanted.extend((0..24).map(|_| (random.below(1 << 16) as i64, random.below(1 << 16) as i64)));
         let targets = wanted.into_iter().filter_map(|point| ground.target(point)).collect();
         let lives =
-            (0..CONTEXTS).map(|owner| Life { context: Context { owner, ..Context::default() }, ..Life::default() });
+            (0..CONTEXTS).map(|index| Life { context: Context { index, ..Context::default() }, ..Life::default() });
         let now = (1 << 22) - 500;
         let block = Stepper::new("attempts_small", Attempts::new(SMALL), seed as u32);
         let lives = lives.collect();
@@ -113,30 +113,30 @@ impl Rig {
 
     /// A context that sleeps goes on with its point, or takes another.
     fn start(&mut self) {
-        let owner = self.random.below(CONTEXTS);
+        let context = self.random.below(CONTEXTS);
         let takes = {
             let (one_in_four, start) = (self.one_in(4), self.ground.somewhere(&mut self.random));
-            let life = &mut self.lives[owner as usize];
+            let life = &mut self.lives[context as usize];
             let may = !life.awake && one_in_four && !(life.keeps && life.due.is_some());
             if may && life.has_overflowed {
                 // It inserts its point alone.
                 (life.keeps, life.has_overflowed) = (false, false);
-                self.priority_context = self.priority_context.filter(|priority_context| *priority_context != owner);
+                self.priority_context = self.priority_context.filter(|holder| *holder != context);
             }
             if may {
                 let u = if life.keeps { life.root } else { start };
-                life.context.out.push(Visit { owner, ..Visit::look(u) });
+                life.context.out.push(Visit { context, ..Visit::look(u) });
                 life.awake = true;
             }
             may && !life.keeps
         };
         let id = self.random.below(1 << 15);
         self.block.set("takes", takes);
-        self.block.set("start_owner", owner);
+        self.block.set("start_context", context);
         self.block.set("start_id", id);
         self.block.set("now", self.now);
         if takes {
-            let life = &mut self.lives[owner as usize];
+            let life = &mut self.lives[context as usize];
             (life.context.p, life.context.since, life.keeps) = (id, self.now, false);
             life.context.target = self.random.below(self.targets.len() as u64) as usize;
         }
@@ -145,14 +145,14 @@ impl Rig {
 
     /// Reads the record, takes the lock and asks the predicates. Now and then the mesh seems to have changed since the walk.
     fn read(&mut self, visit: Visit) -> Completion {
-        let life = &self.lives[visit.owner as usize];
+        let life = &self.lives[visit.context as usize];
         let target = &self.targets[life.context.target];
         let (record, slot) = self.ground.read(&visit);
         let mut finding = self.ground.find(&visit, target, &mut self.random);
         let mut lock = LockFinding::default();
         if visit.locks {
             lock.took = !self.locks.contains_key(&visit.u);
-            lock.foreign = *self.locks.entry(visit.u).or_insert(visit.owner) != visit.owner;
+            lock.foreign = *self.locks.entry(visit.u).or_insert(visit.context) != visit.context;
         } else {
             lock.again = self.one_in(8);
         }
@@ -172,7 +172,7 @@ impl Rig {
     fn announce(&mut self, visit: Option<Visit>) -> Option<Announced> {
         let seeded = !self.one_in(100);
         let busy = self.lives.iter().enumerate().filter(|(_, life)| life.due.is_some());
-        let busy = busy.fold(0u64, |set, (owner, _)| set | 1 << owner);
+        let busy = busy.fold(0u64, |set, (context, _)| set | 1 << context);
         let (priority_context, is_held) =
             (self.priority_context.unwrap_or(self.random.below(CONTEXTS)), self.priority_context.is_some());
         for (port, value) in [("ring", self.ring), ("busy", busy), ("priority_context", priority_context)] {
@@ -181,11 +181,11 @@ impl Rig {
         self.block.set("seeded", seeded);
         self.block.set("priority_is_held", is_held);
         self.block.set("early_done", visit.is_some());
-        let anything = Visit { owner: self.random.below(CONTEXTS), f_entry: self.random.below(64), ..Visit::look(0) };
+        let anything = Visit { context: self.random.below(CONTEXTS), f_entry: self.random.below(64), ..Visit::look(0) };
         self.block.set("early_visit", visit.unwrap_or(anything).packed());
         let visit = visit?;
-        let holds_priority = self.priority_context == Some(visit.owner);
-        let around = Around { seeded, ring: self.ring, holds_priority, is_busy: busy >> visit.owner & 1 == 1 };
+        let holds_priority = self.priority_context == Some(visit.context);
+        let around = Around { seeded, ring: self.ring, holds_priority, is_busy: busy >> visit.context & 1 == 1 };
         let done = self.read(visit);
         let infinite = [self.one_in(2); 3];
         let turned = turned(done.record.v.map(spread), done.record.n, done.slot, done.lock, infinite);
@@ -201,7 +201,7 @@ impl Rig {
             self.block.set("completion_visit", done.visit.packed());
             self.block.set("completion_turned", turned);
             self.block.set("verdict", done.finding.verdict());
-            let outcome = self.lives[done.visit.owner as usize].context.complete(&done, &around);
+            let outcome = self.lives[done.visit.context as usize].context.complete(&done, &around);
             (done, outcome)
         });
         self.block.settle();
@@ -218,9 +218,9 @@ impl Rig {
 
     /// What blocks further on do: they release locks.
     fn pass_time(&mut self) {
-        for (owner, life) in (0..).zip(&mut self.lives) {
+        for (context, life) in (0..).zip(&mut self.lives) {
             if life.due == Some(0) {
-                self.locks.retain(|_, holder| *holder != owner);
+                self.locks.retain(|_, holder| *holder != context);
                 life.context.growth = Default::default();
             }
             life.due = life.due.and_then(|clocks| clocks.checked_sub(1));
@@ -228,9 +228,9 @@ impl Rig {
     }
 
     fn take(&mut self, done: &Completion, outcome: &Outcome) {
-        let owner = done.visit.owner;
+        let context = done.visit.context;
         let patience = self.random.below(30);
-        let life = &mut self.lives[owner as usize];
+        let life = &mut self.lives[context as usize];
         life.awake = !outcome.sleeps;
         life.keeps |= outcome.keeps;
         life.root = outcome.root.unwrap_or(life.root);
@@ -267,10 +267,10 @@ impl Rig {
         ] {
             *self.tally.entry(event).or_default() += usize::from(happens);
         }
-        if outcome.returns_priority && self.priority_context == Some(owner) {
+        if outcome.returns_priority && self.priority_context == Some(context) {
             self.priority_context = None;
         } else if outcome.asks_for_priority && self.priority_context.is_none() {
-            self.priority_context = Some(owner);
+            self.priority_context = Some(context);
         }
     }
 
@@ -286,7 +286,7 @@ impl Rig {
         let Some(Announced { done: Completion { visit, .. }, .. }) = self.announced else {
             return;
         };
-        let out = &mut self.lives[visit.owner as usize].context.out;
+        let out = &mut self.lives[visit.context as usize].context.out;
         let place = out.iter().position(|other| *other == visit).expect("the visit is out");
         out.swap_remove(place);
     }
@@ -337,7 +337,7 @@ fn compare(block: &Stepper<Attempts>, seen: Option<&(Completion, Outcome)>) {
         block.expect(port, value);
     }
     let expect = |port, value: Option<u128>| value.into_iter().for_each(|value| block.expect(port, value));
-    expect("outcome_owner", visit.map(|visit| visit.owner.into()));
+    expect("outcome_context", visit.map(|visit| visit.context.into()));
     expect("root", outcome.root.map(Into::into));
     expect("entry_place", outcome.entry.map(|(place, _)| place.into()));
     expect("entry_entry", outcome.entry.map(|(_, edge)| edge.entry()));
@@ -380,13 +380,13 @@ fn attempts_show_the_wave_of_their_header() {
     let target = (4..rig.targets.len()).find(is_small).expect("a small cavity");
     let context = &mut rig.lives[1].context;
     (context.target, context.p, context.since) = (target, 7, 3);
-    for (port, value) in [("takes", 1u64), ("start_owner", 1), ("start_id", 7), ("now", 3)] {
+    for (port, value) in [("takes", 1u64), ("start_context", 1), ("start_id", 7), ("now", 3)] {
         rig.block.set(port, value);
     }
     rig.clock(None);
     rig.block.set("takes", false);
     let root = rig.targets[target].places[0];
-    rig.lives[1].context.out.push(Visit { owner: 1, ..Visit::look(root) });
+    rig.lives[1].context.out.push(Visit { context: 1, ..Visit::look(root) });
     let mut wave = Wave::default();
     // The visits in their order; the pipeline between is left out.
     let completes = |clock: usize| clock % 2 == 1 || clock > 4;

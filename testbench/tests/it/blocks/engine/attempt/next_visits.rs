@@ -30,19 +30,19 @@ impl Follow {
         let (walk_next, y) = (id(random), random.below(64));
         let any = Visit::random(random);
         // Walks and roots have no entry.
-        let look = Visit { owner: any.owner, ..Visit::look(any.u) };
+        let look = Visit { context: any.context, ..Visit::look(any.u) };
         let visit = match case {
             1 | 2 => look,
             3 => Visit { locks: true, ..look },
             4 => Visit { rotates: true, locks: true, ..any },
             _ => any,
         };
-        let Visit { owner, u, after, .. } = visit;
+        let Visit { context, u, after, .. } = visit;
         let (visits, bundle) = match case {
-            1 => (1, Visit { owner, ..Visit::look(walk_next) }.bundle(1, 0, 0, 0)),
+            1 => (1, Visit { context, ..Visit::look(walk_next) }.bundle(1, 0, 0, 0)),
             2 => (1, Visit { locks: true, ..visit }.bundle(1, 0, 0, 0)),
             3 => {
-                let first = Visit { owner, rotates: true, locks: true, x: 0, after: 1, f_entry: 0, f: u, u: n[0] };
+                let first = Visit { context, rotates: true, locks: true, x: 0, after: 1, f_entry: 0, f: u, u: n[0] };
                 (3, first.bundle(3, 2, n[1], n[2]))
             }
             4 => {
@@ -92,16 +92,16 @@ fn next_visits_show_the_wave_of_their_header() {
     let at = |clock: usize, random: &mut SplitMix64| {
         let case = [1, 3, 4].get(clock).copied().unwrap_or(0);
         let mut follow = Follow::random(case, random);
-        let owner = follow.visit.owner;
+        let context = follow.visit.context;
         match clock {
             0 => {
-                follow.visit = Visit { owner, ..Visit::look(5) };
+                follow.visit = Visit { context, ..Visit::look(5) };
                 follow.walk_next = 6;
-                follow.bundle = Visit { owner, ..Visit::look(6) }.bundle(1, 0, 0, 0);
+                follow.bundle = Visit { context, ..Visit::look(6) }.bundle(1, 0, 0, 0);
             }
             1 => {
                 (follow.visit.u, follow.n) = (6, [0, 1, 2]);
-                let first = Visit { owner, rotates: true, locks: true, after: 1, f: 6, ..Visit::default() };
+                let first = Visit { context, rotates: true, locks: true, after: 1, f: 6, ..Visit::default() };
                 follow.bundle = first.bundle(3, 2, 1, 2);
             }
             2 => {

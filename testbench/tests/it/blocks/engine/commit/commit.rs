@@ -155,11 +155,11 @@ impl CommitRig {
         block.set("head_shares", shares);
         block.set("head_job", head.map_or(0, Ring::job));
         block.set("inner_valid", false);
-        let reader = self.work.as_ref().map(|(ring, _)| ring.owner);
+        let reader = self.work.as_ref().map(|(ring, _)| ring.context);
         for (ring, listed) in self.rings.iter().zip(&mut self.listed) {
-            if let Some(id) = ring.inner.get(*listed).filter(|_| drive.lists && reader != Some(ring.owner)) {
+            if let Some(id) = ring.inner.get(*listed).filter(|_| drive.lists && reader != Some(ring.context)) {
                 block.set("inner_valid", true);
-                block.set("inner_owner", ring.owner);
+                block.set("inner_context", ring.context);
                 block.set("inner_place", *listed as u64);
                 block.set("inner_id", *id);
                 *listed += 1;
@@ -258,10 +258,10 @@ impl CommitRig {
     /// Keeps two rings coming, never two of one context after each other: a list is written while the one before is read.
     fn add_rings(&mut self, config: Config, random: &mut SplitMix64) {
         while self.rings.len() < 2 {
-            let last = self.rings.back().or(self.work.as_ref().map(|(ring, _)| ring)).map(|ring| ring.owner);
-            let owner = random.below(config.contexts.into());
-            if last != Some(owner) {
-                self.rings.push_back(Ring::random(random_length(config.ring.into(), random), owner, random));
+            let last = self.rings.back().or(self.work.as_ref().map(|(ring, _)| ring)).map(|ring| ring.context);
+            let context = random.below(config.contexts.into());
+            if last != Some(context) {
+                self.rings.push_back(Ring::random(random_length(config.ring.into(), random), context, random));
             }
         }
     }
@@ -328,7 +328,7 @@ fn commit_shows_the_wave_of_its_header() {
     for _ in 0..3 {
         rig.clock(Drive { solo_inserts: true, ..Drive::default() });
     }
-    rig.rings.extend([ring.clone(), Ring { owner: 1, ..ring }]);
+    rig.rings.extend([ring.clone(), Ring { context: 1, ..ring }]);
     let mut wave = Wave::default();
     for clock in 0..13 {
         let shown = rig.clock(Drive { offers: clock > 0, ..Drive::default() });

@@ -18,7 +18,7 @@ struct Events {
     reset: bool,
     clears: bool,
     /// The context whose visit completes, and what that leads to.
-    owner: u64,
+    context: u64,
     sleeps: bool,
     keeps: bool,
     hands_over: bool,
@@ -78,10 +78,10 @@ impl FlagsReference {
             *self = Self::new(self.contexts.len() as u64);
             return;
         }
-        let owner = self.at(events.owner);
-        owner.asleep |= events.sleeps;
-        owner.keeping |= events.keeps;
-        owner.busy |= events.hands_over;
+        let context = self.at(events.context);
+        context.asleep |= events.sleeps;
+        context.keeping |= events.keeps;
+        context.busy |= events.hands_over;
         if let Some(context) = events.starter {
             let starter = self.at(context);
             (starter.asleep, starter.keeping, starter.began) = (false, false, true);
@@ -93,15 +93,15 @@ impl FlagsReference {
             self.at(context).hinted = true;
         }
         match self.priority_context {
-            None if events.asks_for_priority => (self.priority_context, self.met) = (Some(events.owner), 0),
-            Some(priority_context) if events.returns_priority && priority_context == events.owner => {
+            None if events.asks_for_priority => (self.priority_context, self.met) = (Some(events.context), 0),
+            Some(priority_context) if events.returns_priority && priority_context == events.context => {
                 self.priority_context = None
             }
             _ => {}
         }
         self.met += u64::from(events.waits);
         if events.overflows {
-            self.alone = self.alone.or(Some(events.owner));
+            self.alone = self.alone.or(Some(events.context));
         }
         if events.solo_ends {
             if let Some(context) = self.alone.take() {
@@ -133,11 +133,11 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
         block.set(port, value);
     }
     // A context that nothing happens to is named all the same.
-    let other = events.owner ^ 1;
-    block.set("outcome_owner", events.owner);
-    block.set("start_owner", events.starter.unwrap_or(other));
-    block.set("released_owner", events.released.unwrap_or(other));
-    block.set("committed_job_owner", events.committed.unwrap_or(other));
+    let other = events.context ^ 1;
+    block.set("outcome_context", events.context);
+    block.set("start_context", events.starter.unwrap_or(other));
+    block.set("released_context", events.released.unwrap_or(other));
+    block.set("committed_job_context", events.committed.unwrap_or(other));
     block.settle();
     if block.clocks() > 0 {
         block.expect("asleep", reference.set(|flags| flags.asleep));
@@ -154,7 +154,7 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
             .priority_context
             .into_iter()
             .for_each(|priority_context| block.expect("priority_context", priority_context));
-        reference.alone.into_iter().for_each(|alone| block.expect("solo_owner", alone));
+        reference.alone.into_iter().for_each(|alone| block.expect("solo_context", alone));
     }
     block.edge();
     reference.edge(events);
@@ -174,18 +174,18 @@ fn events(reference: &FlagsReference, random: &mut SplitMix64) -> Events {
     let (ends_alone, gives_back, meets) = (flip(4), flip(8), !flip(8));
     let alone_works = reference.alone.is_some() && reference.rests();
     let mut events =
-        Events { reset, clears, owner: random.below(reference.contexts.len() as u64), ..Events::default() };
-    // No visit of the owner completes while a context inserts alone.
+        Events { reset, clears, context: random.below(reference.contexts.len() as u64), ..Events::default() };
+    // No visit of a context completes while a context inserts alone.
     if alone_works {
         events.solo_ends = ends_alone;
-    } else if let Some(owner) = any(reference, random, |flags| !flags.asleep) {
-        let is_free = !reference.contexts[owner as usize].busy;
+    } else if let Some(context) = any(reference, random, |flags| !flags.asleep) {
+        let is_free = !reference.contexts[context as usize].busy;
         // Who meets a foreign lock with the priority waits, and neither asks for it nor ends.
-        let waits = reference.priority_context == Some(owner) && meets;
+        let waits = reference.priority_context == Some(context) && meets;
         let sleeps = over && !waits;
         let asks_for_priority = asks_for_priority && !waits;
         events = Events {
-            owner,
+            context,
             sleeps,
             keeps: sleeps && keeps,
             hands_over: sleeps && hands_over && is_free,
@@ -216,7 +216,7 @@ fn context_flags_are_those_of_lists_of_contexts() {
             let waits = reference.priority_context.is_some();
             for (seen, happens) in seen.iter_mut().zip([
                 events.asks_for_priority && waits,
-                events.returns_priority && reference.priority_context == Some(events.owner),
+                events.returns_priority && reference.priority_context == Some(events.context),
                 events.solo_ends && reference.priority_context == reference.alone,
                 events.overflows && reference.alone.is_some(),
                 events.waits && reference.met > 8,
@@ -235,16 +235,16 @@ fn context_flags_show_the_wave_of_their_header() {
     let mut block = Stepper::new("context_flags", ContextFlags::default(), 1);
     let mut reference = FlagsReference::new(2);
     flags_clock(&mut block, &mut reference, &Events { reset: true, ..Events::default() });
-    let owner = 1;
-    let base = Events { owner, ..Events::default() };
+    let context = 1;
+    let base = Events { context, ..Events::default() };
     let mut wave = Wave::default();
     for clock in 0..14 {
         let events = match clock {
-            1 | 5 => Events { starter: Some(owner), ..base },
+            1 | 5 => Events { starter: Some(context), ..base },
             3 => Events { sleeps: true, keeps: true, asks_for_priority: true, ..base },
             7 => Events { sleeps: true, hands_over: true, returns_priority: true, ..base },
-            9 => Events { committed: Some(owner), ..base },
-            11 => Events { released: Some(owner), ..base },
+            9 => Events { committed: Some(context), ..base },
+            11 => Events { released: Some(context), ..base },
             _ => base,
         };
         flags_clock(&mut block, &mut reference.clone(), &events);

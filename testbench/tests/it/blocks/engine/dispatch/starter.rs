@@ -54,7 +54,7 @@ struct Candidate {
 struct Seen {
     starts: bool,
     takes: Option<u64>,
-    owner: u64,
+    context: u64,
     waits: bool,
 }
 
@@ -164,8 +164,8 @@ impl Rig {
 
     fn drive(&mut self, inputs: &Inputs) {
         let (root, hint) = match inputs.deed {
-            Some((owner, Deed::Sleeps { root, .. })) => (Some((owner, root)), None),
-            Some((owner, Deed::IsFreed { hint })) => (None, Some((owner, hint))),
+            Some((context, Deed::Sleeps { root, .. })) => (Some((context, root)), None),
+            Some((context, Deed::IsFreed { hint })) => (None, Some((context, hint))),
             None => (None, None),
         };
         for (port, value) in [
@@ -187,7 +187,7 @@ impl Rig {
         self.block.set("deal", self.deal().bits());
         let (root, hint) = (root.unwrap_or((1, 0x7fff)), hint.unwrap_or((0, 0x7fff)));
         for (port, value) in [
-            ("solo_owner", inputs.special),
+            ("solo_context", inputs.special),
             ("priority_context", inputs.special),
             ("arrived", self.arrived),
             ("asleep", self.set(|life| !life.awake)),
@@ -195,9 +195,9 @@ impl Rig {
             ("busy", self.set(|life| life.busy)),
             ("began", self.set(|life| life.began)),
             ("hinted", self.set(|life| life.hint.is_some())),
-            ("outcome_owner", root.0),
+            ("outcome_context", root.0),
             ("root", root.1),
-            ("committed_job_owner", hint.0),
+            ("committed_job_context", hint.0),
             ("hint", hint.1),
         ] {
             self.block.set(port, value);
@@ -217,7 +217,7 @@ impl Rig {
             self.block.expect("start_valid", start.is_some());
             self.block.expect("takes", start.is_some_and(|(vertex, _)| vertex.is_some()));
             if let Some(candidate) = self.candidate {
-                self.block.expect("start_owner", candidate.sight.context);
+                self.block.expect("start_context", candidate.sight.context);
                 self.expect_alone(inputs, candidate);
             }
             if let Some((vertex, u)) = start {
@@ -226,7 +226,7 @@ impl Rig {
             }
             seen.starts = start.is_some();
             seen.takes = start.and_then(|(vertex, _)| vertex);
-            seen.owner = self.candidate.map_or(0, |candidate| candidate.sight.context);
+            seen.context = self.candidate.map_or(0, |candidate| candidate.sight.context);
         }
         self.block.edge();
         self.advance(inputs, seen);
@@ -262,13 +262,13 @@ impl Rig {
             self.steps += 1;
         }
         if seen.starts {
-            let life = &mut self.lives[seen.owner as usize];
+            let life = &mut self.lives[seen.context as usize];
             life.last = seen.takes.or(life.last);
             (life.awake, life.keeps, life.began) = (true, false, true);
-            self.all_work |= seen.takes.is_some_and(|vertex| seen.owner == 0 && vertex >= u64::from(FIRST_ROUND));
+            self.all_work |= seen.takes.is_some_and(|vertex| seen.context == 0 && vertex >= u64::from(FIRST_ROUND));
         }
-        if let Some((owner, deed)) = inputs.deed {
-            let life = &mut self.lives[owner as usize];
+        if let Some((context, deed)) = inputs.deed {
+            let life = &mut self.lives[context as usize];
             match deed {
                 Deed::Sleeps { root, keeps, busy } => {
                     (life.awake, life.root, life.keeps) = (false, root, keeps);
@@ -324,11 +324,11 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
             deed,
             ..Inputs::default()
         });
-        tally.taken.extend(seen.takes.map(|vertex| (seen.owner, vertex)));
+        tally.taken.extend(seen.takes.map(|vertex| (seen.context, vertex)));
         tally.again += usize::from(seen.starts && seen.takes.is_none());
         tally.waits += usize::from(seen.waits);
         if !seen.waits {
-            tally.stops.push_back(seen.owner);
+            tally.stops.push_back(seen.context);
         }
         came = comes;
         rig.arrived += u64::from(comes);
@@ -347,13 +347,13 @@ enum Deed {
 
 /// Some context falls asleep, or is freed.
 fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
-    let owner = random.below(rig.contexts);
+    let context = random.below(rig.contexts);
     let [root, hint] = [(); 2].map(|()| random.below(1 << 15));
     let [ends, keeps, busy, is_freed] = [4, 3, 3, 6].map(|times| random.below(times) == 0);
-    let life = &rig.lives[owner as usize];
+    let life = &rig.lives[context as usize];
     let sleeps = (life.awake && ends).then_some(Deed::Sleeps { root, keeps, busy });
     let frees = (!life.awake && life.busy && is_freed).then_some(Deed::IsFreed { hint });
-    sleeps.or(frees).map(|deed| (owner, deed))
+    sleeps.or(frees).map(|deed| (context, deed))
 }
 
 /// Jobs of so many contexts and points each, one after the other; batches or not.
@@ -370,13 +370,13 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool)
         job(&mut rig, &mut random, points, &mut tally);
         let mut vertices: Vec<u64> = tally.taken.iter().map(|(_, vertex)| *vertex).collect();
         for context in 0..contexts {
-            let own = tally.taken.iter().filter(|(owner, _)| *owner == context).map(|(_, vertex)| *vertex);
+            let own = tally.taken.iter().filter(|(context, _)| *context == context).map(|(_, vertex)| *vertex);
             let expected = rig.deal().dealt(context).take_while(|vertex| *vertex < points);
             assert!(own.eq(expected), "{contexts} contexts, context {context}");
         }
         // Until vertex 16 is taken, context 0 is the only one.
         let first = tally.taken.len().min(FIRST_ROUND as usize - 1);
-        assert!(is_batch || tally.taken[..first].iter().all(|(owner, _)| *owner == 0));
+        assert!(is_batch || tally.taken[..first].iter().all(|(context, _)| *context == 0));
         vertices.sort_unstable();
         let triples = if is_batch { contexts } else { 1 };
         assert!(vertices.into_iter().eq((0..points).filter(|id| *id >= 3 * triples || id % 3 == 2)));
@@ -448,7 +448,7 @@ fn starter_shows_the_wave_of_its_header() {
             ("is_blocked", Cell::Bit(inputs.is_blocked)),
             ("asleep", number(Some(asleep))),
             ("keeping", number(Some(keeping))),
-            ("owner", number(candidate.map(|candidate| candidate.sight.context))),
+            ("context", number(candidate.map(|candidate| candidate.sight.context))),
             ("starts", Cell::Bit(seen.starts)),
             ("takes", Cell::Bit(seen.takes.is_some())),
             ("taken_id", number(seen.takes)),

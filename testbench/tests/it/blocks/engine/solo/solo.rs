@@ -23,7 +23,7 @@ fn packed_record(record: &Record, slot: usize) -> u128 {
 
 /// An insertion to be made.
 struct Job {
-    owner: u64,
+    context: u64,
     point: Point,
     /// The triangles that the walk visits; the last one holds the point.
     path: Vec<u64>,
@@ -116,11 +116,11 @@ impl Rig {
     /// The rest of the inputs: what is taken at `starts` is noise at all other times.
     fn set_job(&mut self, starts: bool, job: &Job, mesh: &Mesh) {
         self.block.set("start_valid", starts);
-        let [owner, p, start] = match starts {
-            true => [job.owner, mesh.points.len() as u64 - 1, job.path[0]],
+        let [context, p, start] = match starts {
+            true => [job.context, mesh.points.len() as u64 - 1, job.path[0]],
             false => [self.random.below(32), self.random.below(1 << 15), self.random.below(1 << 15)],
         };
-        self.block.set("start_owner", owner);
+        self.block.set("start_context", context);
         self.block.set("start_p", p);
         self.block.set("start_u", start);
     }
@@ -163,9 +163,9 @@ impl Rig {
         let bundle = self.block.get("bundle");
         let visit = Visit::of_bundle(bundle);
         self.block.expect("bundle", visit.bundle(1, 0, 0, 0));
-        assert_eq!((visit.owner, visit.locks), (job.owner, false));
+        assert_eq!((visit.context, visit.locks), (job.context, false));
         if let Some(place) = job.path.get(seen.visits) {
-            assert_eq!(visit, Visit { owner: job.owner, ..Visit::look(*place) });
+            assert_eq!(visit, Visit { context: job.context, ..Visit::look(*place) });
         }
     }
 
@@ -238,7 +238,7 @@ fn path(random: &mut SplitMix64, mesh: &Mesh, point: Point) -> Vec<u64> {
 fn find_duplicate(rig: &mut Rig, mesh: &Mesh, sums: &mut Sums) {
     let point = mesh.points[rig.random.below(mesh.points.len() as u64) as usize];
     let path = path(&mut rig.random, mesh, point);
-    let job = Job { owner: rig.random.below(24), point, path, is_duplicate: true, expected: vec![] };
+    let job = Job { context: rig.random.below(24), point, path, is_duplicate: true, expected: vec![] };
     let seen = rig.insert(&mut mesh.clone(), &job, 10_000);
     assert_eq!((seen.visits, seen.tests, seen.flips), (job.path.len(), 0, 0));
     sums.duplicates += 1;
@@ -258,7 +258,7 @@ fn grow(rig: &mut Rig, points: &[Point], resets: bool) -> Sums {
         let mut reference = mesh.clone();
         let deeds = reference.insert(*point, path[path.len() - 1]);
         let expected = deeds.writes.iter().map(|write| packed(*write)).collect();
-        let job = Job { owner: rig.random.below(24), point: *point, path, is_duplicate: false, expected };
+        let job = Job { context: rig.random.below(24), point: *point, path, is_duplicate: false, expected };
         mesh.points.push(*point);
         if resets && rig.random.below(4) == 0 {
             let most = rig.random.below(80) as usize;
@@ -314,7 +314,7 @@ fn solo_shows_the_wave_of_its_header() {
     let point = (1, 1);
     let deeds = mesh.clone().insert(point, 0);
     let expected = deeds.writes.iter().map(|write| packed(*write)).collect();
-    let job = Job { owner: 3, point, path: vec![2, 0], is_duplicate: false, expected };
+    let job = Job { context: 3, point, path: vec![2, 0], is_duplicate: false, expected };
     mesh.points.push(point);
     rig.block.set("records", mesh.records.len() as u64);
     let (mut seen, mut wave) = (Seen::default(), Wave::default());

@@ -28,12 +28,12 @@ impl Queue {
     }
 
     fn push(&mut self, bundle: u128) {
-        let [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
+        let [is_pair, is_triple, context, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
             unpack(BUNDLE, bundle);
         let visits = [(x, after, u), (after, after2, u2), (after2, 0, u3)];
         let last = (is_pair + is_triple) as usize;
         for (place, (x, after, u)) in visits.into_iter().enumerate().take(last + 1) {
-            let visit = pack(VISIT, [owner, rotates, locks, x, after, f_entry, f, u]);
+            let visit = pack(VISIT, [context, rotates, locks, x, after, f_entry, f, u]);
             self.waiting.push_back((visit, place == last));
         }
         self.fullest = self.fullest.max(self.bundles());

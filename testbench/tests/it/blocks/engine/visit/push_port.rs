@@ -36,7 +36,7 @@ fn push_clock(block: &mut Stepper<PushPort>, asking: &Asking, shown: Option<Visi
         block.set(port, value);
     }
     block.set("follow_bundle", asking.follows.bundle(3, 1, 2, 3));
-    block.set("start_owner", asking.starter.owner);
+    block.set("start_context", asking.starter.context);
     block.set("start_u", asking.starter.u);
     block.set("solo_bundle", asking.solo.bundle(1, 0, 0, 0));
     block.settle();
@@ -83,7 +83,7 @@ fn push_port_takes_the_visits_of_whoever_asks() {
             solo_asks: is_alone && solo_asks,
             // A root's three tests are told from the others by the kind of visit here.
             follows: Visit { rotates: false, locks: true, ..Visit::random(&mut random) },
-            starter: Visit { owner: random.below(24), ..Visit::look(id(&mut random)) },
+            starter: Visit { context: random.below(24), ..Visit::look(id(&mut random)) },
             solo: Visit { rotates: true, ..Visit::random(&mut random) },
         };
         shown = push_clock(&mut block, &asking, shown);

@@ -24,7 +24,7 @@ const INPUTS: [&str; 18] = [
     "records",
     "push_valid",
     "push_bundle",
-    "position_owner",
+    "position_context",
     "position_point",
     "position_valid",
     "read_valid",
@@ -82,7 +82,7 @@ const ROUNDS: usize = 45;
 #[derive(Clone, Copy)]
 struct Flight {
     visit: u128,
-    owner: usize,
+    context: usize,
     /// took, foreign, again.
     lock: [bool; 3],
     slot: usize,
@@ -225,7 +225,7 @@ impl Visits {
     fn writes(&mut self, round: usize, clock: usize) -> Writes {
         let mut writes = Writes::default();
         let place = self.numbers.next_u64();
-        let owner = self.numbers.below(self.contexts);
+        let context = self.numbers.below(self.contexts);
         if round == 0 && clock < POOL as usize {
             let id = clock as u64 * (self.records.len() as u64 / POOL);
             writes.write = self.write(id, true);
@@ -238,7 +238,7 @@ impl Visits {
                 writes.write = self.write(id, false);
             }
             writes.vertex = (self.vertex_id(place), self.position(), self.numbers.once_in(pace));
-            writes.position = (owner, self.position(), self.numbers.once_in(3 * pace));
+            writes.position = (context, self.position(), self.numbers.once_in(3 * pace));
             writes.clear = (self.visited_id(), self.numbers.once_in(3));
         }
         writes
@@ -329,12 +329,12 @@ impl Visits {
 
     /// The visit in the issue register reads its record at this edge and comes out `STAGES` clocks later.
     fn visit(&mut self, visit: u128, values: &[u128]) {
-        let [owner, rotates, locks, .., f, u] = unpack(VISIT, visit);
+        let [context, rotates, locks, .., f, u] = unpack(VISIT, visit);
         let write = unpack(WRITE, values[10]);
         let is_torn = write[0] == 1 && write[1] == u;
         let is_written = u128::from(u) < values[2];
         let is_cleared = values[16] == 1 && values[15] == u.into();
-        let (took, foreign) = if locks == 1 { self.locks.take(u as usize, owner, is_cleared) } else { (false, false) };
+        let (took, foreign) = if locks == 1 { self.locks.take(u as usize, context, is_cleared) } else { (false, false) };
         let stored = self.records[u as usize];
         let slot = stored.slot(rotates == 1, f);
         self.seen.took += usize::from(took);
@@ -345,7 +345,7 @@ impl Visits {
         self.seen.torn += usize::from(is_torn);
         self.flights[STAGES - 1] = Some(Flight {
             visit,
-            owner: owner as usize,
+            context: context as usize,
             lock: [took, foreign, is_torn || !is_written],
             slot,
             record: (!is_torn).then_some(stored),
@@ -370,7 +370,7 @@ impl Visits {
     /// The visit whose corners are there gets its context's point.
     fn judge(&mut self) {
         if let Some(flight) = &mut self.flights[STAGES - POINT_CLOCK] {
-            let p = point(self.points[flight.owner]);
+            let p = point(self.points[flight.context]);
             if let (Some(record), Some(corners)) = (flight.record, flight.corners) {
                 let verdict = record.verdict(flight.slot, corners, p, self.infinite);
                 flight.verdict = Some(verdict);
@@ -380,11 +380,11 @@ impl Visits {
     }
 
     fn push(&mut self, bundle: u128) {
-        let [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
+        let [is_pair, is_triple, context, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
             unpack(BUNDLE, bundle);
         let visits = [(x, after, u), (after, after2, u2), (after2, 0, u3)];
         for (x, after, u) in visits.into_iter().take(1 + (is_pair + is_triple) as usize) {
-            self.waiting.push_back(pack(VISIT, [owner, rotates, locks, x, after, f_entry, f, u]));
+            self.waiting.push_back(pack(VISIT, [context, rotates, locks, x, after, f_entry, f, u]));
         }
         self.seen.triples += is_triple as usize;
     }
@@ -472,11 +472,11 @@ fn visit_pipeline_shows_the_wave_of_its_header() {
     let stimuli = [(0, "push_valid", 1), (0, "push_bundle", ring_bundle(&[1, 2])), (19, "read_valid", 1)];
     let lanes = [
         ("push", "push_valid", 0, 1, When::Always),
-        ("bundle.owner", "push_bundle", 2, 5, When::If("push_valid")),
+        ("bundle.context", "push_bundle", 2, 5, When::If("push_valid")),
         ("bundle.x", "push_bundle", 9, 6, When::If("push_valid")),
         ("is_issuing", "is_issuing", 0, 1, When::Always),
         ("done", "completion_done", 0, 1, When::Always),
-        ("visit.owner", "completion_visit", 0, 5, When::If("completion_done")),
+        ("visit.context", "completion_visit", 0, 5, When::If("completion_done")),
         ("visit.x", "completion_visit", 7, 6, When::If("completion_done")),
         ("read", "read_valid", 0, 1, When::Always),
         ("read_done", "read_out_valid", 0, 1, When::Always),
