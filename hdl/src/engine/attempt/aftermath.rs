@@ -50,7 +50,7 @@ impl Logic for Aftermath {
         self.outcome.next.overflows = self.found.val().overflows;
         self.outcome.next.duplicate = self.is_duplicate.val();
         self.outcome.next.root_enable = self.found.val().is_root;
-        self.outcome.next.root = self.visit.val().u;
+        self.outcome.next.root = self.visit.val().record;
         if self.found.val().retries {
             self.outcome.next.root = self.walk_next.val();
         }

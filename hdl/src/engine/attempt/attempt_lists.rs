@@ -19,7 +19,7 @@ pub struct AttemptLists {
     pub attempt: Signal<In, Attempt>,
     pub after: Signal<In, Attempt>,
     /// The point of its context, and when it was taken.
-    pub p: Signal<In, VertexId>,
+    pub vertex: Signal<In, VertexId>,
     pub since: Signal<In, Clocks>,
     pub found: Signal<In, Case>,
     pub step: Signal<In, Step>,
@@ -46,31 +46,31 @@ impl Logic for AttemptLists {
         self.visit.next = self.completion.val().visit;
         self.turned.next = self.completion.val().turned;
         self.inners.next = self.attempt.val().inners;
-        self.boundary.next.a = self.turned.val().v2;
-        self.boundary.next.u = self.visit.val().u;
+        self.boundary.next.first_vertex = self.turned.val().v2;
+        self.boundary.next.outside_record = self.visit.val().record;
         self.boundary.next.slot = self.turned.val().slot;
-        self.boundary.next.f = self.visit.val().f;
+        self.boundary.next.cavity_record = self.visit.val().cavity_record;
         self.boundary.next.after = self.visit.val().after;
         self.entry.next.valid = self.found.val().settles;
         self.entry.next.context = self.visit.val().context;
-        self.entry.next.place = self.visit.val().x;
+        self.entry.next.place = self.visit.val().entry;
         self.entry.next.entry = self.boundary.val();
 
         self.inner.next.valid = self.step.val().finds_inner;
         self.inner.next.context = self.visit.val().context;
         self.inner.next.place = self.inners.val().get_bits::<6>(0);
-        self.inner.next.id = self.visit.val().f;
+        self.inner.next.id = self.visit.val().cavity_record;
 
         self.lock.next.valid = self.found.val().is_done & self.turned.val().took;
         self.lock.next.context = self.visit.val().context;
         self.lock.next.place = self.attempt.val().logged;
-        self.lock.next.id = self.visit.val().u;
+        self.lock.next.id = self.visit.val().record;
         if self.found.val().is_root {
             self.lock.next.place = 0.into();
         }
 
         self.ring.next.context = self.visit.val().context;
-        self.ring.next.p = self.p.val();
+        self.ring.next.vertex = self.vertex.val();
         self.ring.next.inners = self.inners.val();
         self.ring.next.locks = self.after.val().logged;
         self.ring.next.since = self.since.val();

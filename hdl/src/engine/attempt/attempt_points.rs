@@ -11,7 +11,7 @@
 //! taken_id          7  .  .  .
 //! now               3  .  .  .
 //! context_id        .  .  1  .
-//! p                 .  .  7  .
+//! vertex            .  .  7  .
 //! since             .  .  3  .
 //! ```
 
@@ -30,7 +30,7 @@ pub struct AttemptPoints {
     pub now: Signal<In, Clocks>,
     /// A context; its point, and when it was taken.
     pub context_id: Signal<In, ContextId>,
-    pub p: Signal<Out, VertexId>,
+    pub vertex: Signal<Out, VertexId>,
     pub since: Signal<Out, Clocks>,
     points: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
     times: LutMemory<CONTEXT_BITS, LATENCY_BITS>,
@@ -65,7 +65,7 @@ impl Logic for AttemptPoints {
         self.times.write_enable.next = self.has_taken.q.val();
         self.points.read_address.next = self.context_id.val();
         self.times.read_address.next = self.context_id.val();
-        self.p.next = self.points.read_data.val();
+        self.vertex.next = self.points.read_data.val();
         self.since.next = self.times.read_data.val();
     }
 }

@@ -25,9 +25,9 @@ crate::packed! {
         /// One visit is out; the list holds as many entries as it can.
         pub is_last: bool,
         pub is_full: bool,
-        /// `attempt.half_open` at `f_entry` of the visit.
+        /// `attempt.half_open` at `cavity_entry` of the visit.
         pub edge_was_passed: bool,
-        /// `f_entry` of the visit, a bit each.
+        /// `cavity_entry` of the visit, a bit each.
         pub entry_bit: Bits<64>,
     }
 }
@@ -38,7 +38,7 @@ pub struct AttemptStore {
     pub clock: Signal<In, Clock>,
     /// Entries a boundary list holds, a constant.
     pub ring: Signal<In, RingCount>,
-    /// The visit that completes in the next clock, and the one of this clock: context and `f_entry` count.
+    /// The visit that completes in the next clock, and the one of this clock: context and `cavity_entry` count.
     pub early_visit: Signal<In, Visit>,
     pub visit: Signal<In, Visit>,
     /// The attempt of the visit of this clock.
@@ -172,15 +172,15 @@ impl Logic for AttemptStore {
         self.stored.bits.next = self.states.read_data.val();
 
         // The edge that the next visit asks for.
-        self.entry.next = self.early_visit.val().f_entry;
+        self.entry.next = self.early_visit.val().cavity_entry;
         self.first_bit.next = 1.into();
-        self.wide_entry.next = bit_cast::<64, 6>(self.early_visit.val().f_entry);
+        self.wide_entry.next = bit_cast::<64, 6>(self.early_visit.val().cavity_entry);
         self.named_entry.d.next = self.first_bit.val() << self.wide_entry.val();
         self.held.next.entry_bit = self.named_entry.q.val() & self.all_entries.val();
         self.kept_edges.next = self.state.q.val().half_open;
         self.stored_edges.next = self.stored.value.val().half_open;
-        self.is_same_entry.next = self.early_visit.val().f_entry == self.visit.val().f_entry;
-        self.is_second_entry.next = self.early_visit.val().f_entry == self.second_entry.val();
+        self.is_same_entry.next = self.early_visit.val().cavity_entry == self.visit.val().cavity_entry;
+        self.is_second_entry.next = self.early_visit.val().cavity_entry == self.second_entry.val();
         self.stored_passed.d.next = self.stored_edges.val().get_bit(self.entry.val().index());
         self.kept_passed.d.next = self.kept_edges.val().get_bit(self.entry.val().index())
             | (self.found.val().splits & self.is_same_entry.val())

@@ -163,7 +163,7 @@ impl Logic for Attempts {
         self.lists.completion.next = self.completion.val();
         self.lists.attempt.next = self.attempt.val();
         self.lists.after.next = self.step.after.val();
-        self.lists.p.next = self.points.p.val();
+        self.lists.vertex.next = self.points.vertex.val();
         self.lists.since.next = self.points.since.val();
         self.lists.found.next = self.meaning.found.val();
         self.lists.step.next = self.step.step.val();

@@ -10,16 +10,16 @@
 //!
 //! A sweep of four records; then two failures, of contexts 1 and 0, and a ring of context 3, which overtakes the second one:
 //! ```text
-//! reset             /^^\_______________________________________________
-//! sweeps            ___/^^^^^^^^^^^\___________________________________
-//! lock_enable       _________/^^^^^^^^\__/^^\__________________________
-//! lock_id             .  .  . 27 28 26  . 25  .  .  .  .  .  .  .  .  .
-//! failure_enable    __________________/^^^^^\__________________________
-//! commit_enable     ________________________/^^\_______________________
-//! clear_enable      ______/^^^^^^^^^^^\______________/^^^^^^^^^^^\_____
-//! clear_id            .  .  0  1  2  3  .  .  .  .  . 27 28 26 25  .  .
-//! released          ____________________________________/^^^^^^^^\_____
-//! released_context    .  .  .  .  .  .  .  .  .  .  .  .  1  3  0  .  .
+//! reset            /^^\_______________________________________________
+//! sweeps           ___/^^^^^^^^^^^\___________________________________
+//! lock_enable      _________/^^^^^^^^\__/^^\__________________________
+//! lock_id            .  .  . 27 28 26  . 25  .  .  .  .  .  .  .  .  .
+//! failure_enable   __________________/^^^^^\__________________________
+//! commit_enable    ________________________/^^\_______________________
+//! clear_enable     ______/^^^^^^^^^^^\______________/^^^^^^^^^^^\_____
+//! clear_id           .  .  0  1  2  3  .  .  .  .  . 27 28 26 25  .  .
+//! released         ____________________________________/^^^^^^^^\_____
+//! released_context   .  .  .  .  .  .  .  .  .  .  .  .  1  3  0  .  .
 //! ```
 
 use super::job_queue::JobQueue;
@@ -117,7 +117,18 @@ impl Logic for Release {
     fn update(&mut self) {
         dff_setup!(self, clock, one_is_left, two_are_left, left);
         dff_setup!(self, clock, works, at_work, place, array_valid, array_is_last, array_context);
-        dff_setup!(self, clock, output_valid, output_is_last, output_context, clears, cleared, is_last, cleared_context, sweeping);
+        dff_setup!(
+            self,
+            clock,
+            output_valid,
+            output_is_last,
+            output_context,
+            clears,
+            cleared,
+            is_last,
+            cleared_context,
+            sweeping
+        );
         clock!(self, clock, commits, failures, log);
         self.one.next = 1.into();
         self.one_place.next = 1.into();

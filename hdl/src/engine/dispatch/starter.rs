@@ -26,7 +26,7 @@
 //! starts          _______________/^^\_________________/^^\________
 //! takes           _______________/^^\_____________________________
 //! taken_id          .  .  .  .  .  2  .  .  .  .  .  .  .  .  .  .
-//! u                 .  .  .  .  .  0  .  .  .  .  .  .  9  .  .  .
+//! record            .  .  .  .  .  0  .  .  .  .  .  .  9  .  .  .
 //! ```
 //!
 //! Source: points dealt to contexts lie in the vertex memory, which is their queue.
@@ -161,7 +161,7 @@ impl Logic for Starter {
         self.is_taken.next = self.wants_new.q.val() & self.begins.val();
         self.start.next.valid = self.begins.val();
         self.start.next.context = self.candidate.q.val().context;
-        self.start.next.u = self.candidate.q.val().from;
+        self.start.next.record = self.candidate.q.val().from;
         self.start.next.takes = self.is_taken.val();
         self.start.next.id = self.candidate.q.val().id;
         self.solo_start.next.valid = self.contexts.val().solo_valid
@@ -169,8 +169,8 @@ impl Logic for Starter {
             & (!self.solo_is_at_work.val())
             & self.candidate.q.val().is_alone;
         self.solo_start.next.context = self.contexts.val().solo_context;
-        self.solo_start.next.p = self.candidate.q.val().point;
-        self.solo_start.next.u = self.candidate.q.val().from;
+        self.solo_start.next.vertex = self.candidate.q.val().point;
+        self.solo_start.next.record = self.candidate.q.val().from;
 
         // The tables.
         self.points.write_address.next = self.candidate.q.val().context;

@@ -22,7 +22,7 @@
 //! starts          ___/^^\_________________________________________
 //! is_at_work      _________/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
 //! push            _________/^^\________/^^\_________________/^^\__
-//! bundle.u          .  .  .  2  .  .  .  0  .  .  .  .  .  .  2  .
+//! bundle.record     .  .  .  2  .  .  .  0  .  .  .  .  .  .  2  .
 //! done            _______________/^^\________/^^\_________________
 //! located           .  .  .  .  .___  .  .  ./^^  .  .  .  .  .  .
 //! write.valid     ____________________________________/^^^^^^^^\__
@@ -88,7 +88,7 @@ impl Logic for Solo {
         self.star.context_id.next = self.at_work_for.q.val();
         self.star.phase.next = self.steps.phase.val();
         self.star.step.next = self.steps.step.val();
-        self.star.p.next = self.vertex.q.val();
+        self.star.vertex.next = self.vertex.q.val();
         self.star.records.next = self.records.val();
         self.star.root_id.next = self.root_id.q.val();
         self.star.root.next = self.root.q.val();
@@ -114,8 +114,8 @@ impl Logic for Solo {
 
         if self.steps.is_idle.val() & self.start.val().valid {
             self.at_work_for.d.next = self.start.val().context;
-            self.vertex.d.next = self.start.val().p;
-            self.root_id.d.next = self.start.val().u;
+            self.vertex.d.next = self.start.val().vertex;
+            self.root_id.d.next = self.start.val().record;
         }
         if self.steps.phase.val().is_locate & self.completion.val().done {
             self.root.d.next = self.completion.val().turned;

@@ -27,7 +27,7 @@ pub struct SoloStar {
     /// Which record of the split, link of the mend, write of the flip.
     pub step: Signal<In, Bits<2>>,
     pub context_id: Signal<In, ContextId>,
-    pub p: Signal<In, VertexId>,
+    pub vertex: Signal<In, VertexId>,
     /// The next new id.
     pub records: Signal<In, TriangleId>,
     pub root_id: Signal<In, TriangleId>,
@@ -100,7 +100,7 @@ impl Logic for SoloStar {
         self.turn.d.next.mend2 = self.phase.val().is_mend & self.is_second.val();
         self.ends_flip.d.next = self.phase.val().is_flip & self.is_last_write.val() & (!self.reset.val());
         self.comes.d.next = self.completion.val().done;
-        self.visited.d.next = self.visit.val().u;
+        self.visited.d.next = self.visit.val().record;
         self.found.d.next = self.completion.val().turned;
         self.is_conflict.d.next = self.verdict.val().conflict;
         self.tests.next = self.done_phase.q.val().is_test & self.comes.q.val();
@@ -115,7 +115,7 @@ impl Logic for SoloStar {
         self.bundle.next = self.visits.bundle.val();
         self.writes.turn.next = self.turn.q.val();
         self.writes.is_test.next = self.done_phase.q.val().is_test;
-        self.writes.p.next = self.p.val();
+        self.writes.vertex.next = self.vertex.val();
         self.writes.second.next = self.records.val();
         self.writes.third.next = self.third.q.val();
         self.writes.root_id.next = self.root_id.val();

@@ -30,27 +30,27 @@ impl Logic for SoloVisit {
         self.bundle.next.context = self.context_id.val();
         self.bundle.next.rotates = (!self.phase.val().is_fetch) & (!self.phase.val().is_locate);
         self.bundle.next.locks = false;
-        self.bundle.next.x = 0.into();
+        self.bundle.next.entry = 0.into();
         self.bundle.next.after = 0.into();
-        self.bundle.next.f_entry = 0.into();
-        self.bundle.next.f = self.triangle.val().back;
-        self.bundle.next.u = self.triangle.val().outer;
+        self.bundle.next.cavity_entry = 0.into();
+        self.bundle.next.cavity_record = self.triangle.val().back;
+        self.bundle.next.record = self.triangle.val().outer;
         self.bundle.next.second_after = 0.into();
-        self.bundle.next.second_u = 0.into();
-        self.bundle.next.third_u = 0.into();
+        self.bundle.next.second_record = 0.into();
+        self.bundle.next.third_record = 0.into();
         if self.phase.val().is_fetch {
-            self.bundle.next.f = 0.into();
-            self.bundle.next.u = self.triangle.val().id;
+            self.bundle.next.cavity_record = 0.into();
+            self.bundle.next.record = self.triangle.val().id;
         }
         if self.phase.val().is_locate {
-            self.bundle.next.f = 0.into();
-            self.bundle.next.u = self.root_id.val();
+            self.bundle.next.cavity_record = 0.into();
+            self.bundle.next.record = self.root_id.val();
         }
         if self.phase.val().is_mend {
-            self.bundle.next.f = self.root_id.val();
-            self.bundle.next.u = self.root.val().n1;
+            self.bundle.next.cavity_record = self.root_id.val();
+            self.bundle.next.record = self.root.val().n1;
             if self.is_second.val() {
-                self.bundle.next.u = self.root.val().n2;
+                self.bundle.next.record = self.root.val().n2;
             }
         }
     }

@@ -28,16 +28,16 @@ crate::packed! {
         pub half_open: Bits<64>,
     }
 
-    /// A final edge of the boundary, from `a` to the next entry's `a`.
+    /// A final edge of the boundary, from `first_vertex` to that of the next entry.
     pub struct Entry {
         /// Its first vertex.
-        pub a: VertexId,
+        pub first_vertex: VertexId,
         /// The triangle outside.
-        pub u: TriangleId,
-        /// The slot of `u` that leads to `f`.
+        pub outside_record: TriangleId,
+        /// The slot of `outside_record` that leads to `cavity_record`.
         pub slot: Slot,
         /// The cavity triangle behind the edge.
-        pub f: TriangleId,
+        pub cavity_record: TriangleId,
         /// The entry after this one.
         pub after: RingEntry,
     }

@@ -16,7 +16,7 @@ crate::packed! {
         /// Its context.
         pub context: ContextId,
         /// The new vertex.
-        pub p: VertexId,
+        pub vertex: VertexId,
         /// Inner triangles.
         pub inners: RingCount,
         /// Locks in the log.

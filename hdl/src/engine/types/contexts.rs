@@ -31,7 +31,7 @@ crate::packed! {
         pub valid: bool,
         pub context: ContextId,
         /// The record at which it starts.
-        pub u: TriangleId,
+        pub record: TriangleId,
         /// It takes this new point.
         pub takes: bool,
         pub id: VertexId,
@@ -47,9 +47,9 @@ crate::packed! {
     pub struct SoloStart {
         pub valid: bool,
         pub context: ContextId,
-        pub p: VertexId,
+        pub vertex: VertexId,
         /// The record at which its walk starts.
-        pub u: TriangleId,
+        pub record: TriangleId,
     }
 
     /// The insertion alone.

@@ -11,12 +11,12 @@
 //! A bundle of three visits and one of one, then a read-out:
 //! ```text
 //! push            ___/^^^^^\_________________
-//! bundle.x          .  1  4  .  .  .  .  .  .
+//! bundle.entry      .  1  4  .  .  .  .  .  .
 //! visit_valid     ______/^^^^^^^^^^^\________
-//! visit.x           .  .  1  2  3  4  .  .  .
+//! visit.entry       .  .  1  2  3  4  .  .  .
 //! read            __________________/^^\_____
 //! read_valid      _____________________/^^\__
-//! visit.u           .  .  .  .  .  .  .  9  .
+//! visit.record      .  .  .  .  .  .  .  9  .
 //! ```
 
 use crate::engine::types::{Bundle, Push, RecordRead, TriangleId, Visit, BUNDLE_BITS, RING_ADDRESS_BITS};
@@ -34,10 +34,10 @@ pub struct Issue {
     pub push: Signal<In, Push>,
     /// A read-out wants this record; only while the queue is empty.
     pub read: Signal<In, RecordRead>,
-    /// The visit issued; in a read-out `visit.u` alone counts.
+    /// The visit issued; in a read-out `visit.record` alone counts.
     pub visit_valid: Signal<Out, Bit>,
     pub visit: Signal<Out, Visit>,
-    /// `visit.u` from two more registers; arbitrary after a reset until the next visit or read-out.
+    /// `visit.record` from two more registers; arbitrary after a reset until the next visit or read-out.
     pub vertices_id: Signal<Out, TriangleId>,
     pub links_id: Signal<Out, TriangleId>,
     /// The issue register holds a read-out.
@@ -112,25 +112,25 @@ impl Logic for Issue {
         self.issued.d.next.context = self.head.value.val().context;
         self.issued.d.next.rotates = self.head.value.val().rotates;
         self.issued.d.next.locks = self.head.value.val().locks;
-        self.issued.d.next.f_entry = self.head.value.val().f_entry;
-        self.issued.d.next.f = self.head.value.val().f;
-        self.issued.d.next.x = self.head.value.val().x;
+        self.issued.d.next.cavity_entry = self.head.value.val().cavity_entry;
+        self.issued.d.next.cavity_record = self.head.value.val().cavity_record;
+        self.issued.d.next.entry = self.head.value.val().entry;
         self.issued.d.next.after = self.head.value.val().after;
-        self.record.next = self.head.value.val().u;
+        self.record.next = self.head.value.val().record;
         if self.second_is_due.q.val() {
-            self.issued.d.next.x = self.head.value.val().after;
+            self.issued.d.next.entry = self.head.value.val().after;
             self.issued.d.next.after = self.head.value.val().second_after;
-            self.record.next = self.head.value.val().second_u;
+            self.record.next = self.head.value.val().second_record;
         }
         if self.third_is_due.q.val() {
-            self.issued.d.next.x = self.head.value.val().second_after;
+            self.issued.d.next.entry = self.head.value.val().second_after;
             self.issued.d.next.after = 0.into();
-            self.record.next = self.head.value.val().third_u;
+            self.record.next = self.head.value.val().third_record;
         }
         if self.read.val().valid {
             self.record.next = self.read.val().id;
         }
-        self.issued.d.next.u = self.record.val();
+        self.issued.d.next.record = self.record.val();
         self.vertices_copy.d.next = self.record.val();
         self.links_copy.d.next = self.record.val();
         self.no_record.next = 0.into();

@@ -7,14 +7,14 @@
 //! ```text
 //! asks            ___/^^\______________
 //! may_ask         ___/^^^^^\___________
-//! follows.u         .  5  .  .  .  .  .
+//! follows.record    .  5  .  .  .  .  .
 //! starts          _________/^^\________
-//! u                 .  .  .  6  .  .  .
+//! record            .  .  .  6  .  .  .
 //! is_alone        ____________/^^^^^\__
 //! solo_asks       _______________/^^\__
-//! solo.u            .  .  .  .  .  7  .
+//! solo.record       .  .  .  .  .  7  .
 //! push            ______/^^\__/^^\__/^^
-//! bundle.u          .  .  5  .  6  .  7
+//! bundle.record     .  .  5  .  6  .  7
 //! ```
 
 use crate::engine::types::{Bundle, Follow, Push, Start};
@@ -53,7 +53,7 @@ impl Logic for PushPort {
             self.pushed.d.next.context = self.start.val().context;
             self.pushed.d.next.rotates = false;
             self.pushed.d.next.locks = false;
-            self.pushed.d.next.u = self.start.val().u;
+            self.pushed.d.next.record = self.start.val().record;
         }
         if self.is_alone.val() {
             self.pushed.d.next = self.solo.val().bundle;

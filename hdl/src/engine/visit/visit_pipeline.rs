@@ -15,11 +15,11 @@
 //! ```text
 //! push            /^^\____________________________________________________________________
 //! bundle.context    1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
-//! bundle.x          1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! bundle.entry      1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
 //! is_issuing      ___/^^^^^\______________________________________________________________
 //! done            ___________________________________________________/^^^^^\______________
 //! visit.context     .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  1  .  .  .  .  .
-//! visit.x           .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  2  .  .  .  .  .
+//! visit.entry       .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  2  .  .  .  .  .
 //! read            _________________________________________________________/^^\___________
 //! read_done       __________________________________________________________________/^^\__
 //! ```
@@ -142,13 +142,13 @@ impl Logic for VisitPipeline {
         self.is_issuing.next = self.issue.visit_valid.val();
 
         // Clock 0, L7: a record that is not written yet, or being written, does not count.
-        self.is_written.next = self.issue.visit.val().u < self.records.val();
-        self.is_torn.next = self.write.val().valid & (self.write.val().id == self.issue.visit.val().u);
+        self.is_written.next = self.issue.visit.val().record < self.records.val();
+        self.is_torn.next = self.write.val().valid & (self.write.val().id == self.issue.visit.val().record);
         self.again1.d.next = self.is_torn.val() | (!self.is_written.val());
         self.again2.d.next = self.again1.q.val();
 
         // Clocks 0 to 2: the record.
-        self.triangles.read_id.next = self.issue.visit.val().u;
+        self.triangles.read_id.next = self.issue.visit.val().record;
         self.triangles.vertices_id.next = self.issue.vertices_id.val();
         self.triangles.links_id.next = self.issue.links_id.val();
         self.triangles.read_locks.next = self.issue.visit_valid.val() & self.issue.visit.val().locks;

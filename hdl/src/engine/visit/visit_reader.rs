@@ -1,6 +1,6 @@
 //! Reads the record of a visit, turns it, and takes in the coordinates of its corners.
 //!
-//! 1. With `visit.rotates` the slot whose link is `visit.f` comes first, otherwise slot 0 does. The links of a record differ.
+//! 1. With `visit.rotates` the slot whose link is `visit.cavity_record` comes first, otherwise slot 0 does. The links of a record differ.
 //! 2. `took`, `foreign` and `again` pass unchanged into `turned`.
 //! 3. Nothing is computed between a memory's output and the first register: block RAM lies far from everything. That is why the corners
 //!    stay as stored; what of the verdict depends on the turn is turned there.
@@ -9,18 +9,18 @@
 //!
 //! A visit that comes through link 1, so that vertex 1 comes first, and takes the lock:
 //! ```text
-//! visit.f          30  .  .  .  .  .  .
-//! n1                .  . 30  .  .  .  .
-//! v0                .  . 11  .  .  .  .
-//! v1                .  . 12  .  .  .  .
-//! again           ______/^^\___________
-//! took            _________/^^\________
-//! turned.v0         .  .  .  .  . 12  .
-//! turned.slot       .  .  .  .  .  1  .
-//! turned.again      .  .  .  .  ./^^  .
-//! turned.took       .  .  .  .  ./^^  .
-//! position0         .  .  .  . 51  .  .
-//! r0                .  .  .  .  . 51  .
+//! visit.cavity_record  30  .  .  .  .  .  .
+//! n1                    .  . 30  .  .  .  .
+//! v0                    .  . 11  .  .  .  .
+//! v1                    .  . 12  .  .  .  .
+//! again               ______/^^\___________
+//! took                _________/^^\________
+//! turned.v0             .  .  .  .  . 12  .
+//! turned.slot           .  .  .  .  .  1  .
+//! turned.again          .  .  .  .  ./^^  .
+//! turned.took           .  .  .  .  ./^^  .
+//! position0             .  .  .  . 51  .  .
+//! r0                    .  .  .  .  . 51  .
 //! ```
 
 use crate::engine::types::{Slot, Turned, VertexId, Visit};
@@ -102,10 +102,10 @@ impl Logic for VisitReader {
         self.found.d.next.infinite1 = self.stored.q.val().v1 == self.infinite.val();
         self.found.d.next.infinite2 = self.stored.q.val().v2 == self.infinite.val();
         self.found.d.next.slot = self.first_slot.val();
-        if self.visit3.q.val().rotates & (self.stored.q.val().n1 == self.visit3.q.val().f) {
+        if self.visit3.q.val().rotates & (self.stored.q.val().n1 == self.visit3.q.val().cavity_record) {
             self.found.d.next.slot = self.second_slot.val();
         }
-        if self.visit3.q.val().rotates & (self.stored.q.val().n2 == self.visit3.q.val().f) {
+        if self.visit3.q.val().rotates & (self.stored.q.val().n2 == self.visit3.q.val().cavity_record) {
             self.found.d.next.slot = self.third_slot.val();
         }
 

@@ -70,7 +70,7 @@ pub(super) struct Outcome {
 pub(super) struct Around<'a> {
     pub was: &'a Registers,
     pub attempt: Attempt,
-    pub p: u32,
+    pub vertex: u32,
     pub since: u32,
     pub config: Config,
     pub defect: Option<Defect>,
@@ -133,14 +133,14 @@ impl Outcome {
         } else if around.is_busy(context) {
             return self.again(done);
         } else {
-            self.push = Some(Bundle::root(context, done.visit.u));
+            self.push = Some(Bundle::root(context, done.visit.record));
         }
         self
     }
 
     /// L5: the visit of the root under its lock; what the walk saw may not be true any more.
     fn root(mut self, done: &Completion, around: &Around) -> Self {
-        let u = done.visit.u;
+        let record = done.visit.record;
         let trusts = around.defect == Some(Defect::TrustsTheWalk);
         let (located, on_corner) = (done.located || trusts, done.falls_onto_corner && !trusts);
         // L1, L2: the root belongs to another context.
@@ -151,13 +151,13 @@ impl Outcome {
             }
             self.aborts = true;
             self.asks_for_priority = true;
-            return self.abort(u);
+            return self.abort(record);
         }
-        self.lock = Some((0, u));
+        self.lock = Some((0, record));
         if located && !on_corner {
             self.push = Some(Bundle::tests(done));
             self.attempt = Some(Attempt { outstanding: 3, count: 3, logged: 1, ..Attempt::default() });
-            self.root = Some(u);
+            self.root = Some(record);
             return self;
         }
         self.release = Some(ReleaseJob { context: self.context, locks: 1 });
@@ -165,7 +165,7 @@ impl Outcome {
             self.duplicate = true;
             self.returns_priority = true;
             self.sleeps = true;
-            self.root = Some(u);
+            self.root = Some(record);
             return self;
         }
         self.retries_root = true;
@@ -176,7 +176,7 @@ impl Outcome {
         let mut state = around.attempt;
         let foreign = done.foreign && around.defect != Some(Defect::IgnoresForeignLocks);
         if done.took {
-            self.lock = Some((state.logged, done.visit.u));
+            self.lock = Some((state.logged, done.visit.record));
             state.logged += 1;
         }
         state.outstanding -= 1;
@@ -192,7 +192,16 @@ impl Outcome {
             self.asks_for_priority = true;
         } else if !done.conflict {
             let Completion { visit, record, slot, .. } = *done;
-            self.entry = Some((visit.x, Entry { a: record.v[2], u: visit.u, slot, f: visit.f, next: visit.next }));
+            self.entry = Some((
+                visit.entry,
+                Entry {
+                    first_vertex: record.v[2],
+                    outside_record: visit.record,
+                    slot,
+                    cavity_record: visit.cavity_record,
+                    after: visit.after,
+                },
+            ));
         } else if state.count == around.config.ring {
             state.drains = true;
             self.overflows = true;
@@ -216,8 +225,8 @@ impl Outcome {
         self.push = Some(Bundle::split(done, y));
         state.count += 1;
         state.outstanding += 2;
-        if state.passes_last_edge(done.visit.f_entry) {
-            self.inner = Some((state.inners, done.visit.f));
+        if state.passes_last_edge(done.visit.cavity_entry) {
+            self.inner = Some((state.inners, done.visit.cavity_record));
             state.inners += 1;
         }
     }
@@ -232,7 +241,7 @@ impl Outcome {
             self.returns_priority = true;
             self.commit = Some(CommitJob {
                 context: self.context,
-                p: around.p,
+                vertex: around.vertex,
                 inners: state.inners,
                 locks: state.logged,
                 since: around.since,
@@ -242,10 +251,10 @@ impl Outcome {
 }
 
 impl Attempt {
-    fn passes_last_edge(&mut self, f_entry: usize) -> bool {
-        let bit = 1 << f_entry;
+    fn passes_last_edge(&mut self, cavity_entry: usize) -> bool {
+        let bit = 1 << cavity_entry;
         let half = self.half_open & bit != 0;
-        let root_half = f_entry == 0 && half && self.half_open & 2 == 0;
+        let root_half = cavity_entry == 0 && half && self.half_open & 2 == 0;
         self.half_open |= bit | u64::from(root_half) << 1;
         half && !root_half
     }
@@ -276,8 +285,8 @@ impl Tables {
         if let Some(root) = outcome.root {
             self.root[context] = root;
         }
-        if let Some((x, entry)) = outcome.entry {
-            memory.entries[context][x] = entry;
+        if let Some((place, entry)) = outcome.entry {
+            memory.entries[context][place] = entry;
         }
         if let Some((place, id)) = outcome.inner {
             memory.inner[context][place as usize] = id;

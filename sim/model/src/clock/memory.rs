@@ -47,11 +47,11 @@ impl Write {
 /// A final boundary edge.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Entry {
-    pub a: u32,
-    pub u: u32,
+    pub first_vertex: u32,
+    pub outside_record: u32,
     pub slot: usize,
-    pub f: u32,
-    pub next: usize,
+    pub cavity_record: u32,
+    pub after: usize,
 }
 
 /// All memories.

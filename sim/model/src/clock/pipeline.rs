@@ -18,17 +18,17 @@ const RECORD_STAGES: usize = 2;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Visit {
     pub context: usize,
-    /// The record is turned so that its link to `f` comes first.
+    /// The record is turned so that its link to `cavity_record` comes first.
     pub rotates: bool,
     /// The record's lock is taken.
     pub locks: bool,
-    /// Ring entry, the entry after it, and the entry that names `f`.
-    pub x: usize,
-    pub next: usize,
-    pub f_entry: usize,
-    pub f: u32,
+    /// Ring entry, the entry after it, and the entry that names `cavity_record`.
+    pub entry: usize,
+    pub after: usize,
+    pub cavity_entry: usize,
+    pub cavity_record: u32,
     /// The record visited.
-    pub u: u32,
+    pub record: u32,
 }
 
 /// One to three visits that one completion asks for.
@@ -40,9 +40,9 @@ pub(super) struct Bundle {
     /// Visits.
     pub count: u32,
     /// The entry after the second visit's.
-    second_next: usize,
-    second_u: u32,
-    third_u: u32,
+    second_after: usize,
+    second_record: u32,
+    third_record: u32,
 }
 
 impl Bundle {
@@ -51,41 +51,50 @@ impl Bundle {
     }
 
     /// A plain look at a record.
-    pub(super) fn look(context: usize, u: u32) -> Self {
-        Self::one(Visit { context, u, ..Visit::default() })
+    pub(super) fn look(context: usize, record: u32) -> Self {
+        Self::one(Visit { context, record, ..Visit::default() })
     }
 
     /// The visit that locks a root.
-    pub(super) fn root(context: usize, u: u32) -> Self {
-        Self::one(Visit { context, u, locks: true, ..Visit::default() })
+    pub(super) fn root(context: usize, record: u32) -> Self {
+        Self::one(Visit { context, record, locks: true, ..Visit::default() })
     }
 
-    /// A visit without a lock, turned to the link to `f`.
-    pub(super) fn turned(context: usize, f: u32, u: u32) -> Self {
-        Self::one(Visit { context, rotates: true, f, u, ..Visit::default() })
+    /// A visit without a lock, turned to the link to `cavity_record`.
+    pub(super) fn turned(context: usize, cavity_record: u32, record: u32) -> Self {
+        Self::one(Visit { context, rotates: true, cavity_record, record, ..Visit::default() })
     }
 
     /// The tests of the three neighbours of a root.
     pub(super) fn tests(root: &Completion) -> Self {
-        let Visit { context, u, .. } = root.visit;
+        let Visit { context, record, .. } = root.visit;
         let n = root.record.n;
-        let first = Visit { context, rotates: true, locks: true, x: 0, next: 1, f_entry: 0, f: u, u: n[0] };
-        Self { first, count: 3, second_next: 2, second_u: n[1], third_u: n[2] }
+        let first = Visit {
+            context,
+            rotates: true,
+            locks: true,
+            entry: 0,
+            after: 1,
+            cavity_entry: 0,
+            cavity_record: record,
+            record: n[0],
+        };
+        Self { first, count: 3, second_after: 2, second_record: n[1], third_record: n[2] }
     }
 
     /// The bundle of a conflict: both halves of the edge go on to the triangles behind, the second as the new entry `y`.
     pub(super) fn split(done: &Completion, y: usize) -> Self {
         let [_, n1, n2] = done.record.n;
-        let first = Visit { next: y, f_entry: y, f: done.visit.u, u: n1, ..done.visit };
-        Self { first, count: 2, second_next: done.visit.next, second_u: n2, third_u: 0 }
+        let first = Visit { after: y, cavity_entry: y, cavity_record: done.visit.record, record: n1, ..done.visit };
+        Self { first, count: 2, second_after: done.visit.after, second_record: n2, third_record: 0 }
     }
 
     /// The visit with this place in the bundle.
     fn visit(&self, place: u32) -> Visit {
         match place {
             0 => self.first,
-            1 => Visit { x: self.first.next, next: self.second_next, u: self.second_u, ..self.first },
-            _ => Visit { x: self.second_next, next: 0, u: self.third_u, ..self.first },
+            1 => Visit { entry: self.first.after, after: self.second_after, record: self.second_record, ..self.first },
+            _ => Visit { entry: self.second_after, after: 0, record: self.third_record, ..self.first },
         }
     }
 }
@@ -182,16 +191,16 @@ impl Pipeline {
 /// Reads a record, takes its lock if asked to, and evaluates the predicates.
 fn complete(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
     // L7: a record that is written while it is read comes out torn, and a new one counts once its commit has ended.
-    let is_torn = was.write.valid && was.write.id == visit.u;
+    let is_torn = was.write.valid && was.write.id == visit.record;
     let is_written =
-        visit.u < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);
-    let stored = if is_torn { Record::default() } else { memory.record(visit.u) };
+        visit.record < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);
+    let stored = if is_torn { Record::default() } else { memory.record(visit.record) };
     let (took, foreign) = match visit.locks {
-        true => memory.take_lock(visit.u, visit.context, wires.clear, defect),
+        true => memory.take_lock(visit.record, visit.context, wires.clear, defect),
         false => (false, false),
     };
     let p = memory.position[visit.context];
-    let slot = if visit.rotates { stored.slot_of(visit.f) } else { 0 };
+    let slot = if visit.rotates { stored.slot_of(visit.cavity_record) } else { 0 };
     let record = stored.rotated(slot);
     let infinite = record.v.map(|v| v == memory.infinite);
     let r = record.v.map(|v| memory.vertex(v));

@@ -153,7 +153,7 @@ impl ClockModel {
         let around = Around {
             was: &self.registers,
             attempt: self.tables.attempts[context],
-            p: self.memory.point_id[context],
+            vertex: self.memory.point_id[context],
             since: self.memory.since[context],
             config: self.config,
             defect: self.defect,

@@ -79,8 +79,8 @@ pub struct Record {
 
 impl Record {
     /// The slot that comes first when a visit from `f` turns the record.
-    pub fn slot(&self, rotates: bool, f: u64) -> usize {
-        self.n.iter().position(|link| rotates && *link == f).unwrap_or(0)
+    pub fn slot(&self, rotates: bool, cavity_record: u64) -> usize {
+        self.n.iter().position(|link| rotates && *link == cavity_record).unwrap_or(0)
     }
 
     pub fn turned(&self, slot: usize) -> Self {

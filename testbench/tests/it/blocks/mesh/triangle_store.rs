@@ -62,7 +62,17 @@ fn triangle_store(name: &str, id_bits: u32, vertex_bits: u32, context_bits: u32)
     let locks = LockReference::new(id_bits, context_bits);
     let mut reference = triangle_reference(id_bits, vertex_bits, locks);
     Stepper::new(name, TriangleStore::new(id_bits as usize, vertex_bits as usize, context_bits as usize), 1).run(
-        &["write", "enables", "read_id", "vertices_id", "links_id", "read_locks", "context_id", "clear_id", "clear_valid"],
+        &[
+            "write",
+            "enables",
+            "read_id",
+            "vertices_id",
+            "links_id",
+            "read_locks",
+            "context_id",
+            "clear_id",
+            "clear_valid",
+        ],
         &["record_v0", "record_v1", "record_v2", "record_n0", "record_n1", "record_n2", "took", "foreign", "was_set"],
         triangle_stimuli(id_bits),
         |values| reference(values),

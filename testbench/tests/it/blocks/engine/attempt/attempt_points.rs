@@ -6,7 +6,7 @@ use incircle_hdl::engine::AttemptPoints;
 use incircle_protocol::SMALL;
 use incircle_testkit::SplitMix64;
 
-named_ports!(AttemptPoints, [start, now, context_id], [p, since], clock);
+named_ports!(AttemptPoints, [start, now, context_id], [vertex, since], clock);
 
 const ROUNDS: usize = 6000;
 
@@ -31,8 +31,8 @@ fn attempt_points_show_the_wave_of_their_header() {
         // What was taken at the last edge is not there yet.
         let known: Option<[u64; 2]> =
             points[context as usize].filter(|(taken, _)| taken + 1 < clock).map(|(_, point)| point);
-        if let Some([p, since]) = known {
-            block.expect("p", p);
+        if let Some([vertex, since]) = known {
+            block.expect("vertex", vertex);
             block.expect("since", since);
         }
         let cell = |is_shown: bool, value: u64| if is_shown { Cell::Number(value.into()) } else { Cell::Open };
@@ -43,7 +43,7 @@ fn attempt_points_show_the_wave_of_their_header() {
                 ("taken_id", cell(takes, taken_id)),
                 ("now", cell(takes, now)),
                 ("context_id", cell(clock == 2, context)),
-                ("p", cell(clock == 2 && known.is_some(), 7)),
+                ("vertex", cell(clock == 2 && known.is_some(), 7)),
                 ("since", cell(clock == 2 && known.is_some(), 3)),
             ]);
         }

@@ -18,7 +18,7 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
     let ring = u64::from(SMALL.ring);
     // Whatever the memory holds at first, these are written before they are read.
     let mut states = [(); 4].map(|()| None::<State>);
-    let (mut context, mut f_entry, mut seen) = (0, 0, [0; 4]);
+    let (mut context, mut cavity_entry, mut seen) = (0, 0, [0; 4]);
     block.set("ring", ring);
     for _ in 0..4 * ROUNDS {
         let entries = [2, ring][random.below(2) as usize];
@@ -32,14 +32,14 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
         let early_context = if opens && next_context == context { (context + 1) % 4 } else { next_context };
         for (port, value) in [
             ("early_visit_context", early_context),
-            ("early_visit_f_entry", early_entry),
+            ("early_visit_cavity_entry", early_entry),
             ("visit_context", context),
-            ("visit_f_entry", f_entry),
+            ("visit_cavity_entry", cavity_entry),
         ] {
             block.set(port, value);
         }
         let mut after = before.unwrap_or_default();
-        let passes_root = splits && f_entry == 0 && after.half_open & 3 == 1;
+        let passes_root = splits && cavity_entry == 0 && after.half_open & 3 == 1;
         if opens {
             after = State { outstanding: 3, count: 3, logged: 1, ..State::default() };
         } else {
@@ -48,7 +48,7 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
             after.count += u64::from(splits);
             after.logged = random.below(64);
             if splits {
-                after.passes(f_entry);
+                after.passes(cavity_entry);
             }
         }
         block.set("after", after.packed());
@@ -63,9 +63,9 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
         }
         block.settle();
         if let Some(state) = before {
-            let flags = [state.outstanding == 1, state.count == ring, state.half_open >> f_entry & 1 == 1];
+            let flags = [state.outstanding == 1, state.count == ring, state.half_open >> cavity_entry & 1 == 1];
             block.expect("attempt", state.packed());
-            block.expect("entry_bit", 1u64 << f_entry);
+            block.expect("entry_bit", 1u64 << cavity_entry);
             for ((port, flag), seen) in ["is_last", "is_full", "edge_was_passed"].into_iter().zip(flags).zip(&mut seen)
             {
                 block.expect(port, flag);
@@ -77,7 +77,7 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
         if is_test || opens {
             states[context as usize] = Some(after);
         }
-        (context, f_entry) = (early_context, early_entry);
+        (context, cavity_entry) = (early_context, early_entry);
     }
     assert!(seen.iter().all(|times| *times > 100), "{seen:?}");
 }

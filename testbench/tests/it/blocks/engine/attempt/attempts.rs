@@ -124,8 +124,8 @@ impl Rig {
                 self.priority_context = self.priority_context.filter(|holder| *holder != context);
             }
             if may {
-                let u = if life.keeps { life.root } else { start };
-                life.context.out.push(Visit { context, ..Visit::look(u) });
+                let record = if life.keeps { life.root } else { start };
+                life.context.out.push(Visit { context, ..Visit::look(record) });
                 life.awake = true;
             }
             may && !life.keeps
@@ -137,7 +137,7 @@ impl Rig {
         self.block.set("now", self.now);
         if takes {
             let life = &mut self.lives[context as usize];
-            (life.context.p, life.context.since, life.keeps) = (id, self.now, false);
+            (life.context.vertex, life.context.since, life.keeps) = (id, self.now, false);
             life.context.target = self.random.below(self.targets.len() as u64) as usize;
         }
         self.now = (self.now + 1) % (1 << 22);
@@ -151,8 +151,8 @@ impl Rig {
         let mut finding = self.ground.find(&visit, target, &mut self.random);
         let mut lock = LockFinding::default();
         if visit.locks {
-            lock.took = !self.locks.contains_key(&visit.u);
-            lock.foreign = *self.locks.entry(visit.u).or_insert(visit.context) != visit.context;
+            lock.took = !self.locks.contains_key(&visit.record);
+            lock.foreign = *self.locks.entry(visit.record).or_insert(visit.context) != visit.context;
         } else {
             lock.again = self.one_in(8);
         }
@@ -181,7 +181,8 @@ impl Rig {
         self.block.set("seeded", seeded);
         self.block.set("priority_is_held", is_held);
         self.block.set("early_done", visit.is_some());
-        let anything = Visit { context: self.random.below(CONTEXTS), f_entry: self.random.below(64), ..Visit::look(0) };
+        let anything =
+            Visit { context: self.random.below(CONTEXTS), cavity_entry: self.random.below(64), ..Visit::look(0) };
         self.block.set("early_visit", visit.unwrap_or(anything).packed());
         let visit = visit?;
         let holds_priority = self.priority_context == Some(visit.context);
@@ -379,7 +380,7 @@ fn attempts_show_the_wave_of_their_header() {
     let is_small = |target: &usize| rig.targets[*target].cavity.len() == 2;
     let target = (4..rig.targets.len()).find(is_small).expect("a small cavity");
     let context = &mut rig.lives[1].context;
-    (context.target, context.p, context.since) = (target, 7, 3);
+    (context.target, context.vertex, context.since) = (target, 7, 3);
     for (port, value) in [("takes", 1u64), ("start_context", 1), ("start_id", 7), ("now", 3)] {
         rig.block.set(port, value);
     }

@@ -30,23 +30,32 @@ impl Follow {
         let (walk_next, y) = (id(random), random.below(64));
         let any = Visit::random(random);
         // Walks and roots have no entry.
-        let look = Visit { context: any.context, ..Visit::look(any.u) };
+        let look = Visit { context: any.context, ..Visit::look(any.record) };
         let visit = match case {
             1 | 2 => look,
             3 => Visit { locks: true, ..look },
             4 => Visit { rotates: true, locks: true, ..any },
             _ => any,
         };
-        let Visit { context, u, after, .. } = visit;
+        let Visit { context, record, after, .. } = visit;
         let (visits, bundle) = match case {
             1 => (1, Visit { context, ..Visit::look(walk_next) }.bundle(1, 0, 0, 0)),
             2 => (1, Visit { locks: true, ..visit }.bundle(1, 0, 0, 0)),
             3 => {
-                let first = Visit { context, rotates: true, locks: true, x: 0, after: 1, f_entry: 0, f: u, u: n[0] };
+                let first = Visit {
+                    context,
+                    rotates: true,
+                    locks: true,
+                    entry: 0,
+                    after: 1,
+                    cavity_entry: 0,
+                    cavity_record: record,
+                    record: n[0],
+                };
                 (3, first.bundle(3, 2, n[1], n[2]))
             }
             4 => {
-                let first = Visit { after: y, f_entry: y, f: u, u: n[1], ..visit };
+                let first = Visit { after: y, cavity_entry: y, cavity_record: record, record: n[1], ..visit };
                 (2, first.bundle(2, after, n[2], 0))
             }
             _ => (1, visit.bundle(1, 0, 0, 0)),
@@ -100,13 +109,14 @@ fn next_visits_show_the_wave_of_their_header() {
                 follow.bundle = Visit { context, ..Visit::look(6) }.bundle(1, 0, 0, 0);
             }
             1 => {
-                (follow.visit.u, follow.n) = (6, [0, 1, 2]);
-                let first = Visit { context, rotates: true, locks: true, after: 1, f: 6, ..Visit::default() };
+                (follow.visit.record, follow.n) = (6, [0, 1, 2]);
+                let first =
+                    Visit { context, rotates: true, locks: true, after: 1, cavity_record: 6, ..Visit::default() };
                 follow.bundle = first.bundle(3, 2, 1, 2);
             }
             2 => {
-                (follow.visit.u, follow.visit.x, follow.n[1], follow.y) = (7, 4, 8, 9);
-                let first = Visit { after: 9, f_entry: 9, f: 7, u: 8, ..follow.visit };
+                (follow.visit.record, follow.visit.entry, follow.n[1], follow.y) = (7, 4, 8, 9);
+                let first = Visit { after: 9, cavity_entry: 9, cavity_record: 7, record: 8, ..follow.visit };
                 follow.bundle = first.bundle(2, follow.visit.after, follow.n[2], 0);
             }
             _ => {}
@@ -122,13 +132,13 @@ fn next_visits_show_the_wave_of_their_header() {
         let first = Visit::of_bundle(follow.bundle);
         let (is_there, is_pair) = ((1..4).contains(&clock), follow.visits > 1);
         wave.take(&[
-            ("early.u", shown(clock < 3, upcoming.visit.u)),
+            ("early.record", shown(clock < 3, upcoming.visit.record)),
             ("early.n1", shown(matches!(clock, 1 | 2), upcoming.n[1])),
             ("walks_on", Cell::Bit(follow.walks_on)),
-            ("bundle.u", shown(is_there, first.u)),
+            ("bundle.record", shown(is_there, first.record)),
             ("bundle.is_pair", Cell::Bit(is_pair)),
-            ("bundle.f", shown(is_pair, first.f)),
-            ("bundle.x", shown(is_pair, first.x)),
+            ("bundle.cavity_record", shown(is_pair, first.cavity_record)),
+            ("bundle.entry", shown(is_pair, first.entry)),
             ("bundle.after", shown(is_pair, first.after)),
         ]);
         follow = upcoming;

@@ -34,14 +34,14 @@ fn ids(ring: &Ring, fresh: u64) -> Vec<(u64, bool, bool)> {
     let mut kept = BTreeSet::new();
     let mut spare = ring.inner.iter();
     let mut new = fresh..;
-    let mut id = |f| match (kept.insert(f), spare.as_slice().is_empty()) {
-        (true, _) => (f, false, false),
+    let mut id = |cavity_record| match (kept.insert(cavity_record), spare.as_slice().is_empty()) {
+        (true, _) => (cavity_record, false, false),
         (false, false) => (*spare.next().expect("it is not empty"), true, false),
         (false, true) => (new.next().expect("ids without end"), false, true),
     };
-    let ids: Vec<_> = ring.in_order().into_iter().map(|edge| id(edge.f)).collect();
+    let ids: Vec<_> = ring.in_order().into_iter().map(|edge| id(edge.cavity_record)).collect();
     // Every triangle of the cavity gives its id to one of the star, and two are new.
-    let mut old: BTreeSet<u64> = ring.entries.iter().map(|edge| edge.f).collect();
+    let mut old: BTreeSet<u64> = ring.entries.iter().map(|edge| edge.cavity_record).collect();
     old.extend(&ring.inner);
     old.extend([fresh, fresh + 1]);
     assert_eq!((ids.len(), ids.iter().map(|(id, ..)| *id).collect()), (old.len(), old), "{ring:?}");
@@ -57,8 +57,8 @@ fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
         let (after, before) = ((place + 1) % count, (place + count - 1) % count);
         record_write(
             ids[place].0,
-            [ring.p, edges[place].a, edges[after].a],
-            [edges[place].u, ids[after].0, ids[before].0],
+            [ring.vertex, edges[place].first_vertex, edges[after].first_vertex],
+            [edges[place].outside_record, ids[after].0, ids[before].0],
         )
     };
     let mut acts = VecDeque::new();
@@ -72,8 +72,11 @@ fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
             ends: false,
             makes: (place > 0).then(|| record(place)),
         });
-        if ids[place].0 != edge.f {
-            acts.push_back(Act { makes: Some(link_write(edge.u, edge.slot, ids[place].0)), ..Act::default() });
+        if ids[place].0 != edge.cavity_record {
+            acts.push_back(Act {
+                makes: Some(link_write(edge.outside_record, edge.slot, ids[place].0)),
+                ..Act::default()
+            });
         }
     }
     acts.push_back(Act { ends: true, makes: Some(record(0)), ..Act::default() });
@@ -205,7 +208,7 @@ impl CommitRig {
         }
         if let Some((ring, _)) = self.work.as_ref().filter(|_| ends) {
             block.expect("committed_job", ring.job());
-            block.expect("hint", ring.entries[0].f);
+            block.expect("hint", ring.entries[0].cavity_record);
         }
         block.edge();
         self.edge(drive, act, takes);
@@ -317,9 +320,15 @@ fn number(number: u64) -> Cell {
 /// The cavity of two triangles 0 and 1 becomes the star of four: two old ids, two new ones.
 #[test]
 fn commit_shows_the_wave_of_its_header() {
-    let edge = |a, u, f, after| Edge { a, u, slot: 1, f, after };
+    let edge = |first_vertex, outside_record, cavity_record, after| Edge {
+        first_vertex,
+        outside_record,
+        slot: 1,
+        cavity_record,
+        after,
+    };
     let ring = Ring {
-        p: 9,
+        vertex: 9,
         entries: vec![edge(1, 5, 0, 1), edge(2, 6, 1, 2), edge(3, 7, 1, 3), edge(4, 8, 0, 0)],
         ..Ring::default()
     };

@@ -104,7 +104,8 @@ impl ReaderRig {
     /// One clock of both; nothing is compared in the first one.
     fn clock(&mut self, drive: &Drive) {
         let block = &mut self.block;
-        let (context, place, edge) = drive.entry.unwrap_or((7, 5, Edge { a: 0x1234, after: 1, ..Edge::default() }));
+        let (context, place, edge) =
+            drive.entry.unwrap_or((7, 5, Edge { first_vertex: 0x1234, after: 1, ..Edge::default() }));
         block.set("reset", drive.reset);
         block.set("entry_valid", drive.entry.is_some());
         block.set("entry_context", context);
@@ -203,7 +204,12 @@ fn ring_reader_of_the_longest_list() {
 fn ring_reader_shows_the_wave_of_its_header() {
     let mut rig = ReaderRig::new("ring_reader_6", TINY);
     let ring = |context: u64| {
-        let edge = |place: u64, after: u64, f: u64| Edge { a: 20 - 10 * context + place, f, after, ..Edge::default() };
+        let edge = |place: u64, after: u64, cavity_record: u64| Edge {
+            first_vertex: 20 - 10 * context + place,
+            cavity_record,
+            after,
+            ..Edge::default()
+        };
         Ring { context, entries: vec![edge(0, 2, 7), edge(1, 0, 8), edge(2, 1, 7)], ..Ring::default() }
     };
     let (one, zero) = (ring(1), ring(0));
@@ -228,7 +234,7 @@ fn ring_reader_shows_the_wave_of_its_header() {
             ("entry_place", number(drive.entry.map(|(_, place, _)| place))),
             ("job_enable", Cell::Bit(drive.finished.is_some())),
             ("head_valid", Cell::Bit(head.is_some())),
-            ("head.a", number(head.map(|item| item.entry as u64 & 0x7fff))),
+            ("head.first_vertex", number(head.map(|item| item.entry as u64 & 0x7fff))),
             ("head_is_last", Cell::Bit(head.is_some_and(|item| item.is_last))),
             ("head_shares", Cell::Bit(head.is_some_and(|item| item.shares))),
             ("head_job.context", number(head.filter(|item| item.is_first).map(|item| item.context))),

@@ -33,7 +33,8 @@ fn plan_table_knows_what_each_context_takes_next() {
                 let (taken, first_dealt) = (rests[context as usize].next().expect("one"), 3 * deal.contexts + context);
                 let is_seed = deal.is_batch && taken == 3 * context + 2;
                 let after = *rests[context as usize].peek().expect("points have no end");
-                for (port, value) in [("passed_context", context), ("passed_id", taken), ("passed_dealt", first_dealt)] {
+                for (port, value) in [("passed_context", context), ("passed_id", taken), ("passed_dealt", first_dealt)]
+                {
                     block.set(port, value);
                 }
                 block.set("passed_is_seed", is_seed);

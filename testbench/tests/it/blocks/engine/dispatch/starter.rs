@@ -45,7 +45,7 @@ struct Candidate {
     /// It tries its point again.
     keeps: bool,
     /// Where it would start.
-    u: u64,
+    record: u64,
     is_alone: bool,
 }
 
@@ -147,7 +147,7 @@ impl Rig {
             sight,
             is_due: is_due && !life.awake && !starts_now && !inputs.solo,
             keeps: life.keeps,
-            u: if life.keeps {
+            record: if life.keeps {
                 life.root
             } else {
                 life.hint.unwrap_or(if self.is_batch { 4 * sight.context } else { 0 })
@@ -159,7 +159,7 @@ impl Rig {
     /// What must come out: the vertex that the candidate takes, if it takes a new one, and where it starts.
     fn wants(&self, inputs: &Inputs) -> Option<(Option<u64>, u64)> {
         let candidate = self.candidate.filter(|candidate| candidate.is_due && !inputs.solo)?;
-        Some(((!candidate.keeps).then_some(candidate.sight.vertex), candidate.u))
+        Some(((!candidate.keeps).then_some(candidate.sight.vertex), candidate.record))
     }
 
     fn drive(&mut self, inputs: &Inputs) {
@@ -220,8 +220,8 @@ impl Rig {
                 self.block.expect("start_context", candidate.sight.context);
                 self.expect_alone(inputs, candidate);
             }
-            if let Some((vertex, u)) = start {
-                self.block.expect("start_u", u);
+            if let Some((vertex, record)) = start {
+                self.block.expect("start_record", record);
                 vertex.into_iter().for_each(|vertex| self.block.expect("start_id", vertex));
             }
             seen.starts = start.is_some();
@@ -239,8 +239,8 @@ impl Rig {
         let starts = may_start && candidate.is_alone;
         self.block.expect("solo_start_valid", starts);
         if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.keeps) {
-            self.block.expect("solo_start_p", last);
-            self.block.expect("start_u", candidate.u);
+            self.block.expect("solo_start_vertex", last);
+            self.block.expect("start_record", candidate.record);
         }
     }
 
@@ -452,7 +452,7 @@ fn starter_shows_the_wave_of_its_header() {
             ("starts", Cell::Bit(seen.starts)),
             ("takes", Cell::Bit(seen.takes.is_some())),
             ("taken_id", number(seen.takes)),
-            ("u", number(wanted.filter(|_| seen.starts).map(|(_, u)| u))),
+            ("record", number(wanted.filter(|_| seen.starts).map(|(_, record)| record))),
         ]);
     }
     wave.assert_drawn_in("starter");

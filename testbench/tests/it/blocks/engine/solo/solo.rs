@@ -96,8 +96,8 @@ impl Rig {
             self.block.set("turned", u128::from(self.random.next_u64()));
             return;
         };
-        let stored = mesh.records[visit.u as usize];
-        let slot = if visit.rotates { stored.slot_to(visit.f) } else { 0 };
+        let stored = mesh.records[visit.record as usize];
+        let slot = if visit.rotates { stored.slot_to(visit.cavity_record) } else { 0 };
         let record = stored.turned(slot);
         finding.conflict = mesh.conflicts(record.v, job.point);
         let rest = job.path.get(seen.completed..).unwrap_or_default();
@@ -116,13 +116,13 @@ impl Rig {
     /// The rest of the inputs: what is taken at `starts` is noise at all other times.
     fn set_job(&mut self, starts: bool, job: &Job, mesh: &Mesh) {
         self.block.set("start_valid", starts);
-        let [context, p, start] = match starts {
+        let [context, vertex, start] = match starts {
             true => [job.context, mesh.points.len() as u64 - 1, job.path[0]],
             false => [self.random.below(32), self.random.below(1 << 15), self.random.below(1 << 15)],
         };
         self.block.set("start_context", context);
-        self.block.set("start_p", p);
-        self.block.set("start_u", start);
+        self.block.set("start_vertex", vertex);
+        self.block.set("start_record", start);
     }
 
     /// One clock; `mesh` takes the write that is seen.
@@ -322,7 +322,7 @@ fn solo_shows_the_wave_of_its_header() {
         let (visits, completed, writes) = (seen.visits, seen.completed, seen.writes.len());
         let is_at_work = seen.is_at_work;
         rig.clock(clock == 1, &mut mesh, &job, &mut seen);
-        let visit = rig.visit.filter(|_| seen.visits > visits).map(|(visit, _)| visit.u);
+        let visit = rig.visit.filter(|_| seen.visits > visits).map(|(visit, _)| visit.record);
         let number = |number: Option<u64>| number.map_or(Cell::Open, |number| Cell::Number(number.into()));
         let done = seen.completed > completed;
         let written = seen.writes.get(writes).map(|write| (write >> 1) as u64 & 0x7fff);
@@ -330,7 +330,7 @@ fn solo_shows_the_wave_of_its_header() {
             ("starts", Cell::Bit(clock == 1)),
             ("is_at_work", Cell::Bit(is_at_work)),
             ("push", Cell::Bit(visit.is_some())),
-            ("bundle.u", number(visit)),
+            ("bundle.record", number(visit)),
             ("done", Cell::Bit(done)),
             ("located", if done && completed < 2 { Cell::Bit(completed == 1) } else { Cell::Open }),
             ("write.valid", Cell::Bit(written.is_some())),

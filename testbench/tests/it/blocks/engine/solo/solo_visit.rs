@@ -27,7 +27,7 @@ fn solo_visit_looks_where_each_state_must() {
         for (port, value) in [("root_id", root_id), ("id", star), ("outer", outer), ("back", back)] {
             block.set(port, value);
         }
-        let from = |f, u| Visit { rotates: true, f, ..Visit::look(u) };
+        let from = |cavity_record, record| Visit { rotates: true, cavity_record, ..Visit::look(record) };
         let visit = match act {
             0 => from(root_id, if is_second { n2 } else { n1 }),
             1 => Visit::look(star),

@@ -28,12 +28,12 @@ impl Queue {
     }
 
     fn push(&mut self, bundle: u128) {
-        let [is_pair, is_triple, context, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
+        let [is_pair, is_triple, context, rotates, locks, entry, after, cavity_entry, cavity_record, record, after2, record2, record3] =
             unpack(BUNDLE, bundle);
-        let visits = [(x, after, u), (after, after2, u2), (after2, 0, u3)];
+        let visits = [(entry, after, record), (after, after2, record2), (after2, 0, record3)];
         let last = (is_pair + is_triple) as usize;
-        for (place, (x, after, u)) in visits.into_iter().enumerate().take(last + 1) {
-            let visit = pack(VISIT, [context, rotates, locks, x, after, f_entry, f, u]);
+        for (place, (entry, after, record)) in visits.into_iter().enumerate().take(last + 1) {
+            let visit = pack(VISIT, [context, rotates, locks, entry, after, cavity_entry, cavity_record, record]);
             self.waiting.push_back((visit, place == last));
         }
         self.fullest = self.fullest.max(self.bundles());
@@ -102,12 +102,12 @@ fn issue_shows_the_wave_of_its_header() {
     ];
     let lanes = [
         ("push", "push_valid", 0, 1, When::Always),
-        ("bundle.x", "push_bundle", 9, 6, When::If("push_valid")),
+        ("bundle.entry", "push_bundle", 9, 6, When::If("push_valid")),
         ("visit_valid", "visit_valid", 0, 1, When::Always),
-        ("visit.x", "visit", 7, 6, When::If("visit_valid")),
+        ("visit.entry", "visit", 7, 6, When::If("visit_valid")),
         ("read", "read.valid", 0, 1, When::Always),
         ("read_valid", "read_valid", 0, 1, When::Always),
-        ("visit.u", "visit", 40, 15, When::If("read_valid")),
+        ("visit.record", "visit", 40, 15, When::If("read_valid")),
     ];
     draw("issue_5", Issue::new(5), &stimuli, 9, &lanes).assert_drawn_in("issue");
 }

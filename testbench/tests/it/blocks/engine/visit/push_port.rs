@@ -37,7 +37,7 @@ fn push_clock(block: &mut Stepper<PushPort>, asking: &Asking, shown: Option<Visi
     }
     block.set("follow_bundle", asking.follows.bundle(3, 1, 2, 3));
     block.set("start_context", asking.starter.context);
-    block.set("start_u", asking.starter.u);
+    block.set("start_record", asking.starter.record);
     block.set("solo_bundle", asking.solo.bundle(1, 0, 0, 0));
     block.settle();
     if block.clocks() > 0 {
@@ -55,7 +55,7 @@ fn push_clock(block: &mut Stepper<PushPort>, asking: &Asking, shown: Option<Visi
         };
         let mask = (1 << bits) - 1;
         block.expect_masked("push_bundle", mask, visit.bundle(visits, 1, 2, 3) & mask);
-        block.expect_masked("push_bundle", 0x7fff << 42, u128::from(visit.u) << 42);
+        block.expect_masked("push_bundle", 0x7fff << 42, u128::from(visit.record) << 42);
     }
     block.edge();
     match (asking.reset, asking.asks, asking.starts, asking.solo_asks) {
@@ -107,18 +107,19 @@ fn push_port_shows_the_wave_of_its_header() {
             solo: Visit { rotates: true, ..Visit::look(7) },
             ..Asking::default()
         };
-        let number = |is_shown: bool, visit: Visit| if is_shown { Cell::Number(visit.u.into()) } else { Cell::Open };
+        let number =
+            |is_shown: bool, visit: Visit| if is_shown { Cell::Number(visit.record.into()) } else { Cell::Open };
         wave.take(&[
             ("asks", Cell::Bit(asking.asks)),
             ("may_ask", Cell::Bit(asking.may_ask)),
-            ("follows.u", number(asking.asks, asking.follows)),
+            ("follows.record", number(asking.asks, asking.follows)),
             ("starts", Cell::Bit(asking.starts)),
-            ("u", number(asking.starts, asking.starter)),
+            ("record", number(asking.starts, asking.starter)),
             ("is_alone", Cell::Bit(asking.is_alone)),
             ("solo_asks", Cell::Bit(asking.solo_asks)),
-            ("solo.u", number(asking.solo_asks, asking.solo)),
+            ("solo.record", number(asking.solo_asks, asking.solo)),
             ("push", Cell::Bit(shown.is_some())),
-            ("bundle.u", number(shown.is_some(), shown.unwrap_or_default())),
+            ("bundle.record", number(shown.is_some(), shown.unwrap_or_default())),
         ]);
         shown = push_clock(&mut block, &asking, shown);
     }

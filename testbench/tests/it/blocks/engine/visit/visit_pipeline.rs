@@ -329,14 +329,15 @@ impl Visits {
 
     /// The visit in the issue register reads its record at this edge and comes out `STAGES` clocks later.
     fn visit(&mut self, visit: u128, values: &[u128]) {
-        let [context, rotates, locks, .., f, u] = unpack(VISIT, visit);
+        let [context, rotates, locks, .., cavity_record, record] = unpack(VISIT, visit);
         let write = unpack(WRITE, values[10]);
-        let is_torn = write[0] == 1 && write[1] == u;
-        let is_written = u128::from(u) < values[2];
-        let is_cleared = values[16] == 1 && values[15] == u.into();
-        let (took, foreign) = if locks == 1 { self.locks.take(u as usize, context, is_cleared) } else { (false, false) };
-        let stored = self.records[u as usize];
-        let slot = stored.slot(rotates == 1, f);
+        let is_torn = write[0] == 1 && write[1] == record;
+        let is_written = u128::from(record) < values[2];
+        let is_cleared = values[16] == 1 && values[15] == record.into();
+        let (took, foreign) =
+            if locks == 1 { self.locks.take(record as usize, context, is_cleared) } else { (false, false) };
+        let stored = self.records[record as usize];
+        let slot = stored.slot(rotates == 1, cavity_record);
         self.seen.took += usize::from(took);
         self.seen.foreign += usize::from(foreign && !is_cleared);
         self.seen.own += usize::from(locks == 1 && !took && !foreign);
@@ -380,11 +381,12 @@ impl Visits {
     }
 
     fn push(&mut self, bundle: u128) {
-        let [is_pair, is_triple, context, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
+        let [is_pair, is_triple, context, rotates, locks, entry, after, cavity_entry, cavity_record, record, after2, record2, record3] =
             unpack(BUNDLE, bundle);
-        let visits = [(x, after, u), (after, after2, u2), (after2, 0, u3)];
-        for (x, after, u) in visits.into_iter().take(1 + (is_pair + is_triple) as usize) {
-            self.waiting.push_back(pack(VISIT, [context, rotates, locks, x, after, f_entry, f, u]));
+        let visits = [(entry, after, record), (after, after2, record2), (after2, 0, record3)];
+        for (entry, after, record) in visits.into_iter().take(1 + (is_pair + is_triple) as usize) {
+            self.waiting
+                .push_back(pack(VISIT, [context, rotates, locks, entry, after, cavity_entry, cavity_record, record]));
         }
         self.seen.triples += is_triple as usize;
     }
@@ -473,11 +475,11 @@ fn visit_pipeline_shows_the_wave_of_its_header() {
     let lanes = [
         ("push", "push_valid", 0, 1, When::Always),
         ("bundle.context", "push_bundle", 2, 5, When::If("push_valid")),
-        ("bundle.x", "push_bundle", 9, 6, When::If("push_valid")),
+        ("bundle.entry", "push_bundle", 9, 6, When::If("push_valid")),
         ("is_issuing", "is_issuing", 0, 1, When::Always),
         ("done", "completion_done", 0, 1, When::Always),
         ("visit.context", "completion_visit", 0, 5, When::If("completion_done")),
-        ("visit.x", "completion_visit", 7, 6, When::If("completion_done")),
+        ("visit.entry", "completion_visit", 7, 6, When::If("completion_done")),
         ("read", "read_valid", 0, 1, When::Always),
         ("read_done", "read_out_valid", 0, 1, When::Always),
     ];

@@ -104,7 +104,7 @@ fn visit_reader_shows_the_wave_of_its_header() {
         (4, "stored_corners_r0", 51),
     ];
     let lanes = [
-        ("visit.f", "visit", 25, 15, When::At(&[0])),
+        ("visit.cavity_record", "visit", 25, 15, When::At(&[0])),
         ("n1", "record_n1", 0, 15, When::At(&[2])),
         ("v0", "record_v0", 0, 15, When::At(&[2])),
         ("v1", "record_v1", 0, 15, When::At(&[2])),
