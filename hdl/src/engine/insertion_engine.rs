@@ -128,7 +128,7 @@ impl Logic for InsertionEngine {
         // Who pushes visits, and who writes.
         self.push_port.follow.next = self.insertions.follow.val();
         self.push_port.start.next = self.insertions.start.val();
-        self.push_port.is_alone.next = self.solo.progress.val().is_at_work;
+        self.push_port.solo_is_at_work.next = self.solo.progress.val().is_at_work;
         self.push_port.solo.next = self.solo.push.val();
         self.write_port.commit.next = self.insertions.write.val();
         self.write_port.solo.next = self.solo.write.val();

@@ -79,7 +79,7 @@ impl Logic for Insertions {
         self.commits.clears.next = self.clears.val();
 
         // A visit completes.
-        self.attempts.ring.next = self.limits.val().ring;
+        self.attempts.ring_capacity.next = self.limits.val().ring_capacity;
         self.attempts.early.next = self.early.val();
         self.attempts.completion.next = self.completion.val();
         self.attempts.seeded.next = self.seed.val().seeded;
@@ -90,7 +90,7 @@ impl Logic for Insertions {
         self.follow.next = self.attempts.follow.val();
 
         // Who starts, and what is finished.
-        self.dispatcher.all.next = self.limits.val().all;
+        self.dispatcher.built_contexts.next = self.limits.val().built_contexts;
         self.dispatcher.patience.next = self.limits.val().patience;
         self.dispatcher.deal.next = self.deal.val();
         self.dispatcher.arrived.next = self.arrived.val();

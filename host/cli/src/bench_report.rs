@@ -51,7 +51,7 @@ const CORE_COLUMNS: [(&str, usize); 16] = [
     ("visits", 8),
     ("tests", 7),
     ("aborts", 8),
-    ("waits", 7),
+    ("priority", 10),
     ("retries", 9),
     ("issue", 7),
     ("write", 7),

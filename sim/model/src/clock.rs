@@ -111,10 +111,10 @@ impl ClockModel {
     pub fn describe(&self) -> String {
         let now = &self.registers;
         format!(
-            "asleep {:x}, keeping {:x}, busy {:x}, priority_context {:?}, alone {:?}, {} of {} points finished, commit {:?}, \
+            "asleep {:x}, retrying {:x}, busy {:x}, priority_context {:?}, solo {:?}, {} of {} points finished, commit {:?}, \
              solo {:?}, command {:?}",
             now.contexts.asleep,
-            now.contexts.keeps,
+            now.contexts.retrying,
             now.contexts.busy,
             now.contexts.priority_context,
             now.contexts.solo,

@@ -37,7 +37,7 @@ crate::packed! {
 pub struct AttemptStore {
     pub clock: Signal<In, Clock>,
     /// Entries a boundary list holds, a constant.
-    pub ring: Signal<In, RingCount>,
+    pub ring_capacity: Signal<In, RingCount>,
     /// The visit that completes in the next clock, and the one of this clock: context and `cavity_entry` count.
     pub early_visit: Signal<In, Visit>,
     pub visit: Signal<In, Visit>,
@@ -122,10 +122,10 @@ impl Logic for AttemptStore {
         // The flags after a test, from what stands in registers.
         self.outstanding.next = self.state.q.val().outstanding;
         self.count.next = self.state.q.val().count;
-        self.before_full.next = self.ring.val() - self.one.val();
+        self.before_full.next = self.ring_capacity.val() - self.one.val();
         self.becomes_last.next = self.outstanding.val() == self.two.val();
         self.becomes_full.next = self.flag_bits.q.val().get_bit(1);
-        if self.found.val().repeats {
+        if self.found.val().revisits {
             self.becomes_last.next = self.flag_bits.q.val().get_bit(0);
         }
         if self.found.val().splits {
@@ -145,7 +145,7 @@ impl Logic for AttemptStore {
         // What is written: that, or the state of an attempt that begins.
         self.written.next = self.after.val();
         self.written_flags.next = self.flags_after.val();
-        self.opens_full.next = self.ring.val() == self.three.val();
+        self.opens_full.next = self.ring_capacity.val() == self.three.val();
         if self.found.val().opens {
             self.written.next.drains = false;
             self.written.next.outstanding = 3.into();

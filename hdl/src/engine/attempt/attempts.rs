@@ -46,7 +46,7 @@ use rust_hdl_core::prelude::*;
 pub struct Attempts {
     pub clock: Signal<In, Clock>,
     /// Entries a boundary list holds, a constant.
-    pub ring: Signal<In, RingCount>,
+    pub ring_capacity: Signal<In, RingCount>,
     /// The visit that completes in the next clock and is none of an insertion alone, and the same visit a clock later.
     pub early: Signal<In, Upcoming>,
     pub completion: Signal<In, Completion>,
@@ -110,7 +110,7 @@ impl Logic for Attempts {
         self.verdict.next = self.completion.val().verdict;
 
         // The context's state.
-        self.store.ring.next = self.ring.val();
+        self.store.ring_capacity.next = self.ring_capacity.val();
         self.store.early_visit.next = self.early_visit.val();
         self.store.visit.next = self.visit.val();
         self.attempt.next = self.store.held.val().attempt;
@@ -179,11 +179,11 @@ impl Logic for Attempts {
         self.events.next.walk_visit = self.meaning.found.val().is_walk;
         self.events.next.root_visit = self.meaning.found.val().is_root;
         self.events.next.test = self.meaning.found.val().is_test;
-        self.events.next.revisit = self.meaning.found.val().repeats;
+        self.events.next.revisit = self.meaning.found.val().revisits;
         self.events.next.overflows = self.meaning.found.val().overflows;
         self.events.next.flip = false;
-        self.events.next.gives_up = self.aftermath.outcome.val().asks_for_priority;
-        self.events.next.retries = self.meaning.found.val().retries;
+        self.events.next.aborts = self.aftermath.outcome.val().asks_for_priority;
+        self.events.next.root_changed = self.meaning.found.val().root_changed;
         self.events.next.takes_priority = false;
         self.events.next.cavity_ends = self.lists.commit.val().valid;
         self.events.next.cavity_triangles = self.count.val() - self.two.val();

@@ -19,7 +19,7 @@
 //! is_walk         ______/^^\_________________
 //! locates         ______/^^\_________________
 //! opens           ____________/^^\___________
-//! gives_up        __________________/^^\_____
+//! aborts          __________________/^^\_____
 //! asks            ______/^^\__/^^\___________
 //! may_ask         ______/^^\__/^^\__/^^\_____
 //! ```
@@ -123,15 +123,15 @@ impl Logic for VisitCase {
         self.found.next.locates = self.walk_counts.q.val() & self.is_located.val() & (!self.context_is_busy.q.val());
 
         // The visit of the root. L5: only what is seen under the lock counts.
-        self.found.next.gives_up_root = self.root_is_refused.q.val();
+        self.found.next.aborts_root = self.root_is_refused.q.val();
         self.found.next.opens = self.root_is_held.q.val() & self.is_located.val();
         self.found.next.root_duplicate = self.root_is_held.q.val() & self.is_corner.val();
-        self.found.next.retries = self.root_is_held.q.val() & (!self.verdict.val().located);
+        self.found.next.root_changed = self.root_is_held.q.val() & (!self.verdict.val().located);
 
         // A test. L1: a foreign lock fails the attempt, whatever the verdict.
         self.is_live.next = self.test_counts.q.val() & (!self.drains.val());
         self.passes.next = self.is_live.val() & self.verdict.val().conflict & (!self.is_full.val());
-        self.found.next.gives_up = self.test_is_refused.q.val() & (!self.drains.val());
+        self.found.next.aborts = self.test_is_refused.q.val() & (!self.drains.val());
         self.found.next.settles = self.is_live.val() & (!self.verdict.val().conflict);
         self.found.next.overflows = self.is_live.val() & self.verdict.val().conflict & self.is_full.val();
         self.found.next.splits = self.passes.val();
@@ -139,7 +139,7 @@ impl Logic for VisitCase {
         // Visits that follow. L2: the holder of the priority asks again instead of failing.
         self.asks_again.next = self.root_is_awaited.q.val() | (self.test_is_awaited.q.val() & (!self.drains.val()));
         self.found.next.waits = self.asks_again.val();
-        self.found.next.repeats = self.looks_again.val() | self.asks_again.val();
+        self.found.next.revisits = self.looks_again.val() | self.asks_again.val();
         self.found.next.asks = self.walk_is_torn.q.val()
             | (self.walk_counts.q.val() & (!self.is_corner.val()))
             | (self.root_is_held.q.val() & self.is_located.val())

@@ -70,8 +70,8 @@ impl Logic for VisitCounters {
         self.flips.count.next = self.events.val().flip;
         self.root_visits.count.next = self.events.val().root_visit;
         self.revisits.count.next = self.events.val().revisit;
-        self.aborts.count.next = self.events.val().gives_up;
-        self.root_retries.count.next = self.events.val().retries;
+        self.aborts.count.next = self.events.val().aborts;
+        self.root_retries.count.next = self.events.val().root_changed;
         self.priorities_taken.count.next = self.events.val().takes_priority;
         self.last_triangles.d.next = 0.into();
         if self.events.val().cavity_ends {

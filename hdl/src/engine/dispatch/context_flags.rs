@@ -14,14 +14,14 @@
 //! ```text
 //! starts            ___/^^\________/^^\_______________________
 //! sleeps            _________/^^\________/^^\_________________
-//! keeps             _________/^^\_____________________________
+//! will_retry        _________/^^\_____________________________
 //! asks_for_priority _________/^^\_____________________________
 //! returns_priority  _____________________/^^\_________________
 //! hands_over        _____________________/^^\_________________
 //! commit_ends       ___________________________/^^\___________
 //! released          _________________________________/^^\_____
 //! asleep              3  3  1  1  3  3  1  1  3  3  3  3  3  3
-//! keeping             0  0  0  0  2  2  0  0  0  0  0  0  0  0
+//! retrying            0  0  0  0  2  2  0  0  0  0  0  0  0  0
 //! busy                0  0  0  0  0  0  0  0  2  2  2  2  0  0
 //! began               0  0  2  2  2  2  2  2  2  2  2  2  2  2
 //! hinted              0  0  0  0  0  0  0  0  0  0  2  2  2  2
@@ -41,7 +41,7 @@ pub struct ContextFlags {
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// The contexts that are built, a constant.
-    pub all: Signal<In, ContextSet>,
+    pub built_contexts: Signal<In, ContextSet>,
     /// What becomes of a context whose visit has completed.
     pub outcome: Signal<In, Outcome>,
     /// A context starts to walk at this edge.
@@ -74,7 +74,7 @@ pub struct ContextFlags {
     starting: Signal<Local, ContextSet>,
     freed: Signal<Local, ContextSet>,
     had_commit: Signal<Local, ContextSet>,
-    alone_ended: Signal<Local, ContextSet>,
+    solo_ended: Signal<Local, ContextSet>,
     takes: Signal<Local, Bit>,
     is_holder: Signal<Local, Bit>,
     has_waited_long: Signal<Local, Bit>,
@@ -94,8 +94,9 @@ impl Logic for ContextFlags {
         self.sleeping.next = self.state.q.val().asleep;
         self.due.next = self.state.q.val().busy;
         self.job.next = self.committed.val().job;
-        self.state.d.next.all_rest =
-            (self.sleeping.val() == self.all.val()) & (self.due.val() == self.none.val()) & (!self.start.val().valid);
+        self.state.d.next.all_rest = (self.sleeping.val() == self.built_contexts.val())
+            & (self.due.val() == self.none.val())
+            & (!self.start.val().valid);
 
         // Each context as a bit. Those that are not built never show, or their flags would be built.
         self.wide_context.next = bit_cast::<24, 5>(self.outcome.val().context);
@@ -114,31 +115,31 @@ impl Logic for ContextFlags {
         self.starting.next = 0.into();
         self.freed.next = 0.into();
         self.had_commit.next = 0.into();
-        self.alone_ended.next = 0.into();
+        self.solo_ended.next = 0.into();
         if self.outcome.val().sleeps {
-            self.falls_asleep.next = self.context_bit.val() & self.all.val();
+            self.falls_asleep.next = self.context_bit.val() & self.built_contexts.val();
         }
-        if self.outcome.val().keeps {
-            self.tries.next = self.context_bit.val() & self.all.val();
+        if self.outcome.val().will_retry {
+            self.tries.next = self.context_bit.val() & self.built_contexts.val();
         }
         if self.outcome.val().hands_over {
-            self.becomes_due.next = self.context_bit.val() & self.all.val();
+            self.becomes_due.next = self.context_bit.val() & self.built_contexts.val();
         }
         if self.start.val().valid {
-            self.starting.next = self.starter_bit.val() & self.all.val();
+            self.starting.next = self.starter_bit.val() & self.built_contexts.val();
         }
         if self.released.val().valid {
             self.freed.next = self.released_bit.val();
         }
         if self.committed.val().valid {
-            self.had_commit.next = self.commit_bit.val() & self.all.val();
+            self.had_commit.next = self.commit_bit.val() & self.built_contexts.val();
         }
         if self.solo_ends.val() {
-            self.alone_ended.next = self.solo_bit.val();
+            self.solo_ended.next = self.solo_bit.val();
         }
         self.state.d.next.asleep = (self.sleeping.val() | self.falls_asleep.val()) & (!self.starting.val());
-        self.state.d.next.keeping =
-            (self.state.q.val().keeping | self.tries.val()) & (!(self.starting.val() | self.alone_ended.val()));
+        self.state.d.next.retrying =
+            (self.state.q.val().retrying | self.tries.val()) & (!(self.starting.val() | self.solo_ended.val()));
         self.state.d.next.busy = (self.due.val() | self.becomes_due.val()) & (!self.freed.val());
         self.state.d.next.began = self.state.q.val().began | self.starting.val();
         self.state.d.next.hinted = self.state.q.val().hinted | self.had_commit.val();
@@ -174,8 +175,8 @@ impl Logic for ContextFlags {
         }
 
         if self.reset.val() | self.clears.val() {
-            self.state.d.next.asleep = self.all.val();
-            self.state.d.next.keeping = 0.into();
+            self.state.d.next.asleep = self.built_contexts.val();
+            self.state.d.next.retrying = 0.into();
             self.state.d.next.busy = 0.into();
             self.state.d.next.began = 0.into();
             self.state.d.next.hinted = 0.into();

@@ -22,7 +22,7 @@ pub struct Dispatcher {
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
     /// Contexts that are built, clocks without a finished point: constants.
-    pub all: Signal<In, ContextSet>,
+    pub built_contexts: Signal<In, ContextSet>,
     pub patience: Signal<In, Clocks>,
     /// Contexts that work, and which points are theirs.
     pub deal: Signal<In, Deal>,
@@ -81,7 +81,7 @@ impl Logic for Dispatcher {
         self.found.d.next = self.outcome.val();
         if self.reset.val() {
             self.found.d.next.sleeps = false;
-            self.found.d.next.keeps = false;
+            self.found.d.next.will_retry = false;
             self.found.d.next.hands_over = false;
             self.found.d.next.asks_for_priority = false;
             self.found.d.next.waits = false;
@@ -91,7 +91,7 @@ impl Logic for Dispatcher {
         }
 
         // What each context is at.
-        self.flags.all.next = self.all.val();
+        self.flags.built_contexts.next = self.built_contexts.val();
         self.flags.outcome.next = self.found.q.val();
         self.flags.start.next = self.starter.start.val();
         self.flags.released.next = self.released.val();

@@ -21,7 +21,7 @@
 //! is_done         ____________/^^^^^\_____________________________
 //! is_blocked      ____________/^^\________________________________
 //! asleep            3  3  3  3  3  3  2  2  3  3  3  3  3  2  2  2
-//! keeping           0  0  0  0  0  0  0  0  1  1  1  1  1  0  0  0
+//! retrying          0  0  0  0  0  0  0  0  1  1  1  1  1  0  0  0
 //! context           .  .  0  1  0  0  0  1  0  1  0  1  0  1  0  1
 //! starts          _______________/^^\_________________/^^\________
 //! takes           _______________/^^\_____________________________
@@ -57,7 +57,7 @@ crate::packed! {
         /// The record at which it would start.
         pub from: TriangleId,
         /// It wants to be alone.
-        pub is_alone: bool,
+        pub is_solo: bool,
     }
 }
 
@@ -167,7 +167,7 @@ impl Logic for Starter {
         self.solo_start.next.valid = self.contexts.val().solo_valid
             & self.contexts.val().all_rest
             & (!self.solo_is_at_work.val())
-            & self.candidate.q.val().is_alone;
+            & self.candidate.q.val().is_solo;
         self.solo_start.next.context = self.contexts.val().solo_context;
         self.solo_start.next.vertex = self.candidate.q.val().point;
         self.solo_start.next.record = self.candidate.q.val().from;
@@ -203,7 +203,7 @@ impl Logic for Starter {
             self.candidate.d.next.point = self.passed_point.q.val();
             self.wants_again.d.next = self.check.wants_again.val();
             self.wants_new.d.next = self.check.wants_new.val();
-            self.candidate.d.next.is_alone = self.passed.q.val().context == self.contexts.val().solo_context;
+            self.candidate.d.next.is_solo = self.passed.q.val().context == self.contexts.val().solo_context;
             self.candidate.d.next.from = self.plans.following.val().first_record;
             if self.check.is_hinted.val() {
                 self.candidate.d.next.from = self.hints.read_data.val();
@@ -220,7 +220,7 @@ impl Logic for Starter {
         if self.reset.val() | self.clears.val() {
             self.wants_again.d.next = false;
             self.wants_new.d.next = false;
-            self.candidate.d.next.is_alone = false;
+            self.candidate.d.next.is_solo = false;
             self.all_work.d.next = self.deal.val().is_batch & (!self.reset.val());
         }
     }

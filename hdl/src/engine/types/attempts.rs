@@ -53,7 +53,7 @@ crate::packed! {
         /// The look at the first three points.
         pub looks: bool,
         /// The same visit is made again; because another context holds the lock.
-        pub repeats: bool,
+        pub revisits: bool,
         pub waits: bool,
         /// The walk goes on; it has found the point's triangle.
         pub walks_on: bool,
@@ -61,15 +61,15 @@ crate::packed! {
         /// The root is locked and holds the point: its neighbours are tested.
         pub opens: bool,
         /// The root no longer holds the point.
-        pub retries: bool,
+        pub root_changed: bool,
         /// A test passes through its edge; its edge is final.
         pub splits: bool,
         pub settles: bool,
         /// A test would pass, and the list is full.
         pub overflows: bool,
         /// Another context holds the lock, of the root or of a tested triangle.
-        pub gives_up_root: bool,
-        pub gives_up: bool,
+        pub aborts_root: bool,
+        pub aborts: bool,
         /// The point falls onto a corner.
         pub walk_duplicate: bool,
         pub root_duplicate: bool,
@@ -96,7 +96,7 @@ crate::packed! {
         /// None of its visits is out any more.
         pub sleeps: bool,
         /// It will try its point again.
-        pub keeps: bool,
+        pub will_retry: bool,
         /// A commit or a release of it is due.
         pub hands_over: bool,
         /// It wants the priority; meets a foreign lock with it; needs it no more.

@@ -79,7 +79,7 @@ crate::packed! {
         /// No visit is out.
         pub asleep: ContextSet,
         /// The point is tried again.
-        pub keeping: ContextSet,
+        pub retrying: ContextSet,
         /// A commit or a release is due.
         pub busy: ContextSet,
         /// There has been a point; a commit.
@@ -101,11 +101,11 @@ crate::packed! {
         /// The infinite vertex.
         pub infinite: VertexId,
         /// Entries of a boundary list.
-        pub ring: RingCount,
+        pub ring_capacity: RingCount,
         /// The highest record id.
         pub last_id: TriangleId,
         /// Contexts that are built, a bit each.
-        pub all: ContextSet,
+        pub built_contexts: ContextSet,
         /// Clocks without a finished point before the watchdog speaks.
         pub patience: Clocks,
     }

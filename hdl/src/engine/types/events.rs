@@ -17,8 +17,8 @@ crate::packed! {
         /// A flip of an insertion alone is finished.
         pub flip: bool,
         /// An attempt is given up for a foreign lock; a root had changed.
-        pub gives_up: bool,
-        pub retries: bool,
+        pub aborts: bool,
+        pub root_changed: bool,
         /// The priority is taken.
         pub takes_priority: bool,
         /// A ring is finished; its cavity's triangles.

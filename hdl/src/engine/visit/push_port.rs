@@ -10,7 +10,7 @@
 //! follows.record    .  5  .  .  .  .  .
 //! starts          _________/^^\________
 //! record            .  .  .  6  .  .  .
-//! is_alone        ____________/^^^^^\__
+//! solo_is_at_work ____________/^^^^^\__
 //! solo_asks       _______________/^^\__
 //! solo.record       .  .  .  .  .  7  .
 //! push            ______/^^\__/^^\__/^^
@@ -32,7 +32,7 @@ pub struct PushPort {
     /// A context starts to walk.
     pub start: Signal<In, Start>,
     /// An insertion alone is at work; the visit that it asks for.
-    pub is_alone: Signal<In, Bit>,
+    pub solo_is_at_work: Signal<In, Bit>,
     pub solo: Signal<In, Push>,
     pub push: Signal<Out, Push>,
     pushes: DFF<Bit>,
@@ -55,7 +55,7 @@ impl Logic for PushPort {
             self.pushed.d.next.locks = false;
             self.pushed.d.next.record = self.start.val().record;
         }
-        if self.is_alone.val() {
+        if self.solo_is_at_work.val() {
             self.pushed.d.next = self.solo.val().bundle;
         }
         if self.reset.val() {

@@ -37,7 +37,7 @@ pub(super) struct Outcome {
     /// No visit of the context is out any more.
     pub sleeps: bool,
     /// It tries its point again when it wakes.
-    pub keeps: bool,
+    pub will_retry: bool,
     /// Where it then starts to walk.
     pub root: Option<u32>,
     /// The attempt as it stands afterwards.
@@ -57,9 +57,9 @@ pub(super) struct Outcome {
     /// Its list has overflowed: it asks to be alone.
     pub overflows: bool,
     pub aborts: bool,
-    pub retries_root: bool,
+    pub root_changed: bool,
     /// The same visit is made again, or the same because of a lock that the context waits for.
-    pub is_again: bool,
+    pub revisits: bool,
     pub waits: bool,
     pub duplicate: bool,
     /// The look at the first three points.
@@ -101,14 +101,14 @@ impl Outcome {
     /// The same visit again.
     fn again(mut self, done: &Completion) -> Self {
         self.push = Some(Bundle::one(done.visit));
-        self.is_again = true;
+        self.revisits = true;
         self
     }
 
     /// The context sleeps, and tries again later from this triangle.
     fn abort(mut self, root: u32) -> Self {
         self.sleeps = true;
-        self.keeps = true;
+        self.will_retry = true;
         self.root = Some(root);
         self
     }
@@ -168,7 +168,7 @@ impl Outcome {
             self.root = Some(record);
             return self;
         }
-        self.retries_root = true;
+        self.root_changed = true;
         self.abort(done.walk_next)
     }
 
@@ -235,7 +235,7 @@ impl Outcome {
     fn end(&mut self, state: &Attempt, around: &Around) {
         self.sleeps = true;
         if state.drains {
-            self.keeps = true;
+            self.will_retry = true;
             self.release = Some(ReleaseJob { context: self.context, locks: state.logged });
         } else {
             self.returns_priority = true;

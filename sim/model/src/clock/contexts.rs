@@ -12,7 +12,7 @@ pub(super) struct Contexts {
     /// No visit of it is out.
     pub asleep: Set,
     /// It tries its point again when it wakes.
-    pub keeps: Set,
+    pub retrying: Set,
     /// Its commit or the release of its locks is due.
     pub busy: Set,
     /// It has had a point.
@@ -59,7 +59,7 @@ impl Contexts {
         }
         if let Some(context) = wires.start.map(|start| start.context) {
             self.asleep &= !(1 << context);
-            self.keeps &= !(1 << context);
+            self.retrying &= !(1 << context);
             self.began |= 1 << context;
         }
         if let Some(context) = wires.released {
@@ -74,7 +74,7 @@ impl Contexts {
                 self.priority_context = None;
             }
             if let Some(context) = self.solo.take() {
-                self.keeps &= !(1 << context);
+                self.retrying &= !(1 << context);
             }
             self.finished += 1;
         }
@@ -93,8 +93,8 @@ impl Contexts {
         if outcome.sleeps {
             self.asleep |= bit;
         }
-        if outcome.keeps {
-            self.keeps |= bit;
+        if outcome.will_retry {
+            self.retrying |= bit;
         }
         if outcome.commit.is_some() || outcome.release.is_some() {
             self.busy |= bit;

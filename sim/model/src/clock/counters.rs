@@ -70,11 +70,11 @@ impl Counters {
         self.walk_visits += u32::from(kind == (false, false) && !outcome.looks);
         self.root_visits += u32::from(kind == (false, true));
         self.tests += u32::from(kind == (true, true));
-        self.revisits += u32::from(outcome.is_again);
+        self.revisits += u32::from(outcome.revisits);
         self.duplicates += u32::from(outcome.duplicate);
         self.overflows += u32::from(outcome.overflows);
         self.aborts += u32::from(outcome.aborts);
-        self.root_retries += u32::from(outcome.retries_root);
+        self.root_retries += u32::from(outcome.root_changed);
         self.cavity_triangles += outcome.commit.map_or(0, |_| outcome.attempt.map_or(0, |attempt| attempt.count - 2));
     }
 

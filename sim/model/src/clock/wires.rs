@@ -141,7 +141,7 @@ impl ClockModel {
             clear: self.release.clear(),
             released: self.release.released(),
             solo_push,
-            solo_starts: was.contexts.solo.filter(|_| rests && !was.solo.is_at_work() && was.starter.is_at_alone()),
+            solo_starts: was.contexts.solo.filter(|_| rests && !was.solo.is_at_work() && was.starter.is_at_solo()),
             solo_ends: solo_inserts || was.solo.finds_duplicate(),
             solo_inserts,
         }

@@ -105,7 +105,7 @@ pub struct Outcome {
     /// Visits, and the bundle that asks for them.
     pub push: Option<(usize, u128)>,
     pub sleeps: bool,
-    pub keeps: bool,
+    pub will_retry: bool,
     pub root: Option<u64>,
     pub entry: Option<(u64, Edge)>,
     pub inner: Option<(u64, u64)>,
@@ -119,8 +119,8 @@ pub struct Outcome {
     pub duplicate: bool,
     pub looks: bool,
     pub revisit: bool,
-    pub gives_up: bool,
-    pub retries: bool,
+    pub aborts: bool,
+    pub root_changed: bool,
 }
 
 /// A cavity that grows.
@@ -197,8 +197,8 @@ impl Context {
             return Outcome {
                 root,
                 revisit: waits,
-                keeps: !waits,
-                gives_up: !waits,
+                will_retry: !waits,
+                aborts: !waits,
                 asks_for_priority: !waits,
                 ..Outcome::default()
             };
@@ -206,7 +206,7 @@ impl Context {
         let (lock, release) = (Some((0, record)), Some(release_job(self.index, 1)));
         if !done.finding.located {
             let root = Some(done.finding.walk_next);
-            return Outcome { root, lock, release, keeps: true, retries: true, ..Outcome::default() };
+            return Outcome { root, lock, release, will_retry: true, root_changed: true, ..Outcome::default() };
         }
         if done.finding.falls_onto_corner {
             return Outcome { root, lock, release, duplicate: true, returns_priority: true, ..Outcome::default() };
@@ -242,7 +242,7 @@ impl Context {
             (true, _) if around.holds_priority => outcome.revisit = true,
             (true, _) => {
                 self.growth.has_failed = true;
-                outcome.gives_up = true;
+                outcome.aborts = true;
                 outcome.asks_for_priority = true;
             }
             (false, true) if is_full => {
@@ -291,7 +291,7 @@ impl Context {
     fn end(&mut self, outcome: &mut Outcome) {
         let locks = self.growth.log.len() as u64;
         if self.growth.has_failed {
-            outcome.keeps = true;
+            outcome.will_retry = true;
             outcome.release = Some(release_job(self.index, locks));
         } else {
             outcome.returns_priority = true;

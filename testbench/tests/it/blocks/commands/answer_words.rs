@@ -9,7 +9,20 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     AnswerWords,
-    [opcode, capacity, contexts, ring, tally, insertions, duplicates, records, index, counter, latency, chooses],
+    [
+        opcode,
+        capacity,
+        contexts,
+        ring_capacity,
+        tally,
+        insertions,
+        duplicates,
+        records,
+        index,
+        counter,
+        latency,
+        chooses
+    ],
     [word],
     clock
 );
@@ -32,7 +45,7 @@ fn answer_words_follow_the_protocol() {
                 ("opcode", u32::from(asked.opcode)),
                 ("capacity", asked.capacity),
                 ("contexts", asked.contexts),
-                ("ring", asked.ring),
+                ("ring_capacity", asked.ring),
                 ("arrived", report.arrived),
                 ("refused", report.refused),
                 ("insertions", report.inserted),

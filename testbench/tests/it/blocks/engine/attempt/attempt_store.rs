@@ -7,7 +7,7 @@ use incircle_hdl::engine::AttemptStore;
 use incircle_protocol::SMALL;
 use incircle_testkit::SplitMix64;
 
-named_ports!(AttemptStore, [ring, early_visit, visit, found, step, after], [held], clock);
+named_ports!(AttemptStore, [ring_capacity, early_visit, visit, found, step, after], [held], clock);
 
 const ROUNDS: usize = 6000;
 
@@ -19,14 +19,14 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
     // Whatever the memory holds at first, these are written before they are read.
     let mut states = [(); 4].map(|()| None::<State>);
     let (mut context, mut cavity_entry, mut seen) = (0, 0, [0; 4]);
-    block.set("ring", ring);
+    block.set("ring_capacity", ring);
     for _ in 0..4 * ROUNDS {
         let entries = [2, ring][random.below(2) as usize];
         let (next_context, early_entry) = (random.below(4), random.below(entries));
         let before = states[context as usize];
         let opens = random.below(12) == 0 || before.is_none_or(|state| state.outstanding == 0);
         let splits = !opens && flip(&mut random) && before.is_some_and(|state| state.count < ring);
-        let repeats = !opens && !splits && random.below(4) == 0;
+        let revisits = !opens && !splits && random.below(4) == 0;
         let is_test = !opens && (splits || random.below(4) > 0);
         // No other visit of a context that opens is out.
         let early_context = if opens && next_context == context { (context + 1) % 4 } else { next_context };
@@ -43,7 +43,7 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
         if opens {
             after = State { outstanding: 3, count: 3, logged: 1, ..State::default() };
         } else {
-            after.outstanding += if splits { 2 } else { u64::from(repeats) };
+            after.outstanding += if splits { 2 } else { u64::from(revisits) };
             after.outstanding = after.outstanding.saturating_sub(1);
             after.count += u64::from(splits);
             after.logged = random.below(64);
@@ -56,7 +56,7 @@ fn attempt_store_has_every_state_at_hand_when_its_visit_completes() {
             ("opens", opens),
             ("is_test", is_test),
             ("splits", splits),
-            ("repeats", repeats),
+            ("revisits", revisits),
             ("passes_root", passes_root),
         ] {
             block.set(port, value);

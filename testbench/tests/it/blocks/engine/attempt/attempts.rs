@@ -13,7 +13,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     Attempts,
-    [ring, early, completion, seeded, contexts, start, now],
+    [ring_capacity, early, completion, seeded, contexts, start, now],
     [is_done, follow, outcome, looks, entry, inner, lock, commit, releases, events],
     clock
 );
@@ -25,7 +25,7 @@ const CONTEXTS: u64 = SMALL.contexts as u64;
 struct Life {
     context: Context,
     awake: bool,
-    keeps: bool,
+    will_retry: bool,
     has_overflowed: bool,
     root: u64,
     /// Locks that it holds still although its attempt is over, and clocks until they are released.
@@ -117,18 +117,18 @@ impl Rig {
         let takes = {
             let (one_in_four, start) = (self.one_in(4), self.ground.somewhere(&mut self.random));
             let life = &mut self.lives[context as usize];
-            let may = !life.awake && one_in_four && !(life.keeps && life.due.is_some());
+            let may = !life.awake && one_in_four && !(life.will_retry && life.due.is_some());
             if may && life.has_overflowed {
                 // It inserts its point alone.
-                (life.keeps, life.has_overflowed) = (false, false);
+                (life.will_retry, life.has_overflowed) = (false, false);
                 self.priority_context = self.priority_context.filter(|holder| *holder != context);
             }
             if may {
-                let record = if life.keeps { life.root } else { start };
+                let record = if life.will_retry { life.root } else { start };
                 life.context.out.push(Visit { context, ..Visit::look(record) });
                 life.awake = true;
             }
-            may && !life.keeps
+            may && !life.will_retry
         };
         let id = self.random.below(1 << 15);
         self.block.set("takes", takes);
@@ -137,7 +137,7 @@ impl Rig {
         self.block.set("now", self.now);
         if takes {
             let life = &mut self.lives[context as usize];
-            (life.context.vertex, life.context.since, life.keeps) = (id, self.now, false);
+            (life.context.vertex, life.context.since, life.will_retry) = (id, self.now, false);
             life.context.target = self.random.below(self.targets.len() as u64) as usize;
         }
         self.now = (self.now + 1) % (1 << 22);
@@ -175,7 +175,7 @@ impl Rig {
         let busy = busy.fold(0u64, |set, (context, _)| set | 1 << context);
         let (priority_context, is_held) =
             (self.priority_context.unwrap_or(self.random.below(CONTEXTS)), self.priority_context.is_some());
-        for (port, value) in [("ring", self.ring), ("busy", busy), ("priority_context", priority_context)] {
+        for (port, value) in [("ring_capacity", self.ring), ("busy", busy), ("priority_context", priority_context)] {
             self.block.set(port, value);
         }
         self.block.set("seeded", seeded);
@@ -233,7 +233,7 @@ impl Rig {
         let patience = self.random.below(30);
         let life = &mut self.lives[context as usize];
         life.awake = !outcome.sleeps;
-        life.keeps |= outcome.keeps;
+        life.will_retry |= outcome.will_retry;
         life.root = outcome.root.unwrap_or(life.root);
         life.has_overflowed |= outcome.overflows;
         if outcome.commit.is_some() {
@@ -247,7 +247,7 @@ impl Rig {
             life.due = Some(patience);
         }
         if outcome.duplicate || outcome.commit.is_some() || outcome.looks {
-            life.keeps = false;
+            life.will_retry = false;
         }
         let is_root = done.visit.locks && !done.visit.rotates;
         for (event, happens) in [
@@ -256,14 +256,14 @@ impl Rig {
             ("waits at a root", outcome.revisit && is_root),
             ("waits at a test", outcome.revisit && done.visit.rotates),
             ("looks again while busy", outcome.revisit && !done.visit.locks && !done.lock.again),
-            ("gives up a root", outcome.gives_up && is_root),
-            ("gives up a test", outcome.gives_up && done.visit.rotates),
+            ("aborts at a root", outcome.aborts && is_root),
+            ("aborts at a test", outcome.aborts && done.visit.rotates),
             ("takes the visit", outcome.asks_for_priority && self.priority_context.is_none()),
             ("locks while it drains", done.lock.took && outcome.entry.is_none() && outcome.push.is_none() && !is_root),
             ("outcome_overflows", outcome.overflows),
             ("duplicates of walks", outcome.duplicate && !is_root),
             ("duplicates of roots", outcome.duplicate && is_root),
-            ("retries", outcome.retries),
+            ("root_changed", outcome.root_changed),
             ("looks", outcome.looks),
         ] {
             *self.tally.entry(event).or_default() += usize::from(happens);
@@ -315,7 +315,7 @@ fn compare(block: &Stepper<Attempts>, seen: Option<&(Completion, Outcome)>) {
         ("may_ask", may_ask),
         ("is_done", seen.is_some()),
         ("sleeps", outcome.sleeps),
-        ("keeps", outcome.keeps),
+        ("will_retry", outcome.will_retry),
         ("root_enable", outcome.root.is_some()),
         ("entry_valid", outcome.entry.is_some()),
         ("inner_valid", outcome.inner.is_some()),
@@ -332,8 +332,8 @@ fn compare(block: &Stepper<Attempts>, seen: Option<&(Completion, Outcome)>) {
         ("root_visit", is(false, true)),
         ("test", is(true, true)),
         ("revisit", outcome.revisit),
-        ("gives_up", outcome.gives_up),
-        ("retries", outcome.retries),
+        ("aborts", outcome.aborts),
+        ("root_changed", outcome.root_changed),
     ] {
         block.expect(port, value);
     }

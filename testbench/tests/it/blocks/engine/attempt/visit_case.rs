@@ -11,16 +11,16 @@ named_ports!(VisitCase, [early, seeded, is_busy, holds_priority, verdict, drains
 /// Outputs of `VisitCase` of which at most one is high.
 const CASES: [&str; 13] = [
     "looks",
-    "repeats",
+    "revisits",
     "walks_on",
     "locates",
     "opens",
-    "retries",
+    "root_changed",
     "splits",
     "settles",
     "overflows",
-    "gives_up_root",
-    "gives_up",
+    "aborts_root",
+    "aborts",
     "walk_duplicate",
     "root_duplicate",
 ];
@@ -67,8 +67,8 @@ impl Bits {
         if self.rotates {
             return match (self.drains, self.lock.foreign, conflict) {
                 (true, ..) => None,
-                (_, true, _) if self.holds_priority => Some("repeats"),
-                (_, true, _) => Some("gives_up"),
+                (_, true, _) if self.holds_priority => Some("revisits"),
+                (_, true, _) => Some("aborts"),
                 (.., false) => Some("settles"),
                 (.., true) if self.is_full => Some("overflows"),
                 (.., true) => Some("splits"),
@@ -76,19 +76,19 @@ impl Bits {
         }
         if self.locks {
             return Some(match (self.lock.foreign, located) {
-                (true, _) if self.holds_priority => "repeats",
-                (true, _) => "gives_up_root",
-                (_, false) => "retries",
+                (true, _) if self.holds_priority => "revisits",
+                (true, _) => "aborts_root",
+                (_, false) => "root_changed",
                 (_, true) if falls_onto_corner => "root_duplicate",
                 (_, true) => "opens",
             });
         }
         Some(match (self.lock.again, located) {
             _ if !self.seeded => "looks",
-            (true, _) => "repeats",
+            (true, _) => "revisits",
             (_, false) => "walks_on",
             (_, true) if falls_onto_corner => "walk_duplicate",
-            (_, true) if self.is_busy => "repeats",
+            (_, true) if self.is_busy => "revisits",
             (_, true) => "locates",
         })
     }
@@ -120,11 +120,11 @@ fn case_clock(block: &mut Stepper<VisitCase>, bits: &Bits, upcoming: &Bits, rand
         block.expect("is_walk", bits.done && !bits.rotates && !bits.locks && bits.seeded);
         block.expect("is_root", bits.done && !bits.rotates && bits.locks);
         block.expect("is_test", bits.done && bits.rotates);
-        block.expect("waits", case == Some("repeats") && (bits.locks || bits.rotates));
+        block.expect("waits", case == Some("revisits") && (bits.locks || bits.rotates));
         for port in CASES {
             block.expect(port, case == Some(port));
         }
-        let asks = ["repeats", "walks_on", "locates", "opens", "splits"].map(Some).contains(&case);
+        let asks = ["revisits", "walks_on", "locates", "opens", "splits"].map(Some).contains(&case);
         let settles = bits.rotates && !bits.lock.foreign && !bits.finding.conflict;
         block.expect("asks", asks);
         block.expect("may_ask", bits.done && !settles);
@@ -182,7 +182,7 @@ fn visit_case_shows_the_wave_of_its_header() {
             ("is_walk", Cell::Bit(bits.done && !bits.locks)),
             ("locates", Cell::Bit(case == Some("locates"))),
             ("opens", Cell::Bit(case == Some("opens"))),
-            ("gives_up", Cell::Bit(case == Some("gives_up"))),
+            ("aborts", Cell::Bit(case == Some("aborts"))),
             ("asks", Cell::Bit(matches!(case, Some("locates" | "opens")))),
             ("may_ask", Cell::Bit(bits.done)),
         ]);

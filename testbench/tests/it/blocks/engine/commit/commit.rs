@@ -274,12 +274,12 @@ impl CommitRig {
 fn writes_stars(name: &'static str, config: Config) {
     let mut random = SplitMix64::new(9);
     let mut rig = CommitRig::new(name, config);
-    let (mut at_once, mut waits, mut alone, mut resets, mut most_inners) = (0, 0, 0, 0, 0);
+    let (mut at_once, mut waits, mut solo_insertions, mut resets, mut most_inners) = (0, 0, 0, 0, 0);
     for clock in 0..14_000 {
         rig.add_rings(config, &mut random);
         let (offers, lists) = [(8, 8), (8, 8), (5, 8), (2, 4)][clock / 500 % 4];
-        let is_alone = rig.work.is_none() && !rig.is_offered && rig.made.is_none() && rig.count.is_settled();
-        let event = if is_alone { random.below(16) } else { 16 };
+        let is_idle = rig.work.is_none() && !rig.is_offered && rig.made.is_none() && rig.count.is_settled();
+        let event = if is_idle { random.below(16) } else { 16 };
         let drive = Drive {
             offers: event > 2 && random.below(8) < offers,
             lists: random.below(8) < lists,
@@ -291,15 +291,15 @@ fn writes_stars(name: &'static str, config: Config) {
         let shown = rig.clock(drive);
         at_once += usize::from(shown.ends && shown.takes);
         waits += usize::from(shown.head_valid && !shown.takes);
-        alone += usize::from(drive.solo_inserts);
+        solo_insertions += usize::from(drive.solo_inserts);
         resets += usize::from(drive.reset);
         most_inners = most_inners.max(rig.work.as_ref().map_or(0, |(ring, _)| ring.inner.len()));
     }
-    let reached = [rig.committed, at_once, waits, alone, resets];
+    let reached = [rig.committed, at_once, waits, solo_insertions, resets];
     assert!(
         reached.iter().zip([400, 100, 1000, 10, 3]).all(|(seen, least)| *seen >= least)
             && most_inners * 6 >= config.ring as usize,
-        "rings, taken at once, clocks an entry waited, insertions alone, resets: {reached:?}; {most_inners} inner triangles"
+        "rings, taken at once, clocks an entry waited, solo insertions, resets: {reached:?}; {most_inners} inner triangles"
     );
 }
 

@@ -7,7 +7,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     ContextFlags,
-    [reset, clears, all, outcome, start, released, committed, solo_ends],
+    [reset, clears, built_contexts, outcome, start, released, committed, solo_ends],
     [contexts, takes_priority],
     clock
 );
@@ -20,7 +20,7 @@ struct Events {
     /// The context whose visit completes, and what that leads to.
     context: u64,
     sleeps: bool,
-    keeps: bool,
+    will_retry: bool,
     hands_over: bool,
     asks_for_priority: bool,
     waits: bool,
@@ -36,7 +36,7 @@ struct Events {
 #[derive(Clone, Copy, Debug)]
 struct Flags {
     asleep: bool,
-    keeping: bool,
+    retrying: bool,
     busy: bool,
     began: bool,
     hinted: bool,
@@ -49,15 +49,15 @@ struct FlagsReference {
     priority_context: Option<u64>,
     /// Foreign locks that the waiting context has met.
     met: u64,
-    alone: Option<u64>,
+    solo: Option<u64>,
     /// Everybody rested a clock ago, and nobody has started since.
     rested: bool,
 }
 
 impl FlagsReference {
     fn new(contexts: u64) -> Self {
-        let rests = Flags { asleep: true, keeping: false, busy: false, began: false, hinted: false };
-        Self { contexts: vec![rests; contexts as usize], priority_context: None, met: 0, alone: None, rested: false }
+        let rests = Flags { asleep: true, retrying: false, busy: false, began: false, hinted: false };
+        Self { contexts: vec![rests; contexts as usize], priority_context: None, met: 0, solo: None, rested: false }
     }
 
     fn set(&self, flag: impl Fn(&Flags) -> bool) -> u64 {
@@ -80,11 +80,11 @@ impl FlagsReference {
         }
         let context = self.at(events.context);
         context.asleep |= events.sleeps;
-        context.keeping |= events.keeps;
+        context.retrying |= events.will_retry;
         context.busy |= events.hands_over;
         if let Some(context) = events.starter {
             let starter = self.at(context);
-            (starter.asleep, starter.keeping, starter.began) = (false, false, true);
+            (starter.asleep, starter.retrying, starter.began) = (false, false, true);
         }
         if let Some(context) = events.released {
             self.at(context).busy = false;
@@ -101,11 +101,11 @@ impl FlagsReference {
         }
         self.met += u64::from(events.waits);
         if events.overflows {
-            self.alone = self.alone.or(Some(events.context));
+            self.solo = self.solo.or(Some(events.context));
         }
         if events.solo_ends {
-            if let Some(context) = self.alone.take() {
-                self.at(context).keeping = false;
+            if let Some(context) = self.solo.take() {
+                self.at(context).retrying = false;
                 self.priority_context = self.priority_context.filter(|priority_context| *priority_context != context);
             }
         }
@@ -114,12 +114,12 @@ impl FlagsReference {
 
 /// One clock of both.
 fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference, events: &Events) {
-    block.set("all", (1u64 << reference.contexts.len()) - 1);
+    block.set("built_contexts", (1u64 << reference.contexts.len()) - 1);
     for (port, value) in [
         ("reset", events.reset),
         ("clears", events.clears),
         ("sleeps", events.sleeps),
-        ("keeps", events.keeps),
+        ("will_retry", events.will_retry),
         ("hands_over", events.hands_over),
         ("asks_for_priority", events.asks_for_priority),
         ("waits", events.waits),
@@ -141,20 +141,20 @@ fn flags_clock(block: &mut Stepper<ContextFlags>, reference: &mut FlagsReference
     block.settle();
     if block.clocks() > 0 {
         block.expect("asleep", reference.set(|flags| flags.asleep));
-        block.expect("keeping", reference.set(|flags| flags.keeping));
+        block.expect("retrying", reference.set(|flags| flags.retrying));
         block.expect("busy", reference.set(|flags| flags.busy));
         block.expect("began", reference.set(|flags| flags.began));
         block.expect("hinted", reference.set(|flags| flags.hinted));
         block.expect("priority_is_held", reference.priority_context.is_some());
         block.expect("is_urgent", reference.priority_context.is_some() && reference.met >= 8);
-        block.expect("solo_valid", reference.alone.is_some());
+        block.expect("solo_valid", reference.solo.is_some());
         block.expect("all_rest", reference.rested);
         block.expect("takes_priority", events.asks_for_priority && reference.priority_context.is_none());
         reference
             .priority_context
             .into_iter()
             .for_each(|priority_context| block.expect("priority_context", priority_context));
-        reference.alone.into_iter().for_each(|alone| block.expect("solo_context", alone));
+        reference.solo.into_iter().for_each(|solo| block.expect("solo_context", solo));
     }
     block.edge();
     reference.edge(events);
@@ -170,14 +170,14 @@ fn any(reference: &FlagsReference, random: &mut SplitMix64, holds: impl Fn(&Flag
 fn events(reference: &FlagsReference, random: &mut SplitMix64) -> Events {
     let mut flip = |times: u64| random.below(times) == 0;
     let (reset, clears, over) = (flip(900), flip(900), flip(2));
-    let (keeps, hands_over, asks_for_priority, overflows) = (flip(2), flip(2), flip(4), flip(12));
-    let (ends_alone, gives_back, meets) = (flip(4), flip(8), !flip(8));
-    let alone_works = reference.alone.is_some() && reference.rests();
+    let (will_retry, hands_over, asks_for_priority, overflows) = (flip(2), flip(2), flip(4), flip(12));
+    let (ends_solo, gives_back, meets) = (flip(4), flip(8), !flip(8));
+    let solo_works = reference.solo.is_some() && reference.rests();
     let mut events =
         Events { reset, clears, context: random.below(reference.contexts.len() as u64), ..Events::default() };
     // No visit of a context completes while a context inserts alone.
-    if alone_works {
-        events.solo_ends = ends_alone;
+    if solo_works {
+        events.solo_ends = ends_solo;
     } else if let Some(context) = any(reference, random, |flags| !flags.asleep) {
         let is_free = !reference.contexts[context as usize].busy;
         // Who meets a foreign lock with the priority waits, and neither asks for it nor ends.
@@ -187,7 +187,7 @@ fn events(reference: &FlagsReference, random: &mut SplitMix64) -> Events {
         events = Events {
             context,
             sleeps,
-            keeps: sleeps && keeps,
+            will_retry: sleeps && will_retry,
             hands_over: sleeps && hands_over && is_free,
             asks_for_priority,
             waits,
@@ -196,7 +196,7 @@ fn events(reference: &FlagsReference, random: &mut SplitMix64) -> Events {
             ..events
         };
     }
-    if reference.alone.is_none() {
+    if reference.solo.is_none() {
         events.starter = any(reference, random, |flags| flags.asleep);
     }
     events.released = any(reference, random, |flags| flags.busy);
@@ -217,8 +217,8 @@ fn context_flags_are_those_of_lists_of_contexts() {
             for (seen, happens) in seen.iter_mut().zip([
                 events.asks_for_priority && waits,
                 events.returns_priority && reference.priority_context == Some(events.context),
-                events.solo_ends && reference.priority_context == reference.alone,
-                events.overflows && reference.alone.is_some(),
+                events.solo_ends && reference.priority_context == reference.solo,
+                events.overflows && reference.solo.is_some(),
                 events.waits && reference.met > 8,
                 events.sleeps && events.starter.is_some() && events.released.is_some() && events.committed.is_some(),
             ]) {
@@ -241,7 +241,7 @@ fn context_flags_show_the_wave_of_their_header() {
     for clock in 0..14 {
         let events = match clock {
             1 | 5 => Events { starter: Some(context), ..base },
-            3 => Events { sleeps: true, keeps: true, asks_for_priority: true, ..base },
+            3 => Events { sleeps: true, will_retry: true, asks_for_priority: true, ..base },
             7 => Events { sleeps: true, hands_over: true, returns_priority: true, ..base },
             9 => Events { committed: Some(context), ..base },
             11 => Events { released: Some(context), ..base },
@@ -252,14 +252,14 @@ fn context_flags_show_the_wave_of_their_header() {
         wave.take(&[
             ("starts", Cell::Bit(events.starter.is_some())),
             ("sleeps", Cell::Bit(events.sleeps)),
-            ("keeps", Cell::Bit(events.keeps)),
+            ("will_retry", Cell::Bit(events.will_retry)),
             ("asks_for_priority", Cell::Bit(events.asks_for_priority)),
             ("returns_priority", Cell::Bit(events.returns_priority)),
             ("hands_over", Cell::Bit(events.hands_over)),
             ("commit_ends", Cell::Bit(events.committed.is_some())),
             ("released", Cell::Bit(events.released.is_some())),
             ("asleep", set(|flags| flags.asleep)),
-            ("keeping", set(|flags| flags.keeping)),
+            ("retrying", set(|flags| flags.retrying)),
             ("busy", set(|flags| flags.busy)),
             ("began", set(|flags| flags.began)),
             ("hinted", set(|flags| flags.hinted)),

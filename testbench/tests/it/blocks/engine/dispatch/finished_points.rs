@@ -82,15 +82,15 @@ fn finished_points_counts_every_finished_point_once() {
         // First triangles come before all other points, in a batch several.
         let seeds = finished.points.len() < 72 && finished.points.iter().all(|what| *what == "seed") && one_in(8);
         let inserts = !seeds && one_in(3);
-        let is_alone = one_in(4);
+        let is_solo = one_in(4);
         let near = if one_in(2) { 0 } else { 1 };
         let now = Finishing {
             reset: clock == 0 || one_in(2000),
             clears: one_in(2000),
             seeds,
-            commit_ends: inserts && !is_alone,
-            solo_ends: inserts && is_alone,
-            duplicate: !(seeds || inserts && is_alone) && one_in(3),
+            commit_ends: inserts && !is_solo,
+            solo_ends: inserts && is_solo,
+            duplicate: !(seeds || inserts && is_solo) && one_in(3),
             has_no_start: one_in(4),
             all_rest: !one_in(4),
             arrived: match random.below(3) {

@@ -19,7 +19,7 @@ named_ports!(
 #[derive(Clone, Copy, Debug, Default)]
 struct Life {
     awake: bool,
-    keeps: bool,
+    will_retry: bool,
     busy: bool,
     began: bool,
     hint: Option<u64>,
@@ -43,10 +43,10 @@ struct Candidate {
     sight: Sight,
     is_due: bool,
     /// It tries its point again.
-    keeps: bool,
+    will_retry: bool,
     /// Where it would start.
     record: u64,
-    is_alone: bool,
+    is_solo: bool,
 }
 
 /// What comes out in a clock.
@@ -131,7 +131,7 @@ impl Rig {
     fn decide(&self, inputs: &Inputs, sight: Sight) -> Option<Candidate> {
         let life = self.lives.get(sight.context as usize)?;
         let works = if sight.context == 0 { inputs.seeded || !life.began } else { self.all_work };
-        let is_due = match life.keeps {
+        let is_due = match life.will_retry {
             // Rounds of the pointer in which nobody tries again: three of four.
             true => {
                 let has_rested = (self.steps / self.contexts).is_multiple_of(4);
@@ -146,20 +146,20 @@ impl Rig {
         Some(Candidate {
             sight,
             is_due: is_due && !life.awake && !starts_now && !inputs.solo,
-            keeps: life.keeps,
-            record: if life.keeps {
+            will_retry: life.will_retry,
+            record: if life.will_retry {
                 life.root
             } else {
                 life.hint.unwrap_or(if self.is_batch { 4 * sight.context } else { 0 })
             },
-            is_alone: inputs.special == sight.context,
+            is_solo: inputs.special == sight.context,
         })
     }
 
     /// What must come out: the vertex that the candidate takes, if it takes a new one, and where it starts.
     fn wants(&self, inputs: &Inputs) -> Option<(Option<u64>, u64)> {
         let candidate = self.candidate.filter(|candidate| candidate.is_due && !inputs.solo)?;
-        Some(((!candidate.keeps).then_some(candidate.sight.vertex), candidate.record))
+        Some(((!candidate.will_retry).then_some(candidate.sight.vertex), candidate.record))
     }
 
     fn drive(&mut self, inputs: &Inputs) {
@@ -191,7 +191,7 @@ impl Rig {
             ("priority_context", inputs.special),
             ("arrived", self.arrived),
             ("asleep", self.set(|life| !life.awake)),
-            ("keeping", self.set(|life| life.keeps)),
+            ("retrying", self.set(|life| life.will_retry)),
             ("busy", self.set(|life| life.busy)),
             ("began", self.set(|life| life.began)),
             ("hinted", self.set(|life| life.hint.is_some())),
@@ -218,7 +218,7 @@ impl Rig {
             self.block.expect("takes", start.is_some_and(|(vertex, _)| vertex.is_some()));
             if let Some(candidate) = self.candidate {
                 self.block.expect("start_context", candidate.sight.context);
-                self.expect_alone(inputs, candidate);
+                self.expect_solo(inputs, candidate);
             }
             if let Some((vertex, record)) = start {
                 self.block.expect("start_record", record);
@@ -234,11 +234,11 @@ impl Rig {
     }
 
     /// Who wants to be alone starts when the pointer has seen it, with the point that it has, where its attempt was.
-    fn expect_alone(&self, inputs: &Inputs, candidate: Candidate) {
+    fn expect_solo(&self, inputs: &Inputs, candidate: Candidate) {
         let may_start = inputs.solo && inputs.all_rest && !inputs.solo_is_at_work;
-        let starts = may_start && candidate.is_alone;
+        let starts = may_start && candidate.is_solo;
         self.block.expect("solo_start_valid", starts);
-        if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.keeps) {
+        if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.will_retry) {
             self.block.expect("solo_start_vertex", last);
             self.block.expect("start_record", candidate.record);
         }
@@ -264,14 +264,14 @@ impl Rig {
         if seen.starts {
             let life = &mut self.lives[seen.context as usize];
             life.last = seen.takes.or(life.last);
-            (life.awake, life.keeps, life.began) = (true, false, true);
+            (life.awake, life.will_retry, life.began) = (true, false, true);
             self.all_work |= seen.takes.is_some_and(|vertex| seen.context == 0 && vertex >= u64::from(FIRST_ROUND));
         }
         if let Some((context, deed)) = inputs.deed {
             let life = &mut self.lives[context as usize];
             match deed {
-                Deed::Sleeps { root, keeps, busy } => {
-                    (life.awake, life.root, life.keeps) = (false, root, keeps);
+                Deed::Sleeps { root, will_retry, busy } => {
+                    (life.awake, life.root, life.will_retry) = (false, root, will_retry);
                     life.busy |= busy;
                 }
                 Deed::IsFreed { hint } => (life.hint, life.busy) = (Some(hint), false),
@@ -300,7 +300,7 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
         // Two points of each triple are taken with the third.
         let triples = if rig.is_batch { rig.contexts } else { 1 };
         let all_are_taken = tally.taken.len() as u64 + 2 * triples == points;
-        if all_are_taken && rig.lives.iter().all(|life| !life.awake && !life.keeps && !life.busy) {
+        if all_are_taken && rig.lives.iter().all(|life| !life.awake && !life.will_retry && !life.busy) {
             return;
         }
         let mut one_in = |times: u64| random.below(times) == 0;
@@ -340,7 +340,7 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
 #[derive(Clone, Copy, Debug)]
 enum Deed {
     /// It falls asleep: to try again from this root or not, with a commit or release due or not.
-    Sleeps { root: u64, keeps: bool, busy: bool },
+    Sleeps { root: u64, will_retry: bool, busy: bool },
     /// Its commit ends and leaves this hint, and its locks are released.
     IsFreed { hint: u64 },
 }
@@ -349,9 +349,9 @@ enum Deed {
 fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
     let context = random.below(rig.contexts);
     let [root, hint] = [(); 2].map(|()| random.below(1 << 15));
-    let [ends, keeps, busy, is_freed] = [4, 3, 3, 6].map(|times| random.below(times) == 0);
+    let [ends, will_retry, busy, is_freed] = [4, 3, 3, 6].map(|times| random.below(times) == 0);
     let life = &rig.lives[context as usize];
-    let sleeps = (life.awake && ends).then_some(Deed::Sleeps { root, keeps, busy });
+    let sleeps = (life.awake && ends).then_some(Deed::Sleeps { root, will_retry, busy });
     let frees = (!life.awake && life.busy && is_freed).then_some(Deed::IsFreed { hint });
     sleeps.or(frees).map(|deed| (context, deed))
 }
@@ -428,14 +428,14 @@ fn starter_shows_the_wave_of_its_header() {
             came: clock == 1,
             is_done: matches!(clock, 4 | 5),
             is_blocked: clock == 4,
-            deed: (clock == 7).then_some((0, Deed::Sleeps { root: 9, keeps: true, busy: false })),
+            deed: (clock == 7).then_some((0, Deed::Sleeps { root: 9, will_retry: true, busy: false })),
             ..Inputs::default()
         };
         if clock == 1 {
             rig.arrived = 3;
         }
         let asleep = rig.set(|life| !life.awake);
-        let keeping = rig.set(|life| life.keeps);
+        let retrying = rig.set(|life| life.will_retry);
         let arrived = rig.arrived;
         let candidate = rig.candidate;
         let wanted = rig.wants(&inputs);
@@ -447,7 +447,7 @@ fn starter_shows_the_wave_of_its_header() {
             ("is_done", Cell::Bit(inputs.is_done)),
             ("is_blocked", Cell::Bit(inputs.is_blocked)),
             ("asleep", number(Some(asleep))),
-            ("keeping", number(Some(keeping))),
+            ("retrying", number(Some(retrying))),
             ("context", number(candidate.map(|candidate| candidate.sight.context))),
             ("starts", Cell::Bit(seen.starts)),
             ("takes", Cell::Bit(seen.takes.is_some())),

@@ -5,7 +5,7 @@ use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::PushPort;
 use incircle_testkit::SplitMix64;
 
-named_ports!(PushPort, [reset, follow, start, is_alone, solo], [push], clock);
+named_ports!(PushPort, [reset, follow, start, solo_is_at_work, solo], [push], clock);
 
 const ROUNDS: usize = 6000;
 
@@ -16,7 +16,7 @@ struct Asking {
     may_ask: bool,
     asks: bool,
     starts: bool,
-    is_alone: bool,
+    solo_is_at_work: bool,
     solo_asks: bool,
     follows: Visit,
     starter: Visit,
@@ -30,7 +30,7 @@ fn push_clock(block: &mut Stepper<PushPort>, asking: &Asking, shown: Option<Visi
         ("may_ask", asking.may_ask),
         ("asks", asking.asks),
         ("start_valid", asking.starts),
-        ("is_alone", asking.is_alone),
+        ("solo_is_at_work", asking.solo_is_at_work),
         ("solo_valid", asking.solo_asks),
     ] {
         block.set(port, value);
@@ -73,14 +73,14 @@ fn push_port_takes_the_visits_of_whoever_asks() {
     let mut block = Stepper::new("push_port", PushPort::default(), 1);
     let mut shown = push_clock(&mut block, &Asking { reset: true, ..Asking::default() }, None);
     for _ in 0..ROUNDS {
-        let [is_alone, may_ask, asks, solo_asks, starts] = [(); 5].map(|()| flip(&mut random));
+        let [solo_is_at_work, may_ask, asks, solo_asks, starts] = [(); 5].map(|()| flip(&mut random));
         let asking = Asking {
             reset: random.below(100) == 0,
-            may_ask: may_ask && !is_alone,
-            asks: asks && may_ask && !is_alone,
-            starts: starts && !may_ask && !is_alone,
-            is_alone,
-            solo_asks: is_alone && solo_asks,
+            may_ask: may_ask && !solo_is_at_work,
+            asks: asks && may_ask && !solo_is_at_work,
+            starts: starts && !may_ask && !solo_is_at_work,
+            solo_is_at_work,
+            solo_asks: solo_is_at_work && solo_asks,
             // A root's three tests are told from the others by the kind of visit here.
             follows: Visit { rotates: false, locks: true, ..Visit::random(&mut random) },
             starter: Visit { context: random.below(24), ..Visit::look(id(&mut random)) },
@@ -100,7 +100,7 @@ fn push_port_shows_the_wave_of_its_header() {
             may_ask: matches!(clock, 1 | 2),
             asks: clock == 1,
             starts: clock == 3,
-            is_alone: matches!(clock, 4 | 5),
+            solo_is_at_work: matches!(clock, 4 | 5),
             solo_asks: clock == 5,
             follows: Visit { locks: true, ..Visit::look(5) },
             starter: Visit::look(6),
@@ -115,7 +115,7 @@ fn push_port_shows_the_wave_of_its_header() {
             ("follows.record", number(asking.asks, asking.follows)),
             ("starts", Cell::Bit(asking.starts)),
             ("record", number(asking.starts, asking.starter)),
-            ("is_alone", Cell::Bit(asking.is_alone)),
+            ("solo_is_at_work", Cell::Bit(asking.solo_is_at_work)),
             ("solo_asks", Cell::Bit(asking.solo_asks)),
             ("solo.record", number(asking.solo_asks, asking.solo)),
             ("push", Cell::Bit(shown.is_some())),
