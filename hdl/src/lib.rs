@@ -1,12 +1,12 @@
 //! The incircle core in rust-hdl, its export to Verilog, and the boards it runs on.
 
 pub mod board;
+pub mod commands;
 pub mod committed;
 pub mod engine;
 pub mod export;
 mod files;
 pub mod leaf;
-pub mod link;
 pub mod mesh;
 pub mod predicate;
 pub mod serial;

@@ -37,8 +37,8 @@ pub enum Counter {
     Aborts = 16,
     /// Located triangles that no longer held the point when they were locked.
     RootRetries = 17,
-    /// Times a context took the waiting token.
-    WaitingTokens = 18,
+    /// Times a context took the priority.
+    PrioritiesTaken = 18,
     /// Clocks in which a visit was issued: the read port of the triangle memory.
     IssueCycles = 19,
     /// Clocks in which a record or a link was written: the write port.

@@ -51,7 +51,7 @@ pub struct InsertionEngine {
     seeder: Seeder,
     push_port: PushPort,
     write_port: WritePort,
-    visit: Signal<Local, Completion>,
+    completion: Signal<Local, Completion>,
     verdict: Signal<Local, Verdict>,
 }
 
@@ -86,13 +86,13 @@ impl Logic for InsertionEngine {
         self.write.next = self.write_port.write.val();
 
         // The visits.
-        self.visit.next = self.pipeline.visit.val();
-        self.verdict.next = self.pipeline.visit.val().verdict;
+        self.completion.next = self.pipeline.completion.val();
+        self.verdict.next = self.pipeline.completion.val().verdict;
         self.pipeline.infinite.next = self.limits.val().infinite;
         self.pipeline.records.next = self.insertions.records.val();
         self.pipeline.push.next = self.push_port.push.val();
         self.pipeline.position.next.valid = self.insertions.fetched.val().valid;
-        self.pipeline.position.next.owner = self.insertions.fetched.val().owner;
+        self.pipeline.position.next.context = self.insertions.fetched.val().context;
         self.pipeline.position.next.point = self.pipeline.fetched.val();
         self.pipeline.read.next = self.read.val();
         self.pipeline.write.next = self.write_port.write.val();
@@ -110,7 +110,7 @@ impl Logic for InsertionEngine {
         self.insertions.early.next = self.pipeline.early.val();
         self.insertions.early.next.done =
             self.pipeline.early.val().done & (!self.solo.progress.val().is_at_work) & (!self.reset.val());
-        self.insertions.visit.next = self.visit.val();
+        self.insertions.completion.next = self.completion.val();
         self.insertions.seed.next = self.seeder.progress.val();
         self.insertions.solo.next = self.solo.progress.val();
 
@@ -123,12 +123,12 @@ impl Logic for InsertionEngine {
         self.seeder.verdict.next = self.verdict.val();
         self.solo.start.next = self.insertions.solo_start.val();
         self.solo.records.next = self.insertions.fresh.val();
-        self.solo.visit.next = self.visit.val();
+        self.solo.completion.next = self.completion.val();
 
         // Who pushes visits, and who writes.
         self.push_port.follow.next = self.insertions.follow.val();
         self.push_port.start.next = self.insertions.start.val();
-        self.push_port.is_alone.next = self.solo.progress.val().is_at_work;
+        self.push_port.solo_is_at_work.next = self.solo.progress.val().is_at_work;
         self.push_port.solo.next = self.solo.push.val();
         self.write_port.commit.next = self.insertions.write.val();
         self.write_port.solo.next = self.solo.write.val();

@@ -26,7 +26,7 @@ pub struct Insertions {
     pub now: Signal<In, Clocks>,
     /// The visit that completes in the next clock, none while an insertion alone is at work, and the one that completes.
     pub early: Signal<In, Upcoming>,
-    pub visit: Signal<In, Completion>,
+    pub completion: Signal<In, Completion>,
     pub seed: Signal<In, SeedProgress>,
     pub solo: Signal<In, SoloProgress>,
     /// The visits that follow the one that completes.
@@ -79,9 +79,9 @@ impl Logic for Insertions {
         self.commits.clears.next = self.clears.val();
 
         // A visit completes.
-        self.attempts.ring.next = self.limits.val().ring;
+        self.attempts.ring_capacity.next = self.limits.val().ring_capacity;
         self.attempts.early.next = self.early.val();
-        self.attempts.visit.next = self.visit.val();
+        self.attempts.completion.next = self.completion.val();
         self.attempts.seeded.next = self.seed.val().seeded;
         self.attempts.now.next = self.now.val();
         self.attempts.contexts.next = self.dispatcher.contexts.val();
@@ -90,7 +90,7 @@ impl Logic for Insertions {
         self.follow.next = self.attempts.follow.val();
 
         // Who starts, and what is finished.
-        self.dispatcher.all.next = self.limits.val().all;
+        self.dispatcher.built_contexts.next = self.limits.val().built_contexts;
         self.dispatcher.patience.next = self.limits.val().patience;
         self.dispatcher.deal.next = self.deal.val();
         self.dispatcher.arrived.next = self.arrived.val();
@@ -127,7 +127,7 @@ impl Logic for Insertions {
         self.visit_events.next = self.attempts.events.val();
         self.visit_events.next.test = self.attempts.events.val().test | self.solo.val().tests;
         self.visit_events.next.flip = self.solo.val().flips;
-        self.visit_events.next.takes_token = self.dispatcher.takes_token.val();
+        self.visit_events.next.takes_priority = self.dispatcher.takes_priority.val();
         self.job.next = self.commits.committed.val().job;
         self.events.next.visits = self.visit_events.val();
         self.events.next.seeds = self.seed.val().seeds;

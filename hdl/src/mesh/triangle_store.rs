@@ -41,7 +41,7 @@ pub struct TriangleStore {
     pub links_id: Signal<In, TriangleId>,
     /// Take its lock at this edge, for this context.
     pub read_locks: Signal<In, Bit>,
-    pub owner: Signal<In, ContextId>,
+    pub context_id: Signal<In, ContextId>,
     /// It, with its lock as it was before.
     pub record: Signal<Out, Record>,
     /// What became of the lock, a clock after the record; see `LockStore`.
@@ -100,7 +100,7 @@ impl Logic for TriangleStore {
         self.locks.clock.next = self.clock.val();
         self.locks.id.next = self.read_id.val();
         self.locks.takes.next = self.read_locks.val();
-        self.locks.owner.next = self.owner.val();
+        self.locks.context_id.next = self.context_id.val();
         self.locks.clear.next = self.clear.val();
         self.took.next = self.locks.took.val();
         self.foreign.next = self.locks.foreign.val();

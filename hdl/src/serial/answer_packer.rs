@@ -7,7 +7,7 @@
 //! Latency: 3 clocks from the first two words of an answer to `is_due`.
 
 use super::types::{AnswerPlace, Byte};
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use incircle_protocol::MAX_PAYLOAD;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

@@ -6,7 +6,7 @@
 //!
 //! Latency: 1 clock from a word taken and from the end of an answer.
 
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

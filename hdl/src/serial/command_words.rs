@@ -15,7 +15,7 @@
 //! ```
 
 use super::types::Byte;
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

@@ -8,7 +8,7 @@
 //! Source: polynomial 04C11DB7, reflected, as Ethernet and zip have it.
 
 use super::types::Byte;
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

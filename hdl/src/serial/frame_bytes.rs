@@ -5,7 +5,7 @@
 //! Latency: 1 clock.
 
 use super::types::{AnswerPlace, Byte};
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

@@ -5,7 +5,7 @@
 //! Latency: none (combinational) from `kind` and `index`.
 
 use super::types::{Byte, Receipt, Session};
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use incircle_protocol::{STATUS_BAD_RATE, STATUS_BUSY, STATUS_DROPPED, STATUS_OPEN};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

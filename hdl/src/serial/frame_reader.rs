@@ -8,7 +8,7 @@
 
 use super::crc32::Crc32;
 use super::types::{Byte, FrameHead};
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use incircle_protocol::{CRC_BYTES, HOST_HEADER_BYTES, MAX_PAYLOAD};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

@@ -3,8 +3,8 @@
 //! Latency: 1 clock.
 
 use super::types::Byte;
+use crate::commands::types::Word;
 use crate::leaf::Parameter;
-use crate::link::types::Word;
 use incircle_protocol::{
     Config, Greeting as GreetingWords, Identity, LinkConfig, CORE_COORD_BITS, CORE_VERSION, GREETING_WORDS, LINK_MAGIC,
     LINK_VERSION, MAGIC, PROTOCOL_VERSION,

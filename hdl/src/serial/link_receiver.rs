@@ -16,8 +16,8 @@ use super::payload_digest::PayloadDigest;
 use super::receive_fifo::ReceiveFifo;
 use super::types::{Byte, Receipt, Session, Step};
 use super::uart_receiver::UartReceiver;
-use crate::link::types::Word;
-use crate::link::CommandSource;
+use crate::commands::types::Word;
+use crate::commands::CommandSource;
 use incircle_protocol::LinkConfig;
 use rust_hdl_core::prelude::*;
 

@@ -21,7 +21,7 @@ use super::replies::Replies;
 use super::types::{Receipt, Session, Step};
 use super::uart_transmitter::UartTransmitter;
 use super::word_narrower::WordNarrower;
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;
 

@@ -8,8 +8,8 @@
 
 use super::frame_judge::Asked;
 use super::types::Step;
+use crate::commands::types::Word;
 use crate::leaf::Parameter;
-use crate::link::types::Word;
 use incircle_protocol::{LinkConfig, FIRST_RATE, MAX_STEP};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

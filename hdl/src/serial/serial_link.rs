@@ -19,7 +19,7 @@ use super::link_transmitter::LinkTransmitter;
 use super::rate_control::RateControl;
 use super::session_state::SessionState;
 use super::types::Lamps;
-use crate::link::{AnswerSink, CommandSource};
+use crate::commands::{AnswerSink, CommandSource};
 use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

@@ -13,7 +13,7 @@
 //! word_ready      /^^\__/^^^^^^^^
 //! ```
 
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

@@ -19,8 +19,8 @@
 //! second            .  .  2  0  .  5  7  0  .  .  .
 //! ```
 
-use crate::link::types::Word;
-use crate::link::AnswerSink;
+use crate::commands::types::Word;
+use crate::commands::AnswerSink;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

@@ -3,7 +3,7 @@
 //! Latency: 1 clock.
 
 use super::events::AnswerEvents;
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use incircle_protocol::{answer_header, Status};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

@@ -1,6 +1,6 @@
 //! The ports of an AXI bus on the device's side, spelt once. Names of the signals are AXI's own.
 
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 
 /// Address of a register, in bytes.

@@ -14,8 +14,8 @@
 //! command_data      .  .  1  2  2  3  4  .  .
 //! ```
 
+use crate::commands::CommandSource;
 use crate::leaf::Parameter;
-use crate::link::CommandSource;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

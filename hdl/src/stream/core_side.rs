@@ -5,10 +5,10 @@
 use super::answer_beats::AnswerBeats;
 use super::answer_pairs::AnswerPairs;
 use super::beat_words::BeatWords;
-use super::progress::Progress;
+use super::command_under_way::CommandUnderWay;
 use super::reset_reply::ResetReply;
+use crate::commands::{AnswerSink, CommandSource};
 use crate::leaf::{Parameter, Synchroniser};
-use crate::link::{AnswerSink, CommandSource};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -40,7 +40,7 @@ pub struct CoreSide<const W: usize, const E: usize> {
     words: BeatWords<W>,
     pairs: AnswerPairs,
     beats: AnswerBeats<W>,
-    progress: Progress,
+    under_way: CommandUnderWay,
     resetting: ResetReply,
     request_seen: Synchroniser<Bit>,
     busy: DFF<Bit>,
@@ -72,7 +72,7 @@ impl<const W: usize, const E: usize> Logic for CoreSide<W, E> {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, busy);
-        clock!(self, clock, words, pairs, beats, progress, resetting, request_seen);
+        clock!(self, clock, words, pairs, beats, under_way, resetting, request_seen);
 
         // Resets.
         self.request_seen.sent.next = self.request.val();
@@ -83,7 +83,7 @@ impl<const W: usize, const E: usize> Logic for CoreSide<W, E> {
         self.words.reset.next = self.resetting.resets.val();
         self.pairs.reset.next = self.resetting.resets.val();
         self.beats.reset.next = self.resetting.resets.val();
-        self.progress.reset.next = self.resetting.resets.val();
+        self.under_way.reset.next = self.resetting.resets.val();
 
         // Commands.
         self.words.beat_valid.next = self.beat_valid.val();
@@ -108,13 +108,13 @@ impl<const W: usize, const E: usize> Logic for CoreSide<W, E> {
 
         // What is under way.
         self.last_offered.next = self.response.valid.val() & self.response.last.val();
-        self.progress.takes.next = self.command.valid.val() & self.command.ready.val();
-        self.progress.word.next = self.command.data.val();
-        self.progress.offers_last.next = self.last_offered.val();
-        self.progress.ends.next = self.last_offered.val() & self.response.ready.val();
+        self.under_way.takes.next = self.command.valid.val() & self.command.ready.val();
+        self.under_way.word.next = self.command.data.val();
+        self.under_way.offers_last.next = self.last_offered.val();
+        self.under_way.ends.next = self.last_offered.val() & self.response.ready.val();
         self.busy.d.next = (!self.is_empty.val())
             | self.words.is_held.val()
-            | self.progress.is_busy.val()
+            | self.under_way.is_busy.val()
             | self.pairs.is_held.val()
             | self.beats.is_held.val()
             | (!self.is_fetched.val());

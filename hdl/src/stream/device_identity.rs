@@ -3,8 +3,8 @@
 //! Latency: none.
 
 use super::axi::RegisterIndex;
+use crate::commands::types::Word;
 use crate::leaf::Parameter;
-use crate::link::types::Word;
 use incircle_protocol::{
     Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
 };
@@ -25,7 +25,7 @@ pub struct DeviceIdentity {
     coord_bits: Parameter<Word>,
     capacity: Parameter<Word>,
     contexts: Parameter<Word>,
-    ring: Parameter<Word>,
+    ring_capacity: Parameter<Word>,
     beat_bits: Parameter<Word>,
     fifo_beats: Parameter<Word>,
 }
@@ -54,7 +54,7 @@ impl DeviceIdentity {
             coord_bits: word(CORE_COORD_BITS),
             capacity: word(config.points),
             contexts: word(config.contexts),
-            ring: word(config.ring),
+            ring_capacity: word(config.ring),
             beat_bits: word(beat_bits as u32),
             fifo_beats: word(STREAM_FIFO_BEATS),
             ..Self::default()
@@ -89,7 +89,7 @@ impl Logic for DeviceIdentity {
                 self.value.next = self.contexts.val();
             }
             7 => {
-                self.value.next = self.ring.val();
+                self.value.next = self.ring_capacity.val();
             }
             8 => {
                 self.value.next = self.beat_bits.val();

@@ -1,6 +1,6 @@
 //! What happened on the two streams in the clock before.
 
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 
 crate::packed! {

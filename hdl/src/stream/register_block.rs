@@ -11,7 +11,7 @@ use super::device_identity::DeviceIdentity;
 use super::events::{AnswerEvents, CommandEvents};
 use super::register_port::RegisterPort;
 use super::traffic::Traffic;
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use incircle_protocol::{Config, StreamRegister};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

@@ -23,7 +23,7 @@
 //! ```
 
 use super::axi::{Address, AxiLite};
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 

@@ -7,7 +7,7 @@
 //! ```text
 //!                  BusSide, bus_clock           |              CoreSide, core_clock
 //! s_axis -> BeatGate ----------------------> AsyncFifo -> BeatWords -------------> core
-//!               | events                        |             Progress <-----------+
+//!               | events                        |      CommandUnderWay <-----------+
 //! s_axi  -> RegisterBlock <-> ResetRequest <-----> ResetReply --> core_reset       |
 //!               | events                        |                                  v
 //! m_axis <- AnswerWatch <------------------- AsyncFifo <- AnswerBeats <- AnswerPairs
@@ -17,7 +17,7 @@ use super::async_fifo::AsyncFifo;
 use super::axi::{AxiLite, AxisSink, AxisSource};
 use super::bus_side::BusSide;
 use super::core_side::CoreSide;
-use crate::link::{AnswerSink, CommandSource};
+use crate::commands::{AnswerSink, CommandSource};
 use incircle_protocol::{Config, ConfigError, STREAM_FIFO_BEATS};
 use rust_hdl_core::prelude::*;
 

@@ -6,7 +6,7 @@
 
 use super::axi::RegisterIndex;
 use super::events::{AnswerEvents, CommandEvents};
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use incircle_protocol::StreamRegister;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;

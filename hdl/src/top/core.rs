@@ -10,9 +10,9 @@
 //!                 +--- AnswerHead, AnswerWords <- Counters, Latencies <- events
 //! ```
 
+use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
 use crate::engine::{Counters, InsertionEngine, Latencies, Write};
 use crate::leaf::Parameter;
-use crate::link::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
@@ -35,7 +35,7 @@ pub struct Core {
     latencies: Latencies,
     infinite: Parameter<Bits<15>>,
     capacity: Parameter<Bits<15>>,
-    ring: Parameter<Bits<7>>,
+    ring_capacity: Parameter<Bits<7>>,
     last_id: Parameter<Bits<15>>,
     contexts: Parameter<Bits<5>>,
     all_contexts: Parameter<Bits<24>>,
@@ -54,7 +54,7 @@ impl Core {
             engine: InsertionEngine::new(config),
             infinite: Parameter::new(u64::from(infinite_vertex(config.points)).into()),
             capacity: Parameter::new(u64::from(config.points).into()),
-            ring: Parameter::new(u64::from(config.ring).into()),
+            ring_capacity: Parameter::new(u64::from(config.ring).into()),
             last_id: Parameter::new(u64::from(triangle_capacity(config.points) - 1).into()),
             contexts: Parameter::new(u64::from(config.contexts).into()),
             all_contexts: Parameter::new(((1u64 << config.contexts) - 1).into()),
@@ -94,7 +94,7 @@ impl Logic for Core {
         self.answer_words.tally.next = self.command_port.tally.val();
         self.answer_words.capacity.next = self.capacity.val();
         self.answer_words.contexts.next = self.contexts.val();
-        self.answer_words.ring.next = self.ring.val();
+        self.answer_words.ring_capacity.next = self.ring_capacity.val();
         self.answer_words.records.next = self.engine.state.val().records;
         self.answer_words.insertions.next = self.counters.insertions.val();
         self.answer_words.duplicates.next = self.counters.duplicates.val();
@@ -113,9 +113,9 @@ impl Logic for Core {
 
         // The engine.
         self.engine.limits.next.infinite = self.infinite.val();
-        self.engine.limits.next.ring = self.ring.val();
+        self.engine.limits.next.ring_capacity = self.ring_capacity.val();
         self.engine.limits.next.last_id = self.last_id.val();
-        self.engine.limits.next.all = self.all_contexts.val();
+        self.engine.limits.next.built_contexts = self.all_contexts.val();
         self.engine.limits.next.patience = self.patience.val();
         self.engine.deal.next = self.command_port.deal.val();
         self.engine.clears.next = self.command_port.clearing.val().clears;

@@ -3,8 +3,8 @@
 //! 1. `reset` is needed once, after power-up, for two clocks or more: it passes a register, since the pin's side of it may be far away.
 
 use super::core::Core;
+use crate::commands::{AnswerSink, CommandSource};
 use crate::engine::Write;
-use crate::link::{AnswerSink, CommandSource};
 use crate::serial::{SerialError, SerialLink};
 use incircle_protocol::{Config, LinkConfig};
 use rust_hdl_core::prelude::*;

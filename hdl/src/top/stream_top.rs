@@ -3,8 +3,8 @@
 //! 1. `bus_reset_n` is needed once, after power-up. The core's reset follows from it.
 
 use super::core::Core;
+use crate::commands::{AnswerSink, CommandSource};
 use crate::engine::Write;
-use crate::link::{AnswerSink, CommandSource};
 use crate::stream::{AxiLite, AxisSink, AxisSource, StreamLink};
 use incircle_protocol::{Config, ConfigError};
 use rust_hdl_core::prelude::*;

@@ -43,7 +43,7 @@ pub enum Command {
     /// Measure a back end on generated sets: a table with a row per set
     ///
     /// For a core: clock cycles per insertion and the time they take at --mhz, triangles visited by walks and conflict tests (both per
-    /// insertion), attempts given up, waiting tokens, root retries; how much of the insertion its ports were busy (visits
+    /// insertion), attempts given up, priorities taken, root retries; how much of the insertion its ports were busy (visits
     /// issued, records written, commits at work, locks released); and how many cycles an insertion took. Median and
     /// 99th percentile are upper bounds, at most an eighth above the true value. For a board also the time of a job as a line over its points,
     /// t = c + m n, fitted to four sizes of each set. For the software model: host time, the best of three runs.

@@ -37,8 +37,8 @@ pub struct Counters {
     pub aborts: u32,
     /// Located triangles that no longer held the point when they were locked.
     pub root_retries: u32,
-    /// Times a context took the waiting token.
-    pub waiting_tokens: u32,
+    /// Times a context took the priority.
+    pub priorities_taken: u32,
     /// Clock cycles in which a visit was issued: the read port of the triangle memory.
     pub issue_cycles: u32,
     /// Clock cycles in which a record or a link was written: the write port.
@@ -77,7 +77,7 @@ impl Counters {
             revisits: narrow(Counter::Revisits),
             aborts: narrow(Counter::Aborts),
             root_retries: narrow(Counter::RootRetries),
-            waiting_tokens: narrow(Counter::WaitingTokens),
+            priorities_taken: narrow(Counter::PrioritiesTaken),
             issue_cycles: narrow(Counter::IssueCycles),
             write_cycles: narrow(Counter::WriteCycles),
             commit_cycles: narrow(Counter::CommitCycles),
@@ -105,7 +105,7 @@ impl Counters {
             ("revisits", self.revisits.into()),
             ("aborts", self.aborts.into()),
             ("root_retries", self.root_retries.into()),
-            ("waiting_tokens", self.waiting_tokens.into()),
+            ("priorities_taken", self.priorities_taken.into()),
             ("issue_cycles", self.issue_cycles.into()),
             ("write_cycles", self.write_cycles.into()),
             ("commit_cycles", self.commit_cycles.into()),

@@ -111,12 +111,12 @@ impl ClockModel {
     pub fn describe(&self) -> String {
         let now = &self.registers;
         format!(
-            "asleep {:x}, keeping {:x}, busy {:x}, waiter {:?}, alone {:?}, {} of {} points finished, commit {:?}, \
+            "asleep {:x}, retrying {:x}, busy {:x}, priority_context {:?}, solo {:?}, {} of {} points finished, commit {:?}, \
              solo {:?}, command {:?}",
             now.contexts.asleep,
-            now.contexts.keeps,
+            now.contexts.retrying,
             now.contexts.busy,
-            now.contexts.waiter,
+            now.contexts.priority_context,
             now.contexts.solo,
             now.contexts.finished,
             now.command.arrived,
@@ -147,7 +147,7 @@ impl ClockModel {
         now.contexts.clock(&was, &wires, self.config.contexts, self.defect);
         now.seeder.clock(&was, &wires);
         now.solo.clock(&was, &wires, &self.tables, &self.memory);
-        now.progress.clock(&was);
+        now.finished_points.clock(&was);
         now.watchdog.clock(&was, &wires, self.config);
         now.counters.clock(&was, &wires, &self.pipeline);
         now.counted = was.counters;

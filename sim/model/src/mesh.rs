@@ -177,7 +177,7 @@ impl Mesh {
             self.commit(id);
         } else {
             self.counts.overflows += 1;
-            self.insert_alone(id, p, root);
+            self.insert_solo(id, p, root);
         }
         self.counts.insertions += 1;
         Insertion::Inserted

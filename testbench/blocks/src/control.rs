@@ -3,14 +3,14 @@
 use incircle_protocol::{Config, LARGE, MAX_RING, SMALL, TINY};
 
 use crate::exported::block;
-use incircle_hdl::engine::{
-    AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FreshIds,
-    InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, PlanTable, Progress, PushPort,
-    Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
-};
-use incircle_hdl::link::{
+use incircle_hdl::commands::{
     AnswerHead, AnswerWords, ClearCommand, CommandGate, CommandPort, PointSlot, RecordBuffer, RecordReads, RecordWords,
     Responder, VertexPacker, VertexStream,
+};
+use incircle_hdl::engine::{
+    AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FinishedPoints,
+    FreshIds, InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint, NextVisits, PlanTable, PushPort,
+    Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
 
 /// The name of each root module, and its Verilog.
@@ -33,7 +33,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(NextPoint::default(), "next_point"),
         block(PlanTable::new(LARGE), "plan_table"),
         block(NextVisits::default(), "next_visits"),
-        block(Progress::default(), "progress"),
+        block(FinishedPoints::default(), "finished_points"),
         block(PushPort::default(), "push_port"),
         block(Release::new(TINY), "release_6"),
         block(Release::new(longest_list), "release_64"),

@@ -52,7 +52,7 @@ pub const FAULTS: &[Fault] = &[
         name: "foreign_lock",
         pieces: &[
             piece("test_counts$d = @;", "tests & (~foreign)", "tests"),
-            piece("test_is_refused$d = @;", "tests & foreign & (~is_waiter)", "1'b0"),
+            piece("test_is_refused$d = @;", "tests & foreign & (~holds_priority)", "1'b0"),
         ],
     },
     // L1: an attempt that fails releases its locks while visits of it are still out.
@@ -62,9 +62,9 @@ pub const FAULTS: &[Fault] = &[
     },
     // L1: an attempt that has failed does not rest.
     Fault { name: "rest", pieces: &[piece("is_rested = @;", "(~busy[index]) & rests_over", "~busy[index]")] },
-    // L2: nobody takes the waiting token.
+    // L2: nobody takes the priority.
     Fault {
-        name: "token",
+        name: "priority",
         pieces: &[piece("takes = @;", "outcome[(64'h8)+:(1)] & (~state$q[(64'h78)+:(1)])", "1'b0")],
     },
     // L3: the others do not yield to the context that waits.
@@ -106,7 +106,7 @@ pub const FAULTS: &[Fault] = &[
         name: "torn",
         pieces: &[piece(
             "is_torn = @;",
-            "write[(64'h0)+:(1)] & (write[(64'h1)+:(15)] == issue$token[(64'h28)+:(15)])",
+            "write[(64'h0)+:(1)] & (write[(64'h1)+:(15)] == issue$visit[(64'h28)+:(15)])",
             "1'b0",
         )],
     },
@@ -117,12 +117,12 @@ pub const FAULTS: &[Fault] = &[
         name: "own_lock",
         pieces: &[piece(
             "foreign = @;",
-            "met_clear3$q | (takes3$q & found_set$q & (~holder_is_owner))",
+            "met_clear3$q | (takes3$q & found_set$q & (~holder_is_own))",
             "met_clear3$q | (takes3$q & found_set$q)",
         )],
     },
     // The watchdog, and each place that hears of it, but for `CommandGate`: a core that gets stuck over a lock has its first triangle, and the
-    // gate has nothing to hold then. `tests/it/blocks/link/command_gate.rs` holds the gate.
+    // gate has nothing to hold then. `tests/it/blocks/commands/command_gate.rs` holds the gate.
     Fault { name: "watchdog_is_silent", pieces: &[piece("is_stuck$d = @;", "1'b1", "1'b0")] },
     Fault {
         name: "command_port_ignores_stuck",

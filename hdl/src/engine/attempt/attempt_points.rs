@@ -10,8 +10,8 @@
 //! taker             1  .  .  .
 //! taken_id          7  .  .  .
 //! now               3  .  .  .
-//! owner             .  .  1  .
-//! p                 .  .  7  .
+//! context_id        .  .  1  .
+//! vertex            .  .  7  .
 //! since             .  .  3  .
 //! ```
 
@@ -29,8 +29,8 @@ pub struct AttemptPoints {
     pub start: Signal<In, Start>,
     pub now: Signal<In, Clocks>,
     /// A context; its point, and when it was taken.
-    pub owner: Signal<In, ContextId>,
-    pub p: Signal<Out, VertexId>,
+    pub context_id: Signal<In, ContextId>,
+    pub vertex: Signal<Out, VertexId>,
     pub since: Signal<Out, Clocks>,
     points: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
     times: LutMemory<CONTEXT_BITS, LATENCY_BITS>,
@@ -54,7 +54,7 @@ impl Logic for AttemptPoints {
         dff_setup!(self, clock, has_taken, last_taker, last_taken, taken_at);
         clock!(self, clock, points, times);
         self.has_taken.d.next = self.start.val().takes;
-        self.last_taker.d.next = self.start.val().owner;
+        self.last_taker.d.next = self.start.val().context;
         self.last_taken.d.next = self.start.val().id;
         self.taken_at.d.next = self.now.val();
         self.points.write_address.next = self.last_taker.q.val();
@@ -63,9 +63,9 @@ impl Logic for AttemptPoints {
         self.times.write_address.next = self.last_taker.q.val();
         self.times.write_data.next = self.taken_at.q.val();
         self.times.write_enable.next = self.has_taken.q.val();
-        self.points.read_address.next = self.owner.val();
-        self.times.read_address.next = self.owner.val();
-        self.p.next = self.points.read_data.val();
+        self.points.read_address.next = self.context_id.val();
+        self.times.read_address.next = self.context_id.val();
+        self.vertex.next = self.points.read_data.val();
         self.since.next = self.times.read_data.val();
     }
 }

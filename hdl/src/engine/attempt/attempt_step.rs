@@ -52,11 +52,11 @@ impl Logic for AttemptStep {
         self.half_open.next = self.attempt.val().half_open;
 
         // L1: a failed attempt is over when its last visit is in.
-        self.fails.next = self.attempt.val().drains | self.found.val().gives_up | self.found.val().overflows;
+        self.fails.next = self.attempt.val().drains | self.found.val().aborts | self.found.val().overflows;
         self.ends_here.next = self.found.val().is_test
             & self.held.val().is_last
             & (!self.found.val().splits)
-            & (!self.found.val().repeats);
+            & (!self.found.val().revisits);
         self.step.next.is_over = self.ends_here.val();
         self.step.next.succeeds = self.ends_here.val() & (!self.fails.val());
 
@@ -72,7 +72,7 @@ impl Logic for AttemptStep {
         self.after.next = self.attempt.val();
         self.after.next.drains = self.fails.val();
         self.after.next.outstanding = self.outstanding.val() - self.one.val();
-        if self.found.val().repeats {
+        if self.found.val().revisits {
             self.after.next.outstanding = self.outstanding.val();
         }
         if self.took.val() {

@@ -1,17 +1,17 @@
 //! The states of the attempts of all contexts, each at hand in the clock in which a visit of its context completes.
 //!
-//! 1. Every visit is announced by `early_token` in the clock before its own. There may be pauses.
+//! 1. Every visit is announced by `early_visit` in the clock before its own. There may be pauses.
 //! 2. A visit sees what all visits before it have left, also a test of the clock before. The visit that opens an attempt is the only one
 //!    of its context: the next one comes later.
 //! 3. An attempt begins with the three tests of the root's neighbours and its one lock.
 //! 4. `is_last`, `is_full` and `edge_was_passed` say nothing that is not in `attempt`; they are ready sooner.
 //!
-//! Latency: 1 clock from `early_token` to `held`. What is written in a clock is seen in the next.
+//! Latency: 1 clock from `early_visit` to `held`. What is written in a clock is seen in the next.
 //!
 //! Source: a memory in LUTs, read a clock ahead, with a way round it.
 
 use crate::engine::types::{
-    context_bits, ring_bits, Attempt, Case, RingCount, RingEntry, Step, Token, ATTEMPT_BITS, CONTEXT_BITS, ENTRY_BITS,
+    context_bits, ring_bits, Attempt, Case, RingCount, RingEntry, Step, Visit, ATTEMPT_BITS, CONTEXT_BITS, ENTRY_BITS,
 };
 use crate::leaf::{LutMemory, Parameter, Unpack};
 use incircle_protocol::Config;
@@ -25,9 +25,9 @@ crate::packed! {
         /// One visit is out; the list holds as many entries as it can.
         pub is_last: bool,
         pub is_full: bool,
-        /// `attempt.half_open` at `f_entry` of the visit.
+        /// `attempt.half_open` at `cavity_entry` of the visit.
         pub edge_was_passed: bool,
-        /// `f_entry` of the visit, a bit each.
+        /// `cavity_entry` of the visit, a bit each.
         pub entry_bit: Bits<64>,
     }
 }
@@ -37,10 +37,10 @@ crate::packed! {
 pub struct AttemptStore {
     pub clock: Signal<In, Clock>,
     /// Entries a boundary list holds, a constant.
-    pub ring: Signal<In, RingCount>,
-    /// The visit that completes in the next clock, and the one of this clock: context and `f_entry` count.
-    pub early_token: Signal<In, Token>,
-    pub token: Signal<In, Token>,
+    pub ring_capacity: Signal<In, RingCount>,
+    /// The visit that completes in the next clock, and the one of this clock: context and `cavity_entry` count.
+    pub early_visit: Signal<In, Visit>,
+    pub visit: Signal<In, Visit>,
     /// The attempt of the visit of this clock.
     pub held: Signal<Out, Held>,
     /// What the visit means, and what it makes of its attempt: if the second edge of the root is passed, bit 1 of `half_open` goes up.
@@ -122,10 +122,10 @@ impl Logic for AttemptStore {
         // The flags after a test, from what stands in registers.
         self.outstanding.next = self.state.q.val().outstanding;
         self.count.next = self.state.q.val().count;
-        self.before_full.next = self.ring.val() - self.one.val();
+        self.before_full.next = self.ring_capacity.val() - self.one.val();
         self.becomes_last.next = self.outstanding.val() == self.two.val();
         self.becomes_full.next = self.flag_bits.q.val().get_bit(1);
-        if self.found.val().repeats {
+        if self.found.val().revisits {
             self.becomes_last.next = self.flag_bits.q.val().get_bit(0);
         }
         if self.found.val().splits {
@@ -145,7 +145,7 @@ impl Logic for AttemptStore {
         // What is written: that, or the state of an attempt that begins.
         self.written.next = self.after.val();
         self.written_flags.next = self.flags_after.val();
-        self.opens_full.next = self.ring.val() == self.three.val();
+        self.opens_full.next = self.ring_capacity.val() == self.three.val();
         if self.found.val().opens {
             self.written.next.drains = false;
             self.written.next.outstanding = 3.into();
@@ -161,26 +161,26 @@ impl Logic for AttemptStore {
         self.written_bits.next = self.written.val().into();
 
         // The memory.
-        self.states.write_address.next = self.token.val().owner;
+        self.states.write_address.next = self.visit.val().context;
         self.states.write_data.next = self.written_bits.val();
         self.states.write_enable.next = self.found.val().is_test | self.found.val().opens;
-        self.states.read_address.next = self.early_token.val().owner;
-        self.flags.write_address.next = self.token.val().owner;
+        self.states.read_address.next = self.early_visit.val().context;
+        self.flags.write_address.next = self.visit.val().context;
         self.flags.write_data.next = self.written_flags.val();
         self.flags.write_enable.next = self.found.val().is_test | self.found.val().opens;
-        self.flags.read_address.next = self.early_token.val().owner;
+        self.flags.read_address.next = self.early_visit.val().context;
         self.stored.bits.next = self.states.read_data.val();
 
         // The edge that the next visit asks for.
-        self.entry.next = self.early_token.val().f_entry;
+        self.entry.next = self.early_visit.val().cavity_entry;
         self.first_bit.next = 1.into();
-        self.wide_entry.next = bit_cast::<64, 6>(self.early_token.val().f_entry);
+        self.wide_entry.next = bit_cast::<64, 6>(self.early_visit.val().cavity_entry);
         self.named_entry.d.next = self.first_bit.val() << self.wide_entry.val();
         self.held.next.entry_bit = self.named_entry.q.val() & self.all_entries.val();
         self.kept_edges.next = self.state.q.val().half_open;
         self.stored_edges.next = self.stored.value.val().half_open;
-        self.is_same_entry.next = self.early_token.val().f_entry == self.token.val().f_entry;
-        self.is_second_entry.next = self.early_token.val().f_entry == self.second_entry.val();
+        self.is_same_entry.next = self.early_visit.val().cavity_entry == self.visit.val().cavity_entry;
+        self.is_second_entry.next = self.early_visit.val().cavity_entry == self.second_entry.val();
         self.stored_passed.d.next = self.stored_edges.val().get_bit(self.entry.val().index());
         self.kept_passed.d.next = self.kept_edges.val().get_bit(self.entry.val().index())
             | (self.found.val().splits & self.is_same_entry.val())
@@ -189,7 +189,7 @@ impl Logic for AttemptStore {
         self.edges_after.next = self.after.val().half_open;
 
         // What the next visit sees: the memory, or what goes into it now.
-        self.goes_round.next = self.found.val().is_test & (self.early_token.val().owner == self.token.val().owner);
+        self.goes_round.next = self.found.val().is_test & (self.early_visit.val().context == self.visit.val().context);
         self.went_round.d.next = self.goes_round.val();
         self.state.d.next = self.stored.value.val();
         self.flag_bits.d.next = self.flags.read_data.val();

@@ -8,12 +8,12 @@ use rust_hdl_core::prelude::*;
 #[derive(LogicBlock)]
 pub struct ContextAddress<const P: usize, const A: usize> {
     /// The context.
-    pub owner: Signal<In, Bits<5>>,
+    pub context_id: Signal<In, Bits<5>>,
     /// Its word; less than `2^place_bits`.
     pub place: Signal<In, Bits<P>>,
-    /// `owner * 2^place_bits + place`.
+    /// `context_id * 2^place_bits + place`.
     pub address: Signal<Out, Bits<A>>,
-    wide_owner: Signal<Local, Bits<A>>,
+    wide_context: Signal<Local, Bits<A>>,
     wide_place: Signal<Local, Bits<A>>,
     base: Signal<Local, Bits<A>>,
     place_bits: Constant<Bits<A>>,
@@ -27,10 +27,10 @@ impl<const P: usize, const A: usize> ContextAddress<P, A> {
     pub fn new(place_bits: usize) -> Self {
         assert!((1..=P).contains(&place_bits), "a word of a context has 1 to {P} bits here, not {place_bits}");
         Self {
-            owner: Signal::default(),
+            context_id: Signal::default(),
             place: Signal::default(),
             address: Signal::default(),
-            wide_owner: Signal::default(),
+            wide_context: Signal::default(),
             wide_place: Signal::default(),
             base: Signal::default(),
             place_bits: Constant::new(Bits::from(place_bits as u64)),
@@ -47,9 +47,9 @@ impl<const P: usize, const A: usize> Default for ContextAddress<P, A> {
 impl<const P: usize, const A: usize> Logic for ContextAddress<P, A> {
     #[hdl_gen]
     fn update(&mut self) {
-        self.wide_owner.next = bit_cast::<A, 5>(self.owner.val());
+        self.wide_context.next = bit_cast::<A, 5>(self.context_id.val());
         self.wide_place.next = bit_cast::<A, P>(self.place.val());
-        self.base.next = self.wide_owner.val() << self.place_bits.val();
+        self.base.next = self.wide_context.val() << self.place_bits.val();
         self.address.next = self.base.val() | self.wide_place.val();
     }
 }

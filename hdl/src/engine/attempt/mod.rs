@@ -13,7 +13,7 @@
 //! which the visit does. So the visits of all contexts may complete in any order, one in each clock.
 //!
 //! Lock rules (see `docs/engine.md`): L1, an attempt that meets a foreign lock drains and releases ([`VisitCase`], [`AttemptStep`],
-//! [`Aftermath`]); L2, the holder of the waiting token asks again instead ([`VisitCase`]); L5, the located triangle is visited once more
+//! [`Aftermath`]); L2, the holder of the priority asks again instead ([`VisitCase`]); L5, the located triangle is visited once more
 //! under its lock ([`VisitCase`], [`NextVisits`]); L6, a walk visits its triangle again while its context's last commit or
 //! release is due ([`VisitCase`]); L7, a walk visits a record again that was not written ([`VisitCase`]).
 

@@ -15,17 +15,17 @@
 //!
 //! A walk goes on at record 6, a root opens, a test of entry 4 passes and allocates entry 9:
 //! ```text
-//! early.u           5  6  7  .  .
-//! early.n1          .  1  8  .  .
-//! walks_on        ___/^^\________
-//! bundle.u          .  6  0  8  .
-//! bundle.is_pair  ______/^^^^^\__
-//! bundle.f          .  .  6  7  .
-//! bundle.x          .  .  0  4  .
-//! bundle.after      .  .  1  9  .
+//! early.record           5  6  7  .  .
+//! early.n1               .  1  8  .  .
+//! walks_on             ___/^^\________
+//! bundle.record          .  6  0  8  .
+//! bundle.is_pair       ______/^^^^^\__
+//! bundle.cavity_record   .  .  6  7  .
+//! bundle.entry           .  .  0  4  .
+//! bundle.after           .  .  1  9  .
 //! ```
 
-use crate::engine::types::{Bundle, Case, RingEntry, Token, TriangleId, Turned};
+use crate::engine::types::{Bundle, Case, RingEntry, TriangleId, Turned, Visit};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -34,7 +34,7 @@ use rust_hdl_widgets::prelude::*;
 pub struct NextVisits {
     pub clock: Signal<In, Clock>,
     /// The visit that completes in the next clock.
-    pub early_token: Signal<In, Token>,
+    pub early_visit: Signal<In, Visit>,
     pub early_turned: Signal<In, Turned>,
     /// What the visit of this clock means.
     pub found: Signal<In, Case>,
@@ -56,35 +56,35 @@ impl Logic for NextVisits {
     fn update(&mut self) {
         dff_setup!(self, clock, prepared, halves);
         self.opens.next =
-            (!self.early_token.val().rotates) & self.early_token.val().locks & (!self.early_turned.val().foreign);
-        self.splits.next = self.early_token.val().rotates & (!self.early_turned.val().foreign);
+            (!self.early_visit.val().rotates) & self.early_visit.val().locks & (!self.early_turned.val().foreign);
+        self.splits.next = self.early_visit.val().rotates & (!self.early_turned.val().foreign);
 
         // The same visit again, but for what each case changes.
         self.prepared.d.next.is_pair = self.opens.val() | self.splits.val();
         self.prepared.d.next.is_triple = self.opens.val();
-        self.prepared.d.next.owner = self.early_token.val().owner;
-        self.prepared.d.next.rotates = self.early_token.val().rotates | self.opens.val();
-        self.prepared.d.next.locks = self.early_token.val().locks;
-        self.prepared.d.next.x = self.early_token.val().x;
-        self.prepared.d.next.after = self.early_token.val().after;
-        self.prepared.d.next.f_entry = self.early_token.val().f_entry;
-        self.prepared.d.next.f = self.early_token.val().f;
-        self.prepared.d.next.u = self.early_token.val().u;
-        self.prepared.d.next.second_after = self.early_token.val().after;
-        self.prepared.d.next.second_u = self.early_turned.val().n2;
-        self.prepared.d.next.third_u = self.early_turned.val().n2;
+        self.prepared.d.next.context = self.early_visit.val().context;
+        self.prepared.d.next.rotates = self.early_visit.val().rotates | self.opens.val();
+        self.prepared.d.next.locks = self.early_visit.val().locks;
+        self.prepared.d.next.entry = self.early_visit.val().entry;
+        self.prepared.d.next.after = self.early_visit.val().after;
+        self.prepared.d.next.cavity_entry = self.early_visit.val().cavity_entry;
+        self.prepared.d.next.cavity_record = self.early_visit.val().cavity_record;
+        self.prepared.d.next.record = self.early_visit.val().record;
+        self.prepared.d.next.second_after = self.early_visit.val().after;
+        self.prepared.d.next.second_record = self.early_turned.val().n2;
+        self.prepared.d.next.third_record = self.early_turned.val().n2;
         if self.splits.val() {
-            self.prepared.d.next.f = self.early_token.val().u;
-            self.prepared.d.next.u = self.early_turned.val().n1;
+            self.prepared.d.next.cavity_record = self.early_visit.val().record;
+            self.prepared.d.next.record = self.early_turned.val().n1;
         }
         if self.opens.val() {
-            self.prepared.d.next.x = 0.into();
+            self.prepared.d.next.entry = 0.into();
             self.prepared.d.next.after = 1.into();
-            self.prepared.d.next.f_entry = 0.into();
-            self.prepared.d.next.f = self.early_token.val().u;
-            self.prepared.d.next.u = self.early_turned.val().n0;
+            self.prepared.d.next.cavity_entry = 0.into();
+            self.prepared.d.next.cavity_record = self.early_visit.val().record;
+            self.prepared.d.next.record = self.early_turned.val().n0;
             self.prepared.d.next.second_after = 2.into();
-            self.prepared.d.next.second_u = self.early_turned.val().n1;
+            self.prepared.d.next.second_record = self.early_turned.val().n1;
         }
         self.halves.d.next = self.splits.val();
 
@@ -94,11 +94,11 @@ impl Logic for NextVisits {
             self.bundle.next.locks = true;
         }
         if self.found.val().walks_on {
-            self.bundle.next.u = self.walk_next.val();
+            self.bundle.next.record = self.walk_next.val();
         }
         if self.halves.q.val() {
             self.bundle.next.after = self.entry.val();
-            self.bundle.next.f_entry = self.entry.val();
+            self.bundle.next.cavity_entry = self.entry.val();
         }
     }
 }

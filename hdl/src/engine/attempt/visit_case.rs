@@ -1,11 +1,11 @@
 //! What a visit that completes means for its context.
 //!
-//! 1. Who meets a lock of another context gives up (L1), unless it holds the waiting token: then it asks again (L2).
+//! 1. Who meets a lock of another context gives up (L1), unless it holds the priority: then it asks again (L2).
 //! 2. A walk holds no locks. It looks again at a record that is not written yet or being written (L7), and at its goal while the
 //!    context still has locks of its last point (L6).
 //! 3. The located triangle is visited again under its lock, so what the walk saw need not be true any more (L5).
 //! 4. At most one of `looks` to `root_duplicate` of the case is high; none is for a test of an attempt that drains.
-//! 5. What does not depend on the verdict is decided a clock ahead; so are `is_busy` and `is_waiter`.
+//! 5. What does not depend on the verdict is decided a clock ahead; so are `is_busy` and `holds_priority`.
 //!
 //! Latency: 1 clock from the early inputs; none from `verdict`, `drains` and `is_full`.
 //!
@@ -19,12 +19,12 @@
 //! is_walk         ______/^^\_________________
 //! locates         ______/^^\_________________
 //! opens           ____________/^^\___________
-//! gives_up        __________________/^^\_____
+//! aborts          __________________/^^\_____
 //! asks            ______/^^\__/^^\___________
 //! may_ask         ______/^^\__/^^\__/^^\_____
 //! ```
 
-use crate::engine::types::{Case, Token, Turned, Upcoming, Verdict};
+use crate::engine::types::{Case, Turned, Upcoming, Verdict, Visit};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -38,8 +38,8 @@ pub struct VisitCase {
     pub seeded: Signal<In, Bit>,
     /// A commit or a release of the context of that visit is due.
     pub is_busy: Signal<In, Bit>,
-    /// This context holds the waiting token.
-    pub is_waiter: Signal<In, Bit>,
+    /// This context holds the priority.
+    pub holds_priority: Signal<In, Bit>,
     /// What the visit that completes in this clock has found out.
     pub verdict: Signal<In, Verdict>,
     /// Its attempt has failed; its list is full.
@@ -63,7 +63,7 @@ pub struct VisitCase {
     test_is_awaited: DFF<Bit>,
     test_is_refused: DFF<Bit>,
     may_ask_anyway: DFF<Bit>,
-    token: Signal<Local, Token>,
+    visit: Signal<Local, Visit>,
     turned: Signal<Local, Turned>,
     walks: Signal<Local, Bit>,
     visits_root: Signal<Local, Bit>,
@@ -84,13 +84,13 @@ impl Logic for VisitCase {
         dff_setup!(self, clock, root_is_awaited, root_is_refused, tested, test_counts, test_is_awaited);
         dff_setup!(self, clock, test_is_refused, may_ask_anyway, completed);
 
-        self.token.next = self.early.val().token;
+        self.visit.next = self.early.val().visit;
         self.turned.next = self.early.val().turned;
 
         // A clock ahead: the kind of visit, and what became of its lock.
-        self.walks.next = self.early.val().done & (!self.token.val().rotates) & (!self.token.val().locks);
-        self.visits_root.next = self.early.val().done & (!self.token.val().rotates) & self.token.val().locks;
-        self.tests.next = self.early.val().done & self.token.val().rotates;
+        self.walks.next = self.early.val().done & (!self.visit.val().rotates) & (!self.visit.val().locks);
+        self.visits_root.next = self.early.val().done & (!self.visit.val().rotates) & self.visit.val().locks;
+        self.tests.next = self.early.val().done & self.visit.val().rotates;
         self.foreign.next = self.turned.val().foreign;
         self.looked.d.next = self.walks.val() & (!self.seeded.val());
         self.walked.d.next = self.walks.val() & self.seeded.val();
@@ -99,13 +99,13 @@ impl Logic for VisitCase {
         self.context_is_busy.d.next = self.is_busy.val();
         self.rooted.d.next = self.visits_root.val();
         self.root_is_held.d.next = self.visits_root.val() & (!self.foreign.val());
-        self.root_is_awaited.d.next = self.visits_root.val() & self.foreign.val() & self.is_waiter.val();
-        self.root_is_refused.d.next = self.visits_root.val() & self.foreign.val() & (!self.is_waiter.val());
+        self.root_is_awaited.d.next = self.visits_root.val() & self.foreign.val() & self.holds_priority.val();
+        self.root_is_refused.d.next = self.visits_root.val() & self.foreign.val() & (!self.holds_priority.val());
         self.tested.d.next = self.tests.val();
         self.test_counts.d.next = self.tests.val() & (!self.foreign.val());
-        self.test_is_awaited.d.next = self.tests.val() & self.foreign.val() & self.is_waiter.val();
-        self.test_is_refused.d.next = self.tests.val() & self.foreign.val() & (!self.is_waiter.val());
-        self.may_ask_anyway.d.next = self.early.val().done & ((!self.token.val().rotates) | self.foreign.val());
+        self.test_is_awaited.d.next = self.tests.val() & self.foreign.val() & self.holds_priority.val();
+        self.test_is_refused.d.next = self.tests.val() & self.foreign.val() & (!self.holds_priority.val());
+        self.may_ask_anyway.d.next = self.early.val().done & ((!self.visit.val().rotates) | self.foreign.val());
         self.completed.d.next = self.early.val().done;
         self.found.next.is_done = self.completed.q.val();
         self.found.next.is_walk = self.walked.q.val();
@@ -123,23 +123,23 @@ impl Logic for VisitCase {
         self.found.next.locates = self.walk_counts.q.val() & self.is_located.val() & (!self.context_is_busy.q.val());
 
         // The visit of the root. L5: only what is seen under the lock counts.
-        self.found.next.gives_up_root = self.root_is_refused.q.val();
+        self.found.next.aborts_root = self.root_is_refused.q.val();
         self.found.next.opens = self.root_is_held.q.val() & self.is_located.val();
         self.found.next.root_duplicate = self.root_is_held.q.val() & self.is_corner.val();
-        self.found.next.retries = self.root_is_held.q.val() & (!self.verdict.val().located);
+        self.found.next.root_changed = self.root_is_held.q.val() & (!self.verdict.val().located);
 
         // A test. L1: a foreign lock fails the attempt, whatever the verdict.
         self.is_live.next = self.test_counts.q.val() & (!self.drains.val());
         self.passes.next = self.is_live.val() & self.verdict.val().conflict & (!self.is_full.val());
-        self.found.next.gives_up = self.test_is_refused.q.val() & (!self.drains.val());
+        self.found.next.aborts = self.test_is_refused.q.val() & (!self.drains.val());
         self.found.next.settles = self.is_live.val() & (!self.verdict.val().conflict);
         self.found.next.overflows = self.is_live.val() & self.verdict.val().conflict & self.is_full.val();
         self.found.next.splits = self.passes.val();
 
-        // Visits that follow. L2: the holder of the waiting token asks again instead of failing.
+        // Visits that follow. L2: the holder of the priority asks again instead of failing.
         self.asks_again.next = self.root_is_awaited.q.val() | (self.test_is_awaited.q.val() & (!self.drains.val()));
         self.found.next.waits = self.asks_again.val();
-        self.found.next.repeats = self.looks_again.val() | self.asks_again.val();
+        self.found.next.revisits = self.looks_again.val() | self.asks_again.val();
         self.found.next.asks = self.walk_is_torn.q.val()
             | (self.walk_counts.q.val() & (!self.is_corner.val()))
             | (self.root_is_held.q.val() & self.is_located.val())

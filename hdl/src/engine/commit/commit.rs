@@ -1,6 +1,7 @@
 //! One pass over a finished ring writes the star of the new point; one ring follows the other without a pause.
 //!
-//! 1. Entry `i` writes the record `v = (p, a, b)`, `n = (u, id of i + 1, id of i - 1)`, then the link of `u` unless it is right.
+//! 1. Entry `i` writes the record of the new vertex, the first vertex of entry `i` and that of entry `i + 1`; its neighbours are the
+//!    outside record and the records of entries `i + 1` and `i - 1`. Then it writes the link of the outside record, unless that is right.
 //! 2. Its id is that of the cavity triangle behind it, unless the entry before or the first entry took it: then an inner
 //!    triangle's, or a new one. Two new ones are taken in all. An id given so is never that of the triangle behind the entry.
 //! 3. The first entry's record is written last, because it needs the last one's id.
@@ -57,9 +58,9 @@ pub struct Commit {
     current: DFF<Entry>,
     current_id: DFF<TriangleId>,
     before_id: DFF<TriangleId>,
-    second_a: DFF<VertexId>,
+    second_vertex: DFF<VertexId>,
     second_id: DFF<TriangleId>,
-    link_u: DFF<TriangleId>,
+    link_record: DFF<TriangleId>,
     link_slot: DFF<Slot>,
     request: DFF<Write>,
     steps: CommitSteps,
@@ -80,14 +81,14 @@ impl Commit {
 impl Logic for Commit {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, ring, first, current, current_id, before_id, second_a, second_id);
-        dff_setup!(self, clock, link_u, link_slot, request);
+        dff_setup!(self, clock, ring, first, current, current_id, before_id, second_vertex, second_id);
+        dff_setup!(self, clock, link_record, link_slot, request);
         clock!(self, clock, steps, inner_list);
         self.entry.next = self.head.val().entry;
         self.write.next = self.request.q.val();
         self.committed.next.valid = self.steps.is_close.val();
         self.committed.next.job = self.ring.q.val();
-        self.committed.next.hint = self.first.q.val().f;
+        self.committed.next.hint = self.first.q.val().cavity_record;
         self.is_at_work.next = self.steps.is_at_work.val();
 
         // The entry ahead and its id.
@@ -98,7 +99,7 @@ impl Logic for Commit {
         self.takes.next = self.steps.takes.val();
         self.takes_fresh.next = self.steps.advances.val() & self.star_id.is_fresh.val();
         self.inner_list.inner.next = self.inner.val();
-        self.inner_list.reader.next = self.head_job.val().owner;
+        self.inner_list.reader.next = self.head_job.val().context;
         self.inner_list.inners.next = self.head_job.val().inners;
         self.inner_list.restarts.next = self.steps.loads.val();
         self.inner_list.steps.next = self.steps.advances.val() & self.star_id.is_inner.val();
@@ -111,17 +112,17 @@ impl Logic for Commit {
 
         // The writes; when the ring closes, the current entry is the first again.
         self.record.id.next = self.current_id.q.val();
-        self.record.v0.next = self.ring.q.val().p;
-        self.record.v1.next = self.current.q.val().a;
-        self.record.v2.next = self.star_id.ahead.val().a;
-        self.record.n0.next = self.current.q.val().u;
+        self.record.v0.next = self.ring.q.val().vertex;
+        self.record.v1.next = self.current.q.val().first_vertex;
+        self.record.v2.next = self.star_id.ahead.val().first_vertex;
+        self.record.n0.next = self.current.q.val().outside_record;
         self.record.n1.next = self.star_id.id.val();
         self.record.n2.next = self.before_id.q.val();
         if self.steps.is_close.val() {
-            self.record.v2.next = self.second_a.q.val();
+            self.record.v2.next = self.second_vertex.q.val();
             self.record.n1.next = self.second_id.q.val();
         }
-        self.link.id.next = self.link_u.q.val();
+        self.link.id.next = self.link_record.q.val();
         self.link.slot.next = self.link_slot.q.val();
         self.link.value.next = self.before_id.q.val();
         self.request.d.next = self.record.write.val();
@@ -132,10 +133,10 @@ impl Logic for Commit {
 
         if self.steps.advances.val() {
             if self.steps.opens.val() {
-                self.second_a.d.next = self.star_id.ahead.val().a;
+                self.second_vertex.d.next = self.star_id.ahead.val().first_vertex;
                 self.second_id.d.next = self.star_id.id.val();
             }
-            self.link_u.d.next = self.current.q.val().u;
+            self.link_record.d.next = self.current.q.val().outside_record;
             self.link_slot.d.next = self.current.q.val().slot;
             self.before_id.d.next = self.current_id.q.val();
             self.current.d.next = self.star_id.ahead.val();
@@ -145,7 +146,7 @@ impl Logic for Commit {
             self.ring.d.next = self.head_job.val();
             self.first.d.next = self.entry.val();
             self.current.d.next = self.entry.val();
-            self.current_id.d.next = self.entry.val().f;
+            self.current_id.d.next = self.entry.val().cavity_record;
         }
         if self.reset.val() {
             self.request.d.next.valid = false;

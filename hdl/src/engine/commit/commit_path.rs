@@ -105,7 +105,7 @@ impl Logic for CommitPath {
         // The locks. L4: those of a ring are due at its last write, not when the ring is finished.
         self.logged.d.next = self.lock.val();
         self.job.next = self.star.committed.val().job;
-        self.written_locks.next.owner = self.job.val().owner;
+        self.written_locks.next.context = self.job.val().context;
         self.written_locks.next.locks = self.job.val().locks;
         self.locks.last_id.next = self.last_id.val();
         self.locks.lock.next = self.logged.q.val();

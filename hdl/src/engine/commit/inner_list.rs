@@ -44,7 +44,7 @@ pub struct InnerList {
     pub inner_id: Signal<Out, TriangleId>,
     memory: BlockMemory<RING_ADDRESS_BITS, TRIANGLE_BITS>,
     written: DFF<InnerWrite>,
-    list_owner: DFF<ContextId>,
+    list_context: DFF<ContextId>,
     list_inners: DFF<RingCount>,
     index: DFF<RingCount>,
     /// The next triangle is the last one, one clock late: it is looked at later still.
@@ -78,19 +78,19 @@ impl InnerList {
 impl Logic for InnerList {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, written, list_owner, list_inners);
+        dff_setup!(self, clock, written, list_context, list_inners);
         dff_setup!(self, clock, index, one_is_left, used_up, awaited, stood_1, stood_2, arrival);
         clock!(self, clock, memory);
         self.one.next = 1.into();
         self.first_place.next = 0.into();
         self.written.d.next = self.inner.val();
-        self.write_at.owner.next = self.written.q.val().owner;
+        self.write_at.context_id.next = self.written.q.val().context;
         self.write_at.place.next = self.written.q.val().place;
         self.memory.write_address.next = self.write_at.address.val();
         self.memory.write_data.next = self.written.q.val().id;
         self.memory.write_enable.next = self.written.q.val().valid;
 
-        self.read_at.owner.next = self.list_owner.q.val();
+        self.read_at.context_id.next = self.list_context.q.val();
         self.read_at.place.next = self.index.q.val().get_bits::<6>(0);
         self.memory.read_address.next = self.read_at.address.val();
         self.arrival.d.next = self.memory.read_data.val();
@@ -110,7 +110,7 @@ impl Logic for InnerList {
         }
         if self.restarts.val() {
             self.index.d.next = self.first_place.val();
-            self.list_owner.d.next = self.reader.val();
+            self.list_context.d.next = self.reader.val();
             self.list_inners.d.next = self.inners.val();
             self.used_up.d.next = self.inners.val() == self.first_place.val();
             self.awaited.d.next = self.inners.val() != self.first_place.val();

@@ -10,16 +10,16 @@
 //!
 //! A sweep of four records; then two failures, of contexts 1 and 0, and a ring of context 3, which overtakes the second one:
 //! ```text
-//! reset           /^^\_______________________________________________
-//! sweeps          ___/^^^^^^^^^^^\___________________________________
-//! lock_enable     _________/^^^^^^^^\__/^^\__________________________
-//! lock_id           .  .  . 27 28 26  . 25  .  .  .  .  .  .  .  .  .
-//! failure_enable  __________________/^^^^^\__________________________
-//! commit_enable   ________________________/^^\_______________________
-//! clear_enable    ______/^^^^^^^^^^^\______________/^^^^^^^^^^^\_____
-//! clear_id          .  .  0  1  2  3  .  .  .  .  . 27 28 26 25  .  .
-//! released        ____________________________________/^^^^^^^^\_____
-//! released_owner    .  .  .  .  .  .  .  .  .  .  .  .  1  3  0  .  .
+//! reset            /^^\_______________________________________________
+//! sweeps           ___/^^^^^^^^^^^\___________________________________
+//! lock_enable      _________/^^^^^^^^\__/^^\__________________________
+//! lock_id            .  .  . 27 28 26  . 25  .  .  .  .  .  .  .  .  .
+//! failure_enable   __________________/^^^^^\__________________________
+//! commit_enable    ________________________/^^\_______________________
+//! clear_enable     ______/^^^^^^^^^^^\______________/^^^^^^^^^^^\_____
+//! clear_id           .  .  0  1  2  3  .  .  .  .  . 27 28 26 25  .  .
+//! released         ____________________________________/^^^^^^^^\_____
+//! released_context   .  .  .  .  .  .  .  .  .  .  .  .  1  3  0  .  .
 //! ```
 
 use super::job_queue::JobQueue;
@@ -74,15 +74,15 @@ pub struct Release {
     /// A lock in the log's array, and in its output register.
     array_valid: DFF<Bit>,
     array_is_last: DFF<Bit>,
-    array_owner: DFF<ContextId>,
+    array_context: DFF<ContextId>,
     output_valid: DFF<Bit>,
     output_is_last: DFF<Bit>,
-    output_owner: DFF<ContextId>,
+    output_context: DFF<ContextId>,
     /// The lock being cleared; during the sweep it counts.
     clears: DFF<Bit>,
     cleared: DFF<TriangleId>,
     is_last: DFF<Bit>,
-    owner: DFF<ContextId>,
+    cleared_context: DFF<ContextId>,
     sweeping: DFF<Bit>,
     takes: Signal<Local, Bit>,
     fetches_last: Signal<Local, Bit>,
@@ -116,8 +116,19 @@ impl Logic for Release {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, one_is_left, two_are_left, left);
-        dff_setup!(self, clock, works, at_work, place, array_valid, array_is_last, array_owner);
-        dff_setup!(self, clock, output_valid, output_is_last, output_owner, clears, cleared, is_last, owner, sweeping);
+        dff_setup!(self, clock, works, at_work, place, array_valid, array_is_last, array_context);
+        dff_setup!(
+            self,
+            clock,
+            output_valid,
+            output_is_last,
+            output_context,
+            clears,
+            cleared,
+            is_last,
+            cleared_context,
+            sweeping
+        );
         clock!(self, clock, commits, failures, log);
         self.one.next = 1.into();
         self.one_place.next = 1.into();
@@ -127,15 +138,15 @@ impl Logic for Release {
         self.clear.next.valid = self.clears.q.val();
         self.clear.next.id = self.cleared.q.val();
         self.released.next.valid = self.is_last.q.val();
-        self.released.next.owner = self.owner.q.val();
+        self.released.next.context = self.cleared_context.q.val();
 
         // The log.
-        self.write_at.owner.next = self.lock.val().owner;
+        self.write_at.context_id.next = self.lock.val().context;
         self.write_at.place.next = self.lock.val().place;
         self.log.write_address.next = self.write_at.address.val();
         self.log.write_data.next = self.lock.val().id;
         self.log.write_enable.next = self.lock.val().valid;
-        self.read_at.owner.next = self.at_work.q.val().owner;
+        self.read_at.context_id.next = self.at_work.q.val().context;
         self.read_at.place.next = self.place.q.val();
         self.log.read_address.next = self.read_at.address.val();
 
@@ -178,14 +189,14 @@ impl Logic for Release {
         // A lock on its way through the log's memory.
         self.array_valid.d.next = self.works.q.val();
         self.array_is_last.d.next = self.fetches_last.val();
-        self.array_owner.d.next = self.at_work.q.val().owner;
+        self.array_context.d.next = self.at_work.q.val().context;
         self.output_valid.d.next = self.array_valid.q.val();
         self.output_is_last.d.next = self.array_is_last.q.val();
-        self.output_owner.d.next = self.array_owner.q.val();
+        self.output_context.d.next = self.array_context.q.val();
         self.clears.d.next = self.output_valid.q.val() | self.sweeping.q.val();
         self.cleared.d.next = self.log.read_data.val();
         self.is_last.d.next = self.output_is_last.q.val();
-        self.owner.d.next = self.output_owner.q.val();
+        self.cleared_context.d.next = self.output_context.q.val();
 
         self.after_cleared.next = self.cleared.q.val() + self.one.val();
         self.before_last.next = self.last_id.val() - self.one.val();

@@ -78,7 +78,7 @@ impl Logic for RingList {
         self.first_place.next = 0.into();
         self.written.d.next = self.entry.val();
         self.written_entry.next = self.written.q.val().entry;
-        self.write_at.owner.next = self.written.q.val().owner;
+        self.write_at.context_id.next = self.written.q.val().context;
         self.write_at.place.next = self.written.q.val().place;
         self.entry_bits.next = self.written_entry.val().into();
         self.one.next = 1.into();
@@ -88,7 +88,7 @@ impl Logic for RingList {
         if self.written_entry.val().after == self.first_place.val() {
             self.last_bit.next = 1.into();
         }
-        self.followers.write_bank.next = self.written.q.val().owner;
+        self.followers.write_bank.next = self.written.q.val().context;
         self.followers.write_address.next = self.written.q.val().place;
         self.followers.write_data.next = self.raised_after.val() | self.last_bit.val();
         self.followers.write_enable.next = self.written.q.val().valid;
@@ -96,7 +96,7 @@ impl Logic for RingList {
         self.edges.write_data.next = self.entry_bits.val();
         self.edges.write_enable.next = self.written.q.val().valid;
 
-        self.read_at.owner.next = self.reader.val();
+        self.read_at.context_id.next = self.reader.val();
         self.read_at.place.next = self.read_place.val();
         self.followers.read_banks.next = self.reader_bit.val();
         self.followers.read_address.next = self.read_place.val();

@@ -16,15 +16,15 @@
 //! Two rings of three, of contexts 1 and 0, whose entries stand in the order 0, 2, 1 with `a` = 10, 12, 11 and 20, 22, 21; behind
 //! the first two of each lies one triangle:
 //! ```text
-//! entry_enable    ___/^^^^^^^^^^^^^^^^^\_____________________________
-//! entry_place       .  0  1  2  0  1  2  .  .  .  .  .  .  .  .  .  .
-//! job_enable      _________/^^\_____/^^\_____________________________
-//! head_valid      ___________________________/^^^^^^^^^^^\__/^^^^^^^^
-//! head.a            .  .  .  .  .  .  .  .  . 10 12 12 11  . 20 22 21
-//! head_is_last    ____________________________________/^^\________/^^
-//! head_shares     ______________________________/^^^^^\________/^^\__
-//! head_job.owner    .  .  .  .  .  .  .  .  .  1  .  .  .  .  0  .  .
-//! takes           ___________________________/^^\__/^^^^^\__/^^^^^^^^
+//! entry_enable      ___/^^^^^^^^^^^^^^^^^\_____________________________
+//! entry_place         .  0  1  2  0  1  2  .  .  .  .  .  .  .  .  .  .
+//! job_enable        _________/^^\_____/^^\_____________________________
+//! head_valid        ___________________________/^^^^^^^^^^^\__/^^^^^^^^
+//! head.first_vertex   .  .  .  .  .  .  .  .  . 10 12 12 11  . 20 22 21
+//! head_is_last      ____________________________________/^^\________/^^
+//! head_shares       ______________________________/^^^^^\________/^^\__
+//! head_job.context    .  .  .  .  .  .  .  .  .  1  .  .  .  .  0  .  .
+//! takes             ___________________________/^^\__/^^^^^\__/^^^^^^^^
 //! ```
 
 use super::job_queue::JobQueue;
@@ -85,7 +85,7 @@ pub struct RingReader {
     /// The head; the next one is compared with it.
     last_entry: DFF<Entry>,
     /// The triangle behind the first entry of its ring.
-    first_f: DFF<TriangleId>,
+    first_cavity_record: DFF<TriangleId>,
     moves: Signal<Local, Bit>,
     ring_is_through: Signal<Local, Bit>,
     /// The pointer is at an entry, not past the last one.
@@ -94,7 +94,7 @@ pub struct RingReader {
     shares_with_first: Signal<Local, Bit>,
     first_place: Signal<Local, RingEntry>,
     first_bit: Signal<Local, ContextSet>,
-    wide_owner: Signal<Local, ContextSet>,
+    wide_context: Signal<Local, ContextSet>,
     oldest_bit: Signal<Local, ContextSet>,
 }
 
@@ -111,7 +111,7 @@ impl Logic for RingReader {
         dff_setup!(self, clock, ring, ring_bit, pointer_valid, pointer_is_first, pointer, array_valid, array_is_first);
         dff_setup!(self, clock, array_is_last, output_valid, output_is_first, output_is_last, output_ring);
         dff_setup!(self, clock, arrival_valid, arrival_is_first, arrival_is_last, arrival);
-        dff_setup!(self, clock, entry_valid, entry_is_last, entry_shares, last_entry, first_f);
+        dff_setup!(self, clock, entry_valid, entry_is_last, entry_shares, last_entry, first_cavity_record);
         clock!(self, clock, rings, list);
         self.first_place.next = 0.into();
         self.head.next.valid = self.entry_valid.q.val();
@@ -123,7 +123,7 @@ impl Logic for RingReader {
 
         // The list.
         self.list.entry.next = self.entry.val();
-        self.list.reader.next = self.ring.q.val().owner;
+        self.list.reader.next = self.ring.q.val().context;
         self.list.reader_bit.next = self.ring_bit.q.val();
         self.list.read_place.next = self.pointer.q.val();
         self.list.moves.next = self.moves.val();
@@ -139,10 +139,10 @@ impl Logic for RingReader {
         self.rings.takes.next = self.moves.val() & self.ring_is_through.val();
         self.oldest.bits.next = self.rings.head.val();
         self.first_bit.next = 1.into();
-        self.wide_owner.next = bit_cast::<24, 5>(self.oldest.value.val().owner);
-        self.oldest_bit.next = self.first_bit.val() << self.wide_owner.val();
-        self.shares_with_last.next = self.arrival.q.val().f == self.last_entry.q.val().f;
-        self.shares_with_first.next = self.arrival.q.val().f == self.first_f.q.val();
+        self.wide_context.next = bit_cast::<24, 5>(self.oldest.value.val().context);
+        self.oldest_bit.next = self.first_bit.val() << self.wide_context.val();
+        self.shares_with_last.next = self.arrival.q.val().cavity_record == self.last_entry.q.val().cavity_record;
+        self.shares_with_first.next = self.arrival.q.val().cavity_record == self.first_cavity_record.q.val();
         if self.moves.val() {
             self.pointer_is_first.d.next = self.ring_is_through.val();
             if self.ring_is_through.val() {
@@ -173,7 +173,7 @@ impl Logic for RingReader {
                 (!self.arrival_is_first.q.val()) & (self.shares_with_last.val() | self.shares_with_first.val());
             self.last_entry.d.next = self.arrival.q.val();
             if self.arrival_is_first.q.val() {
-                self.first_f.d.next = self.arrival.q.val().f;
+                self.first_cavity_record.d.next = self.arrival.q.val().cavity_record;
             }
         }
         if self.reset.val() {

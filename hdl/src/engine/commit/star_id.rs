@@ -40,7 +40,7 @@ impl Logic for StarId {
         self.is_inner.next = self.shares.val() & (!self.inner_is_used_up.val());
         self.is_fresh.next = self.shares.val() & self.inner_is_used_up.val();
         self.ahead.next = self.entry.val();
-        self.id.next = self.entry.val().f;
+        self.id.next = self.entry.val().cavity_record;
         if self.shares.val() {
             self.id.next = self.inner_id.val();
             if self.inner_is_used_up.val() {
@@ -49,7 +49,7 @@ impl Logic for StarId {
         }
         if self.current_is_last.val() {
             self.ahead.next = self.first.val();
-            self.id.next = self.first.val().f;
+            self.id.next = self.first.val().cavity_record;
         }
     }
 }

@@ -65,7 +65,7 @@ const _: () = assert!(
         && Counter::Duplicates as usize == 7
         && Counter::Refused as usize == 8
         && Counter::WalkVisits as usize == 9
-        && Counter::WaitingTokens as usize == 18
+        && Counter::PrioritiesTaken as usize == 18
         && Counter::LatencyMin as usize == 23
         && Counter::LatencyMax as usize == 24,
     "the words of this block follow the protocol"

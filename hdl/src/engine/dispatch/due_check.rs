@@ -35,12 +35,12 @@ pub struct DueCheck {
     pub is_hinted: Signal<Out, Bit>,
     index: Signal<Local, ContextId>,
     asleep: Signal<Local, ContextSet>,
-    keeping: Signal<Local, ContextSet>,
+    retrying: Signal<Local, ContextSet>,
     busy: Signal<Local, ContextSet>,
     began: Signal<Local, ContextSet>,
     hinted: Signal<Local, ContextSet>,
     is_asleep: Signal<Local, Bit>,
-    keeps: Signal<Local, Bit>,
+    will_retry: Signal<Local, Bit>,
     is_rested: Signal<Local, Bit>,
     may_try: Signal<Local, Bit>,
     may_work: Signal<Local, Bit>,
@@ -53,29 +53,32 @@ impl Logic for DueCheck {
     #[hdl_gen]
     fn update(&mut self) {
         self.first_context.next = 0.into();
-        self.index.next = self.passed.val().owner;
+        self.index.next = self.passed.val().context;
         self.asleep.next = self.contexts.val().asleep;
-        self.keeping.next = self.contexts.val().keeping;
+        self.retrying.next = self.contexts.val().retrying;
         self.busy.next = self.contexts.val().busy;
         self.began.next = self.contexts.val().began;
         self.hinted.next = self.contexts.val().hinted;
         self.is_barred.next = self.contexts.val().solo_valid | self.may_be_starting.val();
         self.is_asleep.next = self.asleep.val().get_bit(self.index.val().index()) & (!self.is_barred.val());
-        self.keeps.next = self.keeping.val().get_bit(self.index.val().index());
+        self.will_retry.next = self.retrying.val().get_bit(self.index.val().index());
 
         // L1: who has failed rests until a fourth round. L3: and while another is urgent.
         self.is_rested.next = (!self.busy.val().get_bit(self.index.val().index())) & self.rests_over.val();
-        self.may_try.next = (!self.contexts.val().is_urgent) | (self.passed.val().owner == self.contexts.val().waiter);
-        self.wants_again.next = self.is_asleep.val() & self.keeps.val() & self.is_rested.val() & self.may_try.val();
+        self.may_try.next =
+            (!self.contexts.val().is_urgent) | (self.passed.val().context == self.contexts.val().priority_context);
+        self.wants_again.next =
+            self.is_asleep.val() & self.will_retry.val() & self.is_rested.val() & self.may_try.val();
 
         // L8: the first points are context 0's.
         self.may_work.next = self.all_work.val();
-        if self.passed.val().owner == self.first_context.val() {
+        if self.passed.val().context == self.first_context.val() {
             self.may_work.next = self.seeded.val() | (!self.began.val().get_bit(0));
         }
         self.is_there.next = self.is_planned.val() & (self.passed.val().id < self.arrived.val());
-        self.wants_new.next = self.is_asleep.val() & (!self.keeps.val()) & self.is_there.val() & self.may_work.val();
-        self.tries_again.next = self.keeps.val();
+        self.wants_new.next =
+            self.is_asleep.val() & (!self.will_retry.val()) & self.is_there.val() & self.may_work.val();
+        self.tries_again.next = self.will_retry.val();
         self.is_hinted.next = self.hinted.val().get_bit(self.index.val().index());
     }
 }

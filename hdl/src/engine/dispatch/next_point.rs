@@ -22,7 +22,7 @@ crate::packed! {
 
     /// The context that the pointer has left, and the vertex that it would take.
     pub struct Passed {
-        pub owner: ContextId,
+        pub context: ContextId,
         pub id: VertexId,
         /// That is the third of its first triangle, in a batch; the vertex after it.
         pub is_seed: bool,
@@ -82,7 +82,7 @@ impl Logic for NextPoint {
         self.is_batch.next = self.deal.val().is_batch;
         self.taken.next = self.passed.val().id;
         self.wide_turn.next = bit_cast::<15, 5>(self.pointer.val().turn);
-        self.wide_taker.next = bit_cast::<15, 5>(self.passed.val().owner);
+        self.wide_taker.next = bit_cast::<15, 5>(self.passed.val().context);
         self.narrow_turn.next = bit_cast::<7, 5>(self.pointer.val().turn);
         self.dealt_from.next = self.deal.val().dealt_from;
         self.first_dealt.next = self.dealt_from.val() + self.narrow_turn.val();

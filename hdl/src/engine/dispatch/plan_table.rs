@@ -17,7 +17,7 @@ crate::packed! {
     /// A context takes a vertex at this edge, and this one after it; only once all contexts are planned.
     pub struct PlanWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub id: VertexId,
     }
 }
@@ -68,7 +68,7 @@ impl Logic for PlanTable {
         self.due.next = self.points.first.val();
         self.written.next = self.points.first.val();
         if self.is_planned.val() {
-            self.plans.write_address.next = self.write.val().owner;
+            self.plans.write_address.next = self.write.val().context;
             self.due.next = self.plan.value.val();
             self.written.next.id = self.write.val().id;
             self.written.next.is_seed = false;

@@ -21,12 +21,12 @@
 //! is_done         ____________/^^^^^\_____________________________
 //! is_blocked      ____________/^^\________________________________
 //! asleep            3  3  3  3  3  3  2  2  3  3  3  3  3  2  2  2
-//! keeping           0  0  0  0  0  0  0  0  1  1  1  1  1  0  0  0
-//! owner             .  .  0  1  0  0  0  1  0  1  0  1  0  1  0  1
+//! retrying          0  0  0  0  0  0  0  0  1  1  1  1  1  0  0  0
+//! context           .  .  0  1  0  0  0  1  0  1  0  1  0  1  0  1
 //! starts          _______________/^^\_________________/^^\________
 //! takes           _______________/^^\_____________________________
 //! taken_id          .  .  .  .  .  2  .  .  .  .  .  .  .  .  .  .
-//! u                 .  .  .  .  .  0  .  .  .  .  .  .  9  .  .  .
+//! record            .  .  .  .  .  0  .  .  .  .  .  .  9  .  .  .
 //! ```
 //!
 //! Source: points dealt to contexts lie in the vertex memory, which is their queue.
@@ -47,7 +47,7 @@ use rust_hdl_widgets::prelude::*;
 crate::packed! {
     /// A context two clocks behind the pointer: what it would take, and from where.
     pub struct Candidate {
-        pub owner: ContextId,
+        pub context: ContextId,
         pub id: VertexId,
         /// `id` is behind the first round; the vertex that the context takes after it.
         pub is_dealt: bool,
@@ -57,7 +57,7 @@ crate::packed! {
         /// The record at which it would start.
         pub from: TriangleId,
         /// It wants to be alone.
-        pub is_alone: bool,
+        pub is_solo: bool,
     }
 }
 
@@ -149,8 +149,8 @@ impl Logic for Starter {
         self.check.all_work.next = self.all_work.q.val();
         self.check.may_be_starting.next =
             (self.wants_again.q.val() | self.wants_new.q.val()) & (self.contexts_at_work.val() == self.one_turn.val());
-        self.roots.read_address.next = self.passed.q.val().owner;
-        self.hints.read_address.next = self.passed.q.val().owner;
+        self.roots.read_address.next = self.passed.q.val().context;
+        self.hints.read_address.next = self.passed.q.val().context;
 
         // The one before that: does it start?
         self.wants.next = (self.wants_again.q.val() | self.wants_new.q.val()) & (!self.contexts.val().solo_valid);
@@ -160,30 +160,30 @@ impl Logic for Starter {
         self.begins.next = self.wants.val() & (!self.is_blocked.val()) & (!self.lacks_port.val());
         self.is_taken.next = self.wants_new.q.val() & self.begins.val();
         self.start.next.valid = self.begins.val();
-        self.start.next.owner = self.candidate.q.val().owner;
-        self.start.next.u = self.candidate.q.val().from;
+        self.start.next.context = self.candidate.q.val().context;
+        self.start.next.record = self.candidate.q.val().from;
         self.start.next.takes = self.is_taken.val();
         self.start.next.id = self.candidate.q.val().id;
         self.solo_start.next.valid = self.contexts.val().solo_valid
             & self.contexts.val().all_rest
             & (!self.solo_is_at_work.val())
-            & self.candidate.q.val().is_alone;
-        self.solo_start.next.owner = self.contexts.val().solo_owner;
-        self.solo_start.next.p = self.candidate.q.val().point;
-        self.solo_start.next.u = self.candidate.q.val().from;
+            & self.candidate.q.val().is_solo;
+        self.solo_start.next.context = self.contexts.val().solo_context;
+        self.solo_start.next.vertex = self.candidate.q.val().point;
+        self.solo_start.next.record = self.candidate.q.val().from;
 
         // The tables.
-        self.points.write_address.next = self.candidate.q.val().owner;
+        self.points.write_address.next = self.candidate.q.val().context;
         self.points.write_data.next = self.candidate.q.val().id;
         self.points.write_enable.next = self.is_taken.val();
         self.plans.write.next.valid = self.is_taken.val();
-        self.plans.write.next.owner = self.candidate.q.val().owner;
+        self.plans.write.next.context = self.candidate.q.val().context;
         self.plans.write.next.id = self.candidate.q.val().plan;
-        self.roots.write_address.next = self.outcome.val().owner;
+        self.roots.write_address.next = self.outcome.val().context;
         self.roots.write_data.next = self.outcome.val().root;
         self.roots.write_enable.next = self.outcome.val().root_enable;
         self.job.next = self.committed.val().job;
-        self.hints.write_address.next = self.job.val().owner;
+        self.hints.write_address.next = self.job.val().context;
         self.hints.write_data.next = self.committed.val().hint;
         self.hints.write_enable.next = self.committed.val().valid;
 
@@ -196,14 +196,14 @@ impl Logic for Starter {
             self.wants_new.d.next = false;
         }
         if self.moves.val() {
-            self.candidate.d.next.owner = self.passed.q.val().owner;
+            self.candidate.d.next.context = self.passed.q.val().context;
             self.candidate.d.next.id = self.passed.q.val().id;
             self.candidate.d.next.is_dealt = self.plans.following.val().is_dealt;
             self.candidate.d.next.plan = self.plans.following.val().id;
             self.candidate.d.next.point = self.passed_point.q.val();
             self.wants_again.d.next = self.check.wants_again.val();
             self.wants_new.d.next = self.check.wants_new.val();
-            self.candidate.d.next.is_alone = self.passed.q.val().owner == self.contexts.val().solo_owner;
+            self.candidate.d.next.is_solo = self.passed.q.val().context == self.contexts.val().solo_context;
             self.candidate.d.next.from = self.plans.following.val().first_record;
             if self.check.is_hinted.val() {
                 self.candidate.d.next.from = self.hints.read_data.val();
@@ -211,7 +211,7 @@ impl Logic for Starter {
             if self.check.tries_again.val() {
                 self.candidate.d.next.from = self.roots.read_data.val();
             }
-            self.passed.d.next.owner = self.pointer.pointer.val().turn;
+            self.passed.d.next.context = self.pointer.pointer.val().turn;
             self.passed.d.next.id = self.plans.due.val().id;
             self.passed.d.next.is_seed = self.plans.due.val().is_seed;
             self.passed.d.next.dealt = self.plans.first_dealt.val();
@@ -220,7 +220,7 @@ impl Logic for Starter {
         if self.reset.val() | self.clears.val() {
             self.wants_again.d.next = false;
             self.wants_new.d.next = false;
-            self.candidate.d.next.is_alone = false;
+            self.candidate.d.next.is_solo = false;
             self.all_work.d.next = self.deal.val().is_batch & (!self.reset.val());
         }
     }

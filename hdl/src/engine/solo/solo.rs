@@ -22,7 +22,7 @@
 //! starts          ___/^^\_________________________________________
 //! is_at_work      _________/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
 //! push            _________/^^\________/^^\_________________/^^\__
-//! bundle.u          .  .  .  2  .  .  .  0  .  .  .  .  .  .  2  .
+//! bundle.record     .  .  .  2  .  .  .  0  .  .  .  .  .  .  2  .
 //! done            _______________/^^\________/^^\_________________
 //! located           .  .  .  .  .___  .  .  ./^^  .  .  .  .  .  .
 //! write.valid     ____________________________________/^^^^^^^^\__
@@ -49,8 +49,8 @@ pub struct Solo {
     pub start: Signal<In, SoloStart>,
     /// The next new id.
     pub records: Signal<In, TriangleId>,
-    pub visit: Signal<In, Completion>,
-    /// A visit to make; it bears the owner.
+    pub completion: Signal<In, Completion>,
+    /// A visit to make; it names the context.
     pub push: Signal<Out, Push>,
     /// A record or a link, registered.
     pub write: Signal<Out, Write>,
@@ -76,23 +76,23 @@ impl Logic for Solo {
     fn update(&mut self) {
         dff_setup!(self, clock, awaits, at_work_for, vertex, root_id, root, works, asks, ended, inserted);
         clock!(self, clock, steps, star);
-        self.verdict.next = self.visit.val().verdict;
+        self.verdict.next = self.completion.val().verdict;
         self.steps.reset.next = self.reset.val();
         self.steps.starts.next = self.start.val().valid;
-        self.steps.done.next = self.visit.val().done;
+        self.steps.done.next = self.completion.val().done;
         self.steps.verdict.next = self.verdict.val();
         self.steps.is_round.next = self.star.is_round.val();
         self.works.d.next = (!self.steps.is_idle.val()) & (!self.reset.val());
 
         self.star.reset.next = self.reset.val();
-        self.star.owner.next = self.at_work_for.q.val();
+        self.star.context_id.next = self.at_work_for.q.val();
         self.star.phase.next = self.steps.phase.val();
         self.star.step.next = self.steps.step.val();
-        self.star.p.next = self.vertex.q.val();
+        self.star.vertex.next = self.vertex.q.val();
         self.star.records.next = self.records.val();
         self.star.root_id.next = self.root_id.q.val();
         self.star.root.next = self.root.q.val();
-        self.star.visit.next = self.visit.val();
+        self.star.completion.next = self.completion.val();
         self.write.next = self.star.write.val();
 
         self.is_visiting.next = self.steps.phase.val().is_locate
@@ -100,7 +100,7 @@ impl Logic for Solo {
             | self.steps.phase.val().is_fetch
             | self.steps.phase.val().is_test;
         self.asks.d.next = self.is_visiting.val() & (!self.awaits.q.val()) & (!self.reset.val());
-        self.awaits.d.next = self.is_visiting.val() & (!self.visit.val().done) & (!self.reset.val());
+        self.awaits.d.next = self.is_visiting.val() & (!self.completion.val().done) & (!self.reset.val());
         self.push.next.valid = self.asks.q.val();
         self.push.next.bundle = self.star.bundle.val();
 
@@ -113,12 +113,12 @@ impl Logic for Solo {
         self.progress.next.ends = self.ended.q.val();
 
         if self.steps.is_idle.val() & self.start.val().valid {
-            self.at_work_for.d.next = self.start.val().owner;
-            self.vertex.d.next = self.start.val().p;
-            self.root_id.d.next = self.start.val().u;
+            self.at_work_for.d.next = self.start.val().context;
+            self.vertex.d.next = self.start.val().vertex;
+            self.root_id.d.next = self.start.val().record;
         }
-        if self.steps.phase.val().is_locate & self.visit.val().done {
-            self.root.d.next = self.visit.val().turned;
+        if self.steps.phase.val().is_locate & self.completion.val().done {
+            self.root.d.next = self.completion.val().turned;
             if !self.verdict.val().located {
                 self.root_id.d.next = self.verdict.val().walk_next;
             }

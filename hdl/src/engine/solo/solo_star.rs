@@ -13,7 +13,7 @@
 use super::solo_visit::SoloVisit;
 use super::solo_writes::SoloWrites;
 use super::star_state::{Beyond, SoloPhase, SoloTurn, StarTriangle};
-use crate::engine::types::{Bundle, Completion, ContextId, Slot, Token, TriangleId, Turned, Verdict, VertexId, Write};
+use crate::engine::types::{Bundle, Completion, ContextId, Slot, TriangleId, Turned, Verdict, VertexId, Visit, Write};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
@@ -26,13 +26,13 @@ pub struct SoloStar {
     pub phase: Signal<In, SoloPhase>,
     /// Which record of the split, link of the mend, write of the flip.
     pub step: Signal<In, Bits<2>>,
-    pub owner: Signal<In, ContextId>,
-    pub p: Signal<In, VertexId>,
+    pub context_id: Signal<In, ContextId>,
+    pub vertex: Signal<In, VertexId>,
     /// The next new id.
     pub records: Signal<In, TriangleId>,
     pub root_id: Signal<In, TriangleId>,
     pub root: Signal<In, Turned>,
-    pub visit: Signal<In, Completion>,
+    pub completion: Signal<In, Completion>,
     /// The visit that is due, if one is.
     pub bundle: Signal<Out, Bundle>,
     /// A test or a flip is finished.
@@ -57,7 +57,7 @@ pub struct SoloStar {
     third: DFF<TriangleId>,
     visits: SoloVisit,
     writes: SoloWrites,
-    token: Signal<Local, Token>,
+    visit: Signal<Local, Visit>,
     verdict: Signal<Local, Verdict>,
     rests: Signal<Local, Bit>,
     is_flipped: Signal<Local, Bit>,
@@ -79,8 +79,8 @@ impl Logic for SoloStar {
         self.one.next = 1.into();
         self.last_write.next = 2.into();
         self.one_more.next = 1.into();
-        self.token.next = self.visit.val().token;
-        self.verdict.next = self.visit.val().verdict;
+        self.visit.next = self.completion.val().visit;
+        self.verdict.next = self.completion.val().verdict;
         self.is_last.d.next = self.triangle.q.val().b == self.root.val().v1;
         self.third.d.next = self.records.val() + self.one_more.val();
         self.is_round.next = self.is_last.q.val();
@@ -99,14 +99,14 @@ impl Logic for SoloStar {
         self.turn.d.next.mend1 = self.phase.val().is_mend & self.is_first.val();
         self.turn.d.next.mend2 = self.phase.val().is_mend & self.is_second.val();
         self.ends_flip.d.next = self.phase.val().is_flip & self.is_last_write.val() & (!self.reset.val());
-        self.comes.d.next = self.visit.val().done;
-        self.visited.d.next = self.token.val().u;
-        self.found.d.next = self.visit.val().turned;
+        self.comes.d.next = self.completion.val().done;
+        self.visited.d.next = self.visit.val().record;
+        self.found.d.next = self.completion.val().turned;
         self.is_conflict.d.next = self.verdict.val().conflict;
         self.tests.next = self.done_phase.q.val().is_test & self.comes.q.val();
         self.flips.next = self.ends_flip.q.val();
 
-        self.visits.owner.next = self.owner.val();
+        self.visits.context_id.next = self.context_id.val();
         self.visits.phase.next = self.done_phase.q.val();
         self.visits.is_second.next = self.turn.q.val().mend2;
         self.visits.root_id.next = self.root_id.val();
@@ -115,7 +115,7 @@ impl Logic for SoloStar {
         self.bundle.next = self.visits.bundle.val();
         self.writes.turn.next = self.turn.q.val();
         self.writes.is_test.next = self.done_phase.q.val().is_test;
-        self.writes.p.next = self.p.val();
+        self.writes.vertex.next = self.vertex.val();
         self.writes.second.next = self.records.val();
         self.writes.third.next = self.third.q.val();
         self.writes.root_id.next = self.root_id.val();

@@ -10,7 +10,7 @@ use rust_hdl_core::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct SoloVisit {
     /// The context.
-    pub owner: Signal<In, ContextId>,
+    pub context_id: Signal<In, ContextId>,
     /// What is done; a test if nothing else. An outer neighbour of the split is the second one.
     pub phase: Signal<In, SoloPhase>,
     pub is_second: Signal<In, Bit>,
@@ -27,30 +27,30 @@ impl Logic for SoloVisit {
     fn update(&mut self) {
         self.bundle.next.is_pair = false;
         self.bundle.next.is_triple = false;
-        self.bundle.next.owner = self.owner.val();
+        self.bundle.next.context = self.context_id.val();
         self.bundle.next.rotates = (!self.phase.val().is_fetch) & (!self.phase.val().is_locate);
         self.bundle.next.locks = false;
-        self.bundle.next.x = 0.into();
+        self.bundle.next.entry = 0.into();
         self.bundle.next.after = 0.into();
-        self.bundle.next.f_entry = 0.into();
-        self.bundle.next.f = self.triangle.val().back;
-        self.bundle.next.u = self.triangle.val().outer;
+        self.bundle.next.cavity_entry = 0.into();
+        self.bundle.next.cavity_record = self.triangle.val().back;
+        self.bundle.next.record = self.triangle.val().outer;
         self.bundle.next.second_after = 0.into();
-        self.bundle.next.second_u = 0.into();
-        self.bundle.next.third_u = 0.into();
+        self.bundle.next.second_record = 0.into();
+        self.bundle.next.third_record = 0.into();
         if self.phase.val().is_fetch {
-            self.bundle.next.f = 0.into();
-            self.bundle.next.u = self.triangle.val().id;
+            self.bundle.next.cavity_record = 0.into();
+            self.bundle.next.record = self.triangle.val().id;
         }
         if self.phase.val().is_locate {
-            self.bundle.next.f = 0.into();
-            self.bundle.next.u = self.root_id.val();
+            self.bundle.next.cavity_record = 0.into();
+            self.bundle.next.record = self.root_id.val();
         }
         if self.phase.val().is_mend {
-            self.bundle.next.f = self.root_id.val();
-            self.bundle.next.u = self.root.val().n1;
+            self.bundle.next.cavity_record = self.root_id.val();
+            self.bundle.next.record = self.root.val().n1;
             if self.is_second.val() {
-                self.bundle.next.u = self.root.val().n2;
+                self.bundle.next.record = self.root.val().n2;
             }
         }
     }

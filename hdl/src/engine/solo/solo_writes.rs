@@ -13,7 +13,7 @@ pub struct SoloWrites {
     /// What is written: one of these, or the link that a test leaves to be mended, or else that of the next star triangle.
     pub turn: Signal<In, SoloTurn>,
     pub is_test: Signal<In, Bit>,
-    pub p: Signal<In, VertexId>,
+    pub vertex: Signal<In, VertexId>,
     /// The two new ids.
     pub second: Signal<In, TriangleId>,
     pub third: Signal<In, TriangleId>,
@@ -34,7 +34,7 @@ impl Logic for SoloWrites {
     fn update(&mut self) {
         // Records: the last of the split, unless something else is asked for.
         self.record.id.next = self.third.val();
-        self.record.v0.next = self.p.val();
+        self.record.v0.next = self.vertex.val();
         self.record.v1.next = self.root.val().v0;
         self.record.v2.next = self.root.val().v1;
         self.record.n0.next = self.root.val().n2;

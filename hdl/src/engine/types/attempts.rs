@@ -28,16 +28,16 @@ crate::packed! {
         pub half_open: Bits<64>,
     }
 
-    /// A final edge of the boundary, from `a` to the next entry's `a`.
+    /// A final edge of the boundary, from `first_vertex` to that of the next entry.
     pub struct Entry {
         /// Its first vertex.
-        pub a: VertexId,
+        pub first_vertex: VertexId,
         /// The triangle outside.
-        pub u: TriangleId,
-        /// The slot of `u` that leads to `f`.
+        pub outside_record: TriangleId,
+        /// The slot of `outside_record` that leads to `cavity_record`.
         pub slot: Slot,
         /// The cavity triangle behind the edge.
-        pub f: TriangleId,
+        pub cavity_record: TriangleId,
         /// The entry after this one.
         pub after: RingEntry,
     }
@@ -53,7 +53,7 @@ crate::packed! {
         /// The look at the first three points.
         pub looks: bool,
         /// The same visit is made again; because another context holds the lock.
-        pub repeats: bool,
+        pub revisits: bool,
         pub waits: bool,
         /// The walk goes on; it has found the point's triangle.
         pub walks_on: bool,
@@ -61,15 +61,15 @@ crate::packed! {
         /// The root is locked and holds the point: its neighbours are tested.
         pub opens: bool,
         /// The root no longer holds the point.
-        pub retries: bool,
+        pub root_changed: bool,
         /// A test passes through its edge; its edge is final.
         pub splits: bool,
         pub settles: bool,
         /// A test would pass, and the list is full.
         pub overflows: bool,
         /// Another context holds the lock, of the root or of a tested triangle.
-        pub gives_up_root: bool,
-        pub gives_up: bool,
+        pub aborts_root: bool,
+        pub aborts: bool,
         /// The point falls onto a corner.
         pub walk_duplicate: bool,
         pub root_duplicate: bool,
@@ -92,17 +92,17 @@ crate::packed! {
 
     /// What becomes of the context whose visit completes.
     pub struct Outcome {
-        pub owner: ContextId,
+        pub context: ContextId,
         /// None of its visits is out any more.
         pub sleeps: bool,
         /// It will try its point again.
-        pub keeps: bool,
+        pub will_retry: bool,
         /// A commit or a release of it is due.
         pub hands_over: bool,
-        /// It wants the waiting token; meets a foreign lock with it; needs it no more.
-        pub asks_to_wait: bool,
+        /// It wants the priority; meets a foreign lock with it; needs it no more.
+        pub asks_for_priority: bool,
         pub waits: bool,
-        pub stops_waiting: bool,
+        pub returns_priority: bool,
         /// Its list has overflowed.
         pub overflows: bool,
         /// Its point is one already.
@@ -115,7 +115,7 @@ crate::packed! {
     /// A final edge of a boundary, for the list of its context.
     pub struct EntryWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub place: RingEntry,
         pub entry: Entry,
     }
@@ -123,7 +123,7 @@ crate::packed! {
     /// An inner triangle, for the list of its context.
     pub struct InnerWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub place: RingEntry,
         pub id: TriangleId,
     }
@@ -131,7 +131,7 @@ crate::packed! {
     /// A lock that was taken, for the log of its context.
     pub struct LockWrite {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub place: LockCount,
         pub id: TriangleId,
     }

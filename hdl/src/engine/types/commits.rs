@@ -14,9 +14,9 @@ crate::packed! {
     /// A finished ring, to be committed.
     pub struct CommitJob {
         /// Its context.
-        pub owner: ContextId,
+        pub context: ContextId,
         /// The new vertex.
-        pub p: VertexId,
+        pub vertex: VertexId,
         /// Inner triangles.
         pub inners: RingCount,
         /// Locks in the log.
@@ -28,7 +28,7 @@ crate::packed! {
     /// The locks of an attempt, to be released.
     pub struct ReleaseJob {
         /// Its context.
-        pub owner: ContextId,
+        pub context: ContextId,
         /// Locks in the log, at least one.
         pub locks: LockCount,
     }
@@ -72,6 +72,6 @@ crate::packed! {
     /// The last lock of a context is released.
     pub struct Released {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
     }
 }

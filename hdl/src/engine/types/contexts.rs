@@ -29,9 +29,9 @@ crate::packed! {
     /// A context starts to walk.
     pub struct Start {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         /// The record at which it starts.
-        pub u: TriangleId,
+        pub record: TriangleId,
         /// It takes this new point.
         pub takes: bool,
         pub id: VertexId,
@@ -40,16 +40,16 @@ crate::packed! {
     /// The coordinates of the point that a context has taken stand on the vertex memory's port.
     pub struct Fetched {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
     }
 
     /// A context starts to insert its point alone.
     pub struct SoloStart {
         pub valid: bool,
-        pub owner: ContextId,
-        pub p: VertexId,
+        pub context: ContextId,
+        pub vertex: VertexId,
         /// The record at which its walk starts.
-        pub u: TriangleId,
+        pub record: TriangleId,
     }
 
     /// The insertion alone.
@@ -79,19 +79,19 @@ crate::packed! {
         /// No visit is out.
         pub asleep: ContextSet,
         /// The point is tried again.
-        pub keeping: ContextSet,
+        pub retrying: ContextSet,
         /// A commit or a release is due.
         pub busy: ContextSet,
         /// There has been a point; a commit.
         pub began: ContextSet,
         pub hinted: ContextSet,
-        /// Somebody holds the waiting token; who; it has waited for long: nobody else may try again.
-        pub waiter_valid: bool,
-        pub waiter: ContextId,
+        /// Somebody holds the priority; who; it has waited for long: nobody else may try again.
+        pub priority_is_held: bool,
+        pub priority_context: ContextId,
         pub is_urgent: bool,
         /// Somebody wants to be alone: nobody starts; who.
         pub solo_valid: bool,
-        pub solo_owner: ContextId,
+        pub solo_context: ContextId,
         /// No visit is out and no lock held; said a clock after it has come true.
         pub all_rest: bool,
     }
@@ -101,11 +101,11 @@ crate::packed! {
         /// The infinite vertex.
         pub infinite: VertexId,
         /// Entries of a boundary list.
-        pub ring: RingCount,
+        pub ring_capacity: RingCount,
         /// The highest record id.
         pub last_id: TriangleId,
         /// Contexts that are built, a bit each.
-        pub all: ContextSet,
+        pub built_contexts: ContextSet,
         /// Clocks without a finished point before the watchdog speaks.
         pub patience: Clocks,
     }

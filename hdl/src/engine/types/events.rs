@@ -17,10 +17,10 @@ crate::packed! {
         /// A flip of an insertion alone is finished.
         pub flip: bool,
         /// An attempt is given up for a foreign lock; a root had changed.
-        pub gives_up: bool,
-        pub retries: bool,
-        /// The waiting token is taken.
-        pub takes_token: bool,
+        pub aborts: bool,
+        pub root_changed: bool,
+        /// The priority is taken.
+        pub takes_priority: bool,
         /// A ring is finished; its cavity's triangles.
         pub cavity_ends: bool,
         pub cavity_triangles: RingCount,

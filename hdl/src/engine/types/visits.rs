@@ -4,8 +4,8 @@ use super::widths::{ContextId, RingEntry, Slot, TriangleId, VertexId};
 use crate::predicate::Point;
 use rust_hdl_core::prelude::*;
 
-/// Bits of [`Token`].
-pub const TOKEN_BITS: usize = Token::BITS;
+/// Bits of [`Visit`].
+pub const VISIT_BITS: usize = Visit::BITS;
 
 /// Bits of [`Bundle`].
 pub const BUNDLE_BITS: usize = Bundle::BITS;
@@ -15,46 +15,46 @@ pub const TURNED_BITS: usize = Turned::BITS;
 
 crate::packed! {
     /// One visit of a record.
-    pub struct Token {
+    pub struct Visit {
         /// The context it belongs to.
-        pub owner: ContextId,
-        /// The record is turned so that its link to `f` comes first.
+        pub context: ContextId,
+        /// The record is turned so that its link to `cavity_record` comes first.
         pub rotates: bool,
         /// The record's lock is taken.
         pub locks: bool,
         /// Ring entry whose edge is tested.
-        pub x: RingEntry,
+        pub entry: RingEntry,
         /// The entry after it.
         pub after: RingEntry,
-        /// The entry that was allocated when `f` joined the cavity; 0 for the root.
-        pub f_entry: RingEntry,
+        /// The entry that was allocated when `cavity_record` joined the cavity; 0 for the root.
+        pub cavity_entry: RingEntry,
         /// The cavity triangle behind the edge.
-        pub f: TriangleId,
+        pub cavity_record: TriangleId,
         /// The record visited.
-        pub u: TriangleId,
+        pub record: TriangleId,
     }
 
-    /// One to three visits that one completion asks for. The second visit has `x = after` of the first and the third `x =
+    /// One to three visits that one completion asks for. The second visit has `entry = after` of the first, and the third `entry =
     /// second_after` and `after = 0`; all other fields are those of the first.
     pub struct Bundle {
         /// There is a second visit.
         pub is_pair: bool,
         /// There are a second and a third visit; `is_pair` is set too.
         pub is_triple: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub rotates: bool,
         pub locks: bool,
-        pub x: RingEntry,
+        pub entry: RingEntry,
         pub after: RingEntry,
-        pub f_entry: RingEntry,
-        pub f: TriangleId,
-        pub u: TriangleId,
+        pub cavity_entry: RingEntry,
+        pub cavity_record: TriangleId,
+        pub record: TriangleId,
         /// `after` of the second visit.
         pub second_after: RingEntry,
-        /// `u` of the second visit.
-        pub second_u: TriangleId,
-        /// `u` of the third visit.
-        pub third_u: TriangleId,
+        /// `record` of the second visit.
+        pub second_record: TriangleId,
+        /// `record` of the third visit.
+        pub third_record: TriangleId,
     }
 
     /// A record that has been read and turned.
@@ -101,7 +101,7 @@ crate::packed! {
     pub struct Upcoming {
         /// There is one.
         pub done: bool,
-        pub token: Token,
+        pub visit: Visit,
         pub turned: Turned,
     }
 
@@ -109,7 +109,7 @@ crate::packed! {
     pub struct Completion {
         /// There is one.
         pub done: bool,
-        pub token: Token,
+        pub visit: Visit,
         pub turned: Turned,
         pub verdict: Verdict,
     }
@@ -139,7 +139,7 @@ crate::packed! {
     /// The point that a context inserts from now on.
     pub struct Position {
         pub valid: bool,
-        pub owner: ContextId,
+        pub context: ContextId,
         pub point: Point,
     }
 }

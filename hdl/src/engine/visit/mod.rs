@@ -14,7 +14,7 @@
 //! [`VerdictLogic`] takes the step of a walk: it says which link leads nearer to the point.
 //!
 //! Lock rules (see `docs/engine.md`): L7, the visit of a record that is not written yet, or is being written in the same clock, is
-//! marked `again` ([`VisitPipeline`]). The locks themselves, with their owners (L9), lie in [`LockStore`](crate::mesh::LockStore).
+//! marked `again` ([`VisitPipeline`]). The locks themselves, with their holders (L9), lie in [`LockStore`](crate::mesh::LockStore).
 
 mod issue;
 mod push_port;

@@ -7,14 +7,14 @@
 //! ```text
 //! asks            ___/^^\______________
 //! may_ask         ___/^^^^^\___________
-//! follows.u         .  5  .  .  .  .  .
+//! follows.record    .  5  .  .  .  .  .
 //! starts          _________/^^\________
-//! u                 .  .  .  6  .  .  .
-//! is_alone        ____________/^^^^^\__
+//! record            .  .  .  6  .  .  .
+//! solo_is_at_work ____________/^^^^^\__
 //! solo_asks       _______________/^^\__
-//! solo.u            .  .  .  .  .  7  .
+//! solo.record       .  .  .  .  .  7  .
 //! push            ______/^^\__/^^\__/^^
-//! bundle.u          .  .  5  .  6  .  7
+//! bundle.record     .  .  5  .  6  .  7
 //! ```
 
 use crate::engine::types::{Bundle, Follow, Push, Start};
@@ -32,7 +32,7 @@ pub struct PushPort {
     /// A context starts to walk.
     pub start: Signal<In, Start>,
     /// An insertion alone is at work; the visit that it asks for.
-    pub is_alone: Signal<In, Bit>,
+    pub solo_is_at_work: Signal<In, Bit>,
     pub solo: Signal<In, Push>,
     pub push: Signal<Out, Push>,
     pushes: DFF<Bit>,
@@ -50,12 +50,12 @@ impl Logic for PushPort {
         if !self.follow.val().may_ask {
             self.pushed.d.next.is_pair = false;
             self.pushed.d.next.is_triple = false;
-            self.pushed.d.next.owner = self.start.val().owner;
+            self.pushed.d.next.context = self.start.val().context;
             self.pushed.d.next.rotates = false;
             self.pushed.d.next.locks = false;
-            self.pushed.d.next.u = self.start.val().u;
+            self.pushed.d.next.record = self.start.val().record;
         }
-        if self.is_alone.val() {
+        if self.solo_is_at_work.val() {
             self.pushed.d.next = self.solo.val().bundle;
         }
         if self.reset.val() {

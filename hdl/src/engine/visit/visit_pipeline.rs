@@ -14,12 +14,12 @@
 //! A bundle of two visits of context 1, then a read-out:
 //! ```text
 //! push            /^^\____________________________________________________________________
-//! bundle.owner      1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
-//! bundle.x          1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! bundle.context    1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! bundle.entry      1  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
 //! is_issuing      ___/^^^^^\______________________________________________________________
 //! done            ___________________________________________________/^^^^^\______________
-//! token.owner       .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  1  .  .  .  .  .
-//! token.x           .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  2  .  .  .  .  .
+//! visit.context     .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  1  .  .  .  .  .
+//! visit.entry       .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  1  2  .  .  .  .  .
 //! read            _________________________________________________________/^^\___________
 //! read_done       __________________________________________________________________/^^\__
 //! ```
@@ -28,8 +28,8 @@ use super::issue::Issue;
 use super::visit_judge::VisitJudge;
 use super::visit_reader::VisitReader;
 use crate::engine::types::{
-    context_bits, ring_bits, Arrival, Completion, ContextId, LockClear, Position, Push, RecordRead, Token, TriangleId,
-    Turned, Upcoming, VertexId, Write, WriteEnables, CONTEXT_BITS, TOKEN_BITS, TURNED_BITS,
+    context_bits, ring_bits, Arrival, Completion, ContextId, LockClear, Position, Push, RecordRead, TriangleId, Turned,
+    Upcoming, VertexId, Visit, Write, WriteEnables, CONTEXT_BITS, TURNED_BITS, VISIT_BITS,
 };
 use crate::leaf::{DelayLine, LutMemory, Unpack};
 use crate::mesh::{ReadRecord, TriangleStore, VertexStore};
@@ -55,7 +55,7 @@ pub struct VisitPipeline {
     /// A visit reads its record in this clock.
     pub is_issuing: Signal<Out, Bit>,
     /// The visit that completes in this clock, and the one that does in the next clock unless reset.
-    pub visit: Signal<Out, Completion>,
+    pub completion: Signal<Out, Completion>,
     pub early: Signal<Out, Upcoming>,
     /// A read-out wants a record; only while no visit is out.
     pub read: Signal<In, RecordRead>,
@@ -81,13 +81,13 @@ pub struct VisitPipeline {
     again1: DFF<Bit>,
     again2: DFF<Bit>,
     /// The context of the visit in clocks 3 and 4.
-    owner3: DFF<ContextId>,
-    owner4: DFF<ContextId>,
-    token_bits: Signal<Local, Bits<TOKEN_BITS>>,
+    context3: DFF<ContextId>,
+    context4: DFF<ContextId>,
+    visit_bits: Signal<Local, Bits<VISIT_BITS>>,
     turned_bits: Signal<Local, Bits<TURNED_BITS>>,
-    token_delay: DelayLine<TOKEN_BITS>,
+    visit_delay: DelayLine<VISIT_BITS>,
     turned_delay: DelayLine<TURNED_BITS>,
-    delayed_token: Unpack<Token, TOKEN_BITS>,
+    delayed_visit: Unpack<Visit, VISIT_BITS>,
     delayed_turned: Unpack<Turned, TURNED_BITS>,
     /// The record in clock 15.
     judged: DFF<Turned>,
@@ -121,7 +121,7 @@ impl VisitPipeline {
             ),
             positions: LutMemory::new(context_bits(config), POINT_BITS),
             vertices: VertexStore::new(vertex_id_bits(config.points) as usize - 1),
-            token_delay: DelayLine::new(signs - TriangleStore::LATENCY),
+            visit_delay: DelayLine::new(signs - TriangleStore::LATENCY),
             turned_delay: DelayLine::new(signs - VisitReader::TURNED_LATENCY - 1),
             ..Self::default()
         }
@@ -131,32 +131,32 @@ impl VisitPipeline {
 impl Logic for VisitPipeline {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, again1, again2, owner3, owner4, point, valid, read_valid1, read_valid2);
+        dff_setup!(self, clock, again1, again2, context3, context4, point, valid, read_valid1, read_valid2);
         dff_setup!(self, clock, judged, completes);
-        clock!(self, clock, issue, triangles, vertices, reader, positions, judge, token_delay, turned_delay);
+        clock!(self, clock, issue, triangles, vertices, reader, positions, judge, visit_delay, turned_delay);
         self.one.next = 1.into();
         self.reader.infinite.next = self.infinite.val();
         self.issue.reset.next = self.reset.val();
         self.issue.push.next = self.push.val();
         self.issue.read.next = self.read.val();
-        self.is_issuing.next = self.issue.token_valid.val();
+        self.is_issuing.next = self.issue.visit_valid.val();
 
         // Clock 0, L7: a record that is not written yet, or being written, does not count.
-        self.is_written.next = self.issue.token.val().u < self.records.val();
-        self.is_torn.next = self.write.val().valid & (self.write.val().id == self.issue.token.val().u);
+        self.is_written.next = self.issue.visit.val().record < self.records.val();
+        self.is_torn.next = self.write.val().valid & (self.write.val().id == self.issue.visit.val().record);
         self.again1.d.next = self.is_torn.val() | (!self.is_written.val());
         self.again2.d.next = self.again1.q.val();
 
         // Clocks 0 to 2: the record.
-        self.triangles.read_id.next = self.issue.token.val().u;
+        self.triangles.read_id.next = self.issue.visit.val().record;
         self.triangles.vertices_id.next = self.issue.vertices_id.val();
         self.triangles.links_id.next = self.issue.links_id.val();
-        self.triangles.read_locks.next = self.issue.token_valid.val() & self.issue.token.val().locks;
-        self.triangles.owner.next = self.issue.token.val().owner;
+        self.triangles.read_locks.next = self.issue.visit_valid.val() & self.issue.visit.val().locks;
+        self.triangles.context_id.next = self.issue.visit.val().context;
         self.triangles.write.next = self.write.val();
         self.triangles.enables.next = self.enables.val();
         self.triangles.clear.next = self.clear.val();
-        self.reader.token.next = self.issue.token.val();
+        self.reader.visit.next = self.issue.visit.val();
         self.reader.record.next = self.triangles.record.val();
         self.reader.took.next = self.triangles.took.val();
         self.reader.foreign.next = self.triangles.foreign.val();
@@ -174,20 +174,20 @@ impl Logic for VisitPipeline {
         self.reader.stored_corners.next = self.vertices.corners.val();
         self.vertices.fetch_id.next = self.fetch_id.val();
         self.fetched.next = self.vertices.fetched.val();
-        self.owner3.d.next = self.reader.token_at_record.val().owner;
-        self.owner4.d.next = self.owner3.q.val();
-        self.positions.write_address.next = self.position.val().owner;
+        self.context3.d.next = self.reader.visit_at_record.val().context;
+        self.context4.d.next = self.context3.q.val();
+        self.positions.write_address.next = self.position.val().context;
         self.positions.write_data.next = self.position.val().point;
         self.positions.write_enable.next = self.position.val().valid;
-        self.positions.read_address.next = self.owner4.q.val();
+        self.positions.read_address.next = self.context4.q.val();
         self.point.d.next = self.positions.read_data.val();
 
         // Clocks 5 to 15: the signs, and beside them the visit and its record.
         self.judge.corners.next = self.reader.corners.val();
         self.judge.p.next = self.point.q.val();
-        self.token_bits.next = self.reader.token_at_record.val().into();
-        self.token_delay.data_in.next = self.token_bits.val();
-        self.delayed_token.bits.next = self.token_delay.data_out.val();
+        self.visit_bits.next = self.reader.visit_at_record.val().into();
+        self.visit_delay.data_in.next = self.visit_bits.val();
+        self.delayed_visit.bits.next = self.visit_delay.data_out.val();
         self.turned_bits.next = self.reader.turned.val().into();
         self.turned_delay.data_in.next = self.turned_bits.val();
         self.delayed_turned.bits.next = self.turned_delay.data_out.val();
@@ -196,17 +196,17 @@ impl Logic for VisitPipeline {
         self.judged.d.next = self.delayed_turned.value.val();
         self.judge.turned.next = self.judged.q.val();
         self.early.next.done = self.valid.q.val().get_bit(14);
-        self.early.next.token = self.delayed_token.value.val();
+        self.early.next.visit = self.delayed_visit.value.val();
         self.early.next.turned = self.judged.q.val();
         self.completes.d.next.done = self.valid.q.val().get_bit(14) & (!self.reset.val());
-        self.completes.d.next.token = self.delayed_token.value.val();
+        self.completes.d.next.visit = self.delayed_visit.value.val();
         self.completes.d.next.turned = self.judged.q.val();
         self.completes.d.next.verdict = self.judge.verdict.val();
-        self.visit.next = self.completes.q.val();
+        self.completion.next = self.completes.q.val();
 
         self.shifted.next = self.valid.q.val() << self.one.val();
         self.valid.d.next = self.shifted.val();
-        if self.issue.token_valid.val() {
+        if self.issue.visit_valid.val() {
             self.valid.d.next = self.shifted.val() | self.one.val();
         }
         if self.reset.val() {

@@ -1,6 +1,6 @@
 //! Reads the record of a visit, turns it, and takes in the coordinates of its corners.
 //!
-//! 1. With `token.rotates` the slot whose link is `token.f` comes first, otherwise slot 0 does. The links of a record differ.
+//! 1. With `visit.rotates` the slot whose link is `visit.cavity_record` comes first, otherwise slot 0 does. The links of a record differ.
 //! 2. `took`, `foreign` and `again` pass unchanged into `turned`.
 //! 3. Nothing is computed between a memory's output and the first register: block RAM lies far from everything. That is why the corners
 //!    stay as stored; what of the verdict depends on the turn is turned there.
@@ -9,21 +9,21 @@
 //!
 //! A visit that comes through link 1, so that vertex 1 comes first, and takes the lock:
 //! ```text
-//! token.f          30  .  .  .  .  .  .
-//! n1                .  . 30  .  .  .  .
-//! v0                .  . 11  .  .  .  .
-//! v1                .  . 12  .  .  .  .
-//! again           ______/^^\___________
-//! took            _________/^^\________
-//! turned.v0         .  .  .  .  . 12  .
-//! turned.slot       .  .  .  .  .  1  .
-//! turned.again      .  .  .  .  ./^^  .
-//! turned.took       .  .  .  .  ./^^  .
-//! position0         .  .  .  . 51  .  .
-//! r0                .  .  .  .  . 51  .
+//! visit.cavity_record  30  .  .  .  .  .  .
+//! n1                    .  . 30  .  .  .  .
+//! v0                    .  . 11  .  .  .  .
+//! v1                    .  . 12  .  .  .  .
+//! again               ______/^^\___________
+//! took                _________/^^\________
+//! turned.v0             .  .  .  .  . 12  .
+//! turned.slot           .  .  .  .  .  1  .
+//! turned.again          .  .  .  .  ./^^  .
+//! turned.took           .  .  .  .  ./^^  .
+//! position0             .  .  .  . 51  .  .
+//! r0                    .  .  .  .  . 51  .
 //! ```
 
-use crate::engine::types::{Slot, Token, Turned, VertexId};
+use crate::engine::types::{Slot, Turned, VertexId, Visit};
 use crate::mesh::{Record, TriangleStore, VertexStore};
 use crate::predicate::Corners;
 use rust_hdl_core::prelude::*;
@@ -36,7 +36,7 @@ pub struct VisitReader {
     /// The id of the infinite vertex, a constant.
     pub infinite: Signal<In, VertexId>,
     /// The visit, in clock 0.
-    pub token: Signal<In, Token>,
+    pub visit: Signal<In, Visit>,
     /// Its record from the triangle memory, in clock 2.
     pub record: Signal<In, Record>,
     /// Whether the record counts, in clock 2.
@@ -49,12 +49,12 @@ pub struct VisitReader {
     /// The record turned, in clock 5.
     pub turned: Signal<Out, Turned>,
     /// The visit whose record is there, for the delay to the verdict.
-    pub token_at_record: Signal<Out, Token>,
+    pub visit_at_record: Signal<Out, Visit>,
     /// The coordinates of its vertices, not turned, in clock 5.
     pub corners: Signal<Out, Corners>,
-    token1: DFF<Token>,
-    token2: DFF<Token>,
-    token3: DFF<Token>,
+    visit1: DFF<Visit>,
+    visit2: DFF<Visit>,
+    visit3: DFF<Visit>,
     /// The record as it comes.
     stored: DFF<Turned>,
     /// The record as stored; `slot` is the one that will come first.
@@ -67,25 +67,25 @@ pub struct VisitReader {
 }
 
 impl VisitReader {
-    /// Clocks from the token to the corners.
+    /// Clocks from the visit to the corners.
     pub const LATENCY: usize = TriangleStore::LATENCY + VertexStore::LATENCY + 1;
-    /// Clocks from the token to the turned record: the record, a register, the slot, the rotation.
+    /// Clocks from the visit to the turned record: the record, a register, the slot, the rotation.
     pub const TURNED_LATENCY: usize = TriangleStore::LATENCY + 3;
 }
 
 impl Logic for VisitReader {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, token1, token2, token3, stored, found, rotated, kept_corners);
+        dff_setup!(self, clock, visit1, visit2, visit3, stored, found, rotated, kept_corners);
         self.first_slot.next = 0.into();
         self.second_slot.next = 1.into();
         self.third_slot.next = 2.into();
-        self.token1.d.next = self.token.val();
-        self.token2.d.next = self.token1.q.val();
-        self.token_at_record.next = self.token2.q.val();
+        self.visit1.d.next = self.visit.val();
+        self.visit2.d.next = self.visit1.q.val();
+        self.visit_at_record.next = self.visit2.q.val();
 
         // Clock 2: the record as it comes.
-        self.token3.d.next = self.token2.q.val();
+        self.visit3.d.next = self.visit2.q.val();
         self.stored.d.next.v0 = self.record.val().v0;
         self.stored.d.next.v1 = self.record.val().v1;
         self.stored.d.next.v2 = self.record.val().v2;
@@ -102,10 +102,10 @@ impl Logic for VisitReader {
         self.found.d.next.infinite1 = self.stored.q.val().v1 == self.infinite.val();
         self.found.d.next.infinite2 = self.stored.q.val().v2 == self.infinite.val();
         self.found.d.next.slot = self.first_slot.val();
-        if self.token3.q.val().rotates & (self.stored.q.val().n1 == self.token3.q.val().f) {
+        if self.visit3.q.val().rotates & (self.stored.q.val().n1 == self.visit3.q.val().cavity_record) {
             self.found.d.next.slot = self.second_slot.val();
         }
-        if self.token3.q.val().rotates & (self.stored.q.val().n2 == self.token3.q.val().f) {
+        if self.visit3.q.val().rotates & (self.stored.q.val().n2 == self.visit3.q.val().cavity_record) {
             self.found.d.next.slot = self.third_slot.val();
         }
 

@@ -31,7 +31,7 @@ pub(super) struct Commit {
     /// The current entry is the first, before the last one's id is known.
     opens: bool,
     before_id: u32,
-    second_a: u32,
+    second_vertex: u32,
     second_id: u32,
     inner_index: u32,
     /// Clocks that the place of the next inner triangle has stood, up to `INNER_LATENCY`.
@@ -73,7 +73,12 @@ impl Commit {
 
     fn step(&self, head: Option<Head>, memory: &Memory) -> Option<Step> {
         if self.current_is_last {
-            return Some(Step { ahead: self.first, ahead_id: self.first.f, is_inner: false, is_fresh: false });
+            return Some(Step {
+                ahead: self.first,
+                ahead_id: self.first.cavity_record,
+                is_inner: false,
+                is_fresh: false,
+            });
         }
         let Head { entry: ahead, shares, .. } = head?;
         let is_inner = shares && self.inner_index != self.job.inners;
@@ -82,7 +87,7 @@ impl Commit {
             (true, _) if self.inner_age < INNER_LATENCY => return None,
             (true, _) => memory.inner[self.job.context][self.inner_index as usize],
             (_, true) => self.fresh,
-            _ => ahead.f,
+            _ => ahead.cavity_record,
         };
         Some(Step { ahead, ahead_id, is_inner, is_fresh })
     }
@@ -111,11 +116,11 @@ impl Commit {
                 self.state = if self.closes { State::Close } else { State::Record };
             }
             State::Close => {
-                let v = [self.job.p, self.first.a, self.second_a];
-                let n = [self.first.u, self.second_id, self.before_id];
+                let v = [self.job.vertex, self.first.first_vertex, self.second_vertex];
+                let n = [self.first.outside_record, self.second_id, self.before_id];
                 self.write = Write::record(self.current_id, v, n);
                 self.written[0] = Some(self.fresh);
-                memory.hint[self.job.context] = self.first.f;
+                memory.hint[self.job.context] = self.first.cavity_record;
                 self.state = State::Idle;
                 self.load(head);
             }
@@ -133,7 +138,7 @@ impl Commit {
             self.job = job;
             self.first = entry;
             self.current = entry;
-            self.current_id = entry.f;
+            self.current_id = entry.cavity_record;
             self.current_is_last = false;
             self.opens = true;
             self.inner_index = 0;
@@ -153,13 +158,13 @@ impl Commit {
         let current = self.current;
         let mut links = false;
         if self.opens {
-            self.second_a = ahead.a;
+            self.second_vertex = ahead.first_vertex;
             self.second_id = ahead_id;
         } else {
-            let v = [self.job.p, current.a, ahead.a];
-            self.write = Write::record(self.current_id, v, [current.u, ahead_id, self.before_id]);
-            self.link = Write::link(current.u, current.slot, self.current_id);
-            links = self.current_id != current.f;
+            let v = [self.job.vertex, current.first_vertex, ahead.first_vertex];
+            self.write = Write::record(self.current_id, v, [current.outside_record, ahead_id, self.before_id]);
+            self.link = Write::link(current.outside_record, current.slot, self.current_id);
+            links = self.current_id != current.cavity_record;
         }
         self.opens = false;
         self.closes = self.current_is_last;

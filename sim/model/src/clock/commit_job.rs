@@ -5,7 +5,7 @@
 pub(super) struct CommitJob {
     pub context: usize,
     /// The new vertex.
-    pub p: u32,
+    pub vertex: u32,
     /// Inner triangles.
     pub inners: u32,
     /// Locks in the log.

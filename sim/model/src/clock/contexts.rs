@@ -1,4 +1,4 @@
-//! Which context sleeps, keeps its point, or has writes or locks to get rid of; the waiting token; the turn to be alone.
+//! Which context sleeps, keeps its point, or has writes or locks to get rid of; the priority; the turn to be alone.
 
 use super::attempts::Outcome;
 use super::defect::Defect;
@@ -12,7 +12,7 @@ pub(super) struct Contexts {
     /// No visit of it is out.
     pub asleep: Set,
     /// It tries its point again when it wakes.
-    pub keeps: Set,
+    pub retrying: Set,
     /// Its commit or the release of its locks is due.
     pub busy: Set,
     /// It has had a point.
@@ -20,8 +20,8 @@ pub(super) struct Contexts {
     /// It has had a commit, so its hint is one.
     pub hinted: Set,
     /// The context that waits at foreign locks instead of giving up.
-    pub waiter: Option<usize>,
-    /// How often it has met a foreign lock since it took the token, up to `URGENT`.
+    pub priority_context: Option<usize>,
+    /// How often it has met a foreign lock since it took the priority, up to `URGENT`.
     waits: u32,
     /// The context whose list has overflowed; nobody starts until it has inserted its point alone.
     pub solo: Option<usize>,
@@ -31,7 +31,7 @@ pub(super) struct Contexts {
     pub rest: bool,
 }
 
-/// L3: foreign locks that the holder of the token meets before the others stop trying again.
+/// L3: foreign locks that the holder of the priority meets before the others stop trying again.
 const URGENT: u32 = 8;
 
 impl Contexts {
@@ -45,7 +45,7 @@ impl Contexts {
     /// Whether a context may try its point again. Contexts that fail again and again could keep the one that waits from its locks for
     /// ever, in step with it: when it has waited for long, only it tries again, and new points.
     pub(super) fn may_try_again(&self, context: usize) -> bool {
-        self.waits < URGENT || self.waiter.is_none_or(|waiter| waiter == context)
+        self.waits < URGENT || self.priority_context.is_none_or(|holder| holder == context)
     }
 
     /// Nothing is in flight and no lock is held.
@@ -59,7 +59,7 @@ impl Contexts {
         }
         if let Some(context) = wires.start.map(|start| start.context) {
             self.asleep &= !(1 << context);
-            self.keeps &= !(1 << context);
+            self.retrying &= !(1 << context);
             self.began |= 1 << context;
         }
         if let Some(context) = wires.released {
@@ -70,11 +70,11 @@ impl Contexts {
             self.finished += 1;
         }
         if wires.solo_ends {
-            if self.waiter == self.solo {
-                self.waiter = None;
+            if self.priority_context == self.solo {
+                self.priority_context = None;
             }
             if let Some(context) = self.solo.take() {
-                self.keeps &= !(1 << context);
+                self.retrying &= !(1 << context);
             }
             self.finished += 1;
         }
@@ -93,18 +93,21 @@ impl Contexts {
         if outcome.sleeps {
             self.asleep |= bit;
         }
-        if outcome.keeps {
-            self.keeps |= bit;
+        if outcome.will_retry {
+            self.retrying |= bit;
         }
         if outcome.commit.is_some() || outcome.release.is_some() {
             self.busy |= bit;
         }
-        if outcome.stops_waiting && was.contexts.waiter == Some(context) {
-            self.waiter = None;
+        if outcome.returns_priority && was.contexts.priority_context == Some(context) {
+            self.priority_context = None;
         }
-        // L2: the waiting token goes to who asks while it is free.
-        if outcome.asks_to_wait && was.contexts.waiter.is_none() && defect != Some(Defect::NobodyWaits) {
-            self.waiter = Some(context);
+        // L2: the priority goes to who asks while it is free.
+        if outcome.asks_for_priority
+            && was.contexts.priority_context.is_none()
+            && defect != Some(Defect::NobodyTakesPriority)
+        {
+            self.priority_context = Some(context);
             self.waits = 0;
         }
         if outcome.waits {

@@ -24,7 +24,7 @@ pub(super) struct Counters {
     flips: u32,
     aborts: u32,
     root_retries: u32,
-    waits: u32,
+    priorities_taken: u32,
     issue_cycles: u32,
     write_cycles: u32,
     commit_cycles: u32,
@@ -61,20 +61,20 @@ impl Counters {
     }
 
     fn count_outcome(&mut self, was: &Registers, wires: &Wires) {
-        let asks = was.outcome.is_some_and(|outcome| outcome.asks_to_wait);
-        self.waits += u32::from(asks && was.contexts.waiter.is_none());
+        let asks = was.outcome.is_some_and(|outcome| outcome.asks_for_priority);
+        self.priorities_taken += u32::from(asks && was.contexts.priority_context.is_none());
         let (Some(done), Some(outcome)) = (&wires.done, &wires.outcome) else {
             return;
         };
-        let kind = (done.token.rotates, done.token.locks);
+        let kind = (done.visit.rotates, done.visit.locks);
         self.walk_visits += u32::from(kind == (false, false) && !outcome.looks);
         self.root_visits += u32::from(kind == (false, true));
         self.tests += u32::from(kind == (true, true));
-        self.revisits += u32::from(outcome.is_again);
+        self.revisits += u32::from(outcome.revisits);
         self.duplicates += u32::from(outcome.duplicate);
         self.overflows += u32::from(outcome.overflows);
         self.aborts += u32::from(outcome.aborts);
-        self.root_retries += u32::from(outcome.retries_root);
+        self.root_retries += u32::from(outcome.root_changed);
         self.cavity_triangles += outcome.commit.map_or(0, |_| outcome.attempt.map_or(0, |attempt| attempt.count - 2));
     }
 
@@ -107,7 +107,7 @@ impl Counters {
             (Counter::Revisits, self.revisits),
             (Counter::Aborts, self.aborts),
             (Counter::RootRetries, self.root_retries),
-            (Counter::WaitingTokens, self.waits),
+            (Counter::PrioritiesTaken, self.priorities_taken),
             (Counter::IssueCycles, self.issue_cycles),
             (Counter::WriteCycles, self.write_cycles),
             (Counter::CommitCycles, self.commit_cycles),

@@ -8,9 +8,9 @@ pub enum Defect {
     /// L1: a failed attempt releases its locks while visits of it are still out.
     ReleasesBeforeDrained,
     /// L1: a failed attempt does not rest before it tries again.
-    NeverBacksOff,
-    /// L2: nobody ever holds the waiting token.
-    NobodyWaits,
+    NeverRests,
+    /// L2: nobody ever holds the priority.
+    NobodyTakesPriority,
     /// L3: others try again beside a holder that has waited for long.
     NobodyYields,
     /// L4: locks are released when the ring is finished, before its star is written.

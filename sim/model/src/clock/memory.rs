@@ -47,11 +47,11 @@ impl Write {
 /// A final boundary edge.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Entry {
-    pub a: u32,
-    pub u: u32,
+    pub first_vertex: u32,
+    pub outside_record: u32,
     pub slot: usize,
-    pub f: u32,
-    pub next: usize,
+    pub cavity_record: u32,
+    pub after: usize,
 }
 
 /// All memories.
@@ -63,7 +63,7 @@ pub(super) struct Memory {
     vertices: Vec<Point>,
     pub locks: Vec<bool>,
     /// The context that took the lock last.
-    owners: Vec<usize>,
+    holders: Vec<usize>,
     /// Boundary entries, inner triangles and locks of each context.
     pub entries: Vec<Vec<Entry>>,
     pub inner: Vec<Vec<u32>>,
@@ -86,7 +86,7 @@ impl Memory {
             records: vec![Record::default(); records],
             vertices: vec![Point::default(); config.points as usize],
             locks: vec![false; records],
-            owners: vec![0; records],
+            holders: vec![0; records],
             entries: vec![vec![Entry::default(); ring]; contexts],
             inner: vec![vec![0; ring]; contexts],
             lock_log: vec![vec![0; 2 * ring]; contexts],
@@ -111,12 +111,12 @@ impl Memory {
             return (false, true);
         }
         if self.locks[place] {
-            // L9: the stored owner tells a cavity's second visit from a foreign one.
-            let is_own = self.owners[place] == context && defect != Some(Defect::TakesOwnForForeign);
+            // L9: the stored holder tells a cavity's second visit from a foreign one.
+            let is_own = self.holders[place] == context && defect != Some(Defect::TakesOwnForForeign);
             return (false, !is_own);
         }
         self.locks[place] = true;
-        self.owners[place] = context;
+        self.holders[place] = context;
         (true, false)
     }
 

@@ -16,19 +16,19 @@ const RECORD_STAGES: usize = 2;
 
 /// One visit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Token {
+pub(super) struct Visit {
     pub context: usize,
-    /// The record is turned so that its link to `f` comes first.
+    /// The record is turned so that its link to `cavity_record` comes first.
     pub rotates: bool,
     /// The record's lock is taken.
     pub locks: bool,
-    /// Ring entry, the entry after it, and the entry that names `f`.
-    pub x: usize,
-    pub next: usize,
-    pub f_entry: usize,
-    pub f: u32,
+    /// Ring entry, the entry after it, and the entry that names `cavity_record`.
+    pub entry: usize,
+    pub after: usize,
+    pub cavity_entry: usize,
+    pub cavity_record: u32,
     /// The record visited.
-    pub u: u32,
+    pub record: u32,
 }
 
 /// One to three visits that one completion asks for.
@@ -36,56 +36,65 @@ pub(super) struct Token {
 /// The second is from the entry after the first one's, the third from the entry after that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Bundle {
-    pub first: Token,
+    pub first: Visit,
     /// Visits.
     pub count: u32,
     /// The entry after the second visit's.
-    second_next: usize,
-    second_u: u32,
-    third_u: u32,
+    second_after: usize,
+    second_record: u32,
+    third_record: u32,
 }
 
 impl Bundle {
-    pub(super) fn one(first: Token) -> Self {
+    pub(super) fn one(first: Visit) -> Self {
         Self { first, count: 1, ..Self::default() }
     }
 
     /// A plain look at a record.
-    pub(super) fn look(context: usize, u: u32) -> Self {
-        Self::one(Token { context, u, ..Token::default() })
+    pub(super) fn look(context: usize, record: u32) -> Self {
+        Self::one(Visit { context, record, ..Visit::default() })
     }
 
     /// The visit that locks a root.
-    pub(super) fn root(context: usize, u: u32) -> Self {
-        Self::one(Token { context, u, locks: true, ..Token::default() })
+    pub(super) fn root(context: usize, record: u32) -> Self {
+        Self::one(Visit { context, record, locks: true, ..Visit::default() })
     }
 
-    /// A visit without a lock, turned to the link to `f`.
-    pub(super) fn turned(context: usize, f: u32, u: u32) -> Self {
-        Self::one(Token { context, rotates: true, f, u, ..Token::default() })
+    /// A visit without a lock, turned to the link to `cavity_record`.
+    pub(super) fn turned(context: usize, cavity_record: u32, record: u32) -> Self {
+        Self::one(Visit { context, rotates: true, cavity_record, record, ..Visit::default() })
     }
 
     /// The tests of the three neighbours of a root.
     pub(super) fn tests(root: &Completion) -> Self {
-        let Token { context, u, .. } = root.token;
+        let Visit { context, record, .. } = root.visit;
         let n = root.record.n;
-        let first = Token { context, rotates: true, locks: true, x: 0, next: 1, f_entry: 0, f: u, u: n[0] };
-        Self { first, count: 3, second_next: 2, second_u: n[1], third_u: n[2] }
+        let first = Visit {
+            context,
+            rotates: true,
+            locks: true,
+            entry: 0,
+            after: 1,
+            cavity_entry: 0,
+            cavity_record: record,
+            record: n[0],
+        };
+        Self { first, count: 3, second_after: 2, second_record: n[1], third_record: n[2] }
     }
 
     /// The bundle of a conflict: both halves of the edge go on to the triangles behind, the second as the new entry `y`.
     pub(super) fn split(done: &Completion, y: usize) -> Self {
         let [_, n1, n2] = done.record.n;
-        let first = Token { next: y, f_entry: y, f: done.token.u, u: n1, ..done.token };
-        Self { first, count: 2, second_next: done.token.next, second_u: n2, third_u: 0 }
+        let first = Visit { after: y, cavity_entry: y, cavity_record: done.visit.record, record: n1, ..done.visit };
+        Self { first, count: 2, second_after: done.visit.after, second_record: n2, third_record: 0 }
     }
 
     /// The visit with this place in the bundle.
-    fn token(&self, place: u32) -> Token {
+    fn visit(&self, place: u32) -> Visit {
         match place {
             0 => self.first,
-            1 => Token { x: self.first.next, next: self.second_next, u: self.second_u, ..self.first },
-            _ => Token { x: self.second_next, next: 0, u: self.third_u, ..self.first },
+            1 => Visit { entry: self.first.after, after: self.second_after, record: self.second_record, ..self.first },
+            _ => Visit { entry: self.second_after, after: 0, record: self.third_record, ..self.first },
         }
     }
 }
@@ -93,8 +102,8 @@ impl Bundle {
 /// A visit that has been made.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Completion {
-    pub token: Token,
-    /// The record, turned if the token says so.
+    pub visit: Visit,
+    /// The record, turned if the visit says so.
     pub record: Record,
     /// How far it was turned.
     pub slot: usize,
@@ -118,7 +127,7 @@ pub(super) struct Completion {
 impl Completion {
     /// It may ask for other visits: all do but tests that find their edge final.
     pub(super) fn may_ask(&self) -> bool {
-        !self.token.rotates || self.conflict || self.foreign
+        !self.visit.rotates || self.conflict || self.foreign
     }
 }
 
@@ -127,7 +136,7 @@ pub(super) struct Pipeline {
     queue: VecDeque<Bundle>,
     /// Visits of the bundle at the head that have been issued.
     place: u32,
-    issued: Option<Token>,
+    issued: Option<Visit>,
     stages: [Option<Completion>; STAGES],
     /// Place of the completion register in `stages`, which turns round.
     head: usize,
@@ -155,14 +164,14 @@ impl Pipeline {
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) {
         self.expect_no_collision(was);
-        let visited = self.issued.map(|token| visit(token, was, wires, memory, defect));
+        let visited = self.issued.map(|visit| complete(visit, was, wires, memory, defect));
         self.stages[self.head] = visited;
         self.head = (self.head + 1) % STAGES;
         self.reads = [wires.read, self.reads[0], self.reads[1]];
         self.queue.extend(was.push);
         self.issued = None;
         if let Some(&bundle) = self.queue.front() {
-            self.issued = Some(bundle.token(self.place));
+            self.issued = Some(bundle.visit(self.place));
             self.place += 1;
             if self.place == bundle.count {
                 self.place = 0;
@@ -180,18 +189,18 @@ impl Pipeline {
 }
 
 /// Reads a record, takes its lock if asked to, and evaluates the predicates.
-fn visit(token: Token, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
+fn complete(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
     // L7: a record that is written while it is read comes out torn, and a new one counts once its commit has ended.
-    let is_torn = was.write.valid && was.write.id == token.u;
+    let is_torn = was.write.valid && was.write.id == visit.record;
     let is_written =
-        token.u < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);
-    let stored = if is_torn { Record::default() } else { memory.record(token.u) };
-    let (took, foreign) = match token.locks {
-        true => memory.take_lock(token.u, token.context, wires.clear, defect),
+        visit.record < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);
+    let stored = if is_torn { Record::default() } else { memory.record(visit.record) };
+    let (took, foreign) = match visit.locks {
+        true => memory.take_lock(visit.record, visit.context, wires.clear, defect),
         false => (false, false),
     };
-    let p = memory.position[token.context];
-    let slot = if token.rotates { stored.slot_of(token.f) } else { 0 };
+    let p = memory.position[visit.context];
+    let slot = if visit.rotates { stored.slot_of(visit.cavity_record) } else { 0 };
     let record = stored.rotated(slot);
     let infinite = record.v.map(|v| v == memory.infinite);
     let r = record.v.map(|v| memory.vertex(v));
@@ -206,5 +215,5 @@ fn visit(token: Token, was: &Registers, wires: &Wires, memory: &mut Memory, defe
     let falls_onto_corner = ghost.is_none() && r.contains(&p);
     let turn = sides[2].signum() as i32;
     let again = is_torn && defect != Some(Defect::ReadsTheTorn) || !is_written;
-    Completion { token, record, slot, took, foreign, again, conflict, located, falls_onto_corner, walk_next, turn }
+    Completion { visit, record, slot, took, foreign, again, conflict, located, falls_onto_corner, walk_next, turn }
 }

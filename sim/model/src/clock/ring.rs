@@ -34,8 +34,8 @@ pub(super) struct RingReader {
     arrival: Option<Link>,
     pub head: Option<Head>,
     /// The triangles behind the entry that came to the head last, and behind the first of its ring.
-    last_f: u32,
-    first_f: u32,
+    last_cavity_record: u32,
+    first_cavity_record: u32,
 }
 
 impl RingReader {
@@ -45,11 +45,11 @@ impl RingReader {
             self.head = self.arrival.map(|link| self.next_head(&link, memory));
             self.arrival = self.output;
             self.output = self.array;
-            self.array = self.pointer.map(|link| Link { is_last: entry_of(&link, memory).next == 0, ..link });
+            self.array = self.pointer.map(|link| Link { is_last: entry_of(&link, memory).after == 0, ..link });
             // That an entry is the last one is found out when the pointer has left it: one place stays empty.
             self.pointer = match self.array {
                 Some(link) if link.is_last => None,
-                Some(link) => Some(Link { pointer: entry_of(&link, memory).next, ..link }),
+                Some(link) => Some(Link { pointer: entry_of(&link, memory).after, ..link }),
                 None => self.queue.pop_front().map(|job| Link { job, pointer: 0, is_last: false }),
             };
         }
@@ -60,10 +60,11 @@ impl RingReader {
     fn next_head(&mut self, link: &Link, memory: &Memory) -> Head {
         let entry = entry_of(link, memory);
         let is_first = link.pointer == 0;
-        let shares = !is_first && (entry.f == self.last_f || entry.f == self.first_f);
-        self.last_f = entry.f;
+        let shares = !is_first
+            && (entry.cavity_record == self.last_cavity_record || entry.cavity_record == self.first_cavity_record);
+        self.last_cavity_record = entry.cavity_record;
         if is_first {
-            self.first_f = entry.f;
+            self.first_cavity_record = entry.cavity_record;
         }
         Head { job: link.job, entry, is_last: link.is_last, shares }
     }

@@ -36,7 +36,7 @@ pub(super) struct Solo {
     started: Option<usize>,
     done: Option<Completion>,
     context: usize,
-    p: u32,
+    vertex: u32,
     /// The located triangle.
     root_id: u32,
     root: Record,
@@ -108,7 +108,7 @@ impl Solo {
             (State::Idle, _) => {
                 if let Some(context) = was.solo.started {
                     self.context = context;
-                    self.p = memory.point_id[context];
+                    self.vertex = memory.point_id[context];
                     self.root_id = tables.root[context];
                     self.state = State::Locate;
                 }
@@ -138,7 +138,7 @@ impl Solo {
 
     fn split(&mut self, was: &Registers) {
         let (id, root) = (was.solo.root_id, was.solo.root);
-        let (p, second) = (was.solo.p, was.commit.records);
+        let (p, second) = (was.solo.vertex, was.commit.records);
         let third = second + 1;
         let [v0, v1, v2] = root.v;
         self.write = match was.solo.step {
@@ -155,7 +155,7 @@ impl Solo {
 
     fn mend(&mut self, was: &Registers, done: &Completion) {
         self.awaits = false;
-        self.write = Write::link(done.token.u, done.slot, was.commit.records + was.solo.step);
+        self.write = Write::link(done.visit.record, done.slot, was.commit.records + was.solo.step);
         self.step = 1;
         if was.solo.step == 1 {
             self.id = was.solo.root_id;
@@ -191,7 +191,7 @@ impl Solo {
 
     fn flip(&mut self, was: &Registers) {
         let solo = &was.solo;
-        let p = was.solo.p;
+        let p = was.solo.vertex;
         self.write = match solo.step {
             0 => Write::record(solo.id, [p, solo.a, solo.apex], [solo.apex_after_a, solo.outer, solo.before]),
             1 => Write::record(solo.outer, [p, solo.apex, solo.b], [solo.apex_before_b, solo.after, solo.id]),

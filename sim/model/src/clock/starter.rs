@@ -8,7 +8,7 @@ use super::wires::{Registers, Wires};
 use incircle_protocol::FIRST_ROUND;
 
 /// Rounds of the pointer per round in which contexts that backed off may try again.
-const BACK_OFF_ROUNDS: u32 = 4;
+const REST_ROUNDS: u32 = 4;
 
 /// The context that the pointer has left last, and the vertex it would take.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,7 +23,7 @@ struct Candidate {
     /// It is due, if nothing stands in its way.
     due: Option<Start>,
     /// It wants to be alone.
-    is_alone: bool,
+    is_solo: bool,
 }
 
 /// A walk that starts.
@@ -49,8 +49,8 @@ pub(super) struct Starter {
 
 impl Starter {
     /// The context that wants to be alone is the candidate.
-    pub(super) fn is_at_alone(&self) -> bool {
-        self.candidate.is_alone
+    pub(super) fn is_at_solo(&self) -> bool {
+        self.candidate.is_solo
     }
 
     /// The walk that starts at this edge, if the queue and the vertex memory are free.
@@ -67,9 +67,9 @@ impl Starter {
         {
             return None;
         }
-        if flags.keeps & bit != 0 {
+        if flags.retrying & bit != 0 {
             // L1: who has failed rests. L3: nobody else tries again beside a holder that has waited for long.
-            let rested = self.round == 0 || defect == Some(Defect::NeverBacksOff);
+            let rested = self.round == 0 || defect == Some(Defect::NeverRests);
             let may = flags.may_try_again(context) || defect == Some(Defect::NobodyYields);
             let ready = flags.busy & bit == 0 && rested && may;
             return ready.then(|| Start { context, id: None, push: Bundle::look(context, tables.root[context]) });
@@ -102,15 +102,15 @@ impl Starter {
         }
         if !wires.start_is_held {
             let context = was.starter.turn;
-            let is_alone = was.contexts.solo == Some(self.passed.context);
+            let is_solo = was.contexts.solo == Some(self.passed.context);
             let due = was.starter.due(was, tables, memory, defect);
-            self.candidate = Candidate { due, is_alone };
+            self.candidate = Candidate { due, is_solo };
             self.passed = Passed { context, id: next_id(was, context, memory) };
             self.turn += 1;
             if self.turn as u32 == was.command.contexts {
                 self.turn = 0;
                 self.is_planned = true;
-                self.round = (self.round + 1) % BACK_OFF_ROUNDS;
+                self.round = (self.round + 1) % REST_ROUNDS;
             }
         }
         if let Some(Start { context, id: Some(id), .. }) = wires.start {

@@ -1,4 +1,4 @@
-//! `Watchdog` notices that no point is finished any more; `Progress` counts down the points that are left.
+//! `Watchdog` notices that no point is finished any more; `FinishedPoints` counts down the points that are left.
 
 use super::wires::{Registers, Wires};
 use incircle_protocol::{patience, Config};
@@ -29,13 +29,13 @@ impl Watchdog {
 /// Whether every point is finished, as it was known two clocks ago: a point that is finished is counted a clock later, and the counts
 /// are compared in the clock after that.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Progress {
+pub(super) struct FinishedPoints {
     finished: u32,
     /// Some point is not finished.
     is_behind: bool,
 }
 
-impl Progress {
+impl FinishedPoints {
     /// Every point is finished, or never will be.
     pub(super) fn is_done(&self, was: &Registers) -> bool {
         !self.is_behind || was.seeder.has_no_start()
@@ -43,6 +43,6 @@ impl Progress {
 
     pub(super) fn clock(&mut self, was: &Registers) {
         self.finished = if was.command.clears { 0 } else { was.contexts.finished };
-        self.is_behind = was.progress.finished != was.command.arrived;
+        self.is_behind = was.finished_points.finished != was.command.arrived;
     }
 }

@@ -19,7 +19,7 @@ use super::ring::Head;
 use super::seeder::Seeder;
 use super::solo::Solo;
 use super::starter::{Start, Starter};
-use super::watchdog::{Progress, Watchdog};
+use super::watchdog::{FinishedPoints, Watchdog};
 use super::ClockModel;
 use crate::predicate::Point;
 use incircle_protocol::Config;
@@ -36,7 +36,7 @@ pub(super) struct Registers {
     pub seeder: Seeder,
     pub commit: Commit,
     pub solo: Solo,
-    pub progress: Progress,
+    pub finished_points: FinishedPoints,
     pub watchdog: Watchdog,
     pub counters: Counters,
     /// The counters as they were a clock ago: the hardware counts an event a clock after it.
@@ -130,7 +130,7 @@ impl ClockModel {
             record_read: self.pipeline.record_read().map(|id| self.memory.record_words(id)),
             read: was.responder.read_request(was),
             answer_ends: was.responder.ends(inputs.response_ready),
-            is_quiet: was.progress.is_done(was) && rests,
+            is_quiet: was.finished_points.is_done(was) && rests,
             new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
             start: wanted.filter(|_| !lacks_port && !lacks_queue),
             start_is_held: wanted.is_some() && (lacks_port || outcome.is_some()),
@@ -141,7 +141,7 @@ impl ClockModel {
             clear: self.release.clear(),
             released: self.release.released(),
             solo_push,
-            solo_starts: was.contexts.solo.filter(|_| rests && !was.solo.is_at_work() && was.starter.is_at_alone()),
+            solo_starts: was.contexts.solo.filter(|_| rests && !was.solo.is_at_work() && was.starter.is_at_solo()),
             solo_ends: solo_inserts || was.solo.finds_duplicate(),
             solo_inserts,
         }
@@ -149,11 +149,11 @@ impl ClockModel {
 
     /// What becomes of the context whose visit completes.
     fn outcome(&self, done: &Completion) -> Outcome {
-        let context = done.token.context;
+        let context = done.visit.context;
         let around = Around {
             was: &self.registers,
             attempt: self.tables.attempts[context],
-            p: self.memory.point_id[context],
+            vertex: self.memory.point_id[context],
             since: self.memory.since[context],
             config: self.config,
             defect: self.defect,

@@ -10,31 +10,31 @@
 //!           X                              b
 //!           p                         p
 //! ```
-//! Tests are carried out in the order in which they arose, as the core's token queue does.
+//! Tests are carried out in the order in which they arose, as the core's queue of visits does.
 
 use super::record::Record;
 
-/// A final edge of the boundary: from `a` to the next entry's `a`, with `p` on its left.
+/// A final edge of the boundary: from `first_vertex` to that of the next entry, with the point on its left.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Entry {
-    pub(super) a: u32,
-    /// The triangle outside, which stays, and the slot of its link to `f`.
-    pub(super) u: u32,
+    pub(super) first_vertex: u32,
+    /// The triangle outside, which stays, and the slot of its link to `cavity_record`.
+    pub(super) outside_record: u32,
     pub(super) slot: u8,
     /// The cavity triangle behind the edge.
-    pub(super) f: u32,
-    pub(super) next: u8,
+    pub(super) cavity_record: u32,
+    pub(super) after: u8,
 }
 
-/// A test to be made: is `u`, before the edge of entry `x`, in conflict?
+/// A test to be made: is `record`, before the edge of `entry`, in conflict?
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Test {
-    pub(super) x: u8,
-    pub(super) next: u8,
-    /// The entry that was allocated when `f` joined the cavity, 0 for the root: names `f` in `half_open`.
-    pub(super) f_entry: u8,
-    pub(super) f: u32,
-    pub(super) u: u32,
+    pub(super) entry: u8,
+    pub(super) after: u8,
+    /// The entry that was allocated when `cavity_record` joined the cavity, 0 for the root: names it in `half_open`.
+    pub(super) cavity_entry: u8,
+    pub(super) cavity_record: u32,
+    pub(super) record: u32,
 }
 
 /// Scratch memory of an insertion.
@@ -69,33 +69,39 @@ impl Cavity {
         self.inner.clear();
         self.half_open = 0;
         self.count = 3;
-        for x in 0..3u8 {
-            self.queue.push(Test { x, next: (x + 1) % 3, f_entry: 0, f: root, u: n[usize::from(x)] });
+        for entry in 0..3u8 {
+            self.queue.push(Test {
+                entry,
+                after: (entry + 1) % 3,
+                cavity_entry: 0,
+                cavity_record: root,
+                record: n[usize::from(entry)],
+            });
         }
     }
 
     /// Passes through the edge of `test`: the ring grows by one entry. False if it has no room.
-    pub(super) fn split(&mut self, test: Test, u: &Record) -> bool {
+    pub(super) fn split(&mut self, test: Test, record: &Record) -> bool {
         if self.count == self.capacity {
             return false;
         }
-        if self.passes_last_edge(test.f_entry) {
-            self.inner.push(test.f);
+        if self.passes_last_edge(test.cavity_entry) {
+            self.inner.push(test.cavity_record);
         }
         let y = self.count;
         self.count += 1;
-        self.queue.push(Test { x: test.x, next: y, f_entry: y, f: test.u, u: u.n[1] });
-        self.queue.push(Test { x: y, next: test.next, f_entry: y, f: test.u, u: u.n[2] });
+        self.queue.push(Test { after: y, cavity_entry: y, cavity_record: test.record, record: record.n[1], ..test });
+        self.queue.push(Test { entry: y, cavity_entry: y, cavity_record: test.record, record: record.n[2], ..test });
         true
     }
 
-    fn passes_last_edge(&mut self, f_entry: u8) -> bool {
-        let bit = 1 << f_entry;
+    fn passes_last_edge(&mut self, cavity_entry: u8) -> bool {
+        let bit = 1 << cavity_entry;
         if self.half_open & bit == 0 {
             self.half_open |= bit;
             return false;
         }
-        if f_entry == 0 && self.half_open & 2 == 0 {
+        if cavity_entry == 0 && self.half_open & 2 == 0 {
             self.half_open |= 2;
             return false;
         }

@@ -19,7 +19,7 @@ struct Star {
 
 impl Mesh {
     /// Inserts `p`, located in `root`: `2 * flips + 3` tests.
-    pub(super) fn insert_alone(&mut self, p: u32, position: Point, root: u32) {
+    pub(super) fn insert_solo(&mut self, p: u32, position: Point, root: u32) {
         let old = self.records[root as usize];
         self.split(p, root, &old);
         let first = old.v[1];

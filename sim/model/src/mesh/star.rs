@@ -15,14 +15,19 @@ impl Mesh {
         while fits && done < cavity.queue.len() {
             let test = cavity.queue[done];
             done += 1;
-            let record = &self.records[test.u as usize];
-            let slot = record.slot_of(test.f);
-            let u = record.rotated(slot);
-            if self.in_conflict(&u, p) {
-                fits = cavity.split(test, &u);
+            let record = &self.records[test.record as usize];
+            let slot = record.slot_of(test.cavity_record);
+            let turned = record.rotated(slot);
+            if self.in_conflict(&turned, p) {
+                fits = cavity.split(test, &turned);
             } else {
-                cavity.entries[usize::from(test.x)] =
-                    Entry { a: u.v[2], u: test.u, slot: slot as u8, f: test.f, next: test.next };
+                cavity.entries[usize::from(test.entry)] = Entry {
+                    first_vertex: turned.v[2],
+                    outside_record: test.record,
+                    slot: slot as u8,
+                    cavity_record: test.cavity_record,
+                    after: test.after,
+                };
             }
         }
         // Tests already under way when the list overflows run out, and are counted.
@@ -46,41 +51,45 @@ impl Mesh {
             })
         };
         let first = cavity.entries[0];
-        let first_id = first.f;
-        let (mut entry, mut id) = (cavity.entries[usize::from(first.next)], 0);
-        let second_a = entry.a;
+        let first_id = first.cavity_record;
+        let (mut entry, mut id) = (cavity.entries[usize::from(first.after)], 0);
+        let second_vertex = entry.first_vertex;
         let mut second_id = 0;
-        let (mut before_f, mut before_id) = (first.f, first_id);
+        let (mut before_record, mut before_id) = (first.cavity_record, first_id);
         let mut at_second = true;
         // `entry` runs from the second to the last; its record needs the id of the one after it.
-        let mut is_last = first.next == 0;
+        let mut is_last = first.after == 0;
         let mut pending = None::<(Entry, u32, u32)>;
         while !is_last {
-            id = if entry.f == before_f || entry.f == first.f { fresh(&mut self.records) } else { entry.f };
+            id = if entry.cavity_record == before_record || entry.cavity_record == first.cavity_record {
+                fresh(&mut self.records)
+            } else {
+                entry.cavity_record
+            };
             if at_second {
                 second_id = id;
                 at_second = false;
             }
             if let Some((ahead, ahead_id, back)) = pending {
-                self.write_star(p, ahead, ahead_id, entry.a, id, back);
+                self.write_star(p, ahead, ahead_id, entry.first_vertex, id, back);
             }
             pending = Some((entry, id, before_id));
-            (before_f, before_id) = (entry.f, id);
-            is_last = entry.next == 0;
-            entry = cavity.entries[usize::from(entry.next)];
+            (before_record, before_id) = (entry.cavity_record, id);
+            is_last = entry.after == 0;
+            entry = cavity.entries[usize::from(entry.after)];
         }
         if let Some((last, last_id, back)) = pending {
-            self.write_star(p, last, last_id, first.a, first_id, back);
+            self.write_star(p, last, last_id, first.first_vertex, first_id, back);
         }
-        self.write_star(p, first, first_id, second_a, second_id, id);
+        self.write_star(p, first, first_id, second_vertex, second_id, id);
         self.cavity = cavity;
     }
 
     /// Writes the record of one entry, and the link of the triangle outside unless it is right already.
     fn write_star(&mut self, p: u32, entry: Entry, id: u32, b: u32, after: u32, before: u32) {
-        self.records[id as usize] = Record { v: [p, entry.a, b], n: [entry.u, after, before] };
-        if id != entry.f {
-            self.records[entry.u as usize].n[usize::from(entry.slot)] = id;
+        self.records[id as usize] = Record { v: [p, entry.first_vertex, b], n: [entry.outside_record, after, before] };
+        if id != entry.cavity_record {
+            self.records[entry.outside_record as usize].n[usize::from(entry.slot)] = id;
         }
     }
 }

@@ -196,7 +196,7 @@ fn the_tables_have_the_numbers_of_the_crate() {
             Revisits,
             Aborts,
             RootRetries,
-            WaitingTokens,
+            PrioritiesTaken,
             IssueCycles,
             WriteCycles,
             CommitCycles,

@@ -133,7 +133,7 @@ fn sixteen_contexts() {
         }
     }
     let counted =
-        [Counter::Aborts, Counter::WaitingTokens, Counter::RootRetries, Counter::Revisits, Counter::Overflows];
+        [Counter::Aborts, Counter::PrioritiesTaken, Counter::RootRetries, Counter::Revisits, Counter::Overflows];
     for counter in counted {
         assert!(rig.counted(counter) > 15, "{counter:?}: {}", rig.counted(counter));
     }
@@ -290,7 +290,7 @@ fn cores_without_a_rule_of_the_engine_are_caught() {
         })
         .collect();
     expect_caught(FAULTY, &["foreign_lock", "drain", "rest"], SMALL, &jobs); // L1
-    expect_caught(FAULTY, &["token", "yield"], SMALL, &jobs); // L2 and L3
+    expect_caught(FAULTY, &["priority", "yield"], SMALL, &jobs); // L2 and L3
     expect_caught(FAULTY, &["release", "root", "busy"], SMALL, &jobs); // L4, L5 and L6
     expect_caught(FAULTY, &["torn"], SMALL, &jobs); // L7, of records that are being written
     expect_caught(FAULTY, &["first_round", "own_lock"], SMALL, &jobs); // L8 and L9

@@ -48,7 +48,11 @@ fn sources() -> Vec<(String, String)> {
 
 /// The folders or files in backquotes, or the root for `everywhere`.
 fn places(cell: &str) -> Vec<&str> {
-    if cell == "everywhere" { vec![""] } else { cell.split('`').skip(1).step_by(2).collect() }
+    if cell == "everywhere" {
+        vec![""]
+    } else {
+        cell.split('`').skip(1).step_by(2).collect()
+    }
 }
 
 #[test]
@@ -61,7 +65,10 @@ fn no_retired_word_is_used() {
     let mut found = Vec::new();
     for [refused, cell, instead] in retired {
         for place in places(cell) {
-            assert!(place.is_empty() || root().join(place).exists(), "the glossary names {place}, which does not exist");
+            assert!(
+                place.is_empty() || root().join(place).exists(),
+                "the glossary names {place}, which does not exist"
+            );
             for word in refused.split(", ") {
                 let looked_for = words(word);
                 let uses = sources.iter().filter(|(name, _)| name.starts_with(place));

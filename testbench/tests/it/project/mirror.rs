@@ -24,7 +24,7 @@ const ELSEWHERE: [(&str, &str, &str); 26] = [
     ("engine/insertions", "cores/lockstep", "wires between the rooms"),
     ("engine/solo/solo_star", "blocks/engine/solo/solo", "a part of solo that only solo's states drive"),
     ("engine/solo/solo_steps", "blocks/engine/solo/solo", "the states of solo, which alone uses them"),
-    ("link/payload_words", "blocks/link/responder", "the payload that only the responder asks for"),
+    ("commands/payload_words", "blocks/commands/responder", "the payload that only the responder asks for"),
     ("leaf/spill_ring", "blocks/leaf/deep_fifo", "the memory behind the deep buffer"),
     ("leaf/unpack", "blocks/engine/visit/issue", "the fields of a structure as wires, in most blocks"),
     ("serial/link_receiver", "blocks/serial/serial_link", "the receiving half of the link, at its pins"),

@@ -2,6 +2,7 @@
 
 mod dependencies;
 mod documents;
+mod glossary;
 mod import_circles;
 mod mirror;
 mod rules;

@@ -3,17 +3,17 @@
 
 use std::collections::BTreeMap;
 
+use incircle_hdl::commands::types::{Activity, AnswerProgress, Clearing, Head, Request, TakenWord, Tally};
+use incircle_hdl::commands::{AnswerBeat, CommandState};
 use incircle_hdl::engine::{Arrival, EngineState};
 use incircle_hdl::engine::{
     Attempt, Beyond, Bundle, Case, CommitJob, CommitRequest, Committed, Completion, ContextState, Deal, Entry,
     EntryWrite, Events, Follow, Following, Held, InnerWrite, LockClear, LockWrite, Outcome, Passed, Plan, PlanWrite,
     Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead, SeedProgress, SoloPhase,
-    SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Token, Turned, Upcoming, Verdict, VisitEvents, Write,
+    SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit, VisitEvents, Write,
     WriteEnables,
 };
 use incircle_hdl::leaf::Unpacked;
-use incircle_hdl::link::types::{Activity, AnswerProgress, Clearing, Head, Request, TakenWord, Tally};
-use incircle_hdl::link::{AnswerBeat, CommandState};
 use incircle_hdl::mesh::{ReadRecord, Record};
 use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
 use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FrameHead, Lamps, Receipt, Session};
@@ -119,7 +119,7 @@ macro_rules! packed_values {
     )*};
 }
 packed_values!(
-    Token,
+    Visit,
     Bundle,
     Turned,
     Attempt,

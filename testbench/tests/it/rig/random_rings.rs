@@ -12,8 +12,8 @@ pub const OLD_IDS: u64 = 1 << 14;
 /// A finished ring of a context.
 #[derive(Clone, Debug, Default)]
 pub struct Ring {
-    pub owner: u64,
-    pub p: u64,
+    pub context: u64,
+    pub vertex: u64,
     pub locks: u64,
     pub since: u64,
     /// Entries by number; the ring starts at 0.
@@ -24,39 +24,41 @@ pub struct Ring {
 
 impl Ring {
     /// A ring of this many edges.
-    pub fn random(edges: usize, owner: u64, random: &mut SplitMix64) -> Self {
+    pub fn random(edges: usize, context: u64, random: &mut SplitMix64) -> Self {
         let mut edges_of = BTreeMap::new();
         let root = new_triangle(3, &mut edges_of, random);
-        let mut entries: Vec<Edge> = [1, 2, 0].map(|after| Edge { f: root, after, ..Edge::default() }).to_vec();
+        let mut entries: Vec<Edge> =
+            [1, 2, 0].map(|after| Edge { cavity_record: root, after, ..Edge::default() }).to_vec();
         let mut inner = Vec::new();
         while entries.len() < edges {
-            let x = random.below(entries.len() as u64) as usize;
-            let passed = entries[x];
-            let open = edges_of.get_mut(&passed.f).expect("a triangle of the cavity");
+            let place = random.below(entries.len() as u64) as usize;
+            let passed = entries[place];
+            let open = edges_of.get_mut(&passed.cavity_record).expect("a triangle of the cavity");
             *open -= 1;
             if *open == 0 {
-                inner.push(passed.f);
+                inner.push(passed.cavity_record);
             }
-            let f = new_triangle(2, &mut edges_of, random);
-            entries.push(Edge { f, ..passed });
-            entries[x] = Edge { f, after: entries.len() as u64 - 1, ..passed };
+            let cavity_record = new_triangle(2, &mut edges_of, random);
+            entries.push(Edge { cavity_record, ..passed });
+            entries[place] = Edge { cavity_record, after: entries.len() as u64 - 1, ..passed };
         }
         for entry in &mut entries {
-            (entry.a, entry.u, entry.slot) = (random.below(1 << 15), random.below(1 << 15), random.below(3));
+            (entry.first_vertex, entry.outside_record, entry.slot) =
+                (random.below(1 << 15), random.below(1 << 15), random.below(3));
         }
-        let (p, locks, since) = (random.below(1 << 15), 1 + random.below(126), random.below(1 << 22));
-        Self { owner, p, locks, since, entries, inner }
+        let (vertex, locks, since) = (random.below(1 << 15), 1 + random.below(126), random.below(1 << 22));
+        Self { context, vertex, locks, since, entries, inner }
     }
 
     /// As a `CommitJob`.
     pub fn job(&self) -> u128 {
-        commit_job(self.owner, self.p, self.inner.len() as u64, self.locks, self.since)
+        commit_job(self.context, self.vertex, self.inner.len() as u64, self.locks, self.since)
     }
 
     /// The triangle behind the entry with this place in the order lies behind the one before it or the first one too.
     pub fn shares(&self, place: usize) -> bool {
         let order = self.in_order();
-        place > 0 && [order[place - 1].f, order[0].f].contains(&order[place].f)
+        place > 0 && [order[place - 1].cavity_record, order[0].cavity_record].contains(&order[place].cavity_record)
     }
 
     /// The entries from entry 0 on.

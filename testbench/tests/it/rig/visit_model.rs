@@ -54,12 +54,12 @@ impl Locks {
     }
 
     /// A visit of this context wants the lock; `is_cleared` at the same edge. Tells whether it took it, and whether it is foreign.
-    pub fn take(&mut self, id: usize, owner: u64, is_cleared: bool) -> (bool, bool) {
+    pub fn take(&mut self, id: usize, context: u64, is_cleared: bool) -> (bool, bool) {
         match self.0[id] {
             _ if is_cleared => (false, true),
-            Some(holder) => (false, holder != owner),
+            Some(holder) => (false, holder != context),
             None => {
-                self.0[id] = Some(owner);
+                self.0[id] = Some(context);
                 (true, false)
             }
         }
@@ -79,8 +79,8 @@ pub struct Record {
 
 impl Record {
     /// The slot that comes first when a visit from `f` turns the record.
-    pub fn slot(&self, rotates: bool, f: u64) -> usize {
-        self.n.iter().position(|link| rotates && *link == f).unwrap_or(0)
+    pub fn slot(&self, rotates: bool, cavity_record: u64) -> usize {
+        self.n.iter().position(|link| rotates && *link == cavity_record).unwrap_or(0)
     }
 
     pub fn turned(&self, slot: usize) -> Self {

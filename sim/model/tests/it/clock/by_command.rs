@@ -120,29 +120,29 @@ fn check_counters(bench: &mut Bench, job: &Job, counters: &Answer) {
     let expect = |holds: bool, rule: &str| assert!(holds, "{rule}: {}", what());
     let insertions = of(Counter::Insertions);
     let commits: u64 = latencies.iter().map(|&count| u64::from(count)).sum();
-    let alone = insertions - 3 - commits;
+    let solo = insertions - 3 - commits;
     let (flips, tests) = (of(Counter::Flips), of(Counter::Tests));
     let (walks, roots, cavities) = (of(Counter::WalkVisits), of(Counter::RootVisits), of(Counter::CavityTriangles));
     let sent = job.points().len() as u64;
     expect(insertions + of(Counter::Duplicates) + of(Counter::Refused) == sent, "every point has one fate");
-    expect(alone <= of(Counter::Overflows), "none is alone without an overflow");
+    expect(solo <= of(Counter::Overflows), "no solo insertion without an overflow");
     expect(walks >= insertions - 3 + of(Counter::Duplicates), "every point is walked to");
     expect(roots >= commits, "every cavity has a root");
     expect(cavities >= commits && tests >= cavities + 2 * commits, "every edge of a boundary is tested");
-    expect(tests >= cavities + 2 * commits + 2 * flips + 3 * alone, "two tests a flip, and three");
+    expect(tests >= cavities + 2 * commits + 2 * flips + 3 * solo, "two tests a flip, and three");
 
     // The look at the first three; for one alone: its place, two links to mend, and each triangle of its star.
     let visits = 1 + walks + roots + tests;
     match of(Counter::Overflows) {
         0 => expect(of(Counter::IssueCycles) == visits, "every visit is counted"),
-        _ => expect(of(Counter::IssueCycles) >= visits + 6 * alone + flips, "alone it looks at its star"),
+        _ => expect(of(Counter::IssueCycles) >= visits + 6 * solo + flips, "a solo insertion looks at its star"),
     }
     // The first three points and their ghosts, and the records of stars; a link for each record at most.
     let stars = cavities + 2 * commits;
-    let splits = 5 * alone + 3 * flips;
+    let splits = 5 * solo + 3 * flips;
     let writes = of(Counter::WriteCycles);
     expect(writes >= 5 + stars + splits, "every record of a star is written");
-    expect(writes <= 5 + 2 * stars + splits + flips + 3 * alone, "no more than a link for each");
+    expect(writes <= 5 + 2 * stars + splits + flips + 3 * solo, "no more than a link for each");
     expect(of(Counter::CommitCycles) >= stars + commits, "a commit writes once a clock, but for its first");
     expect(of(Counter::ReleaseCycles) <= roots + tests, "only locks that were taken are released");
     expect(of(Counter::ReleaseCycles) >= 2 * commits, "and those are");
@@ -152,7 +152,7 @@ fn check_counters(bench: &mut Bench, job: &Job, counters: &Answer) {
         .max();
     expect(busiest <= Some(of(Counter::InsertCycles)), "nothing is counted twice in a clock");
     expect(of(Counter::ReadCycles) >= 3 * (2 * insertions - 2), "a word a clock is read");
-    expect(of(Counter::WaitingTokens) <= of(Counter::Aborts), "only who aborts asks to wait");
+    expect(of(Counter::PrioritiesTaken) <= of(Counter::Aborts), "only who aborts takes the priority");
 
     let (least, most) = (of(Counter::LatencyMin) as u32, of(Counter::LatencyMax) as u32);
     let first = latencies.iter().position(|&count| count != 0).map(latency_of_bucket);
@@ -162,7 +162,7 @@ fn check_counters(bench: &mut Bench, job: &Job, counters: &Answer) {
     expect(last.is_none_or(|last| latency_bucket(most) == last), "the most is in its bucket");
     if job.contexts == 1 || bench.config.contexts == 1 {
         expect(of(Counter::Aborts) == 0, "one context meets no foreign lock");
-        expect(alone == of(Counter::Overflows), "and is alone with each overflow");
+        expect(solo == of(Counter::Overflows), "and each overflow leads to a solo insertion");
     }
 }
 
@@ -201,7 +201,7 @@ fn answers_as_the_model_by_commands() {
     least(Counter::Aborts, 20_000);
     least(Counter::RootRetries, 300);
     least(Counter::Revisits, 8000);
-    least(Counter::WaitingTokens, 3000);
+    least(Counter::PrioritiesTaken, 3000);
 }
 
 #[test]

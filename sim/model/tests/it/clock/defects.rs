@@ -152,13 +152,13 @@ fn attempts_drain_before_they_release() {
 #[test]
 fn aborted_attempts_back_off() {
     let jobs = Jobs { contexts: 16, ..CROWD };
-    assert!(differ(&jobs.cycles(Defect::NeverBacksOff)));
+    assert!(differ(&jobs.cycles(Defect::NeverRests)));
 }
 
 /// L2: one context may wait at foreign locks. Else contexts abort each other for ever.
 #[test]
 fn somebody_waits() {
-    CROWD.expect(Defect::NobodyWaits, |found| *found == Symptom::Stuck);
+    CROWD.expect(Defect::NobodyTakesPriority, |found| *found == Symptom::Stuck);
 }
 
 /// L3: while it waits in vain, who has given up does not start again. Else others hold the lock it waits for in turns, for ever.

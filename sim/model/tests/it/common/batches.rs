@@ -29,12 +29,12 @@ pub fn taken_apart(records: &[[u32; 3]], jobs: u32, config: Config) -> Result<Ve
     let mut places = Vec::with_capacity(records.len());
     for (id, words) in records.iter().enumerate() {
         let (v, _) = layout.record_from_words(words);
-        let owners: Vec<u32> = v.iter().filter(|&&v| v != infinite).map(|&v| job_of(v, jobs)).collect();
-        if owners.windows(2).any(|pair| pair[0] != pair[1]) || owners.len() < 2 {
-            return Err(format!("record {id} has vertices of the jobs {owners:?}"));
+        let jobs_of_vertices: Vec<u32> = v.iter().filter(|&&v| v != infinite).map(|&v| job_of(v, jobs)).collect();
+        if jobs_of_vertices.windows(2).any(|pair| pair[0] != pair[1]) || jobs_of_vertices.len() < 2 {
+            return Err(format!("record {id} has vertices of the jobs {jobs_of_vertices:?}"));
         }
-        let job: &mut Vec<_> = &mut apart[owners[0] as usize];
-        places.push((owners[0], job.len() as u32));
+        let job: &mut Vec<_> = &mut apart[jobs_of_vertices[0] as usize];
+        places.push((jobs_of_vertices[0], job.len() as u32));
         job.push(*words);
     }
     for (job, records) in (0..).zip(&mut apart) {

@@ -87,7 +87,7 @@ fn every_order_and_list_size_gives_the_same_mesh() {
             assert_eq!(first.get_or_insert_with(|| set.clone()), &set, "ring {ring}, points {points:?}");
         }
     }
-    assert!(runs > 8000 && alone > 40_000, "{runs} runs, {alone} insertions alone");
+    assert!(runs > 8000 && alone > 40_000, "{runs} runs, {alone} solo insertions");
 }
 
 #[test]

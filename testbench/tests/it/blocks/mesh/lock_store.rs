@@ -7,7 +7,7 @@ use crate::rig::visit_model::Locks;
 use incircle_hdl::mesh::LockStore;
 use incircle_testkit::SplitMix64;
 
-named_ports!([] LockStore, [id, owner, takes, clear], [took, foreign, was_set], clock);
+named_ports!([] LockStore, [id, context_id, takes, clear], [took, foreign, was_set], clock);
 
 const CYCLES: usize = 6_000;
 
@@ -40,13 +40,13 @@ impl LockReference {
     }
 
     /// took, foreign, `was_set`.
-    pub fn edge(&mut self, id: u64, owner: u64, takes: bool, clear: Option<u64>) -> [Expected; 3] {
+    pub fn edge(&mut self, id: u64, context: u64, takes: bool, clear: Option<u64>) -> [Expected; 3] {
         let id = id as usize & self.last;
-        let owner = owner & self.last_context;
+        let context = context & self.last_context;
         let cleared = clear.map(|id| id as usize & self.last);
         let meets = cleared == Some(id);
         let was_set = self.locks.holder(id).is_some();
-        let (took, foreign) = if takes { self.locks.take(id, owner, meets) } else { (false, false) };
+        let (took, foreign) = if takes { self.locks.take(id, context, meets) } else { (false, false) };
         if let Some(cleared) = cleared {
             self.locks.clear(cleared);
         }
@@ -97,16 +97,16 @@ fn lock_store(name: &str, id_bits: u32, context_bits: u32) {
         .map(|cycle| {
             // In turn: visits at every clock, with gaps, with clears at every clock.
             let (gaps, clears) = [(9, 3), (2, 3), (9, 1)][cycle / 100 % 3];
-            let owner = (2 * numbers.bits(1)) | (numbers.bits(5) >> context_bits << context_bits);
+            let context = (2 * numbers.bits(1)) | (numbers.bits(5) >> context_bits << context_bits);
             let takes = u64::from(!numbers.once_in(gaps));
             let clears = u64::from(numbers.once_in(clears));
-            vec![id(&mut numbers, id_bits), owner, takes, id(&mut numbers, id_bits), clears]
+            vec![id(&mut numbers, id_bits), context, takes, id(&mut numbers, id_bits), clears]
         })
         .collect();
     let mut reference = LockReference::new(id_bits, context_bits);
     let mut delay = LockDelay::default();
     Stepper::new(name, LockStore::new(id_bits as usize, context_bits as usize), 1).run(
-        &["id", "owner", "takes", "clear_id", "clear_valid"],
+        &["id", "context_id", "takes", "clear_id", "clear_valid"],
         &["took", "foreign", "was_set"],
         stimuli,
         |values| {
@@ -132,12 +132,12 @@ fn lock_store_shows_the_wave_of_its_header() {
     const VISITS: [usize; 5] = [0, 1, 2, 4, 5];
     const KNOWN: [usize; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
     let mut stimuli = vec![(4, "clear_id", 5), (4, "clear_valid", 1)];
-    for (clock, owner) in VISITS.into_iter().zip([3, 4, 3, 4, 4]) {
-        stimuli.extend([(clock, "id", 5), (clock, "owner", owner), (clock, "takes", 1)]);
+    for (clock, context) in VISITS.into_iter().zip([3, 4, 3, 4, 4]) {
+        stimuli.extend([(clock, "id", 5), (clock, "context_id", context), (clock, "takes", 1)]);
     }
     let lanes = [
         ("id", "id", 0, 15, When::At(&VISITS)),
-        ("owner", "owner", 0, 5, When::At(&VISITS)),
+        ("context_id", "context_id", 0, 5, When::At(&VISITS)),
         ("takes", "takes", 0, 1, When::Always),
         ("clear_enable", "clear_valid", 0, 1, When::Always),
         ("took", "took", 0, 1, When::At(&KNOWN)),

@@ -6,7 +6,7 @@ mod answer_watch;
 mod async_fifo;
 mod beat_gate;
 mod beat_words;
-mod progress;
+mod command_under_way;
 mod register_block;
 mod register_port;
 mod reset_reply;

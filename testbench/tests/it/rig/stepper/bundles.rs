@@ -9,10 +9,10 @@ pub const ID_BITS: u32 = 15;
 /// moves is noticed.
 pub type Layout<const N: usize> = [u32; N];
 
-/// owner, rotates, locks, x, after, `f_entry`, f, u.
-pub const TOKEN: Layout<8> = [5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS];
-/// `is_pair`, `is_triple`, owner, rotates, locks, x, after, `f_entry`, f, u, after and u of the second visit, u of the
-/// third.
+/// context, rotates, locks, entry, after, `cavity_entry`, `cavity_record`, record.
+pub const VISIT: Layout<8> = [5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS];
+/// `is_pair`, `is_triple`, context, rotates, locks, entry, after, `cavity_entry`, `cavity_record`, record, after and record of
+/// the second visit, record of the third.
 pub const BUNDLE: Layout<13> = [1, 1, 5, 1, 1, 6, 6, 6, ID_BITS, ID_BITS, 6, ID_BITS, ID_BITS];
 /// v0, v1, v2, n0, n1, n2, slot, took, foreign, again, and which vertex is infinite.
 pub const TURNED: Layout<13> = [ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS, 2, 1, 1, 1, 1, 1, 1];
@@ -20,11 +20,11 @@ pub const TURNED: Layout<13> = [ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_
 pub const VERDICT: Layout<6> = [1, 1, 1, 1, 1, ID_BITS];
 /// valid, id, vertices, link0, link1, link2, v0, v1, v2, n0, n1, n2.
 pub const WRITE: Layout<12> = [1, ID_BITS, 1, 1, 1, 1, ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS, ID_BITS];
-/// a, u, slot, f, after.
+/// `first_vertex`, `outside_record`, slot, `cavity_record`, after.
 pub const ENTRY: Layout<5> = [ID_BITS, ID_BITS, 2, ID_BITS, 6];
-/// owner, p, inners, locks, since.
+/// context, vertex, inners, locks, since.
 pub const COMMIT_JOB: Layout<5> = [5, ID_BITS, 7, 7, 22];
-/// owner, locks.
+/// context, locks.
 pub const RELEASE_JOB: Layout<2> = [5, 7];
 
 /// The fields side by side, the first in the lowest bits.
@@ -85,62 +85,80 @@ pub fn column_write(id: u64, columns: u64, v0: u64, n1: u64) -> u128 {
 /// A `Bundle` of context 1 from these ring entries.
 pub fn ring_bundle(entries: &[u64]) -> u128 {
     let [is_pair, is_triple] = [2, 3].map(|visits| u64::from(entries.len() >= visits));
-    let [x, x2, x3] = [0, 1, 2].map(|place| entries.get(place).copied().unwrap_or(0));
-    pack(BUNDLE, [is_pair, is_triple, 1, 1, 0, x, x2, 0, 0, 0, x3, 0, 0])
+    let [entry, entry2, entry3] = [0, 1, 2].map(|place| entries.get(place).copied().unwrap_or(0));
+    pack(BUNDLE, [is_pair, is_triple, 1, 1, 0, entry, entry2, 0, 0, 0, entry3, 0, 0])
 }
 
 /// A visit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visit {
-    pub owner: u64,
+    pub context: u64,
     pub rotates: bool,
     pub locks: bool,
-    pub x: u64,
+    pub entry: u64,
     pub after: u64,
-    pub f_entry: u64,
-    pub f: u64,
-    pub u: u64,
+    pub cavity_entry: u64,
+    pub cavity_record: u64,
+    pub record: u64,
 }
 
 impl Visit {
     /// A look at a record as it is stored.
-    pub fn look(u: u64) -> Self {
-        Self { u, ..Self::default() }
+    pub fn look(record: u64) -> Self {
+        Self { record, ..Self::default() }
     }
 
     /// Every field random.
     pub fn random(random: &mut SplitMix64) -> Self {
         Self {
-            owner: random.below(24),
+            context: random.below(24),
             rotates: flip(random),
             locks: flip(random),
-            x: random.below(64),
+            entry: random.below(64),
             after: random.below(64),
-            f_entry: random.below(64),
-            f: id(random),
-            u: id(random),
+            cavity_entry: random.below(64),
+            cavity_record: id(random),
+            record: id(random),
         }
     }
 
-    /// As a `Token`.
-    pub fn token(self) -> u128 {
-        let Self { owner, rotates, locks, x, after, f_entry, f, u } = self;
-        pack(TOKEN, [owner, rotates.into(), locks.into(), x, after, f_entry, f, u])
+    /// As a `Visit`.
+    pub fn packed(self) -> u128 {
+        let Self { context, rotates, locks, entry, after, cavity_entry, cavity_record, record } = self;
+        pack(VISIT, [context, rotates.into(), locks.into(), entry, after, cavity_entry, cavity_record, record])
     }
 
     /// As a `Bundle` of `visits` visits: this one, the second with the entry after it and its record, and the third's record. What
     /// stands there for visits that are not made does not matter.
-    pub fn bundle(self, visits: u64, second_after: u64, second_u: u64, third_u: u64) -> u128 {
+    pub fn bundle(self, visits: u64, second_after: u64, second_record: u64, third_record: u64) -> u128 {
         let [is_pair, is_triple] = [visits > 1, visits > 2].map(u64::from);
-        let [owner, rotates, locks, x, after, f_entry, f, u] = unpack(TOKEN, self.token());
-        let (after2, u2, u3) = (second_after, second_u, third_u);
-        pack(BUNDLE, [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3])
+        let [context, rotates, locks, entry, after, cavity_entry, cavity_record, record] = unpack(VISIT, self.packed());
+        let (after2, record2, record3) = (second_after, second_record, third_record);
+        pack(
+            BUNDLE,
+            [
+                is_pair,
+                is_triple,
+                context,
+                rotates,
+                locks,
+                entry,
+                after,
+                cavity_entry,
+                cavity_record,
+                record,
+                after2,
+                record2,
+                record3,
+            ],
+        )
     }
 
     /// The visit at the head of a `Bundle`.
     pub fn of_bundle(bundle: u128) -> Self {
-        let [_, _, owner, rotates, locks, x, after, f_entry, f, u, ..] = unpack(BUNDLE, bundle);
-        Self { owner, rotates: rotates == 1, locks: locks == 1, x, after, f_entry, f, u }
+        let [_, _, context, rotates, locks, entry, after, cavity_entry, cavity_record, record, ..] =
+            unpack(BUNDLE, bundle);
+        Self { context, rotates: rotates == 1, locks: locks == 1, entry, after, cavity_entry, cavity_record, record }
     }
 }
 
@@ -160,13 +178,13 @@ pub fn turned(v: [u64; 3], n: [u64; 3], slot: u64, lock: LockFinding, infinite: 
 }
 
 /// A `CommitJob`.
-pub fn commit_job(owner: u64, p: u64, inners: u64, locks: u64, since: u64) -> u128 {
-    pack(COMMIT_JOB, [owner, p, inners, locks, since])
+pub fn commit_job(context: u64, vertex: u64, inners: u64, locks: u64, since: u64) -> u128 {
+    pack(COMMIT_JOB, [context, vertex, inners, locks, since])
 }
 
 /// A `ReleaseJob`.
-pub fn release_job(owner: u64, locks: u64) -> u128 {
-    pack(RELEASE_JOB, [owner, locks])
+pub fn release_job(context: u64, locks: u64) -> u128 {
+    pack(RELEASE_JOB, [context, locks])
 }
 
 /// What a visit found out.
@@ -192,17 +210,17 @@ impl Finding {
 /// A boundary edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Edge {
-    pub a: u64,
-    pub u: u64,
+    pub first_vertex: u64,
+    pub outside_record: u64,
     pub slot: u64,
-    pub f: u64,
+    pub cavity_record: u64,
     pub after: u64,
 }
 
 impl Edge {
     /// As an `Entry`.
     pub fn entry(self) -> u128 {
-        pack(ENTRY, [self.a, self.u, self.slot, self.f, self.after])
+        pack(ENTRY, [self.first_vertex, self.outside_record, self.slot, self.cavity_record, self.after])
     }
 }
 

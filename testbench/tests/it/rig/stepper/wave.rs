@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-/// Columns of a name, and of a clock.
+/// Columns of a name, at least: the longest name of a wave is followed by a space.
 const NAME: usize = 16;
 
 /// What a signal shows in a clock.
@@ -27,7 +27,9 @@ impl Wave {
     /// Draws one clock; the same signals in the same order at each.
     pub fn take(&mut self, signals: &[(&str, Cell)]) {
         if self.lines.is_empty() {
-            self.lines = signals.iter().map(|(name, _)| format!("{name:NAME$}")).collect();
+            let longest = signals.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+            let width = NAME.max(longest + 1);
+            self.lines = signals.iter().map(|(name, _)| format!("{name:width$}")).collect();
             self.before = vec![false; signals.len()];
         }
         for (((_, cell), line), before) in signals.iter().zip(&mut self.lines).zip(&mut self.before) {

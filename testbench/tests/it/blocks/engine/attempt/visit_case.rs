@@ -6,21 +6,21 @@ use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::VisitCase;
 use incircle_testkit::SplitMix64;
 
-named_ports!(VisitCase, [early, seeded, is_busy, is_waiter, verdict, drains, is_full], [found], clock);
+named_ports!(VisitCase, [early, seeded, is_busy, holds_priority, verdict, drains, is_full], [found], clock);
 
 /// Outputs of `VisitCase` of which at most one is high.
 const CASES: [&str; 13] = [
     "looks",
-    "repeats",
+    "revisits",
     "walks_on",
     "locates",
     "opens",
-    "retries",
+    "root_changed",
     "splits",
     "settles",
     "overflows",
-    "gives_up_root",
-    "gives_up",
+    "aborts_root",
+    "aborts",
     "walk_duplicate",
     "root_duplicate",
 ];
@@ -34,7 +34,7 @@ struct Bits {
     lock: LockFinding,
     finding: Finding,
     is_busy: bool,
-    is_waiter: bool,
+    holds_priority: bool,
     drains: bool,
     is_full: bool,
 }
@@ -52,7 +52,7 @@ impl Bits {
             lock: LockFinding { foreign: bit(7), again: bit(8), took: false },
             finding,
             is_busy: bit(9),
-            is_waiter: bit(10),
+            holds_priority: bit(10),
             drains: bit(11),
             is_full: bit(12),
         }
@@ -67,8 +67,8 @@ impl Bits {
         if self.rotates {
             return match (self.drains, self.lock.foreign, conflict) {
                 (true, ..) => None,
-                (_, true, _) if self.is_waiter => Some("repeats"),
-                (_, true, _) => Some("gives_up"),
+                (_, true, _) if self.holds_priority => Some("revisits"),
+                (_, true, _) => Some("aborts"),
                 (.., false) => Some("settles"),
                 (.., true) if self.is_full => Some("overflows"),
                 (.., true) => Some("splits"),
@@ -76,19 +76,19 @@ impl Bits {
         }
         if self.locks {
             return Some(match (self.lock.foreign, located) {
-                (true, _) if self.is_waiter => "repeats",
-                (true, _) => "gives_up_root",
-                (_, false) => "retries",
+                (true, _) if self.holds_priority => "revisits",
+                (true, _) => "aborts_root",
+                (_, false) => "root_changed",
                 (_, true) if falls_onto_corner => "root_duplicate",
                 (_, true) => "opens",
             });
         }
         Some(match (self.lock.again, located) {
             _ if !self.seeded => "looks",
-            (true, _) => "repeats",
+            (true, _) => "revisits",
             (_, false) => "walks_on",
             (_, true) if falls_onto_corner => "walk_duplicate",
-            (_, true) if self.is_busy => "repeats",
+            (_, true) if self.is_busy => "revisits",
             (_, true) => "locates",
         })
     }
@@ -96,12 +96,12 @@ impl Bits {
 
 /// Drives what is looked at a clock ahead.
 fn set_early(block: &mut Stepper<VisitCase>, bits: &Bits, random: &mut SplitMix64) {
-    let token = Visit { rotates: bits.rotates, locks: bits.locks, ..Visit::random(random) };
+    let visit = Visit { rotates: bits.rotates, locks: bits.locks, ..Visit::random(random) };
     let lock = LockFinding { took: flip(random), ..bits.lock };
     block.set("early_done", bits.done);
-    block.set("early_token", token.token());
+    block.set("early_visit", visit.packed());
     block.set("early_turned", turned([id(random); 3], [id(random); 3], 1, lock, [flip(random); 3]));
-    for (port, value) in [("seeded", bits.seeded), ("is_busy", bits.is_busy), ("is_waiter", bits.is_waiter)] {
+    for (port, value) in [("seeded", bits.seeded), ("is_busy", bits.is_busy), ("holds_priority", bits.holds_priority)] {
         block.set(port, value);
     }
 }
@@ -120,11 +120,11 @@ fn case_clock(block: &mut Stepper<VisitCase>, bits: &Bits, upcoming: &Bits, rand
         block.expect("is_walk", bits.done && !bits.rotates && !bits.locks && bits.seeded);
         block.expect("is_root", bits.done && !bits.rotates && bits.locks);
         block.expect("is_test", bits.done && bits.rotates);
-        block.expect("waits", case == Some("repeats") && (bits.locks || bits.rotates));
+        block.expect("waits", case == Some("revisits") && (bits.locks || bits.rotates));
         for port in CASES {
             block.expect(port, case == Some(port));
         }
-        let asks = ["repeats", "walks_on", "locates", "opens", "splits"].map(Some).contains(&case);
+        let asks = ["revisits", "walks_on", "locates", "opens", "splits"].map(Some).contains(&case);
         let settles = bits.rotates && !bits.lock.foreign && !bits.finding.conflict;
         block.expect("asks", asks);
         block.expect("may_ask", bits.done && !settles);
@@ -182,7 +182,7 @@ fn visit_case_shows_the_wave_of_its_header() {
             ("is_walk", Cell::Bit(bits.done && !bits.locks)),
             ("locates", Cell::Bit(case == Some("locates"))),
             ("opens", Cell::Bit(case == Some("opens"))),
-            ("gives_up", Cell::Bit(case == Some("gives_up"))),
+            ("aborts", Cell::Bit(case == Some("aborts"))),
             ("asks", Cell::Bit(matches!(case, Some("locates" | "opens")))),
             ("may_ask", Cell::Bit(bits.done)),
         ]);

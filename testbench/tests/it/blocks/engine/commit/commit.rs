@@ -34,14 +34,14 @@ fn ids(ring: &Ring, fresh: u64) -> Vec<(u64, bool, bool)> {
     let mut kept = BTreeSet::new();
     let mut spare = ring.inner.iter();
     let mut new = fresh..;
-    let mut id = |f| match (kept.insert(f), spare.as_slice().is_empty()) {
-        (true, _) => (f, false, false),
+    let mut id = |cavity_record| match (kept.insert(cavity_record), spare.as_slice().is_empty()) {
+        (true, _) => (cavity_record, false, false),
         (false, false) => (*spare.next().expect("it is not empty"), true, false),
         (false, true) => (new.next().expect("ids without end"), false, true),
     };
-    let ids: Vec<_> = ring.in_order().into_iter().map(|edge| id(edge.f)).collect();
+    let ids: Vec<_> = ring.in_order().into_iter().map(|edge| id(edge.cavity_record)).collect();
     // Every triangle of the cavity gives its id to one of the star, and two are new.
-    let mut old: BTreeSet<u64> = ring.entries.iter().map(|edge| edge.f).collect();
+    let mut old: BTreeSet<u64> = ring.entries.iter().map(|edge| edge.cavity_record).collect();
     old.extend(&ring.inner);
     old.extend([fresh, fresh + 1]);
     assert_eq!((ids.len(), ids.iter().map(|(id, ..)| *id).collect()), (old.len(), old), "{ring:?}");
@@ -57,8 +57,8 @@ fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
         let (after, before) = ((place + 1) % count, (place + count - 1) % count);
         record_write(
             ids[place].0,
-            [ring.p, edges[place].a, edges[after].a],
-            [edges[place].u, ids[after].0, ids[before].0],
+            [ring.vertex, edges[place].first_vertex, edges[after].first_vertex],
+            [edges[place].outside_record, ids[after].0, ids[before].0],
         )
     };
     let mut acts = VecDeque::new();
@@ -72,8 +72,11 @@ fn acts(ring: &Ring, fresh: u64) -> VecDeque<Act> {
             ends: false,
             makes: (place > 0).then(|| record(place)),
         });
-        if ids[place].0 != edge.f {
-            acts.push_back(Act { makes: Some(link_write(edge.u, edge.slot, ids[place].0)), ..Act::default() });
+        if ids[place].0 != edge.cavity_record {
+            acts.push_back(Act {
+                makes: Some(link_write(edge.outside_record, edge.slot, ids[place].0)),
+                ..Act::default()
+            });
         }
     }
     acts.push_back(Act { ends: true, makes: Some(record(0)), ..Act::default() });
@@ -155,11 +158,11 @@ impl CommitRig {
         block.set("head_shares", shares);
         block.set("head_job", head.map_or(0, Ring::job));
         block.set("inner_valid", false);
-        let reader = self.work.as_ref().map(|(ring, _)| ring.owner);
+        let reader = self.work.as_ref().map(|(ring, _)| ring.context);
         for (ring, listed) in self.rings.iter().zip(&mut self.listed) {
-            if let Some(id) = ring.inner.get(*listed).filter(|_| drive.lists && reader != Some(ring.owner)) {
+            if let Some(id) = ring.inner.get(*listed).filter(|_| drive.lists && reader != Some(ring.context)) {
                 block.set("inner_valid", true);
-                block.set("inner_owner", ring.owner);
+                block.set("inner_context", ring.context);
                 block.set("inner_place", *listed as u64);
                 block.set("inner_id", *id);
                 *listed += 1;
@@ -205,7 +208,7 @@ impl CommitRig {
         }
         if let Some((ring, _)) = self.work.as_ref().filter(|_| ends) {
             block.expect("committed_job", ring.job());
-            block.expect("hint", ring.entries[0].f);
+            block.expect("hint", ring.entries[0].cavity_record);
         }
         block.edge();
         self.edge(drive, act, takes);
@@ -258,10 +261,10 @@ impl CommitRig {
     /// Keeps two rings coming, never two of one context after each other: a list is written while the one before is read.
     fn add_rings(&mut self, config: Config, random: &mut SplitMix64) {
         while self.rings.len() < 2 {
-            let last = self.rings.back().or(self.work.as_ref().map(|(ring, _)| ring)).map(|ring| ring.owner);
-            let owner = random.below(config.contexts.into());
-            if last != Some(owner) {
-                self.rings.push_back(Ring::random(random_length(config.ring.into(), random), owner, random));
+            let last = self.rings.back().or(self.work.as_ref().map(|(ring, _)| ring)).map(|ring| ring.context);
+            let context = random.below(config.contexts.into());
+            if last != Some(context) {
+                self.rings.push_back(Ring::random(random_length(config.ring.into(), random), context, random));
             }
         }
     }
@@ -271,12 +274,12 @@ impl CommitRig {
 fn writes_stars(name: &'static str, config: Config) {
     let mut random = SplitMix64::new(9);
     let mut rig = CommitRig::new(name, config);
-    let (mut at_once, mut waits, mut alone, mut resets, mut most_inners) = (0, 0, 0, 0, 0);
+    let (mut at_once, mut waits, mut solo_insertions, mut resets, mut most_inners) = (0, 0, 0, 0, 0);
     for clock in 0..14_000 {
         rig.add_rings(config, &mut random);
         let (offers, lists) = [(8, 8), (8, 8), (5, 8), (2, 4)][clock / 500 % 4];
-        let is_alone = rig.work.is_none() && !rig.is_offered && rig.made.is_none() && rig.count.is_settled();
-        let event = if is_alone { random.below(16) } else { 16 };
+        let is_idle = rig.work.is_none() && !rig.is_offered && rig.made.is_none() && rig.count.is_settled();
+        let event = if is_idle { random.below(16) } else { 16 };
         let drive = Drive {
             offers: event > 2 && random.below(8) < offers,
             lists: random.below(8) < lists,
@@ -288,15 +291,15 @@ fn writes_stars(name: &'static str, config: Config) {
         let shown = rig.clock(drive);
         at_once += usize::from(shown.ends && shown.takes);
         waits += usize::from(shown.head_valid && !shown.takes);
-        alone += usize::from(drive.solo_inserts);
+        solo_insertions += usize::from(drive.solo_inserts);
         resets += usize::from(drive.reset);
         most_inners = most_inners.max(rig.work.as_ref().map_or(0, |(ring, _)| ring.inner.len()));
     }
-    let reached = [rig.committed, at_once, waits, alone, resets];
+    let reached = [rig.committed, at_once, waits, solo_insertions, resets];
     assert!(
         reached.iter().zip([400, 100, 1000, 10, 3]).all(|(seen, least)| *seen >= least)
             && most_inners * 6 >= config.ring as usize,
-        "rings, taken at once, clocks an entry waited, insertions alone, resets: {reached:?}; {most_inners} inner triangles"
+        "rings, taken at once, clocks an entry waited, solo insertions, resets: {reached:?}; {most_inners} inner triangles"
     );
 }
 
@@ -317,9 +320,15 @@ fn number(number: u64) -> Cell {
 /// The cavity of two triangles 0 and 1 becomes the star of four: two old ids, two new ones.
 #[test]
 fn commit_shows_the_wave_of_its_header() {
-    let edge = |a, u, f, after| Edge { a, u, slot: 1, f, after };
+    let edge = |first_vertex, outside_record, cavity_record, after| Edge {
+        first_vertex,
+        outside_record,
+        slot: 1,
+        cavity_record,
+        after,
+    };
     let ring = Ring {
-        p: 9,
+        vertex: 9,
         entries: vec![edge(1, 5, 0, 1), edge(2, 6, 1, 2), edge(3, 7, 1, 3), edge(4, 8, 0, 0)],
         ..Ring::default()
     };
@@ -328,7 +337,7 @@ fn commit_shows_the_wave_of_its_header() {
     for _ in 0..3 {
         rig.clock(Drive { solo_inserts: true, ..Drive::default() });
     }
-    rig.rings.extend([ring.clone(), Ring { owner: 1, ..ring }]);
+    rig.rings.extend([ring.clone(), Ring { context: 1, ..ring }]);
     let mut wave = Wave::default();
     for clock in 0..13 {
         let shown = rig.clock(Drive { offers: clock > 0, ..Drive::default() });

@@ -45,10 +45,10 @@ impl ListRig {
     fn clock(&mut self, joins: Option<(usize, u64)>, restarts: Option<usize>, steps: bool) {
         let (is_awaited, can_step) = (self.is_awaited(), self.can_step());
         let block = &mut self.block;
-        let (owner, id) = joins.unwrap_or_default();
+        let (context, id) = joins.unwrap_or_default();
         block.set("inner_valid", joins.is_some());
-        block.set("owner", owner as u64);
-        block.set("place", self.lists[owner].len() as u64 % 64);
+        block.set("context", context as u64);
+        block.set("place", self.lists[context].len() as u64 % 64);
         block.set("id", id);
         block.set("restarts", restarts.is_some());
         block.set("reader", restarts.unwrap_or_default() as u64);
@@ -64,7 +64,7 @@ impl ListRig {
             }
         }
         block.edge();
-        self.lists[owner].extend(joins.map(|(_, id)| id));
+        self.lists[context].extend(joins.map(|(_, id)| id));
         self.age = self.age.map(|age| if steps { 0 } else { age + 1 });
         self.index += usize::from(steps);
         if let Some(reader) = restarts {

@@ -44,9 +44,9 @@ impl ReleaseReference {
         self.ways = [self.at_work.pop_front(), self.ways[0], self.ways[1].or(swept)];
         if self.at_work.is_empty() {
             let [rings, failures] = &mut self.due;
-            if let Some((owner, ids)) = rings.pop_front().or_else(|| failures.pop_front()) {
+            if let Some((context, ids)) = rings.pop_front().or_else(|| failures.pop_front()) {
                 self.at_work = ids.into_iter().map(|id| Lock { id, last_of: None }).collect();
-                self.at_work.back_mut().expect("a lock").last_of = Some(owner);
+                self.at_work.back_mut().expect("a lock").last_of = Some(context);
             }
         }
         for (due, job) in self.due.iter_mut().zip([&drive.ring, &drive.failure]) {
@@ -74,18 +74,18 @@ struct Drive {
 
 /// One clock of both; nothing is compared in the first one.
 fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference, drive: &Drive, last_id: u64) {
-    let (owner, place, id) = drive.lock.unwrap_or((1, 2, 0x5a5a & last_id));
+    let (context, place, id) = drive.lock.unwrap_or((1, 2, 0x5a5a & last_id));
     block.set("reset", drive.reset);
     block.set("last_id", last_id);
     block.set("lock_valid", drive.lock.is_some());
-    block.set("lock_owner", owner);
+    block.set("lock_context", context);
     block.set("lock_place", place);
     block.set("lock_id", id);
     for (enable, port, job) in
         [("commit_valid", "commit_job", &drive.ring), ("failure_valid", "failure_job", &drive.failure)]
     {
         block.set(enable, job.is_some());
-        block.set(port, job.as_ref().map_or(0xfff, |(owner, ids)| release_job(*owner, ids.len() as u64)));
+        block.set(port, job.as_ref().map_or(0xfff, |(context, ids)| release_job(*context, ids.len() as u64)));
     }
     block.settle();
     let shown = reference.shown();
@@ -96,8 +96,8 @@ fn release_clock(block: &mut Stepper<Release>, reference: &mut ReleaseReference,
     }
     if let Some(lock) = shown {
         block.expect("clear_id", lock.id);
-        if let Some(owner) = lock.last_of {
-            block.expect("released_owner", owner);
+        if let Some(context) = lock.last_of {
+            block.expect("released_context", context);
         }
     }
     block.edge();
@@ -142,17 +142,17 @@ impl Attempts {
     fn drive(&mut self, random: &mut SplitMix64) -> Drive {
         let mut drive = Drive::default();
         let context = random.below(self.contexts.len() as u64) as usize;
-        let owner = context as u64;
+        let context = context as u64;
         if let Attempt::Logs(left, ids) = &mut self.contexts[context] {
             let id = random.below(self.last_id + 1);
-            drive.lock = Some((owner, ids.len() as u64, id));
+            drive.lock = Some((context, ids.len() as u64, id));
             ids.push(id);
             *left -= 1;
             if *left == 0 {
                 let ids = ids.clone();
                 let fails = random.below(2) == 0;
                 self.contexts[context] = if fails { Attempt::IsDue } else { Attempt::Commits(ids.clone()) };
-                drive.failure = fails.then_some((owner, ids));
+                drive.failure = fails.then_some((context, ids));
             }
         }
         let context = random.below(self.contexts.len() as u64) as usize;
@@ -178,8 +178,8 @@ fn releases_locks(name: &'static str, config: Config, last_id: u64) {
         drive.reset = clock == 0 || random.below(1500) == 0;
         let released = reference.shown().and_then(|lock| lock.last_of);
         release_clock(&mut block, &mut reference, &drive, last_id);
-        if let Some(owner) = released {
-            attempts.begin(owner as usize, &mut random);
+        if let Some(context) = released {
+            attempts.begin(context as usize, &mut random);
         }
         if drive.reset {
             (0..config.contexts as usize).for_each(|context| attempts.begin(context, &mut random));
@@ -234,7 +234,7 @@ fn release_shows_the_wave_of_its_header() {
             ("clear_enable", Cell::Bit(shown.is_some())),
             ("clear_id", number(shown.map(|lock| lock.id))),
             ("released", Cell::Bit(shown.is_some_and(|lock| lock.last_of.is_some()))),
-            ("released_owner", number(shown.and_then(|lock| lock.last_of))),
+            ("released_context", number(shown.and_then(|lock| lock.last_of))),
         ]);
     }
     wave.assert_drawn_in("release");

@@ -21,7 +21,7 @@ struct Item {
     /// The triangle behind it lies behind the one before it or the first one too.
     shares: bool,
     job: u128,
-    owner: u64,
+    context: u64,
 }
 
 /// What the reader does, as a list: five stages that all move when the last is free or taken.
@@ -44,14 +44,14 @@ impl ReaderReference {
             self.stages[0] = if is_past_a_ring { None } else { self.coming.pop_front() };
         }
         if let Some(ring) = finished {
-            let (order, job, owner) = (ring.in_order(), ring.job(), ring.owner);
+            let (order, job, context) = (ring.in_order(), ring.job(), ring.context);
             self.coming.extend(order.iter().enumerate().map(|(place, edge)| Item {
                 entry: Edge { after: 0, ..*edge }.entry(),
                 is_first: place == 0,
                 is_last: edge.after == 0,
                 shares: ring.shares(place),
                 job,
-                owner,
+                context,
             }));
         }
     }
@@ -104,10 +104,11 @@ impl ReaderRig {
     /// One clock of both; nothing is compared in the first one.
     fn clock(&mut self, drive: &Drive) {
         let block = &mut self.block;
-        let (owner, place, edge) = drive.entry.unwrap_or((7, 5, Edge { a: 0x1234, after: 1, ..Edge::default() }));
+        let (context, place, edge) =
+            drive.entry.unwrap_or((7, 5, Edge { first_vertex: 0x1234, after: 1, ..Edge::default() }));
         block.set("reset", drive.reset);
         block.set("entry_valid", drive.entry.is_some());
-        block.set("entry_owner", owner);
+        block.set("entry_context", context);
         block.set("entry_place", place);
         block.set("entry_entry", edge.entry());
         block.set("commit_valid", drive.finished.is_some());
@@ -131,7 +132,7 @@ impl ReaderRig {
         block.edge();
         self.reference.edge(drive.takes, drive.finished.as_ref());
         if let Some(item) = head.filter(|item| drive.takes && item.is_last) {
-            self.contexts[item.owner as usize] = None;
+            self.contexts[item.context as usize] = None;
         }
         if drive.reset {
             self.reference = ReaderReference::default();
@@ -142,19 +143,19 @@ impl ReaderRig {
     /// Entries of any context become final in any order, and the head is taken in so many of 8 clocks.
     fn random_drive(&mut self, fills: u64, takes: u64, random: &mut SplitMix64) -> Drive {
         let mut drive = Drive { reset: random.below(900) == 0, takes: random.below(8) < takes, ..Drive::default() };
-        let owner = random.below(self.contexts.len() as u64);
+        let context = random.below(self.contexts.len() as u64);
         let longest = self.longest;
         if random.below(8) >= fills {
             return drive;
         }
-        let filling = self.contexts[owner as usize].get_or_insert_with(|| {
-            let ring = Ring::random(random_length(longest, random), owner, random);
+        let filling = self.contexts[context as usize].get_or_insert_with(|| {
+            let ring = Ring::random(random_length(longest, random), context, random);
             let mut open_places: Vec<u64> = (0..ring.entries.len() as u64).collect();
             random.shuffle(&mut open_places);
             Filling { ring, open_places }
         });
         if let Some(place) = filling.open_places.pop() {
-            drive.entry = Some((owner, place, filling.ring.entries[place as usize]));
+            drive.entry = Some((context, place, filling.ring.entries[place as usize]));
             if filling.open_places.is_empty() {
                 drive.finished = Some(filling.ring.clone());
                 self.finished += 1;
@@ -202,14 +203,19 @@ fn ring_reader_of_the_longest_list() {
 #[test]
 fn ring_reader_shows_the_wave_of_its_header() {
     let mut rig = ReaderRig::new("ring_reader_6", TINY);
-    let ring = |owner: u64| {
-        let edge = |place: u64, after: u64, f: u64| Edge { a: 20 - 10 * owner + place, f, after, ..Edge::default() };
-        Ring { owner, entries: vec![edge(0, 2, 7), edge(1, 0, 8), edge(2, 1, 7)], ..Ring::default() }
+    let ring = |context: u64| {
+        let edge = |place: u64, after: u64, cavity_record: u64| Edge {
+            first_vertex: 20 - 10 * context + place,
+            cavity_record,
+            after,
+            ..Edge::default()
+        };
+        Ring { context, entries: vec![edge(0, 2, 7), edge(1, 0, 8), edge(2, 1, 7)], ..Ring::default() }
     };
     let (one, zero) = (ring(1), ring(0));
     let mut wave = Wave::default();
     for clock in 0..17 {
-        let of = |ring: &Ring, place: u64| Some((ring.owner, place, ring.entries[place as usize]));
+        let of = |ring: &Ring, place: u64| Some((ring.context, place, ring.entries[place as usize]));
         let head = rig.reference.head();
         let drive = Drive {
             reset: false,
@@ -228,10 +234,10 @@ fn ring_reader_shows_the_wave_of_its_header() {
             ("entry_place", number(drive.entry.map(|(_, place, _)| place))),
             ("job_enable", Cell::Bit(drive.finished.is_some())),
             ("head_valid", Cell::Bit(head.is_some())),
-            ("head.a", number(head.map(|item| item.entry as u64 & 0x7fff))),
+            ("head.first_vertex", number(head.map(|item| item.entry as u64 & 0x7fff))),
             ("head_is_last", Cell::Bit(head.is_some_and(|item| item.is_last))),
             ("head_shares", Cell::Bit(head.is_some_and(|item| item.shares))),
-            ("head_job.owner", number(head.filter(|item| item.is_first).map(|item| item.owner))),
+            ("head_job.context", number(head.filter(|item| item.is_first).map(|item| item.context))),
             ("takes", Cell::Bit(drive.takes)),
         ]);
     }

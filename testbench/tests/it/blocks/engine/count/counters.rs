@@ -24,9 +24,9 @@ const EVENTS: [(&str, Counter); 18] = [
     ("walk_visit", Counter::WalkVisits),
     ("root_visit", Counter::RootVisits),
     ("revisit", Counter::Revisits),
-    ("gives_up", Counter::Aborts),
-    ("retries", Counter::RootRetries),
-    ("takes_token", Counter::WaitingTokens),
+    ("aborts", Counter::Aborts),
+    ("root_changed", Counter::RootRetries),
+    ("takes_priority", Counter::PrioritiesTaken),
     ("overflows", Counter::Overflows),
     ("flip", Counter::Flips),
     // Of two ports that add to one counter, the later one is low where the earlier is high.

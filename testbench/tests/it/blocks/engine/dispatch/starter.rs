@@ -19,7 +19,7 @@ named_ports!(
 #[derive(Clone, Copy, Debug, Default)]
 struct Life {
     awake: bool,
-    keeps: bool,
+    will_retry: bool,
     busy: bool,
     began: bool,
     hint: Option<u64>,
@@ -43,10 +43,10 @@ struct Candidate {
     sight: Sight,
     is_due: bool,
     /// It tries its point again.
-    keeps: bool,
+    will_retry: bool,
     /// Where it would start.
-    u: u64,
-    is_alone: bool,
+    record: u64,
+    is_solo: bool,
 }
 
 /// What comes out in a clock.
@@ -54,7 +54,7 @@ struct Candidate {
 struct Seen {
     starts: bool,
     takes: Option<u64>,
-    owner: u64,
+    context: u64,
     waits: bool,
 }
 
@@ -131,7 +131,7 @@ impl Rig {
     fn decide(&self, inputs: &Inputs, sight: Sight) -> Option<Candidate> {
         let life = self.lives.get(sight.context as usize)?;
         let works = if sight.context == 0 { inputs.seeded || !life.began } else { self.all_work };
-        let is_due = match life.keeps {
+        let is_due = match life.will_retry {
             // Rounds of the pointer in which nobody tries again: three of four.
             true => {
                 let has_rested = (self.steps / self.contexts).is_multiple_of(4);
@@ -146,26 +146,26 @@ impl Rig {
         Some(Candidate {
             sight,
             is_due: is_due && !life.awake && !starts_now && !inputs.solo,
-            keeps: life.keeps,
-            u: if life.keeps {
+            will_retry: life.will_retry,
+            record: if life.will_retry {
                 life.root
             } else {
                 life.hint.unwrap_or(if self.is_batch { 4 * sight.context } else { 0 })
             },
-            is_alone: inputs.special == sight.context,
+            is_solo: inputs.special == sight.context,
         })
     }
 
     /// What must come out: the vertex that the candidate takes, if it takes a new one, and where it starts.
     fn wants(&self, inputs: &Inputs) -> Option<(Option<u64>, u64)> {
         let candidate = self.candidate.filter(|candidate| candidate.is_due && !inputs.solo)?;
-        Some(((!candidate.keeps).then_some(candidate.sight.vertex), candidate.u))
+        Some(((!candidate.will_retry).then_some(candidate.sight.vertex), candidate.record))
     }
 
     fn drive(&mut self, inputs: &Inputs) {
         let (root, hint) = match inputs.deed {
-            Some((owner, Deed::Sleeps { root, .. })) => (Some((owner, root)), None),
-            Some((owner, Deed::IsFreed { hint })) => (None, Some((owner, hint))),
+            Some((context, Deed::Sleeps { root, .. })) => (Some((context, root)), None),
+            Some((context, Deed::IsFreed { hint })) => (None, Some((context, hint))),
             None => (None, None),
         };
         for (port, value) in [
@@ -187,17 +187,17 @@ impl Rig {
         self.block.set("deal", self.deal().bits());
         let (root, hint) = (root.unwrap_or((1, 0x7fff)), hint.unwrap_or((0, 0x7fff)));
         for (port, value) in [
-            ("solo_owner", inputs.special),
-            ("waiter", inputs.special),
+            ("solo_context", inputs.special),
+            ("priority_context", inputs.special),
             ("arrived", self.arrived),
             ("asleep", self.set(|life| !life.awake)),
-            ("keeping", self.set(|life| life.keeps)),
+            ("retrying", self.set(|life| life.will_retry)),
             ("busy", self.set(|life| life.busy)),
             ("began", self.set(|life| life.began)),
             ("hinted", self.set(|life| life.hint.is_some())),
-            ("outcome_owner", root.0),
+            ("outcome_context", root.0),
             ("root", root.1),
-            ("committed_job_owner", hint.0),
+            ("committed_job_context", hint.0),
             ("hint", hint.1),
         ] {
             self.block.set(port, value);
@@ -217,16 +217,16 @@ impl Rig {
             self.block.expect("start_valid", start.is_some());
             self.block.expect("takes", start.is_some_and(|(vertex, _)| vertex.is_some()));
             if let Some(candidate) = self.candidate {
-                self.block.expect("start_owner", candidate.sight.context);
-                self.expect_alone(inputs, candidate);
+                self.block.expect("start_context", candidate.sight.context);
+                self.expect_solo(inputs, candidate);
             }
-            if let Some((vertex, u)) = start {
-                self.block.expect("start_u", u);
+            if let Some((vertex, record)) = start {
+                self.block.expect("start_record", record);
                 vertex.into_iter().for_each(|vertex| self.block.expect("start_id", vertex));
             }
             seen.starts = start.is_some();
             seen.takes = start.and_then(|(vertex, _)| vertex);
-            seen.owner = self.candidate.map_or(0, |candidate| candidate.sight.context);
+            seen.context = self.candidate.map_or(0, |candidate| candidate.sight.context);
         }
         self.block.edge();
         self.advance(inputs, seen);
@@ -234,13 +234,13 @@ impl Rig {
     }
 
     /// Who wants to be alone starts when the pointer has seen it, with the point that it has, where its attempt was.
-    fn expect_alone(&self, inputs: &Inputs, candidate: Candidate) {
+    fn expect_solo(&self, inputs: &Inputs, candidate: Candidate) {
         let may_start = inputs.solo && inputs.all_rest && !inputs.solo_is_at_work;
-        let starts = may_start && candidate.is_alone;
+        let starts = may_start && candidate.is_solo;
         self.block.expect("solo_start_valid", starts);
-        if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.keeps) {
-            self.block.expect("solo_start_p", last);
-            self.block.expect("start_u", candidate.u);
+        if let Some(last) = candidate.sight.last.filter(|_| starts && candidate.will_retry) {
+            self.block.expect("solo_start_vertex", last);
+            self.block.expect("start_record", candidate.record);
         }
     }
 
@@ -262,16 +262,16 @@ impl Rig {
             self.steps += 1;
         }
         if seen.starts {
-            let life = &mut self.lives[seen.owner as usize];
+            let life = &mut self.lives[seen.context as usize];
             life.last = seen.takes.or(life.last);
-            (life.awake, life.keeps, life.began) = (true, false, true);
-            self.all_work |= seen.takes.is_some_and(|vertex| seen.owner == 0 && vertex >= u64::from(FIRST_ROUND));
+            (life.awake, life.will_retry, life.began) = (true, false, true);
+            self.all_work |= seen.takes.is_some_and(|vertex| seen.context == 0 && vertex >= u64::from(FIRST_ROUND));
         }
-        if let Some((owner, deed)) = inputs.deed {
-            let life = &mut self.lives[owner as usize];
+        if let Some((context, deed)) = inputs.deed {
+            let life = &mut self.lives[context as usize];
             match deed {
-                Deed::Sleeps { root, keeps, busy } => {
-                    (life.awake, life.root, life.keeps) = (false, root, keeps);
+                Deed::Sleeps { root, will_retry, busy } => {
+                    (life.awake, life.root, life.will_retry) = (false, root, will_retry);
                     life.busy |= busy;
                 }
                 Deed::IsFreed { hint } => (life.hint, life.busy) = (Some(hint), false),
@@ -300,7 +300,7 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
         // Two points of each triple are taken with the third.
         let triples = if rig.is_batch { rig.contexts } else { 1 };
         let all_are_taken = tally.taken.len() as u64 + 2 * triples == points;
-        if all_are_taken && rig.lives.iter().all(|life| !life.awake && !life.keeps && !life.busy) {
+        if all_are_taken && rig.lives.iter().all(|life| !life.awake && !life.will_retry && !life.busy) {
             return;
         }
         let mut one_in = |times: u64| random.below(times) == 0;
@@ -324,11 +324,11 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
             deed,
             ..Inputs::default()
         });
-        tally.taken.extend(seen.takes.map(|vertex| (seen.owner, vertex)));
+        tally.taken.extend(seen.takes.map(|vertex| (seen.context, vertex)));
         tally.again += usize::from(seen.starts && seen.takes.is_none());
         tally.waits += usize::from(seen.waits);
         if !seen.waits {
-            tally.stops.push_back(seen.owner);
+            tally.stops.push_back(seen.context);
         }
         came = comes;
         rig.arrived += u64::from(comes);
@@ -340,20 +340,20 @@ fn job(rig: &mut Rig, random: &mut SplitMix64, points: u64, tally: &mut Tally) {
 #[derive(Clone, Copy, Debug)]
 enum Deed {
     /// It falls asleep: to try again from this root or not, with a commit or release due or not.
-    Sleeps { root: u64, keeps: bool, busy: bool },
+    Sleeps { root: u64, will_retry: bool, busy: bool },
     /// Its commit ends and leaves this hint, and its locks are released.
     IsFreed { hint: u64 },
 }
 
 /// Some context falls asleep, or is freed.
 fn deed(rig: &Rig, random: &mut SplitMix64) -> Option<(u64, Deed)> {
-    let owner = random.below(rig.contexts);
+    let context = random.below(rig.contexts);
     let [root, hint] = [(); 2].map(|()| random.below(1 << 15));
-    let [ends, keeps, busy, is_freed] = [4, 3, 3, 6].map(|times| random.below(times) == 0);
-    let life = &rig.lives[owner as usize];
-    let sleeps = (life.awake && ends).then_some(Deed::Sleeps { root, keeps, busy });
+    let [ends, will_retry, busy, is_freed] = [4, 3, 3, 6].map(|times| random.below(times) == 0);
+    let life = &rig.lives[context as usize];
+    let sleeps = (life.awake && ends).then_some(Deed::Sleeps { root, will_retry, busy });
     let frees = (!life.awake && life.busy && is_freed).then_some(Deed::IsFreed { hint });
-    sleeps.or(frees).map(|deed| (owner, deed))
+    sleeps.or(frees).map(|deed| (context, deed))
 }
 
 /// Jobs of so many contexts and points each, one after the other; batches or not.
@@ -370,13 +370,13 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool)
         job(&mut rig, &mut random, points, &mut tally);
         let mut vertices: Vec<u64> = tally.taken.iter().map(|(_, vertex)| *vertex).collect();
         for context in 0..contexts {
-            let own = tally.taken.iter().filter(|(owner, _)| *owner == context).map(|(_, vertex)| *vertex);
+            let own = tally.taken.iter().filter(|(context, _)| *context == context).map(|(_, vertex)| *vertex);
             let expected = rig.deal().dealt(context).take_while(|vertex| *vertex < points);
             assert!(own.eq(expected), "{contexts} contexts, context {context}");
         }
         // Until vertex 16 is taken, context 0 is the only one.
         let first = tally.taken.len().min(FIRST_ROUND as usize - 1);
-        assert!(is_batch || tally.taken[..first].iter().all(|(owner, _)| *owner == 0));
+        assert!(is_batch || tally.taken[..first].iter().all(|(context, _)| *context == 0));
         vertices.sort_unstable();
         let triples = if is_batch { contexts } else { 1 };
         assert!(vertices.into_iter().eq((0..points).filter(|id| *id >= 3 * triples || id % 3 == 2)));
@@ -428,14 +428,14 @@ fn starter_shows_the_wave_of_its_header() {
             came: clock == 1,
             is_done: matches!(clock, 4 | 5),
             is_blocked: clock == 4,
-            deed: (clock == 7).then_some((0, Deed::Sleeps { root: 9, keeps: true, busy: false })),
+            deed: (clock == 7).then_some((0, Deed::Sleeps { root: 9, will_retry: true, busy: false })),
             ..Inputs::default()
         };
         if clock == 1 {
             rig.arrived = 3;
         }
         let asleep = rig.set(|life| !life.awake);
-        let keeping = rig.set(|life| life.keeps);
+        let retrying = rig.set(|life| life.will_retry);
         let arrived = rig.arrived;
         let candidate = rig.candidate;
         let wanted = rig.wants(&inputs);
@@ -447,12 +447,12 @@ fn starter_shows_the_wave_of_its_header() {
             ("is_done", Cell::Bit(inputs.is_done)),
             ("is_blocked", Cell::Bit(inputs.is_blocked)),
             ("asleep", number(Some(asleep))),
-            ("keeping", number(Some(keeping))),
-            ("owner", number(candidate.map(|candidate| candidate.sight.context))),
+            ("retrying", number(Some(retrying))),
+            ("context", number(candidate.map(|candidate| candidate.sight.context))),
             ("starts", Cell::Bit(seen.starts)),
             ("takes", Cell::Bit(seen.takes.is_some())),
             ("taken_id", number(seen.takes)),
-            ("u", number(wanted.filter(|_| seen.starts).map(|(_, u)| u))),
+            ("record", number(wanted.filter(|_| seen.starts).map(|(_, record)| record))),
         ]);
     }
     wave.assert_drawn_in("starter");

@@ -7,7 +7,7 @@ use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::engine::Solo;
 use incircle_testkit::SplitMix64;
 
-named_ports!(Solo, [reset, start, records, visit], [push, write, progress], clock);
+named_ports!(Solo, [reset, start, records, completion], [push, write, progress], clock);
 
 /// A write as it stands on the port.
 fn packed(written: Written) -> u128 {
@@ -23,7 +23,7 @@ fn packed_record(record: &Record, slot: usize) -> u128 {
 
 /// An insertion to be made.
 struct Job {
-    owner: u64,
+    context: u64,
     point: Point,
     /// The triangles that the walk visits; the last one holds the point.
     path: Vec<u64>,
@@ -88,16 +88,16 @@ impl Rig {
     /// Answers the visit that is due, from the mesh as the writes have left it.
     fn set_completion(&mut self, mesh: &Mesh, job: &Job, seen: &mut Seen) {
         let due = self.visit.filter(|(_, clocks)| *clocks == 0);
-        self.block.set("visit_done", due.is_some());
+        self.block.set("completion_done", due.is_some());
         let mut finding = self.noise();
         let Some((visit, _)) = due else {
             self.block.set("verdict", finding.verdict());
-            self.block.set("token", Visit::look(self.random.below(1 << 15)).token());
+            self.block.set("visit", Visit::look(self.random.below(1 << 15)).packed());
             self.block.set("turned", u128::from(self.random.next_u64()));
             return;
         };
-        let stored = mesh.records[visit.u as usize];
-        let slot = if visit.rotates { stored.slot_to(visit.f) } else { 0 };
+        let stored = mesh.records[visit.record as usize];
+        let slot = if visit.rotates { stored.slot_to(visit.cavity_record) } else { 0 };
         let record = stored.turned(slot);
         finding.conflict = mesh.conflicts(record.v, job.point);
         let rest = job.path.get(seen.completed..).unwrap_or_default();
@@ -107,7 +107,7 @@ impl Rig {
             [] => {}
         }
         self.block.set("verdict", finding.verdict());
-        self.block.set("token", visit.token());
+        self.block.set("visit", visit.packed());
         self.block.set("turned", packed_record(&record, slot));
         self.visit = None;
         seen.completed += 1;
@@ -116,13 +116,13 @@ impl Rig {
     /// The rest of the inputs: what is taken at `starts` is noise at all other times.
     fn set_job(&mut self, starts: bool, job: &Job, mesh: &Mesh) {
         self.block.set("start_valid", starts);
-        let [owner, p, start] = match starts {
-            true => [job.owner, mesh.points.len() as u64 - 1, job.path[0]],
+        let [context, vertex, start] = match starts {
+            true => [job.context, mesh.points.len() as u64 - 1, job.path[0]],
             false => [self.random.below(32), self.random.below(1 << 15), self.random.below(1 << 15)],
         };
-        self.block.set("start_owner", owner);
-        self.block.set("start_p", p);
-        self.block.set("start_u", start);
+        self.block.set("start_context", context);
+        self.block.set("start_vertex", vertex);
+        self.block.set("start_record", start);
     }
 
     /// One clock; `mesh` takes the write that is seen.
@@ -163,9 +163,9 @@ impl Rig {
         let bundle = self.block.get("bundle");
         let visit = Visit::of_bundle(bundle);
         self.block.expect("bundle", visit.bundle(1, 0, 0, 0));
-        assert_eq!((visit.owner, visit.locks), (job.owner, false));
+        assert_eq!((visit.context, visit.locks), (job.context, false));
         if let Some(place) = job.path.get(seen.visits) {
-            assert_eq!(visit, Visit { owner: job.owner, ..Visit::look(*place) });
+            assert_eq!(visit, Visit { context: job.context, ..Visit::look(*place) });
         }
     }
 
@@ -238,7 +238,7 @@ fn path(random: &mut SplitMix64, mesh: &Mesh, point: Point) -> Vec<u64> {
 fn find_duplicate(rig: &mut Rig, mesh: &Mesh, sums: &mut Sums) {
     let point = mesh.points[rig.random.below(mesh.points.len() as u64) as usize];
     let path = path(&mut rig.random, mesh, point);
-    let job = Job { owner: rig.random.below(24), point, path, is_duplicate: true, expected: vec![] };
+    let job = Job { context: rig.random.below(24), point, path, is_duplicate: true, expected: vec![] };
     let seen = rig.insert(&mut mesh.clone(), &job, 10_000);
     assert_eq!((seen.visits, seen.tests, seen.flips), (job.path.len(), 0, 0));
     sums.duplicates += 1;
@@ -258,7 +258,7 @@ fn grow(rig: &mut Rig, points: &[Point], resets: bool) -> Sums {
         let mut reference = mesh.clone();
         let deeds = reference.insert(*point, path[path.len() - 1]);
         let expected = deeds.writes.iter().map(|write| packed(*write)).collect();
-        let job = Job { owner: rig.random.below(24), point: *point, path, is_duplicate: false, expected };
+        let job = Job { context: rig.random.below(24), point: *point, path, is_duplicate: false, expected };
         mesh.points.push(*point);
         if resets && rig.random.below(4) == 0 {
             let most = rig.random.below(80) as usize;
@@ -314,7 +314,7 @@ fn solo_shows_the_wave_of_its_header() {
     let point = (1, 1);
     let deeds = mesh.clone().insert(point, 0);
     let expected = deeds.writes.iter().map(|write| packed(*write)).collect();
-    let job = Job { owner: 3, point, path: vec![2, 0], is_duplicate: false, expected };
+    let job = Job { context: 3, point, path: vec![2, 0], is_duplicate: false, expected };
     mesh.points.push(point);
     rig.block.set("records", mesh.records.len() as u64);
     let (mut seen, mut wave) = (Seen::default(), Wave::default());
@@ -322,7 +322,7 @@ fn solo_shows_the_wave_of_its_header() {
         let (visits, completed, writes) = (seen.visits, seen.completed, seen.writes.len());
         let is_at_work = seen.is_at_work;
         rig.clock(clock == 1, &mut mesh, &job, &mut seen);
-        let visit = rig.visit.filter(|_| seen.visits > visits).map(|(visit, _)| visit.u);
+        let visit = rig.visit.filter(|_| seen.visits > visits).map(|(visit, _)| visit.record);
         let number = |number: Option<u64>| number.map_or(Cell::Open, |number| Cell::Number(number.into()));
         let done = seen.completed > completed;
         let written = seen.writes.get(writes).map(|write| (write >> 1) as u64 & 0x7fff);
@@ -330,7 +330,7 @@ fn solo_shows_the_wave_of_its_header() {
             ("starts", Cell::Bit(clock == 1)),
             ("is_at_work", Cell::Bit(is_at_work)),
             ("push", Cell::Bit(visit.is_some())),
-            ("bundle.u", number(visit)),
+            ("bundle.record", number(visit)),
             ("done", Cell::Bit(done)),
             ("located", if done && completed < 2 { Cell::Bit(completed == 1) } else { Cell::Open }),
             ("write.valid", Cell::Bit(written.is_some())),

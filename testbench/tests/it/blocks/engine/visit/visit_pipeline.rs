@@ -9,14 +9,14 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 
 use crate::rig::drawing::{draw, When};
-use crate::rig::stepper::bundles::{pack, random_fields, ring_bundle, unpack, BUNDLE, TOKEN, WRITE};
+use crate::rig::stepper::bundles::{pack, random_fields, ring_bundle, unpack, BUNDLE, VISIT, WRITE};
 use crate::rig::stepper::{named_ports, Delay, Expected, Stepper};
 use crate::rig::visit_model::{point, verdict_parts, word, Locks, Point, Record, VERDICT_PARTS};
 use incircle_hdl::engine::VisitPipeline;
 use incircle_protocol::{infinite_vertex, Config, SMALL, TINY};
 use incircle_testkit::SplitMix64;
 
-named_ports!([] VisitPipeline, [reset, infinite, records, push, position, read, write, enables, arrival, fetch_id, clear], [is_issuing, visit, early, read_out, fetched], clock);
+named_ports!([] VisitPipeline, [reset, infinite, records, push, position, read, write, enables, arrival, fetch_id, clear], [is_issuing, completion, early, read_out, fetched], clock);
 
 const INPUTS: [&str; 18] = [
     "reset",
@@ -24,7 +24,7 @@ const INPUTS: [&str; 18] = [
     "records",
     "push_valid",
     "push_bundle",
-    "position_owner",
+    "position_context",
     "position_point",
     "position_valid",
     "read_valid",
@@ -43,11 +43,11 @@ const INPUTS: [&str; 18] = [
 /// parts of `VERDICT_PARTS`.
 const OUTPUTS: [&str; 18] = [
     "is_issuing",
-    "visit_done",
-    "visit_token",
-    "visit_turned[0+:92]",
-    "visit_turned[92+:3]",
-    "visit_turned[95+:3]",
+    "completion_done",
+    "completion_visit",
+    "completion_turned[0+:92]",
+    "completion_turned[92+:3]",
+    "completion_turned[95+:3]",
     "read_out_valid",
     "read_out_record_v0",
     "read_out_record_v1",
@@ -81,8 +81,8 @@ const ROUNDS: usize = 45;
 /// A visit under way: what is known of it so far, and nothing where it is arbitrary.
 #[derive(Clone, Copy)]
 struct Flight {
-    token: u128,
-    owner: usize,
+    visit: u128,
+    context: usize,
     /// took, foreign, again.
     lock: [bool; 3],
     slot: usize,
@@ -175,7 +175,7 @@ impl Visits {
     /// A record of the pool; every second time the one that a visit reads in this clock.
     fn visited_id(&mut self) -> u64 {
         let any = self.record_id();
-        self.issued.filter(|_| self.numbers.bits(1) == 1).map_or(any, |token| unpack(TOKEN, token)[7])
+        self.issued.filter(|_| self.numbers.bits(1) == 1).map_or(any, |visit| unpack(VISIT, visit)[7])
     }
 
     /// A vertex of the pool; the last one stands where the infinite vertex reads.
@@ -225,7 +225,7 @@ impl Visits {
     fn writes(&mut self, round: usize, clock: usize) -> Writes {
         let mut writes = Writes::default();
         let place = self.numbers.next_u64();
-        let owner = self.numbers.below(self.contexts);
+        let context = self.numbers.below(self.contexts);
         if round == 0 && clock < POOL as usize {
             let id = clock as u64 * (self.records.len() as u64 / POOL);
             writes.write = self.write(id, true);
@@ -238,7 +238,7 @@ impl Visits {
                 writes.write = self.write(id, false);
             }
             writes.vertex = (self.vertex_id(place), self.position(), self.numbers.once_in(pace));
-            writes.position = (owner, self.position(), self.numbers.once_in(3 * pace));
+            writes.position = (context, self.position(), self.numbers.once_in(3 * pace));
             writes.clear = (self.visited_id(), self.numbers.once_in(3));
         }
         writes
@@ -290,8 +290,8 @@ impl Visits {
         self.flights.push_back(None);
         self.read_outs.pop_front();
         self.read_outs.push_back(None);
-        if let Some(token) = self.issued {
-            self.visit(token, values);
+        if let Some(visit) = self.issued {
+            self.visit(visit, values);
         }
         self.edge(values);
         shown
@@ -306,7 +306,7 @@ impl Visits {
             let turned =
                 |record: Record| record.turned(flight.slot).pack_turned(flight.slot, flight.lock, self.infinite);
             let lock = Record::default().pack_turned(0, flight.lock, self.infinite) >> 92 & 7;
-            shown[2] = Some(flight.token);
+            shown[2] = Some(flight.visit);
             shown[3] = flight.record.map(|record| turned(record) & ((1 << 92) - 1));
             shown[4] = Some(lock);
             shown[5] = flight.record.map(|record| turned(record) >> 95);
@@ -328,15 +328,16 @@ impl Visits {
     }
 
     /// The visit in the issue register reads its record at this edge and comes out `STAGES` clocks later.
-    fn visit(&mut self, token: u128, values: &[u128]) {
-        let [owner, rotates, locks, .., f, u] = unpack(TOKEN, token);
+    fn visit(&mut self, visit: u128, values: &[u128]) {
+        let [context, rotates, locks, .., cavity_record, record] = unpack(VISIT, visit);
         let write = unpack(WRITE, values[10]);
-        let is_torn = write[0] == 1 && write[1] == u;
-        let is_written = u128::from(u) < values[2];
-        let is_cleared = values[16] == 1 && values[15] == u.into();
-        let (took, foreign) = if locks == 1 { self.locks.take(u as usize, owner, is_cleared) } else { (false, false) };
-        let stored = self.records[u as usize];
-        let slot = stored.slot(rotates == 1, f);
+        let is_torn = write[0] == 1 && write[1] == record;
+        let is_written = u128::from(record) < values[2];
+        let is_cleared = values[16] == 1 && values[15] == record.into();
+        let (took, foreign) =
+            if locks == 1 { self.locks.take(record as usize, context, is_cleared) } else { (false, false) };
+        let stored = self.records[record as usize];
+        let slot = stored.slot(rotates == 1, cavity_record);
         self.seen.took += usize::from(took);
         self.seen.foreign += usize::from(foreign && !is_cleared);
         self.seen.own += usize::from(locks == 1 && !took && !foreign);
@@ -344,8 +345,8 @@ impl Visits {
         self.seen.unwritten += usize::from(!is_written);
         self.seen.torn += usize::from(is_torn);
         self.flights[STAGES - 1] = Some(Flight {
-            token,
-            owner: owner as usize,
+            visit,
+            context: context as usize,
             lock: [took, foreign, is_torn || !is_written],
             slot,
             record: (!is_torn).then_some(stored),
@@ -370,7 +371,7 @@ impl Visits {
     /// The visit whose corners are there gets its context's point.
     fn judge(&mut self) {
         if let Some(flight) = &mut self.flights[STAGES - POINT_CLOCK] {
-            let p = point(self.points[flight.owner]);
+            let p = point(self.points[flight.context]);
             if let (Some(record), Some(corners)) = (flight.record, flight.corners) {
                 let verdict = record.verdict(flight.slot, corners, p, self.infinite);
                 flight.verdict = Some(verdict);
@@ -380,11 +381,12 @@ impl Visits {
     }
 
     fn push(&mut self, bundle: u128) {
-        let [is_pair, is_triple, owner, rotates, locks, x, after, f_entry, f, u, after2, u2, u3] =
-            unpack(BUNDLE, bundle);
-        let visits = [(x, after, u), (after, after2, u2), (after2, 0, u3)];
-        for (x, after, u) in visits.into_iter().take(1 + (is_pair + is_triple) as usize) {
-            self.waiting.push_back(pack(TOKEN, [owner, rotates, locks, x, after, f_entry, f, u]));
+        let [is_pair, is_triple, context, rotates, locks, entry, after, ..] = unpack(BUNDLE, bundle);
+        let [.., cavity_entry, cavity_record, record, after2, record2, record3] = unpack(BUNDLE, bundle);
+        let visits = [(entry, after, record), (after, after2, record2), (after2, 0, record3)];
+        for (entry, after, record) in visits.into_iter().take(1 + (is_pair + is_triple) as usize) {
+            self.waiting
+                .push_back(pack(VISIT, [context, rotates, locks, entry, after, cavity_entry, cavity_record, record]));
         }
         self.seen.triples += is_triple as usize;
     }
@@ -459,12 +461,12 @@ fn visits(name: &str, config: Config) {
 
 #[test]
 fn visit_pipeline_of_a_tiny_core() {
-    visits("visit_pipeline_tiny", TINY);
+    visits("completion_pipeline_tiny", TINY);
 }
 
 #[test]
 fn visit_pipeline_of_a_small_core() {
-    visits("visit_pipeline_small", SMALL);
+    visits("completion_pipeline_small", SMALL);
 }
 
 #[test]
@@ -472,15 +474,15 @@ fn visit_pipeline_shows_the_wave_of_its_header() {
     let stimuli = [(0, "push_valid", 1), (0, "push_bundle", ring_bundle(&[1, 2])), (19, "read_valid", 1)];
     let lanes = [
         ("push", "push_valid", 0, 1, When::Always),
-        ("bundle.owner", "push_bundle", 2, 5, When::If("push_valid")),
-        ("bundle.x", "push_bundle", 9, 6, When::If("push_valid")),
+        ("bundle.context", "push_bundle", 2, 5, When::If("push_valid")),
+        ("bundle.entry", "push_bundle", 9, 6, When::If("push_valid")),
         ("is_issuing", "is_issuing", 0, 1, When::Always),
-        ("done", "visit_done", 0, 1, When::Always),
-        ("token.owner", "visit_token", 0, 5, When::If("visit_done")),
-        ("token.x", "visit_token", 7, 6, When::If("visit_done")),
+        ("done", "completion_done", 0, 1, When::Always),
+        ("visit.context", "completion_visit", 0, 5, When::If("completion_done")),
+        ("visit.entry", "completion_visit", 7, 6, When::If("completion_done")),
         ("read", "read_valid", 0, 1, When::Always),
         ("read_done", "read_out_valid", 0, 1, When::Always),
     ];
     let pipeline = VisitPipeline::new(TINY);
-    draw("visit_pipeline_tiny", pipeline, &stimuli, 24, &lanes).assert_drawn_in("visit_pipeline");
+    draw("completion_pipeline_tiny", pipeline, &stimuli, 24, &lanes).assert_drawn_in("completion_pipeline");
 }

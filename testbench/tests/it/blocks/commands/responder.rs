@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_hdl::link::Responder;
+use incircle_hdl::commands::Responder;
 use incircle_protocol::{Layout, CORE_COORD_BITS, LATENCY_BUCKETS};
 use incircle_testkit::SplitMix64;
 

@@ -20,7 +20,7 @@ pub struct AnswerWords {
     /// Parameters of the core, constants.
     pub capacity: Signal<In, VertexCount>,
     pub contexts: Signal<In, Bits<5>>,
-    pub ring: Signal<In, Bits<7>>,
+    pub ring_capacity: Signal<In, Bits<7>>,
     pub tally: Signal<In, Tally>,
     pub insertions: Signal<In, Word>,
     pub duplicates: Signal<In, Word>,
@@ -85,7 +85,7 @@ impl Logic for AnswerWords {
                 self.report.d.next = 0.into();
             }
             _ => {
-                self.identity.d.next = bit_cast::<32, 7>(self.ring.val());
+                self.identity.d.next = bit_cast::<32, 7>(self.ring_capacity.val());
                 self.report.d.next = 0.into();
             }
         }

@@ -3,7 +3,7 @@
 
 use crate::rig::answer_words::{commands, Answer, Asked};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::link::AnswerHead;
+use incircle_hdl::commands::AnswerHead;
 use incircle_protocol::{answer_header, Opcode, Status};
 use incircle_testkit::SplitMix64;
 

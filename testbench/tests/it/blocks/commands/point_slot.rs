@@ -1,7 +1,7 @@
 //! `PointSlot`: Rust, Verilog and lists of what must happen agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::link::PointSlot;
+use incircle_hdl::commands::PointSlot;
 use incircle_testkit::SplitMix64;
 
 named_ports!(PointSlot, [reset, clears, capacity, engine, taken], [arrival, tally], clock);

@@ -2,7 +2,7 @@
 
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::link::RecordWords;
+use incircle_hdl::commands::RecordWords;
 use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
 use incircle_testkit::SplitMix64;
 

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::link::RecordBuffer;
+use incircle_hdl::commands::RecordBuffer;
 use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
 use incircle_testkit::SplitMix64;
 

@@ -26,7 +26,7 @@ use rust_hdl_widgets::prelude::*;
 
 /// Finished points; see the top of this file.
 #[derive(LogicBlock, Default)]
-pub struct Progress {
+pub struct FinishedPoints {
     pub clock: Signal<In, Clock>,
     /// Reset and clear set the count to zero.
     pub reset: Signal<In, Bit>,
@@ -55,7 +55,7 @@ pub struct Progress {
     wide_more: Signal<Local, Bits<15>>,
 }
 
-impl Logic for Progress {
+impl Logic for FinishedPoints {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, finished, more, is_behind);

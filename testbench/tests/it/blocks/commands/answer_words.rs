@@ -3,13 +3,26 @@
 
 use crate::rig::answer_words::{commands, percent, Asked};
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::link::AnswerWords;
+use incircle_hdl::commands::AnswerWords;
 use incircle_protocol::LATENCY_BUCKETS;
 use incircle_testkit::SplitMix64;
 
 named_ports!(
     AnswerWords,
-    [opcode, capacity, contexts, ring, tally, insertions, duplicates, records, index, counter, latency, chooses],
+    [
+        opcode,
+        capacity,
+        contexts,
+        ring_capacity,
+        tally,
+        insertions,
+        duplicates,
+        records,
+        index,
+        counter,
+        latency,
+        chooses
+    ],
     [word],
     clock
 );
@@ -32,7 +45,7 @@ fn answer_words_follow_the_protocol() {
                 ("opcode", u32::from(asked.opcode)),
                 ("capacity", asked.capacity),
                 ("contexts", asked.contexts),
-                ("ring", asked.ring),
+                ("ring_capacity", asked.ring),
                 ("arrived", report.arrived),
                 ("refused", report.refused),
                 ("insertions", report.inserted),

@@ -1,17 +1,17 @@
 //! : Rust, Verilog and lists of contexts agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_hdl::engine::Progress;
+use incircle_hdl::engine::FinishedPoints;
 use incircle_testkit::SplitMix64;
 
 named_ports!(
-    Progress,
+    FinishedPoints,
     [reset, clears, arrived, seeds, commit_ends, solo_ends, duplicate, has_no_start, all_rest],
     [is_quiet, finishes],
     clock
 );
 
-/// Inputs of `Progress` in a clock.
+/// Inputs of `FinishedPoints` in a clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct Finishing {
     reset: bool,
@@ -36,7 +36,7 @@ struct Finished {
 }
 
 /// One clock of the block and of a list of finished points: whether there is nothing left to do.
-fn progress_clock(block: &mut Stepper<Progress>, finished: &mut Finished, now: &Finishing) -> bool {
+fn finished_points_clock(block: &mut Stepper<FinishedPoints>, finished: &mut Finished, now: &Finishing) -> bool {
     for (port, value) in [
         ("reset", now.reset),
         ("clears", now.clears),
@@ -72,9 +72,9 @@ fn progress_clock(block: &mut Stepper<Progress>, finished: &mut Finished, now: &
 }
 
 #[test]
-fn progress_counts_every_finished_point_once() {
+fn finished_points_counts_every_finished_point_once() {
     let mut random = SplitMix64::new(71);
-    let mut block = Stepper::new("progress", Progress::default(), 1);
+    let mut block = Stepper::new("finished_points", FinishedPoints::default(), 1);
     let mut finished = Finished::default();
     let (mut most, mut both) = (0, 0);
     for clock in 0..20_000 {
@@ -82,15 +82,15 @@ fn progress_counts_every_finished_point_once() {
         // First triangles come before all other points, in a batch several.
         let seeds = finished.points.len() < 72 && finished.points.iter().all(|what| *what == "seed") && one_in(8);
         let inserts = !seeds && one_in(3);
-        let is_alone = one_in(4);
+        let is_solo = one_in(4);
         let near = if one_in(2) { 0 } else { 1 };
         let now = Finishing {
             reset: clock == 0 || one_in(2000),
             clears: one_in(2000),
             seeds,
-            commit_ends: inserts && !is_alone,
-            solo_ends: inserts && is_alone,
-            duplicate: !(seeds || inserts && is_alone) && one_in(3),
+            commit_ends: inserts && !is_solo,
+            solo_ends: inserts && is_solo,
+            duplicate: !(seeds || inserts && is_solo) && one_in(3),
             has_no_start: one_in(4),
             all_rest: !one_in(4),
             arrived: match random.below(3) {
@@ -99,7 +99,7 @@ fn progress_counts_every_finished_point_once() {
                 _ => finished.points.len() as u64 + near,
             },
         };
-        progress_clock(&mut block, &mut finished, &now);
+        finished_points_clock(&mut block, &mut finished, &now);
         most = most.max(finished.points.len());
         both += usize::from(now.commit_ends && now.duplicate);
     }
@@ -107,10 +107,10 @@ fn progress_counts_every_finished_point_once() {
 }
 
 #[test]
-fn progress_shows_the_wave_of_its_header() {
-    let mut block = Stepper::new("progress", Progress::default(), 1);
+fn finished_points_shows_the_wave_of_its_header() {
+    let mut block = Stepper::new("finished_points", FinishedPoints::default(), 1);
     let mut finished = Finished::default();
-    progress_clock(&mut block, &mut finished, &Finishing { reset: true, ..Finishing::default() });
+    finished_points_clock(&mut block, &mut finished, &Finishing { reset: true, ..Finishing::default() });
     let mut wave = Wave::default();
     for clock in 0..16u64 {
         let now = Finishing {
@@ -122,7 +122,7 @@ fn progress_shows_the_wave_of_its_header() {
             duplicate: clock == 12,
             ..Finishing::default()
         };
-        let is_quiet = progress_clock(&mut block, &mut finished, &now);
+        let is_quiet = finished_points_clock(&mut block, &mut finished, &now);
         wave.take(&[
             ("arrived", Cell::Number(now.arrived.into())),
             ("all_rest", Cell::Bit(now.all_rest)),
@@ -134,5 +134,5 @@ fn progress_shows_the_wave_of_its_header() {
             ("is_quiet", Cell::Bit(is_quiet)),
         ]);
     }
-    wave.assert_drawn_in("progress");
+    wave.assert_drawn_in("finished_points");
 }

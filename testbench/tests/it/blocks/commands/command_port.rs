@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use crate::rig::command_reference::{Meaning, Pins, Reference, Shape, Surroundings};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
-use incircle_hdl::link::CommandPort;
+use incircle_hdl::commands::CommandPort;
 use incircle_protocol::{batch_word, clear_word, command_word, Opcode, PADDING};
 use incircle_testkit::SplitMix64;
 

@@ -1,4 +1,4 @@
-//! The blocks of `hdl/src/link`.
+//! The blocks of `hdl/src/commands`.
 
 mod answer_head;
 mod answer_words;

@@ -5,13 +5,13 @@
 //!
 //! Latency: 1 clock.
 
-use crate::link::types::Word;
+use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 /// A command under way; see the top of this file.
 #[derive(LogicBlock, Default)]
-pub struct Progress {
+pub struct CommandUnderWay {
     /// The core's clock; after reset none is.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
@@ -29,7 +29,7 @@ pub struct Progress {
     begins: Signal<Local, Bit>,
 }
 
-impl Logic for Progress {
+impl Logic for CommandUnderWay {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, busy, follows);

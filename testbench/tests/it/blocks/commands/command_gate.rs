@@ -2,7 +2,7 @@
 
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::link::CommandGate;
+use incircle_hdl::commands::CommandGate;
 use incircle_testkit::SplitMix64;
 
 named_ports!(

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::vertex_beats::{beats_of, columns, Beat, LAYOUT};
-use incircle_hdl::link::RecordReads;
+use incircle_hdl::commands::RecordReads;
 use incircle_testkit::SplitMix64;
 
 named_ports!(

@@ -3,7 +3,7 @@
 
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use crate::rig::vertex_beats::{beats_of, set_vertices, vertices, Beat};
-use incircle_hdl::link::VertexPacker;
+use incircle_hdl::commands::VertexPacker;
 use incircle_testkit::SplitMix64;
 
 named_ports!(VertexPacker, [reset, starts, count, comes, v0, v1, v2], [valid, beat], clock);

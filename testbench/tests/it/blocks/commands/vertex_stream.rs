@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::vertex_beats::{beats_of, set_vertices, vertices, Beat};
-use incircle_hdl::link::VertexStream;
+use incircle_hdl::commands::VertexStream;
 use incircle_testkit::SplitMix64;
 
 named_ports!(VertexStream, [reset, starts, count, comes, v0, v1, v2, takes], [has_room, valid, beat], clock);

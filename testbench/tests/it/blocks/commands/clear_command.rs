@@ -2,7 +2,7 @@
 
 use crate::rig::stepper::bundles::Deal;
 use crate::rig::stepper::{named_ports, Stepper};
-use incircle_hdl::link::ClearCommand;
+use incircle_hdl::commands::ClearCommand;
 use incircle_protocol::{clear_word, command_starts_batch, command_word, Opcode, FIRST_ROUND, MAX_CONTEXTS};
 use incircle_testkit::SplitMix64;
 

@@ -1,17 +1,17 @@
-//! `Progress`: Rust, Verilog and plain code agree clock by clock.
+//! `CommandUnderWay`: Rust, Verilog and plain code agree clock by clock.
 
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::stream_bits::set_bits;
-use incircle_hdl::stream::Progress;
+use incircle_hdl::stream::CommandUnderWay;
 use incircle_testkit::SplitMix64;
 
-named_ports!([] Progress, [reset, takes, word, offers_last, ends], [is_busy], clock);
+named_ports!([] CommandUnderWay, [reset, takes, word, offers_last, ends], [is_busy], clock);
 
 #[test]
 fn a_command_is_under_way_until_its_answer_has_ended_and_padding_is_none() {
     let mut random = SplitMix64::new(6);
-    let mut block = Stepper::new("stream_progress", Progress::default(), 1);
-    let clock = |block: &mut Stepper<Progress>,
+    let mut block = Stepper::new("command_under_way", CommandUnderWay::default(), 1);
+    let clock = |block: &mut Stepper<CommandUnderWay>,
                  word: Option<u32>,
                  offers_last: bool,
                  ends: bool,
