@@ -106,7 +106,7 @@ impl Logic for AnswerPacker {
         self.byte_is_last.next = self.part_ends.q.val() & (self.place.q.val() == self.last_place.val());
         self.awaits.next = self.state.q.val() == PackState::Head;
 
-        // These flags come from registers, so they are a clock late: `is_settled` keeps `is_due` low until they
+        // The flags come from registers and so are a clock late; `is_settled` keeps `is_due` low until they
         // fit the word held.
         self.many.next = self.after.q.val().get_bits::<9>(8);
         self.few.next = self.after.q.val().get_bits::<8>(0);

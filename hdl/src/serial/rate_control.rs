@@ -24,7 +24,7 @@ pub struct RateControl {
     /// The request of a frame; `value` is the step if the frame is a `Rate`.
     pub asked: Signal<In, Asked>,
     pub value: Signal<In, Word>,
-    /// The session ends: return to the first rate at this edge.
+    /// Silence or a break: return to the first rate at this edge.
     pub fails: Signal<In, Bit>,
     /// The frame that begins at this edge is an `Ack` or `Nak`; the frame that begins is a `Closed`.
     pub acknowledges: Signal<In, Bit>,

@@ -35,7 +35,7 @@ pub struct ReceiveFifo {
     pub push_data: Signal<In, Byte>,
     /// All bytes that were pushed count.
     pub commits: Signal<In, Bit>,
-    /// Free bytes; bytes that do not count yet are free.
+    /// Free bytes, among them the places of bytes that do not count yet.
     pub free: Signal<Out, Bits<16>>,
     /// The oldest byte that counts; the user takes the byte at the edge at which `takes` is high.
     pub byte_valid: Signal<Out, Bit>,
