@@ -15,7 +15,7 @@ use rust_hdl_widgets::prelude::*;
 /// The core's half of the link; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CoreSide<const W: usize, const E: usize> {
-    /// The core's clock.
+    /// The clock of the core.
     pub clock: Signal<In, Clock>,
     /// Reset of the core and of the core's side of both FIFOs; a register.
     pub core_reset: Signal<Out, Bit>,

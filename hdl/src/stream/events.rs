@@ -8,7 +8,7 @@ crate::packed! {
     pub struct CommandEvents {
         /// The beat was taken.
         pub took: bool,
-        /// The beat waited.
+        /// The beat had to wait.
         pub waited: bool,
         /// The beat lacked bytes: the gate took and dropped it.
         pub dropped: bool,
@@ -18,7 +18,7 @@ crate::packed! {
     pub struct AnswerEvents {
         /// The beat was taken.
         pub took: bool,
-        /// The beat waited.
+        /// The beat had to wait.
         pub waited: bool,
         /// The beat was taken, and was the last one of its answer.
         pub ended: bool,

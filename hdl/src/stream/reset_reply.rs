@@ -13,7 +13,7 @@ use rust_hdl_widgets::prelude::*;
 /// The core's side of a reset; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ResetReply {
-    /// The core's clock.
+    /// The clock of the core.
     pub clock: Signal<In, Clock>,
     /// The bus wants a reset; comes from the bus's clock.
     pub request: Signal<In, Bit>,
