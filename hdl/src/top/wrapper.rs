@@ -1,5 +1,5 @@
-//! The outermost modules of the core and of the devices around it: hand-written Verilog with ANSI ports, whose names
-//! stay the same whatever rust-hdl emits.
+//! The outermost modules of the core and of the devices around it: hand-written Verilog with ANSI ports, because the
+//! modules that rust-hdl emits have ports with names such as `command$valid`.
 //!
 //! The core, `incircle_core`:
 //!
@@ -24,8 +24,10 @@
 //! | port | direction | bits | meaning |
 //! |---|---|---|---|
 //! | `bus_clock`, `bus_reset_n` | in | 1 | clock and reset of the AXI ports; the reset is active low and synchronous |
-//! | `s_axis_tdata`, `_tkeep`, `_tvalid`, `_tready`, `_tlast` | in, in, in, out, in | W, W/8, 1, 1, 1 | commands; `s_axis_tlast` means nothing |
-//! | `m_axis_tdata`, `_tkeep`, `_tvalid`, `_tready`, `_tlast` | out, out, out, in, out | W, W/8, 1, 1, 1 | answers |
+//! | `s_axis_tdata`, `_tkeep` | in | W, W/8 | commands |
+//! | `s_axis_tvalid`, `_tready`, `_tlast` | in, out, in | 1 | their handshake; `s_axis_tlast` means nothing |
+//! | `m_axis_tdata`, `_tkeep` | out | W, W/8 | answers |
+//! | `m_axis_tvalid`, `_tready`, `_tlast` | out, in, out | 1 | their handshake, and the mark of an answer's last beat |
 //! | `s_axi_aw...`, `_w...`, `_b...`, `_ar...`, `_r...` | | | AXI4-Lite, addresses of 12 bits, data of 32 |
 //! | `core_clock` | in | 1 | clock of the core |
 //!
