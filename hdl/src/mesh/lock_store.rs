@@ -31,7 +31,7 @@ use crate::leaf::{BlockMemory, LockMemory, Parameter};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// The locks and their holders; see the top of this file.
+/// Locks and their holders; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct LockStore {
     pub clock: Signal<In, Clock>,
