@@ -7,7 +7,7 @@
 //!    word count. A write to a bank that does not exist is lost.
 //! 3. A word is arbitrary until it is written.
 //!
-//! Latency: none (combinational read).
+//! Latency: none (combinational) from address to data.
 //!
 //! Source: distributed RAM. Each bank's word is masked with the bank's bit and all are joined by OR, which takes three
 //! levels of LUTs for 16 banks of 32 words; choosing one of 512 words by its address takes five.

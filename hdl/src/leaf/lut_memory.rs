@@ -4,7 +4,7 @@
 //! 2. Only the low `address_bits` of an address and the low `stored_bits` of a word count.
 //! 3. A word is arbitrary until it is written.
 //!
-//! Latency: none (combinational read).
+//! Latency: none (combinational) from address to data.
 //!
 //! Source: distributed RAM, TRELLIS_DPR16X4 on the ECP5 (16 words of 4 bits each).
 

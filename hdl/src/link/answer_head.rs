@@ -6,7 +6,7 @@
 //! 2. `request.opcode` and `is_refused` do not change between the command and the end of its answer, so they enter
 //!    at the last rank.
 //!
-//! Latency: 3 clocks.
+//! Latency: 3 clocks from `request.first` and `request.count` to `head`.
 
 use super::types::{Head, RecordCount, Request, Word};
 use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};

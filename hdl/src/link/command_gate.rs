@@ -4,7 +4,7 @@
 //!    the first three of each job waits.
 //! 2. A word of zeros in place of a command is taken and ignored.
 //!
-//! Latency: none (combinational).
+//! Latency: none (combinational) from a word to `taken`.
 
 use super::channels::CommandSink;
 use super::types::{CommandState, TakenWord};

@@ -3,7 +3,7 @@
 //! 1. A record goes into registers straight from the memory, and the word is chosen behind them, so that no path begins
 //!    in the memory and ends in the answer stream.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `read_done` to `word`.
 
 use super::record_words::RecordWords;
 use super::types::Word;

@@ -1,6 +1,6 @@
 //! Packs a record into the three words of an answer.
 //!
-//! Latency: none (combinational).
+//! Latency: none (combinational) from a record to its words.
 
 use super::types::Word;
 use crate::mesh::Record;

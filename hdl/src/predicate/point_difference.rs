@@ -3,7 +3,7 @@
 //! 1. Two zero bits widen each coordinate before the subtraction, so the subtraction never wraps: 17 bits hold the
 //!    result, 18 carry it.
 //!
-//! Latency: none (combinational).
+//! Latency: none (combinational) from the points to the vector.
 //!
 //! Source: the differences in orient2d and incircle.
 

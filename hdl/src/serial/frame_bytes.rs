@@ -3,7 +3,7 @@
 //!
 //! 1. A check sum is the complement of its state.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `part` and `index` to the byte.
 
 use super::types::{AnswerPlace, Byte};
 use crate::link::types::Word;

@@ -19,7 +19,7 @@ pub struct FrameHeader {
     pub reset: Signal<In, Bit>,
     /// A frame begins: the block keeps the fields below until the next frame begins.
     pub starts: Signal<In, Bit>,
-    /// Fields of the header: the session, the number of answers sent, the credit and the digest.
+    /// The session, the number of answers sent to their end, the credit and the digest.
     pub open: Signal<In, Session>,
     pub answers: Signal<In, Byte>,
     pub receipt: Signal<In, Receipt>,

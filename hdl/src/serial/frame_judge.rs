@@ -8,7 +8,7 @@
 //! 4. The clock of `comes` looks once more at whether a session is open, because the session may have ended
 //!    in any clock before.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `comes` to `asked`.
 
 use super::types::{Byte, FrameHead, Session};
 use crate::packed;

@@ -1,7 +1,7 @@
 //! Tells whether a byte is the last one of its part of a frame to the host, so that `FrameSender` need not know the
 //! lengths of the parts.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `at` to `is_last`.
 
 use super::types::BytePlace;
 use incircle_protocol::{ANSWER_HEADER_BYTES, CRC_BYTES, DEVICE_HEADER_BYTES, GREETING_WORDS};

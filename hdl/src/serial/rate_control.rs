@@ -5,7 +5,7 @@
 //!    with its last byte.
 //! 3. The device returns to the first rate when a `Closed` has left the line.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `asked` to `is_refused`, and from `is_quiet` to `step`.
 
 use super::frame_judge::Asked;
 use super::types::Step;

@@ -7,7 +7,7 @@
 //! 4. `Open` and `Close` cancel all that was due to the session before except a `Hello`; so does the end of a session
 //!    by silence or a break.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `asked` to `is_due`.
 
 use super::frame_judge::Asked;
 use super::types::Byte;

@@ -5,7 +5,7 @@
 //! 3. `settles` stays high for 7 clocks after a change, so that number, credit and digest in the header of a frame
 //!    belong to the same moment.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `asked` or `fails` to `open`.
 
 use super::frame_judge::Asked;
 use super::types::{Byte, Session};

@@ -3,7 +3,7 @@
 //!
 //! 1. A beat is taken together with its last word. Until then the beat, and every word on offer, must stay.
 //!
-//! Latency: none (combinational).
+//! Latency: none (combinational) from a beat to its words.
 //!
 //! A beat of two words and a beat of one word:
 //! ```text

@@ -1,7 +1,7 @@
 //! Watches the answer beats that the bus takes, and finds headers with a status other than `Ok`, which
 //! the registers then show.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from a beat to `events`.
 
 use super::events::AnswerEvents;
 use crate::link::types::Word;

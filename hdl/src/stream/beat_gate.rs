@@ -1,5 +1,5 @@
-//! Lets command beats into the FIFO, and drops beats that lack bytes, because the words behind a gap would be
-//! read as other commands.
+//! Lets command beats into the FIFO, and drops and reports beats that lack bytes: the stream link takes whole beats
+//! only, because a beat with a gap would shift all words behind it.
 //!
 //! Latency: none (combinational) to `push`, 1 clock to `events`.
 

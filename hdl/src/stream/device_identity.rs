@@ -1,6 +1,6 @@
 //! The registers that say what the device is, so that a host can refuse one that it does not know: constants.
 //!
-//! Latency: none (combinational).
+//! Latency: none (combinational) from `index` to `value`.
 
 use super::axi::RegisterIndex;
 use crate::leaf::Parameter;

@@ -3,7 +3,7 @@
 //! 1. A word of zeros where a command may begin is padding and begins no command. While the core offers the last word
 //!    of an answer, the words that it takes belong to the next command; before that the core takes none.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from a word to `is_busy`.
 
 use crate::link::types::Word;
 use rust_hdl_core::prelude::*;
