@@ -11,10 +11,7 @@ pub enum BoardError {
     Export(#[from] ExportError),
     /// A file cannot be read or written.
     #[error("cannot use {}: {source}", path.display())]
-    File {
-        path: PathBuf,
-        source: std::io::Error,
-    },
+    File { path: PathBuf, source: std::io::Error },
     /// A tool cannot be started.
     #[error("cannot start {program} ({source}): {remedy}")]
     Missing {

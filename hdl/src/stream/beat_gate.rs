@@ -1,5 +1,5 @@
-//! Lets command beats into the FIFO, and drops and reports beats that lack bytes: the stream link takes whole beats
-//! only, because a beat with a gap would shift all words behind it.
+//! Lets command beats into the FIFO, and drops and reports beats that lack bytes, so that a host learns of a transfer
+//! that it has not padded to whole beats.
 //!
 //! Latency: none (combinational) to `push`, 1 clock to `events`.
 
