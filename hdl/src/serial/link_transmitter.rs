@@ -45,7 +45,7 @@ pub struct LinkTransmitter {
     pub fails: Signal<In, Bit>,
     pub forgets: Signal<In, Bit>,
     pub holds: Signal<In, Bit>,
-    /// The frame that begins at this edge is an `Ack` or `Nak`; the frame that begins is a `Closed`.
+    /// The control frame that begins at this edge is an `Ack` or `Nak` (`acknowledges`), or a `Closed` (`closes`).
     pub acknowledges: Signal<Out, Bit>,
     pub closes: Signal<Out, Bit>,
     /// No frame is under way, and the last stop bit has ended.

@@ -26,7 +26,7 @@ pub struct RateControl {
     pub value: Signal<In, Word>,
     /// Silence or a break: return to the first rate at this edge.
     pub fails: Signal<In, Bit>,
-    /// The frame that begins at this edge is an `Ack` or `Nak`; the frame that begins is a `Closed`.
+    /// The control frame that begins at this edge is an `Ack` or `Nak` (`acknowledges`), or a `Closed` (`closes`).
     pub acknowledges: Signal<In, Bit>,
     pub closes: Signal<In, Bit>,
     /// No frame to the host is under way, and the last stop bit has ended.

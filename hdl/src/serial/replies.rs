@@ -31,7 +31,7 @@ pub struct Replies {
     pub kind: Signal<Out, Byte>,
     /// The control frame that is due begins at this edge.
     pub starts: Signal<In, Bit>,
-    /// The frame that is due is an `Ack` or `Nak`; the frame that is due is a `Closed`.
+    /// The frame that is due is an `Ack` or `Nak` (`acknowledges`), or a `Closed` (`closes`).
     pub acknowledges: Signal<Out, Bit>,
     pub closes: Signal<Out, Bit>,
     hello: DFF<Bit>,

@@ -1,4 +1,4 @@
-//! A FIFO between two clocks of any ratio and phase.
+//! A FIFO between two clocks, which carries the beats of the stream link from the bus to the core and back.
 //!
 //! 1. P is the number of bits of a pointer. The memory holds `2^(P-1)` entries, and the read port two more.
 //! 2. `pop` may be high only while `valid` is high. Without `pop`, `valid` and `data` stay.
