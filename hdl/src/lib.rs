@@ -1,4 +1,4 @@
-//! The incircle core in rust-hdl, its export to Verilog, and the boards it runs on.
+//! The incircle core in rust-hdl, its export to Verilog, and the boards on which it runs.
 
 pub mod board;
 pub mod commands;

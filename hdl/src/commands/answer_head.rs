@@ -1,10 +1,12 @@
-//! The first two words of an answer: status and length, in three ranks of registers.
+//! Computes the first two words of an answer, status and length, in three ranks of registers.
 //!
-//! 1. A read is in range if its last record is one; the end of the range and the ids of the records are computed in the first rank,
-//!    the end is compared in the second, and the third chooses. Words of a `Read` are as many as these ids; of `Triangles` half as many, rounded up.
-//! 2. `request.opcode` and `is_refused` stand still from the command to the end of its answer, so they enter at the last rank.
+//! 1. A read-out is in range if its last record exists. The first rank adds up the end of the range and the words of
+//!    its records, the second compares the end, and the third chooses. A `Read` has as many words as the first rank
+//!    says; a `Triangles` has half as many, rounded up.
+//! 2. `request.opcode` and `is_refused` do not change between the command and the end of its answer, so they enter
+//!    at the last rank.
 //!
-//! Latency: 3 clocks.
+//! Latency: 3 clocks from `request.first` and `request.count` to `head`.
 
 use super::types::{Head, RecordCount, Request, Word};
 use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};
@@ -16,29 +18,30 @@ use rust_hdl_widgets::prelude::*;
 pub struct AnswerHead {
     pub clock: Signal<In, Clock>,
     pub request: Signal<In, Request>,
-    /// It is a `Clear` that asks for more contexts than there are.
+    /// The command is a `Clear` that asks for more contexts than the core has.
     pub is_refused: Signal<In, Bit>,
-    /// Records of the mesh.
+    /// Number of records of the mesh.
     pub records: Signal<In, RecordCount>,
-    /// The first three points are collinear; nothing is finished any more.
+    /// States of the insertion engine in which no further point is inserted: the first three points are collinear, or
+    /// the watchdog has reported.
     pub collinear: Signal<In, Bit>,
     pub stuck: Signal<In, Bit>,
-    /// Points have been refused.
+    /// The core has refused points since the last `Clear`.
     pub some_refused: Signal<In, Bit>,
     pub head: Signal<Out, Head>,
-    /// First rank.
+    /// Registers of the first rank.
     range_end: DFF<Bits<33>>,
     range_bound: DFF<RecordCount>,
     triple: DFF<Word>,
     counts_none: DFF<Bit>,
     insert_status: DFF<Bits<3>>,
-    /// Second rank.
+    /// Registers of the second rank.
     is_outside: DFF<Bit>,
     read_length: DFF<Word>,
     packed_length: DFF<Word>,
     reads_none: DFF<Bit>,
     report_status: DFF<Bits<3>>,
-    /// Third rank.
+    /// Registers of the third rank.
     answer_status: DFF<Bits<3>>,
     answer_length: DFF<Word>,
     has_none: DFF<Bit>,
@@ -60,7 +63,7 @@ pub struct AnswerHead {
     rounded: Signal<Local, Word>,
 }
 
-// The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+// The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     Opcode::Hello as u8 == 1
         && Opcode::Clear as u8 == 2
@@ -95,7 +98,7 @@ impl Logic for AnswerHead {
         self.read_code.next = 4.into();
         self.packed_code.next = 7.into();
 
-        // The first rank adds.
+        // The first rank has the additions alone, because a sum and its comparison in one clock would be too slow.
         self.wide_first.next = bit_cast::<33, 32>(self.request.val().first);
         self.wide_count.next = bit_cast::<33, 32>(self.request.val().count);
         self.range_end.d.next = self.wide_first.val() + self.wide_count.val();
@@ -114,7 +117,8 @@ impl Logic for AnswerHead {
             self.insert_status.d.next = 6.into();
         }
 
-        // The second compares.
+        // The second rank has the comparison. `Triangles` packs two ids into a word, so its length is halved
+        // and rounded up here.
         self.wide_bound.next = bit_cast::<33, 15>(self.range_bound.q.val());
         self.is_outside.d.next = self.range_end.q.val() > self.wide_bound.val();
         self.read_length.d.next = self.triple.q.val();
@@ -123,7 +127,7 @@ impl Logic for AnswerHead {
         self.reads_none.d.next = self.counts_none.q.val();
         self.report_status.d.next = self.insert_status.q.val();
 
-        // The third chooses.
+        // The third rank needs the opcode only to choose.
         self.answer_status.d.next = 0.into();
         self.answer_length.d.next = 0.into();
         self.has_none.d.next = false;

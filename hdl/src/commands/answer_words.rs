@@ -1,8 +1,8 @@
-//! The words of a payload that is no record, chosen in two ranks of registers.
+//! Chooses the words of a payload that has no records, in two ranks of registers.
 //!
-//! 1. Each kind of payload chooses its word in the first rank, the counters and the histogram in blocks of their own; the second
-//!    chooses the kind.
-//! 2. `opcode` stands still from the command to the end of its answer.
+//! 1. The first rank chooses a word of each kind of payload; for the counters and the histogram, their own blocks do
+//!    that. The second rank chooses the kind.
+//! 2. `opcode` does not change between the command and the end of its answer.
 //!
 //! Latency: 2 clocks from `index`, and 1 from `counter` and `latency`, at an edge with `chooses`.
 
@@ -11,13 +11,13 @@ use incircle_protocol::{Opcode, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_V
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// Words of a payload; see the top of this file.
+/// The words of a payload; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AnswerWords {
     pub clock: Signal<In, Clock>,
-    /// The command.
+    /// Opcode of the command.
     pub opcode: Signal<In, Bits<8>>,
-    /// Parameters of the core, constants.
+    /// Parameters of the core; constants.
     pub capacity: Signal<In, VertexCount>,
     pub contexts: Signal<In, Bits<5>>,
     pub ring_capacity: Signal<In, Bits<7>>,
@@ -25,23 +25,23 @@ pub struct AnswerWords {
     pub insertions: Signal<In, Word>,
     pub duplicates: Signal<In, Word>,
     pub records: Signal<In, RecordCount>,
-    /// Word of the payload.
+    /// Index of the wanted word in the payload.
     pub index: Signal<In, Bits<7>>,
-    /// The counter, and the bucket of the histogram, of the number that `index` was a clock ago.
+    /// The counter, and the bucket of the histogram, whose number was `index` a clock ago.
     pub counter: Signal<In, Word>,
     pub latency: Signal<In, Word>,
-    /// Take the word that `index` was a clock ago.
+    /// Load the word whose number was `index` a clock ago.
     pub chooses: Signal<In, Bit>,
-    /// The word that was taken, until the next one is.
+    /// The loaded word, valid until the next one is loaded.
     pub word: Signal<Out, Word>,
     identity: DFF<Word>,
     report: DFF<Word>,
     chosen: DFF<Word>,
-    /// The two payloads chosen here are shorter than 8 words.
+    /// Place in the identity or the report, which are both shorter than 8 words.
     place: Signal<Local, Bits<3>>,
 }
 
-// The kernel writes these as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+// The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     Opcode::Hello as u8 == 1
         && Opcode::Insert as u8 == 3

@@ -1,9 +1,9 @@
-//! The two streams of the core. What is offered stays until an edge with `valid` and `ready`, at which it is taken.
+//! The two streams of the core. A word on offer stays until an edge with `valid` and `ready`, at which it is taken.
 
 use super::types::Word;
 use rust_hdl_core::prelude::*;
 
-/// Command words that a block takes.
+/// A stream of command words into a block.
 #[derive(LogicInterface, Default)]
 #[join = "CommandSource"]
 pub struct CommandSink {
@@ -12,7 +12,7 @@ pub struct CommandSink {
     pub data: Signal<In, Word>,
 }
 
-/// Command words that a block gives.
+/// A stream of command words out of a block.
 #[derive(LogicInterface, Default)]
 #[join = "CommandSink"]
 pub struct CommandSource {
@@ -21,20 +21,20 @@ pub struct CommandSource {
     pub data: Signal<Out, Word>,
 }
 
-/// Answer words that a block takes, one or two at a time.
+/// A stream of answer words into a block, one or two words at a time.
 #[derive(LogicInterface, Default)]
 #[join = "AnswerSource"]
 pub struct AnswerSink {
     pub valid: Signal<In, Bit>,
     pub ready: Signal<Out, Bit>,
-    /// A word in bits 31 to 0. With `both` the word that follows it is in bits 63 to 32.
+    /// A word in bits 31 to 0; with `both`, the next word in bits 63 to 32.
     pub data: Signal<In, Bits<64>>,
     pub both: Signal<In, Bit>,
-    /// The last word of its answer is among them.
+    /// The last word of an answer is among the words on offer.
     pub last: Signal<In, Bit>,
 }
 
-/// Answer words that a block gives, as in [`AnswerSink`].
+/// A stream of answer words out of a block, with the signals of [`AnswerSink`].
 #[derive(LogicInterface, Default)]
 #[join = "AnswerSink"]
 pub struct AnswerSource {

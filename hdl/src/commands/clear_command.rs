@@ -1,8 +1,9 @@
-//! What a `Clear` asks for: that the mesh is forgotten, how many contexts work from then on, and whether each has a mesh of its own.
+//! Carries out a `Clear`: the mesh is forgotten, and the command says how many contexts work from then on and whether
+//! each has a mesh of its own.
 //!
-//! 1. The low byte of the word is the number of contexts; 0 is all.
+//! 1. The low byte of the word is the number of contexts; 0 means all.
 //! 2. Bit 8 begins a batch: each of the contexts has a mesh of its own, and the first points are three for each.
-//! 3. A `Clear` that is refused changes nothing. After reset there is no batch.
+//! 3. A refused `Clear` changes nothing. After a reset there is no batch.
 //!
 //! Latency: 1 clock, 2 to `deal.dealt_from`.
 
@@ -12,18 +13,18 @@ use incircle_protocol::{Opcode, CLEAR_BATCH, FIRST_ROUND};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// What a `Clear` asks for; see the top of this file.
+/// The effect of a `Clear`; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ClearCommand {
-    /// After reset all contexts work.
+    /// After a reset all contexts work.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// Contexts that the core has, a constant.
+    /// Number of contexts that the core has; a constant.
     pub built: Signal<In, Bits<5>>,
-    /// A command may come.
+    /// The word that the core takes from the command stream, if there is one.
     pub taken: Signal<In, TakenWord>,
     pub clearing: Signal<Out, Clearing>,
-    /// Contexts that work, and which points are theirs.
+    /// Number of contexts that work, and which points belong to them.
     pub deal: Signal<Out, Deal>,
     clears: DFF<Bit>,
     working: DFF<Bits<5>>,
@@ -43,7 +44,7 @@ pub struct ClearCommand {
     all_contexts: Signal<Local, Bits<8>>,
 }
 
-// The kernel names these by number, because rust-hdl takes literals only; a change in the protocol must come here.
+// The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     Opcode::Clear as u8 == 2 && CLEAR_BATCH == 1 << 8 && FIRST_ROUND == 16,
     "the numbers of this block follow the protocol"

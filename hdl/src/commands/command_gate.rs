@@ -1,31 +1,32 @@
-//! When a command word is taken.
+//! Decides whether the core takes the word that the command stream offers.
 //!
-//! 1. The fourth point waits until the first three are known to span a triangle; in a batch so does the one behind the three of each job.
-//! 2. A word of zeros in place of a command is taken and forgotten.
+//! 1. The fourth point waits until the core knows whether the first three span a triangle. In a batch, the point behind
+//!    the first three of each job waits.
+//! 2. A word of zeros in place of a command is taken and ignored.
 //!
-//! Latency: none (combinational).
+//! Latency: none (combinational) from a word to `taken`.
 
 use super::channels::CommandSink;
 use super::types::{CommandState, TakenWord};
 use crate::engine::EngineState;
 use rust_hdl_core::prelude::*;
 
-/// When a command word is taken; see the top of this file.
+/// The gate for command words; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandGate {
     pub command: CommandSink,
-    /// The meaning of the next word.
+    /// Meaning of the next word.
     pub state: Signal<In, CommandState>,
-    /// The core is not ready for commands yet.
+    /// The core is clearing memories and is not ready for commands.
     pub sweeps: Signal<In, Bit>,
     /// All points of the command have come.
     pub none_is_left: Signal<In, Bit>,
-    /// The point before is being stored.
+    /// The point before is being stored at this edge.
     pub came: Signal<In, Bit>,
     pub engine: Signal<In, EngineState>,
-    /// A word that is taken.
+    /// The word that the core takes at this edge.
     pub taken: Signal<Out, TakenWord>,
-    /// A point may come.
+    /// The next word may be a point.
     pub awaits_point: Signal<Out, Bit>,
     is_held: Signal<Local, Bit>,
     may_be_point: Signal<Local, Bit>,

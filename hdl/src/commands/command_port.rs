@@ -1,15 +1,17 @@
-//! Takes command words: opcodes, arguments, and points one at a time.
+//! Takes the words of commands: opcodes, arguments, and points one at a time.
 //!
 //! 1. `command_ready` depends on registers only and does not wait for `command_valid`.
-//! 2. A point is taken when the one before has been stored; the fourth waits until the first three are known to span a triangle.
-//! 3. A `Clear` for no number of contexts is one for all. One for too many changes nothing, and `clears` stays low.
-//! 4. The answer to a `Clear` is due when `clears` is over.
-//! 5. A word of zeros in place of a command is taken and forgotten.
+//! 2. A point is taken when the one before has been stored. The fourth point waits until the core knows whether the
+//!    first three span a triangle.
+//! 3. A `Clear` with the number 0 asks for all contexts. A `Clear` for more contexts than the core has changes nothing,
+//!    and `clears` stays low.
+//! 4. The answer to a `Clear` is due when `clears` has ended.
+//! 5. A word of zeros in place of a command is taken and ignored.
 //!
-//! Latency: a point accepted at an edge is stored at the next; one is taken every second clock. A point refused is counted at the
-//! next edge.
+//! Latency: a point that is taken at an edge is stored at the next one, so a point can be taken every second clock. A
+//! refused point is counted at the next edge.
 //!
-//! An insertion of three points into an empty core:
+//! An `Insert` of three points into an empty core:
 //! ```text
 //! sweeps          /^^^^^\_________________________________________
 //! command_valid   /^^^^^^^^^^^^^^^^^^^^^^^^^^\____________________
@@ -30,24 +32,24 @@ use incircle_protocol::{Opcode, PADDING};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// The command stream; see the top of this file.
+/// The port for commands; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandPort {
     pub clock: Signal<In, Clock>,
-    /// Reset awaits a command; all contexts work.
+    /// After a reset the port awaits a command, and all contexts work.
     pub reset: Signal<In, Bit>,
-    /// Points the core holds, and contexts it has; constants.
+    /// Number of points that the core holds, and of contexts that it has; constants.
     pub capacity: Signal<In, VertexCount>,
     pub built: Signal<In, Bits<5>>,
     pub command: CommandSink,
-    /// Memories are being cleared: the core is not ready for commands.
+    /// Memories are being cleared, so the core is not ready for commands.
     pub sweeps: Signal<In, Bit>,
     pub engine: Signal<In, EngineState>,
     pub arrival: Signal<Out, Arrival>,
     pub clearing: Signal<Out, Clearing>,
-    /// Contexts that work, and which points are theirs.
+    /// Number of contexts that work, and which points belong to them.
     pub deal: Signal<Out, Deal>,
-    /// An answer is due, until `answer.ends`.
+    /// An answer is due; held until `answer.ends`.
     pub answers: Signal<Out, Bit>,
     pub request: Signal<Out, Request>,
     pub tally: Signal<Out, Tally>,
@@ -55,7 +57,7 @@ pub struct CommandPort {
     pub activity: Signal<Out, Activity>,
     state: DFF<CommandState>,
     held: DFF<Request>,
-    /// No point is left; good while points come.
+    /// No point of the command is left; valid while points come.
     none_is_left: DFF<Bit>,
     is_inserting: DFF<Bit>,
     is_reading: DFF<Bit>,
@@ -69,7 +71,7 @@ pub struct CommandPort {
     one: Signal<Local, Word>,
 }
 
-// The kernel names opcodes by number, because rust-hdl takes literals only; a change in the protocol must come here.
+// The kernel holds the opcodes as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     Opcode::Insert as u8 == 3 && Opcode::Read as u8 == 4 && Opcode::Triangles as u8 == 7 && PADDING == 0,
     "the opcodes of this block follow the protocol"
@@ -94,7 +96,7 @@ impl Logic for CommandPort {
         self.activity.next.inserting = self.is_inserting.q.val();
         self.activity.next.reading = self.is_reading.q.val();
 
-        // Is a word taken?
+        // The gate alone decides whether a word is taken, so that `command_ready` and the state below never disagree.
         CommandSink::link(&mut self.command, &mut self.gate.command);
         self.gate.state.next = self.state.q.val();
         self.gate.sweeps.next = self.sweeps.val();

@@ -1,9 +1,11 @@
-//! The core's two streams of words: commands in, answers out. The serial and the stream link stand around them.
+//! The core's ends of the two streams of words: blocks that take commands and blocks that send answers. The serial and
+//! the stream link lie outside them.
 //!
 //! ```text
 //! command words -> CommandPort -> vertex memory, engine
-//! answers <- Responder <- RecordReads <- triangle memory      RecordWords answers Read; VertexPacker and VertexStream, Triangles
+//! answers <- Responder <- RecordReads <- triangle memory
 //! ```
+//! `RecordWords` makes the words of a `Read`; `VertexPacker` and `VertexStream` make those of a `Triangles`.
 
 mod answer_head;
 mod answer_words;

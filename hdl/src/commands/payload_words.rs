@@ -1,42 +1,43 @@
-//! The payload of an answer that is no record: asks for one word after the other.
+//! Sends the payload of an answer that has no records: asks for one word after the other.
 //!
-//! 1. A word is asked for through two ranks of registers, so that its number stands for two clocks before it is taken; numbers for
-//!    what takes a clock longer to choose come a clock earlier.
+//! 1. The choice of a word takes two ranks of registers, so `index` stays for two clocks before the word is taken.
+//!    Blocks that need a clock more get the index one clock earlier, as `index_ahead`.
 //!
-//! Latency: 2 clocks from `runs`, or from the beat before, to a beat.
+//! Latency: 2 clocks to a beat, from `runs` or from the beat before.
 
 use super::types::{AnswerBeat, Word, WordIndex};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// Words of a payload, one after the other; see the top of this file.
+/// The words of a payload, one after the other; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PayloadWords {
     pub clock: Signal<In, Clock>,
-    /// Reset drops the word.
+    /// A reset drops the word.
     pub reset: Signal<In, Bit>,
-    /// An answer is about to begin, and two clocks later it begins, with a payload of so many words.
+    /// An answer is about to begin (`prepares`); two clocks later it begins (`starts`) with a
+    /// payload of `length` words.
     pub prepares: Signal<In, Bit>,
     pub starts: Signal<In, Bit>,
     pub length: Signal<In, Word>,
     /// The payload is being sent.
     pub runs: Signal<In, Bit>,
-    /// Number of the word that is wanted, and what it becomes at this edge, if it changes.
+    /// Index of the wanted word, and the value that the index takes at this edge if it changes.
     pub index: Signal<Out, WordIndex>,
     pub index_ahead: Signal<Out, WordIndex>,
-    /// The word that `index` was a clock ago is taken into a register at this edge, and is then `word`.
+    /// The word whose number was `index` a clock ago goes into a register at this edge, and is `word` from then on.
     pub chooses: Signal<Out, Bit>,
     pub word: Signal<In, Word>,
-    /// A word is there; it is taken at this edge.
+    /// A beat of one word; `takes` says that it is taken at this edge.
     pub valid: Signal<Out, Bit>,
     pub beat: Signal<Out, AnswerBeat>,
     pub takes: Signal<In, Bit>,
     loaded: DFF<WordIndex>,
     following: DFF<WordIndex>,
     left: DFF<Word>,
-    /// One word is left.
+    /// One word of the payload is left.
     is_last: DFF<Bit>,
-    /// The first of the two clocks in which a word is chosen is over.
+    /// The first of the two clocks in which a word is chosen has passed.
     waited: DFF<Bit>,
     is_chosen: DFF<Bit>,
     is_choosing: Signal<Local, Bit>,

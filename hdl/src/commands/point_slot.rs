@@ -1,7 +1,8 @@
-//! The point that has just come, and the count of points.
+//! Holds the point that has just come, gives it its id, and counts the points.
 //!
-//! 1. Registers of `arrival.id` and `arrival.point` take in whatever comes, so that nothing has to reach all of them.
-//! 2. No point comes in the clock of `came`: the counts are compared in it.
+//! 1. The registers of `arrival.id` and `arrival.point` load at every clock, so that no enable has to
+//!    reach all of them.
+//! 2. No point comes in the clock of `came`, because the counts are compared in that clock.
 //!
 //! Latency: 1 clock; 2 to `refused` and `some_refused`.
 
@@ -11,29 +12,29 @@ use crate::engine::{Arrival, EngineState};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// The last point; see the top of this file.
+/// The last point and the counts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct PointSlot {
     pub clock: Signal<In, Clock>,
-    /// Reset drops the point; reset and clear set the counts to zero.
+    /// A reset drops the point; reset and `clears` set the counts to zero.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
-    /// Points the core holds, a constant.
+    /// Number of points that the core holds; a constant.
     pub capacity: Signal<In, VertexCount>,
-    /// Points are refused where it is `collinear` or `stuck`.
+    /// State of the insertion engine; while it is `collinear` or `stuck`, points are refused.
     pub engine: Signal<In, EngineState>,
-    /// A point may come.
+    /// The word that the core takes from the command stream, if there is one.
     pub taken: Signal<In, TakenWord>,
-    /// It came with the last edge and is not refused.
+    /// The point that came with the last edge, unless it was refused.
     pub arrival: Signal<Out, Arrival>,
     pub tally: Signal<Out, Tally>,
     is_new: DFF<Bit>,
     last_id: DFF<VertexId>,
     last_point: DFF<Word>,
     arrivals: DFF<VertexCount>,
-    /// As many as the core holds.
+    /// As many points have come as the core holds.
     is_full: DFF<Bit>,
-    /// The last point is refused, and counted now.
+    /// The last point was refused, and is counted now.
     is_surplus: DFF<Bit>,
     refusals: DFF<Word>,
     has_refused: DFF<Bit>,

@@ -1,8 +1,9 @@
-//! Holds a record that has been read, and hands out its words, or its vertices alone.
+//! Holds a record of the read-out, and offers its words one by one or its vertices together.
 //!
-//! 1. The record goes into registers straight from the memory; the word is chosen behind them.
+//! 1. A record goes into registers straight from the memory, and the word is chosen behind them, so that no path begins
+//!    in the memory and ends in the answer stream.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from `read_done` to `word`.
 
 use super::record_words::RecordWords;
 use super::types::Word;
@@ -11,26 +12,26 @@ use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// A record that has been read; see the top of this file.
+/// The buffer for a record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordBuffer {
     pub clock: Signal<In, Clock>,
-    /// Reset drops the record.
+    /// A reset drops the record.
     pub reset: Signal<In, Bit>,
-    /// A record comes; only when none is held, or when it is taken whole.
+    /// A record comes; allowed only while none is held or the one held is taken whole.
     pub read_done: Signal<In, Bit>,
     pub record: Signal<In, Record>,
     pub holds: Signal<Out, Bit>,
-    /// The first that is left; there is no other.
+    /// The first word that has not been taken; `is_at_last` says that no other follows.
     pub word: Signal<Out, Word>,
     pub is_at_last: Signal<Out, Bit>,
-    /// It is taken at this edge; only while `holds`.
+    /// The word is taken at this edge; allowed only while `holds` is high.
     pub takes: Signal<In, Bit>,
-    /// The vertices of the record, while no word of it has been taken.
+    /// Vertices of the record, valid while no word of it has been taken.
     pub vertex0: Signal<Out, VertexId>,
     pub vertex1: Signal<Out, VertexId>,
     pub vertex2: Signal<Out, VertexId>,
-    /// All of it is taken at this edge; only while `holds`, and no word of it has been.
+    /// The whole record is taken at this edge; allowed only while `holds` is high and no word has been taken.
     pub takes_whole: Signal<In, Bit>,
     is_held: DFF<Bit>,
     buffer0: DFF<Word>,

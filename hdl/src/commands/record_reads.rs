@@ -1,8 +1,11 @@
-//! The payload of a read-out: reads records, one at a time for their words, or one a clock for their vertices alone.
+//! Sends the payload of a read-out: reads records, one at a time for all their words, or one a clock
+//! for their vertices alone.
 //!
-//! 1. `read` goes on to the addresses of the triangle memory, so `is_packed` passes a register before it.
-//! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
-//! 3. `valid` and `beat` are registers: whether a beat is the last decides in the same clock what the whole command port does next.
+//! 1. `read` leads on to the addresses of the triangle memory, so `is_packed` passes a register before
+//!    it acts on `read`.
+//! 2. Word `k` of a record holds `v[k]` in bits 0 to 14 and `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
+//! 3. `valid` and `beat` are registers, because the mark of the last beat decides in the same clock what the whole
+//!    command port does next.
 //!
 //! Latency: 2 clocks from `read_done` to the first word of the record, 3 to the beat that its vertices fill.
 
@@ -18,29 +21,29 @@ use rust_hdl_widgets::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct RecordReads {
     pub clock: Signal<In, Clock>,
-    /// Reset drops everything.
+    /// A reset drops everything.
     pub reset: Signal<In, Bit>,
-    /// The payload is of so many records from this one on; only when nothing of another one is left.
+    /// The payload is `count` records from `first` on; allowed only when nothing of another payload is left.
     pub starts: Signal<In, Bit>,
     pub first: Signal<In, TriangleId>,
     pub count: Signal<In, RecordCount>,
-    /// It has their vertices alone; stands still from the clock before `runs` on.
+    /// The payload has the vertices of the records alone; stable from the clock before `runs` on.
     pub is_packed: Signal<In, Bit>,
     /// The payload is being sent.
     pub runs: Signal<In, Bit>,
-    /// A record is wanted.
+    /// Read the record `read_id`.
     pub read: Signal<Out, Bit>,
     pub read_id: Signal<Out, TriangleId>,
-    /// It has come; records come in the order in which they were wanted.
+    /// A record has come; records come in the order in which they were asked for.
     pub read_done: Signal<In, Bit>,
     pub record: Signal<In, Record>,
     pub valid: Signal<Out, Bit>,
     pub beat: Signal<Out, AnswerBeat>,
-    /// It is taken at this edge; only while `valid`.
+    /// The beat is taken at this edge; allowed only while `valid` is high.
     pub takes: Signal<In, Bit>,
     vertices_alone: DFF<Bit>,
     record_id: DFF<TriangleId>,
-    /// Records still to be read.
+    /// Number of records that have yet to be read.
     left: DFF<RecordCount>,
     some_are_left: DFF<Bit>,
     fetching: DFF<Bit>,
@@ -65,7 +68,8 @@ impl Logic for RecordReads {
         self.one.next = 1.into();
         self.vertices_alone.d.next = self.is_packed.val();
 
-        // A whole record is fetched when the one before has been taken.
+        // A whole record needs the only buffer, so the next one waits until the buffer is empty; vertices alone wait
+        // for room in their queue.
         self.may_ask.next = (!self.fetching.q.val()) & (!self.buffer.holds.val());
         if self.vertices_alone.q.val() {
             self.may_ask.next = self.vertices.has_room.val();
@@ -88,7 +92,6 @@ impl Logic for RecordReads {
             self.some_are_left.d.next = self.count.val().any();
         }
 
-        // The record that has come.
         self.buffer.reset.next = self.reset.val();
         self.buffer.read_done.next = self.read_done.val();
         self.buffer.record.next = self.record.val();
@@ -102,7 +105,6 @@ impl Logic for RecordReads {
         self.vertices.v1.next = self.buffer.vertex1.val();
         self.vertices.v2.next = self.buffer.vertex2.val();
 
-        // What is sent of it.
         self.valid.next = self.is_there.q.val();
         self.beat.next = self.head.q.val();
         self.moves.next = (!self.is_there.q.val()) | self.takes.val();

@@ -1,16 +1,16 @@
-//! A record as the three words of an answer.
+//! Packs a record into the three words of an answer.
 //!
-//! Latency: none (combinational).
+//! Latency: none (combinational) from a record to its words.
 
 use super::types::Word;
 use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 
-/// Words of a record; see the top of this file.
+/// The words of a record; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct RecordWords {
     pub record: Signal<In, Record>,
-    /// `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
+    /// Word `k`: `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
     pub word0: Signal<Out, Word>,
     pub word1: Signal<Out, Word>,
     pub word2: Signal<Out, Word>,

@@ -1,14 +1,14 @@
-//! Sends answers: header and length in one beat, then the payload. Records are read from the triangle memory one at a time, or one a
-//! clock where their vertices alone are sent.
+//! Sends answers: header and length in one beat, then the payload. Records come from the triangle memory one at a time,
+//! or one a clock if only their vertices are sent.
 //!
-//! 1. What is offered is held until it is taken; `response_valid` does not wait for `response_ready`.
-//! 2. Word `k` of a record holds `v[k]` in bits 0 to 14, `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
-//! 3. The second word is zero where there is none.
+//! 1. A beat on offer stays until it is taken; `response_valid` does not wait for `response_ready`.
+//! 2. Word `k` of a record holds `v[k]` in bits 0 to 14 and `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
+//! 3. Bits 63 to 32 are zero in a beat of one word.
 //!
-//! Latency: 4 clocks from `answers` to the header; 3 clocks a word, 7 a record: the read's 3 and 4 more. Vertices: 1 clock a record, and
-//! the first beat of theirs 8 clocks after the header.
+//! Latency: 4 clocks from `answers` to the header. A word takes 3 clocks, a record 7: 3 for the read and 4 more.
+//! Vertices take 1 clock a record, and their first beat comes 8 clocks after the header.
 //!
-//! A read of one record, whose header has to wait; `beat` counts the beats of the answer:
+//! A `Read` of one record, whose header has to wait; `beat` counts the beats of the answer:
 //! ```text
 //! answers         ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\________
 //! read            _______________/^^\_____________________________
@@ -29,52 +29,52 @@ use crate::mesh::Record;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// Which part of an answer is loaded next.
+/// The part of an answer that the output loads next.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum AnswerState {
-    /// None.
+    /// No part, because no answer is due.
     Idle,
-    /// None: header and length are being computed.
+    /// No part yet: header and length are being computed.
     Prepare,
-    /// Header and length.
+    /// The header and the length.
     Header,
-    /// A word of a payload that is no record.
+    /// A word of a payload that has no records.
     Words,
     /// A beat of records or vertices.
     Records,
 }
 
-/// The answer stream; see the top of this file.
+/// The sender of answers; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Responder {
     pub clock: Signal<In, Clock>,
-    /// Reset drops an answer.
+    /// A reset drops the answer under way.
     pub reset: Signal<In, Bit>,
-    /// An answer is due, held until `progress.ends`.
+    /// An answer is due; held until `progress.ends`.
     pub answers: Signal<In, Bit>,
-    /// Counts are being cleared: no answer begins.
+    /// Counts are being cleared, so no answer may begin.
     pub sweeps: Signal<In, Bit>,
-    /// The command: its records, if it is a read.
+    /// The command, with the range of records of a read-out.
     pub request: Signal<In, Request>,
-    /// The answer, from `AnswerHead`, good 3 clocks after `answers` comes.
+    /// Status and length from `AnswerHead`, valid 3 clocks after `answers` rises.
     pub head: Signal<In, Head>,
-    /// A word of the payload, from `AnswerWords`, good from `chooses` to the next one.
+    /// A word of the payload from `AnswerWords`, valid from `chooses` to the next `chooses`.
     pub word: Signal<In, Word>,
-    /// Number of the word that is wanted, and what it becomes at this edge, if it changes.
+    /// Index of the wanted word, and the value that the index takes at this edge if it changes.
     pub index: Signal<Out, WordIndex>,
     pub index_ahead: Signal<Out, WordIndex>,
-    /// The word that `index` was a clock ago is taken into a register at this edge, and is then `word`.
+    /// The word whose number was `index` a clock ago goes into a register at this edge, and is `word` from then on.
     pub chooses: Signal<Out, Bit>,
-    /// A record is wanted.
+    /// Read the record `read_id`.
     pub read: Signal<Out, Bit>,
     pub read_id: Signal<Out, TriangleId>,
-    /// A record has come; records come in the order in which they were wanted.
+    /// A record has come; records come in the order in which they were asked for.
     pub read_done: Signal<In, Bit>,
     pub record: Signal<In, Record>,
     pub response: AnswerSource,
     pub progress: Signal<Out, AnswerProgress>,
     state: DFF<AnswerState>,
-    /// The first of the two clocks of `Prepare` is over.
+    /// The first of the two clocks of `Prepare` has passed.
     waited: DFF<Bit>,
     valid: DFF<Bit>,
     offered: DFF<AnswerBeat>,

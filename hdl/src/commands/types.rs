@@ -1,4 +1,4 @@
-//! What travels between the blocks of the command and answer streams.
+//! The bundles of signals that pass between the blocks of the command and answer streams.
 
 use rust_hdl_core::prelude::*;
 
@@ -8,20 +8,20 @@ pub type Word = Bits<32>;
 pub type VertexCount = Bits<15>;
 /// A count of records.
 pub type RecordCount = Bits<15>;
-/// Number of a word of a payload.
+/// Index of a word in a payload.
 pub type WordIndex = Bits<7>;
 
 crate::packed! {
-    /// A command and its arguments.
+    /// A command with its arguments.
     pub struct Request {
         pub opcode: Bits<8>,
-        /// First record of a read.
+        /// Id of the first record of a read-out.
         pub first: Word,
-        /// Records of a read; points of an insert that are still to come.
+        /// Number of records of a read-out, or of points that an `Insert` has yet to bring.
         pub count: Word,
     }
 
-    /// A command word that is taken.
+    /// A word that the core takes from the command stream at this edge.
     pub struct TakenWord {
         pub is_command: bool,
         pub is_point: bool,
@@ -32,84 +32,84 @@ crate::packed! {
     pub struct Clearing {
         /// Forget the mesh at this edge.
         pub clears: bool,
-        /// The last command is a `Clear` that asks for more contexts than there are.
+        /// The last command is a `Clear` that asks for more contexts than the core has.
         pub is_refused: bool,
     }
 
-    /// Counts of points since the last `Clear`.
+    /// Counts of the points since the last `Clear`.
     pub struct Tally {
-        /// Points that were given an id.
+        /// Number of points that got an id.
         pub arrived: VertexCount,
-        /// Points that were not, and whether there are some.
+        /// Number of points that got no id, and whether there are any.
         pub refused: Word,
         pub some_refused: bool,
     }
 
-    /// Activity for the cycle counters.
+    /// The activity of the core, for the cycle counters.
     pub struct Activity {
         pub inserting: bool,
         pub reading: bool,
-        /// A point may come.
+        /// The next word may be a point.
         pub awaits_point: bool,
     }
 
-    /// An answer's first two words, and what its payload consists of.
+    /// The first two words of an answer, and the kind of its payload.
     pub struct Head {
         pub header: Word,
-        /// Words of the payload, and whether there are none.
+        /// Number of words of the payload, and whether there are none.
         pub length: Word,
         pub is_empty: bool,
-        /// The payload consists of records, or of their vertices alone (both are set then).
+        /// The payload consists of records (`is_read`); with `is_packed` as well, of their vertices alone.
         pub is_read: bool,
         pub is_packed: bool,
     }
 
-    /// The progress of an answer.
+    /// The state of an answer.
     pub struct AnswerProgress {
         /// No answer is under way.
         pub is_idle: bool,
-        /// The last word of the answer is loaded at this edge.
+        /// The last word of the answer is loaded into the output at this edge.
         pub ends: bool,
-        /// No word waits, or it is taken.
+        /// The output holds no word, or its word is taken at this edge.
         pub is_taken: bool,
     }
 
-    /// One or two words of an answer.
+    /// One or two words of an answer, with their marks.
     pub struct AnswerBeat {
-        /// The word, and the one that follows it.
+        /// The first word, and the word that follows it.
         pub low: Word,
         pub high: Word,
-        /// The beat has a second word.
+        /// The beat has two words.
         pub both: bool,
-        /// The last word of an answer is among them.
+        /// The beat holds the last word of its answer.
         pub last: bool,
     }
 
-    /// The words of a beat, without its marks.
+    /// The words of a beat without the marks.
     pub struct WordPair {
         pub low: Word,
         pub high: Word,
     }
 }
 
-/// Bits of [`AnswerBeat`].
+/// Number of bits of an [`AnswerBeat`].
 pub const ANSWER_BEAT_BITS: usize = AnswerBeat::BITS;
-/// Bits of [`WordPair`].
+/// Number of bits of a [`WordPair`].
 pub const WORD_PAIR_BITS: usize = WordPair::BITS;
 
-/// What the next word means, or what is awaited.
+/// The meaning of the next command word, or the event that the port awaits.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
 pub enum CommandState {
-    /// A command.
+    /// The next word is a command.
     Command,
-    /// The first id of a read.
+    /// The next word is the id of the first record of a read-out.
     First,
-    /// The number of records or points.
+    /// The next word is the number of records or of points.
     Count,
-    /// Points.
+    /// The next word is a point.
     Points,
-    /// The engine finishes.
+    /// The insertion engine has to finish all points.
     Settle,
-    /// The answer is sent.
+    /// The answer has to be sent.
     Answer,
 }

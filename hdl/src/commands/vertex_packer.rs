@@ -1,12 +1,15 @@
-//! Packs the vertices of records into beats of two words: ids of 16 bits without gaps.
+//! Packs the vertices of records into beats of two words, as ids of 16 bits without gaps, so that four records take six
+//! words and not twelve.
 //!
-//! 1. Four records fill three beats: the first of four fills none, and each of the others fills one and leaves what is beyond it.
-//! 2. What the last record leaves follows a clock later as a beat of its own, with the words that it needs; an odd half is zero.
-//! 3. Nothing can be held up here: the user sees to it that there is room for every beat.
+//! 1. Four records fill three beats. The first of the four fills none; each of the others fills one and leaves the ids
+//!    that do not fit.
+//! 2. The ids that the last record leaves follow a clock later as a beat of their own, with as many words as they need;
+//!    an odd half is zero.
+//! 3. Nothing can stall this block: the user makes sure that there is room for every beat.
 //!
-//! Latency: 1 clock from a record to the beat that it fills, 2 to that with the rest.
+//! Latency: 1 clock from a record to the beat that it fills, 2 to the beat with the rest.
 //!
-//! Five records, whose ids are numbered from 1 on; `half` is the lowest of a beat's four:
+//! Five records, whose ids are numbered from 1 on; `half` is the lowest id of a beat's four:
 //! ```text
 //! starts          /^^\__________________________
 //! comes           ___/^^^^^^^^\__/^^^^^\________
@@ -21,31 +24,31 @@ use crate::engine::types::VertexId;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// Vertices of records, packed; see the top of this file.
+/// The packer of vertices; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexPacker {
     pub clock: Signal<In, Clock>,
-    /// Reset drops the beat.
+    /// A reset drops the beat.
     pub reset: Signal<In, Bit>,
-    /// So many records will come, one at least.
+    /// A payload of `count` records begins; `count` is at least 1.
     pub starts: Signal<In, Bit>,
     pub count: Signal<In, RecordCount>,
-    /// A record comes.
+    /// A record comes, with these vertices.
     pub comes: Signal<In, Bit>,
     pub v0: Signal<In, VertexId>,
     pub v1: Signal<In, VertexId>,
     pub v2: Signal<In, VertexId>,
-    /// A beat is full, or the last one; it stands for one clock.
+    /// A beat is full or is the last one; held for one clock.
     pub valid: Signal<Out, Bit>,
     pub beat: Signal<Out, AnswerBeat>,
     is_there: DFF<Bit>,
     filled: DFF<AnswerBeat>,
-    /// Records of the present four that have come.
+    /// Number of records of the present four that have come.
     place: DFF<Bits<2>>,
     left: DFF<RecordCount>,
-    /// One record is left.
+    /// One record is left to come.
     is_last: DFF<Bit>,
-    /// The rest is due.
+    /// A beat with the rest is due.
     flushes: DFF<Bit>,
     held0: DFF<VertexId>,
     held1: DFF<VertexId>,
@@ -85,7 +88,7 @@ impl Logic for VertexPacker {
         self.valid.next = self.is_there.q.val();
         self.beat.next = self.filled.q.val();
 
-        // The rest goes out as if a record of zeros had come.
+        // The rest goes out as if a record of zeros had come, so it needs no path of its own.
         self.takes.next = self.comes.val() | self.flushes.q.val();
         self.new0.next = self.v0.val();
         self.new1.next = self.v1.val();
@@ -96,7 +99,8 @@ impl Logic for VertexPacker {
             self.new2.next = 0.into();
         }
 
-        // What is held comes first, then the record.
+        // Ids held from earlier records come before those of the new one. How many are held depends on the
+        // place among the four.
         self.half1.next = self.held1.q.val();
         self.half2.next = self.held2.q.val();
         self.half3.next = self.new0.val();
@@ -142,7 +146,6 @@ impl Logic for VertexPacker {
         self.filled.d.next.last = self.flushes.q.val() | self.ends_full.val();
         self.is_there.d.next = self.takes.val() & (self.place.q.val() != self.first_place.val());
 
-        // How many are left.
         self.flushes.d.next = self.comes.val() & self.is_last.q.val() & (!self.ends_full.val());
         if self.comes.val() {
             self.left.d.next = self.left.q.val() - self.one.val();

@@ -1,9 +1,10 @@
-//! The payload of a `Triangles` answer: packs the vertices of records that come, and keeps the beats until they are taken.
+//! Sends the payload of a `Triangles` answer: packs the vertices of the records that come, and keeps the beats
+//! until they are taken.
 //!
-//! 1. `has_room` is low while more than `ROOM` beats wait, two clocks later. The queue holds 16, so there is a place for every record
-//!    under way, if each comes within `PATIENCE` clocks.
+//! 1. `has_room` is low while more than `ROOM` beats wait, two clocks later. The queue holds 16 beats, so there is room
+//!    for every record under way if each comes within `PATIENCE` clocks.
 //!
-//! Latency: 1 clock from a record to the beat that it fills, when none waits.
+//! Latency: 1 clock from a record to the beat that it fills, if no other beat waits.
 
 use super::types::{AnswerBeat, RecordCount, ANSWER_BEAT_BITS};
 use super::vertex_packer::VertexPacker;
@@ -12,31 +13,31 @@ use crate::leaf::{Fifo, Unpack};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// Address bits of the queue of beats.
+/// Number of address bits of the queue of beats.
 const QUEUE_BITS: usize = 4;
 
 /// The vertices of a range of records; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct VertexStream {
     pub clock: Signal<In, Clock>,
-    /// Reset drops everything.
+    /// A reset drops everything.
     pub reset: Signal<In, Bit>,
-    /// So many records will come; only when no beat of others is left.
+    /// A payload of `count` records begins; allowed only when no beat of another payload is left.
     pub starts: Signal<In, Bit>,
     pub count: Signal<In, RecordCount>,
     /// A record may be asked for.
     pub has_room: Signal<Out, Bit>,
-    /// One that was asked for comes.
+    /// A record that was asked for has come, with these vertices.
     pub comes: Signal<In, Bit>,
     pub v0: Signal<In, VertexId>,
     pub v1: Signal<In, VertexId>,
     pub v2: Signal<In, VertexId>,
-    /// The first beat that is left.
+    /// The first beat that has not been taken.
     pub valid: Signal<Out, Bit>,
     pub beat: Signal<Out, AnswerBeat>,
-    /// It is taken at this edge; only while `valid`.
+    /// The beat is taken at this edge; allowed only while `valid` is high.
     pub takes: Signal<In, Bit>,
-    /// Beats in the queue.
+    /// Number of beats in the queue.
     waiting: DFF<Bits<5>>,
     roomy: DFF<Bit>,
     packer: VertexPacker,
@@ -48,14 +49,14 @@ pub struct VertexStream {
 }
 
 impl VertexStream {
-    /// Beats that may wait while more are asked for.
+    /// Number of beats that may wait while more records are asked for.
     pub const ROOM: usize = 4;
-    /// Most clocks from a record asked for to its coming.
+    /// Largest number of clocks between asking for a record and its coming.
     pub const PATIENCE: usize = 10;
 }
 
-// Up to three more records are asked for and packed while the count of beats follows. Four records fill three beats, and the last one may
-// leave a rest.
+// Up to three more records are asked for while the count of beats follows. Four records fill three beats, and the last
+// record may leave a rest.
 const _: () = assert!(
     VertexStream::ROOM == 4 && VertexStream::ROOM + ((VertexStream::PATIENCE + 3) * 3).div_ceil(4) < 1 << QUEUE_BITS,
     "the literal of this block is its constant, and the queue takes what is under way"

@@ -1,30 +1,30 @@
-//! Says whether a command is under way in the core.
+//! Tells whether a command is under way in the core, for the status register.
 //!
-//! 1. A word 0 where a command may begin is padding and begins none. Words taken while the last word of an answer is offered belong to the next
-//!    command; before that the core takes none.
+//! 1. A word of zeros where a command may begin is padding and begins no command. While the core offers the last word
+//!    of an answer, the words that it takes belong to the next command; before that the core takes none.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from a word to `is_busy`.
 
 use crate::commands::types::Word;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// A command under way; see the top of this file.
+/// The command under way; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct CommandUnderWay {
-    /// The core's clock; after reset none is.
+    /// The core's clock; after a reset no command is under way.
     pub clock: Signal<In, Clock>,
     pub reset: Signal<In, Bit>,
-    /// The core takes this command word.
+    /// The core takes `word`, a word of a command, at this edge.
     pub takes: Signal<In, Bit>,
     pub word: Signal<In, Word>,
-    /// It offers the last word of an answer; that is taken.
+    /// The core offers the last word of an answer; `ends` says that the word is taken at this edge.
     pub offers_last: Signal<In, Bit>,
     pub ends: Signal<In, Bit>,
-    /// A word of a command has been taken, and the answer to it has not ended.
+    /// The core has taken a word of a command, and its answer has not ended.
     pub is_busy: Signal<Out, Bit>,
     busy: DFF<Bit>,
-    /// The next command has begun before the answer ended.
+    /// The next command began before the answer of this one ended.
     follows: DFF<Bit>,
     begins: Signal<Local, Bit>,
 }

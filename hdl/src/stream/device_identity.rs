@@ -1,6 +1,6 @@
-//! The registers that say what the device is: constants.
+//! The registers that say what the device is, so that a host can refuse one that it does not know: constants.
 //!
-//! Latency: none.
+//! Latency: none (combinational) from `index` to `value`.
 
 use super::axi::RegisterIndex;
 use crate::commands::types::Word;
@@ -10,12 +10,12 @@ use incircle_protocol::{
 };
 use rust_hdl_core::prelude::*;
 
-/// Registers of constants; see the top of this file.
+/// The registers of constants; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct DeviceIdentity {
-    /// The register that is read.
+    /// Number of the register that is read.
     pub index: Signal<In, RegisterIndex>,
-    /// Its value, 0 if it is none of these, and whether it is one.
+    /// Value of that register, or 0 if it is none of this block; `is_known` says that it is one.
     pub value: Signal<Out, Word>,
     pub is_known: Signal<Out, Bit>,
     magic: Parameter<Word>,
@@ -30,7 +30,7 @@ pub struct DeviceIdentity {
     fifo_beats: Parameter<Word>,
 }
 
-// The kernel writes offsets as literals, because rust-hdl takes no constants of Rust; a change in the protocol must come here.
+// The kernel holds the offsets as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = {
     let mut index = 0;
     while index < 10 {
@@ -43,7 +43,7 @@ const _: () = {
 };
 
 impl DeviceIdentity {
-    /// The registers of a core of this configuration, behind streams of so many bits a beat.
+    /// The registers of a core of this configuration behind streams with beats of `beat_bits` bits.
     pub fn new(config: Config, beat_bits: usize) -> Self {
         let word = |value: u32| Parameter::new(Bits::from(u64::from(value)));
         Self {

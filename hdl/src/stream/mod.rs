@@ -1,4 +1,5 @@
-//! The stream link: beats and registers of an AXI bus around the core's two streams of words, with a clock of its own.
+//! The stream link: the blocks that connect the core's two streams of words to AXI4-Streams and AXI4-Lite registers in
+//! the clock of a bus.
 
 mod answer_beats;
 mod answer_pairs;
