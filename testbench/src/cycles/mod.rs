@@ -7,7 +7,7 @@ mod airports;
 mod table;
 
 pub use airports::thinned_airports;
-pub use table::{block, document, earlier, row, BLOCKS, COLUMNS, ROWS};
+pub use table::{block, document, row, survey_counts, BLOCKS, COLUMNS, ROWS};
 
 use incircle::order::brio_hilbert_dealt;
 use incircle::Point;

@@ -60,8 +60,18 @@ fn anchors(text: &str) -> BTreeSet<String> {
 fn links_lead_somewhere() {
     let mut checked = 0;
     let documents = documents();
-    for known in ["README.md", "docs/engine.md", "testbench/README.md", "testbench/cycles.md", "constraints/timing.md"]
-    {
+    for known in [
+        "README.md",
+        "ARCHITECTURE.md",
+        "docs/batches.md",
+        "docs/claims.md",
+        "docs/decisions.md",
+        "docs/engine.md",
+        "docs/where.md",
+        "testbench/README.md",
+        "testbench/cycles.md",
+        "constraints/timing.md",
+    ] {
         assert!(documents.contains(known), "{known} is not read");
     }
     for document in &documents {
@@ -81,21 +91,36 @@ fn links_lead_somewhere() {
     assert!(checked >= 10, "only {checked} links found");
 }
 
-/// Everything in backquotes that looks like a path of this repository.
+/// Everything in backquotes that looks like a path of this repository: files and folders, by their path from the root.
 fn paths(text: &str) -> Vec<&str> {
     let quoted = text.split('`').skip(1).step_by(2);
-    quoted.filter(|quote| quote.contains('/') && quote.ends_with(".rs") && !quote.contains(['*', ' '])).collect()
+    quoted.filter(|quote| quote.contains('/') && !quote.contains(char::is_whitespace)).collect()
 }
 
 #[test]
-fn files_named_by_the_architecture_exist() {
-    let text = read("ARCHITECTURE.md");
-    let paths = paths(&text);
-    assert!(paths.len() >= 15, "only {} paths found", paths.len());
-    for path in paths {
-        let places = ["", "hdl/src", "sim/model/src", "host/src"];
-        let exists = places.iter().any(|place| root().join(place).join(path).exists());
-        assert!(exists, "ARCHITECTURE.md names {path}");
+fn files_named_by_the_architecture_and_the_claims_exist() {
+    for (page, least) in [("ARCHITECTURE.md", 20), ("docs/claims.md", 80)] {
+        let text = read(page);
+        let paths = paths(&text);
+        assert!(paths.len() >= least, "{page}: only {} paths found", paths.len());
+        for path in paths {
+            assert!(root().join(path).exists(), "{page} names {path}");
+        }
+    }
+}
+
+#[test]
+fn every_claim_names_what_holds_it() {
+    let page = read("docs/claims.md");
+    let rows = page.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| what always holds |"));
+    let rows: Vec<_> = rows.collect();
+    assert!(rows.len() >= 35, "only {} claims found", rows.len());
+    for row in rows {
+        let cells: Vec<_> = row.trim_matches('|').split('|').collect();
+        let &[_, _, held_by] = cells.as_slice() else {
+            panic!("not three columns: {row}");
+        };
+        assert!(!paths(held_by).is_empty(), "nothing holds this claim: {row}");
     }
 }
 

@@ -218,7 +218,7 @@ fn a_sequence_of_frames_costs_little_more_than_the_engine() {
         let cycles = number(key).round() as u64;
         format!("{},{:03}", cycles / 1000, cycles % 1000)
     };
-    for document in ["README.md", "docs/engine.md"] {
+    for document in ["README.md", "docs/engine.md", "docs/batches.md"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(document);
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         for figure in [shown("cycles_per_job"), shown("longest_job_cycles")] {
