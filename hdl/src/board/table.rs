@@ -20,10 +20,10 @@ const END: &str = "<!-- end -->\n";
 /// The row of the table of cycles that counts.
 const POINT_SET: &str = "uniform";
 
-/// The documents with a table: the two with all boards first, then that of each board.
+/// The documents with a table: the page of all boards first, then the page of each board.
 pub fn documents() -> Vec<PathBuf> {
-    let all = [repository().join("README.md"), constraints().join("README.md")];
-    all.into_iter().chain(BOARDS.iter().map(|board| board.folder().join("README.md"))).collect()
+    let all = constraints().join("README.md");
+    std::iter::once(all).chain(BOARDS.iter().map(|board| board.folder().join("README.md"))).collect()
 }
 
 /// Every document and what it must hold.
@@ -35,11 +35,8 @@ pub fn pages() -> Result<Vec<(PathBuf, String)>, BoardError> {
     for board in BOARDS {
         measured.push((board, measurement(&board)?));
     }
-    let overview = overview(&measured);
-    // Links in it are seen from the root.
-    let beside = overview.replace("](constraints/", "](");
     let single = measured.iter().map(|(_, measurement)| details(measurement.as_ref()));
-    let tables = [overview, beside].into_iter().chain(single);
+    let tables = std::iter::once(overview(&measured)).chain(single);
     let fill = |(path, table): (PathBuf, String)| {
         let text = held_text(&path)?;
         let parts = text.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
@@ -124,14 +121,14 @@ fn three(Summary { min, median, max }: Summary) -> String {
     format!("{min:.1} / {median:.1} / {max:.1}")
 }
 
-/// The table of all boards.
+/// The table of all boards. Links in the table are seen from the folder `constraints`.
 fn overview(measured: &[(Board, Option<Measurement>)]) -> String {
     let mut text = String::from(
         "\n| board | points, contexts | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max | clock | cycles an insertion | insertions a second | serial |\n\
          |---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for (board, measurement) in measured {
-        let link = format!("[{}](constraints/{}/README.md), {}", board.title, board.name, board.device);
+        let link = format!("[{}]({}/README.md), {}", board.title, board.name, board.device);
         let Some(measurement) = measurement else {
             text += &format!("| {link} | not measured |{}\n", " |".repeat(9));
             continue;
