@@ -14,10 +14,10 @@ const END: &str = "<!-- end -->\n";
 /// The row of the table of cycles that the tables quote.
 const POINT_SET: &str = "uniform";
 
-/// The documents with a table: first the two with all boards, then the README of each board.
+/// The documents with a table: first the page of all boards, then the README of each board.
 pub fn documents() -> Vec<PathBuf> {
-    let all = [repository().join("README.md"), constraints().join("README.md")];
-    all.into_iter().chain(BOARDS.iter().map(|board| board.folder().join("README.md"))).collect()
+    let all = constraints().join("README.md");
+    std::iter::once(all).chain(BOARDS.iter().map(|board| board.folder().join("README.md"))).collect()
 }
 
 /// The path and the required text of every document.
@@ -29,11 +29,8 @@ pub fn pages() -> Result<Vec<(PathBuf, String)>, BoardError> {
     for board in BOARDS {
         measured.push((board, measurement(&board)?));
     }
-    let overview = overview(&measured);
-    // The links of the overview start at the root of the repository; this copy stands in `constraints/`.
-    let beside = overview.replace("](constraints/", "](");
     let single = measured.iter().map(|(_, measurement)| details(measurement.as_ref()));
-    let tables = [overview, beside].into_iter().chain(single);
+    let tables = std::iter::once(overview(&measured)).chain(single);
     let fill = |(path, table): (PathBuf, String)| {
         let text = held_text(&path)?;
         let parts = text.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
@@ -118,14 +115,14 @@ fn three(Summary { min, median, max }: Summary) -> String {
     format!("{min:.1} / {median:.1} / {max:.1}")
 }
 
-/// The table of all boards.
+/// The table of all boards. Its links start at `constraints/`.
 fn overview(measured: &[(Board, Option<Measurement>)]) -> String {
     let mut text = String::from(
         "\n| board | points, contexts | LUT, core + link | FF | DSP | EBR | Fmax of the seeds, min / median / max | clock | cycles an insertion | insertions a second | serial |\n\
          |---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for (board, measurement) in measured {
-        let link = format!("[{}](constraints/{}/README.md), {}", board.title, board.name, board.device);
+        let link = format!("[{}]({}/README.md), {}", board.title, board.name, board.device);
         let Some(measurement) = measurement else {
             text += &format!("| {link} | not measured |{}\n", " |".repeat(9));
             continue;

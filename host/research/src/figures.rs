@@ -31,7 +31,7 @@ pub struct FiguresArguments {
 const WIDE_BITS: u32 = 24;
 const SEED: u64 = 1;
 
-/// Runs the subcommand: the table of all orders, the published ranking, and the guided walks of README.md.
+/// Runs the subcommand: the table of all orders, the published ranking, and the guided walks of docs/performance.md.
 ///
 /// # Errors
 /// Files that cannot be written, and sets that cannot be made.
@@ -53,7 +53,7 @@ pub fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
     let rows = table(&Distribution::LITERATURE, &[arguments.ranking], &published(), WIDE_BITS, SEED)?;
     print(&ranking(&rows))?;
     keep("ranking.csv", to_csv(&rows))?;
-    print("\n== Guided walks (README.md, Figures)\n")?;
+    print("\n== Guided walks (docs/performance.md)\n")?;
     let ways = [Order::BRIO_HILBERT, Order::BrioDc(BrioDc::Linear)].map(Way::Ordered);
     let rows = table(&Distribution::LITERATURE, &[arguments.walks], &ways, WIDE_BITS, SEED)?;
     keep("walks.csv", to_csv(&rows))?;
