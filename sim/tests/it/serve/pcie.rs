@@ -106,6 +106,6 @@ fn what_cannot_be_used_is_refused() {
     let output = program(&folder, &["--fault", "gremlin=1"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("there are short-read"), "{said}");
+    assert!(said.contains("choose from short-read"), "{said}");
     fs::remove_dir_all(folder).unwrap();
 }

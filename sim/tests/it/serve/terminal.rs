@@ -95,10 +95,10 @@ fn what_is_not_its_own_is_not_replaced() {
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(said.contains(sentence), "{said}");
     };
-    refused("is no symbolic link");
+    refused("is not a symbolic link");
     fs::remove_file(&link).unwrap();
     symlink("/dev/null", &link).unwrap();
-    refused("leads elsewhere");
+    refused("does not lead to a pseudo-terminal");
     fs::remove_dir_all(folder).unwrap();
 }
 
@@ -107,7 +107,7 @@ fn faults_that_do_not_exist_are_refused() {
     let output = program(Path::new("unused"), &["--fault", "gremlin=1"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("there are ber, drop, double"), "{said}");
+    assert!(said.contains("choose from ber, drop, double"), "{said}");
     assert!(!Path::new("unused").exists());
 }
 

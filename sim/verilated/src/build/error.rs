@@ -9,13 +9,13 @@ pub enum BuildError {
     #[error("cannot run Verilator ({0}): install Debian package verilator, 5.006 or newer")]
     Missing(std::io::Error),
     /// Verilator is older than the binding knows.
-    #[error("this is {found:?}, too old: install Debian package verilator, 5.006 or newer")]
+    #[error("{found:?} is too old: install Debian package verilator, 5.006 or newer")]
     TooOld {
         /// What `verilator --version` printed.
         found: String,
     },
     /// Verilator ended with an error.
-    #[error("verilator refuses {what}:\n{output}")]
+    #[error("Verilator failed at {what}:\n{output}")]
     Refused {
         /// What it was asked to do.
         what: String,
@@ -23,7 +23,7 @@ pub enum BuildError {
         output: String,
     },
     /// The C++ compiler ended with an error, or is missing.
-    #[error("cannot compile the C++ of Verilator (Debian package g++): {0}")]
+    #[error("cannot compile the C++ that Verilator wrote (install Debian package g++ if there is no compiler): {0}")]
     Compiler(#[from] cc::Error),
     /// A file cannot be read or written.
     #[error("cannot read or write {path}: {source}", path = path.display())]
@@ -43,7 +43,7 @@ pub enum BuildError {
     },
     /// A name that cannot become a function.
     #[error(
-        "model name {name:?}: use lower-case letters, digits and single underscores, first a letter, and not `find`"
+        "a model cannot be called {name:?}: use lower-case letters, digits and single underscores, begin with a letter, and avoid `find`"
     )]
     Name {
         /// The name given.
@@ -56,7 +56,7 @@ pub enum BuildError {
         name: String,
     },
     /// Called outside a build script.
-    #[error("variable {variable} is not set: models are built in a build script of cargo")]
+    #[error("the variable {variable} is not set: call this from a build script of cargo")]
     NotABuildScript {
         /// The variable that cargo sets.
         variable: &'static str,
