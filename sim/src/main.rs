@@ -66,7 +66,8 @@ enum Task {
         #[arg(long, value_name = "SPEC", default_value = "")]
         fault: CardFaultSpec,
         /// Width of a beat in bits.
-        #[arg(long, value_name = "BITS", default_value = "64", value_parser = clap::builder::PossibleValuesParser::new(["64", "128"]))]
+        #[arg(long, value_name = "BITS", default_value = "64")]
+        #[arg(value_parser = clap::builder::PossibleValuesParser::new(["64", "128"]))]
         width: String,
         /// Leave out the pins: run the software model, which has one context and no clock.
         #[arg(long)]

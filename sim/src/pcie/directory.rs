@@ -23,7 +23,7 @@ const FIRST: u64 = 2;
 const COMMANDS: u64 = FIRST;
 const ANSWERS: u64 = FIRST + 1;
 const REGISTERS: u64 = FIRST + 2;
-/// How long the system may cache names and attributes, which never change.
+/// The time for which the system may cache names and attributes, which never change.
 const TIME_TO_LIVE: Duration = Duration::from_secs(1);
 /// Largest error number that FUSE carries.
 const MOST_ERRNO: i32 = 511;
@@ -39,7 +39,8 @@ const WORD: u32 = 4;
 pub enum DirectoryError {
     /// The system has no FUSE.
     #[error(
-        "there is no {FUSE_DEVICE}: load the kernel module 'fuse' (in a container, pass the device in), and install fuse3"
+        "there is no {FUSE_DEVICE}: load the kernel module 'fuse' (for a container, pass the device in), and \
+         install fuse3"
     )]
     NoFuse,
     /// The path is not an empty directory.
