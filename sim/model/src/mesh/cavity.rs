@@ -1,4 +1,4 @@
-//! The cavity of an insertion (Bowyer 1981, Watson 1981).
+//! The cavity of an insertion (Bowyer 1981, Watson 1981). In hardware, `hdl/src/engine/attempt/` grows it.
 //!
 //! The boundary is a singly linked ring of entries, split in place:
 //! ```text
@@ -10,44 +10,45 @@
 //!           X                              b
 //!           p                         p
 //! ```
-//! Tests are carried out in the order in which they arose, as the core's token queue does.
+//! Tests are made in the order in which they arose, like the visits in the core's queue.
 
 use super::record::Record;
 
-/// A final edge of the boundary: from `a` to the next entry's `a`, with `p` on its left.
+/// A final edge of the boundary, from `a` to the `a` of the next entry, with `p` on its left.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Entry {
     pub(super) a: u32,
-    /// The triangle outside, which stays, and the slot of its link to `f`.
+    /// The record outside, which stays, and the slot in which it names `f` as its neighbour.
     pub(super) u: u32,
     pub(super) slot: u8,
-    /// The cavity triangle behind the edge.
+    /// The cavity record behind the edge.
     pub(super) f: u32,
     pub(super) next: u8,
 }
 
-/// A test to be made: is `u`, before the edge of entry `x`, in conflict?
+/// A test to be made: does `u`, in front of the edge of entry `x`, conflict with the point?
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Test {
     pub(super) x: u8,
     pub(super) next: u8,
-    /// The entry that was allocated when `f` joined the cavity, 0 for the root: names `f` in `half_open`.
+    /// The entry that was allocated when `f` joined the cavity, or 0 for the root. The number stands
+    /// for `f` in `half_open`.
     pub(super) f_entry: u8,
     pub(super) f: u32,
     pub(super) u: u32,
 }
 
-/// Scratch memory of an insertion.
+/// The scratch memory of an insertion.
 #[derive(Clone, Debug)]
 pub(super) struct Cavity {
     capacity: u8,
     pub(super) entries: Vec<Entry>,
     pub(super) count: u8,
     pub(super) queue: Vec<Test>,
-    /// Bit `y`: one of the two edges that entry `y`'s cavity triangle brought has been passed. The root brought three
-    /// edges and uses bits 0 and 1.
+    /// Bit `y` says that the boundary has moved across one of the two edges that the cavity record of entry `y`
+    /// brought. The root brought three edges, and uses bits 0 and 1.
     half_open: u64,
-    /// Cavity triangles without a boundary edge.
+    /// Inner records: cavity records without an edge on the boundary.
     pub(super) inner: Vec<u32>,
 }
 
@@ -74,7 +75,8 @@ impl Cavity {
         }
     }
 
-    /// Passes through the edge of `test`: the ring grows by one entry. False if it has no room.
+    /// Moves the boundary across the edge of `test`, so that the ring grows by one entry. Returns false if
+    /// the list is full.
     pub(super) fn split(&mut self, test: Test, u: &Record) -> bool {
         if self.count == self.capacity {
             return false;

@@ -1,4 +1,5 @@
-//! The growth of a cavity and its replacement by the star of the new vertex (Bowyer 1981, Watson 1981).
+//! The growth of a cavity, and its replacement by the star of the new vertex (Bowyer 1981, Watson 1981). In hardware,
+//! `hdl/src/engine/commit/` writes the star.
 
 use super::cavity::{Cavity, Entry};
 use super::record::Record;
@@ -6,7 +7,7 @@ use super::Mesh;
 use crate::predicate::Point;
 
 impl Mesh {
-    /// Finds the cavity of `p`, located in `root`. False if its boundary has more entries than the list.
+    /// Finds the cavity of `p`, whose root is `root`. Returns false if the boundary has more entries than the list.
     pub(super) fn grow(&mut self, root: u32, p: Point) -> bool {
         let mut cavity = std::mem::replace(&mut self.cavity, Cavity::new(0));
         cavity.start(root, self.records[root as usize].n);
@@ -25,16 +26,16 @@ impl Mesh {
                     Entry { a: u.v[2], u: test.u, slot: slot as u8, f: test.f, next: test.next };
             }
         }
-        // Tests already under way when the list overflows run out, and are counted.
+        // In the core, the visits that are out when the list overflows complete, and are counted.
         self.counts.tests += cavity.queue.len() as u32;
         self.cavity = cavity;
         fits
     }
 
-    /// Replaces the cavity by the star of `p`: one record per boundary entry.
+    /// Replaces the cavity by the star of `p`, with one record for each entry of the boundary.
     ///
-    /// An entry's record takes the id of the cavity triangle behind it, unless the entry before or the first one did;
-    /// then it takes an inner triangle's id, and the last two take new ones.
+    /// The record of an entry takes the id of the cavity record behind it, unless the entry before or the first entry
+    /// took that id. Then it takes the id of an inner record, and the last two take new ids.
     pub(super) fn commit(&mut self, p: u32) {
         let cavity = std::mem::replace(&mut self.cavity, Cavity::new(0));
         self.counts.cavity_triangles += u32::from(cavity.count) - 2;
@@ -52,7 +53,7 @@ impl Mesh {
         let mut second_id = 0;
         let (mut before_f, mut before_id) = (first.f, first_id);
         let mut at_second = true;
-        // `entry` runs from the second to the last; its record needs the id of the one after it.
+        // `entry` runs from the second entry to the last. Writing a record needs the id of the record after it.
         let mut is_last = first.next == 0;
         let mut pending = None::<(Entry, u32, u32)>;
         while !is_last {
@@ -76,7 +77,7 @@ impl Mesh {
         self.cavity = cavity;
     }
 
-    /// Writes the record of one entry, and the link of the triangle outside unless it is right already.
+    /// Writes the record of one entry, and the neighbour in the record outside unless it is right already.
     fn write_star(&mut self, p: u32, entry: Entry, id: u32, b: u32, after: u32, before: u32) {
         self.records[id as usize] = Record { v: [p, entry.a, b], n: [entry.u, after, before] };
         if id != entry.f {
