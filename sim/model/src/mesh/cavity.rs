@@ -14,11 +14,11 @@
 
 use super::record::Record;
 
-/// A final edge of the boundary, from `a` to the `a` of the next entry, with `p` on its left.
+/// A final edge of the boundary, from `first_vertex` to that of the next entry, with the point on its left.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Entry {
     pub(super) a: u32,
-    /// The record outside, which stays, and the slot in which it names `f` as its neighbour.
+    /// The record outside, which stays, and the slot in which it names `cavity_record` as its neighbour.
     pub(super) u: u32,
     pub(super) slot: u8,
     /// The cavity record behind the edge.
@@ -26,13 +26,13 @@ pub(super) struct Entry {
     pub(super) next: u8,
 }
 
-/// A test to be made: does `u`, in front of the edge of entry `x`, conflict with the point?
+/// A test to be made: does `record`, in front of the edge of `entry`, conflict with the point?
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Test {
     pub(super) x: u8,
     pub(super) next: u8,
-    /// The entry that was allocated when `f` joined the cavity, or 0 for the root. The number stands
-    /// for `f` in `half_open`.
+    /// The entry that was allocated when `cavity_record` joined the cavity, or 0 for the root. The number stands for
+    /// that record in `half_open`.
     pub(super) f_entry: u8,
     pub(super) f: u32,
     pub(super) u: u32,
