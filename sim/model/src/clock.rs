@@ -85,7 +85,7 @@ impl ClockModel {
         self
     }
 
-    /// The current outputs.
+    /// The outputs in the current state.
     pub fn outputs(&self) -> Outputs {
         let now = &self.registers;
         Outputs {

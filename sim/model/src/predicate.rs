@@ -6,9 +6,9 @@
 /// A point on the grid. The derived order is lexicographic: x first, then y.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Point {
-    /// Abscissa, below 2^31.
+    /// The abscissa, below 2^31.
     pub x: u32,
-    /// Ordinate, below 2^31.
+    /// The ordinate, below 2^31.
     pub y: u32,
 }
 

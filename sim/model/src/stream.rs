@@ -211,7 +211,7 @@ impl<C: WordStream> StreamModel<C> {
         (self.came, self.length) = (0, None);
     }
 
-    /// Reads a register.
+    /// Reads the register at this byte offset.
     ///
     /// # Errors
     /// There is no register at this offset.
@@ -254,7 +254,7 @@ impl<C: WordStream> StreamModel<C> {
         status
     }
 
-    /// Writes a register.
+    /// Writes the register at this byte offset.
     ///
     /// # Errors
     /// There is no register at this offset, or it is read-only.

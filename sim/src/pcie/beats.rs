@@ -11,13 +11,13 @@ pub trait Beats: Send {
     /// Gives the beats that are ready now, at most as many as fit into `bytes`, and none beyond the end of an answer.
     fn give(&mut self, bytes: &mut [u8]) -> Given;
 
-    /// Reads a register.
+    /// Reads the register at this byte offset.
     ///
     /// # Errors
     /// There is no register at this offset.
     fn read(&mut self, offset: u32) -> Result<u32, BusError>;
 
-    /// Writes a register.
+    /// Writes the register at this byte offset.
     ///
     /// # Errors
     /// There is no register at this offset, or it is read-only.

@@ -40,7 +40,7 @@ pub struct CardFigures {
     pub to_card: u64,
     /// Number of bytes of answers.
     pub to_host: u64,
-    /// Number of faults.
+    /// Number of faults so far.
     pub faults: u64,
 }
 
@@ -272,7 +272,7 @@ impl Card {
         self.lock()
     }
 
-    /// Reads a register.
+    /// Reads the register at this byte offset.
     ///
     /// # Errors
     /// The error number that the driver would return.
@@ -288,7 +288,7 @@ impl Card {
         Ok(inside.spec.lie.map_or(value, |lie| lie.register(offset, value)))
     }
 
-    /// Writes a register.
+    /// Writes the register at this byte offset.
     ///
     /// # Errors
     /// The error number that the driver would return.

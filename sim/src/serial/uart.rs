@@ -56,7 +56,7 @@ pub(super) fn symbol_clocks(bit: u64) -> u64 {
     (bit * u64::from(SYMBOL_BITS)).div_ceil(1 << FRACTION)
 }
 
-/// Drives a line.
+/// Drives a line, bit by bit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct UartSender {
     /// The symbol on the line, the number of the next bit, and the time at which that bit begins.

@@ -84,7 +84,7 @@ pub fn serve(
     Ok(Figures { faults: proxy.faults(), slow_down: pace.slow_down(), ..figures })
 }
 
-/// A running service.
+/// The state of a running service.
 struct Server<'b> {
     board: &'b mut dyn Board,
     terminal: Terminal,

@@ -16,7 +16,10 @@ pub enum TraceError {
         model: &'static str,
     },
     /// The file cannot be created.
-    #[error("cannot write the waveform {path}: check that its folder exists and can be written", path = .path.display())]
+    #[error(
+        "cannot write the waveform {path}: check that its folder exists and can be written",
+        path = .path.display()
+    )]
     File {
         /// Path of the file.
         path: PathBuf,

@@ -100,7 +100,7 @@ impl Outcome {
         }
     }
 
-    /// Repeats the visit.
+    /// Asks for the same visit once more.
     fn again(mut self, done: &Completion) -> Self {
         self.push = Some(Bundle::one(done.token));
         self.is_again = true;

@@ -38,7 +38,7 @@ pub(super) struct Token {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Bundle {
     pub first: Token,
-    /// Number of visits.
+    /// Number of visits, 1 to 3.
     pub count: u32,
     /// The entry after that of the second visit.
     second_next: usize,
@@ -92,7 +92,7 @@ impl Bundle {
     }
 }
 
-/// A completed visit.
+/// A completed visit, with what it found out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Completion {
     pub token: Token,

@@ -9,7 +9,7 @@ pub struct Inputs {
     pub reset: bool,
     /// Whether a command word is offered.
     pub command_valid: bool,
-    /// The command word.
+    /// The command word that is offered.
     pub command_data: u32,
     /// Whether the host takes an answer word.
     pub response_ready: bool,

@@ -21,7 +21,7 @@ impl Crc32 {
         crc.value()
     }
 
-    /// Adds a byte.
+    /// Adds a byte to the sum.
     pub fn add(&mut self, byte: u8) {
         self.0 ^= u32::from(byte);
         for _ in 0..8 {

@@ -6,7 +6,7 @@ use crate::{ClockModel, CommandModel, Inputs};
 
 /// A device with a stream of command words and a stream of answer words, driven clock by clock.
 pub trait WordDevice {
-    /// Resets the device.
+    /// Resets the device, which forgets everything.
     fn reset(&mut self);
 
     /// Simulates one clock. The device is offered a command word, or none, and may give answer words if `takes_answer`.

@@ -129,7 +129,7 @@ pub struct FromDevice {
     pub answers: u8,
     /// Number of free bytes in the receive FIFO.
     pub free: u16,
-    /// The status bits.
+    /// Status bits, `STATUS_...` of the protocol.
     pub status: u8,
     /// The bytes behind the header.
     pub body: Vec<u8>,

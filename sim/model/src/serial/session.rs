@@ -26,7 +26,7 @@ pub(super) enum Taken {
     NotYetToldBefore,
 }
 
-/// An open session.
+/// The open session of a device.
 #[derive(Clone, Debug)]
 pub(super) struct Session {
     pub(super) number: u8,

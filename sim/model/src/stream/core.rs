@@ -7,7 +7,7 @@ use crate::{CommandModel, ModelError};
 
 /// A device with a stream of command words and a stream of answer words, without a clock.
 pub trait WordStream {
-    /// Resets the device.
+    /// Resets the device, which forgets everything.
     fn reset(&mut self);
 
     /// Takes a piece of the command stream, of any length.

@@ -1,4 +1,4 @@
-//! `incircle-sim serve-pcie`: three files in a directory, a line when they are ready, and an end that leaves nothing behind.
+//! `incircle-sim serve-pcie`: three files in a directory, a line when they are ready, an end that leaves nothing.
 
 use std::fs::{self, File};
 use std::io::{Read, Write};

@@ -1,4 +1,4 @@
-//! The program `incircle-sim`: a terminal behind a link, a line when it is ready, and an end that leaves nothing behind.
+//! The program `incircle-sim`: a terminal behind a link, a line when it is ready, an end that leaves nothing.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};

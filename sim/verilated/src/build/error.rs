@@ -17,7 +17,7 @@ pub enum BuildError {
     /// Verilator ended with an error.
     #[error("Verilator failed at {what}:\n{output}")]
     Refused {
-        /// The command line.
+        /// The command line that failed.
         what: String,
         /// Everything that Verilator printed.
         output: String,
@@ -43,7 +43,8 @@ pub enum BuildError {
     },
     /// The name cannot become the name of a function.
     #[error(
-        "a model cannot be called {name:?}: use lower-case letters, digits and single underscores, begin with a letter, and avoid `find`"
+        "a model cannot be called {name:?}: use lower-case letters, digits and single underscores, begin with a \
+         letter, and avoid `find`"
     )]
     Name {
         /// The name that was given.

@@ -32,7 +32,7 @@ impl Builder {
         Self::default()
     }
 
-    /// Adds a model.
+    /// Adds a model to build.
     pub fn model(mut self, model: ModelSource) -> Self {
         self.models.push(model);
         self

@@ -13,7 +13,7 @@ pub(super) struct DeclaredPort {
     member: String,
     /// Name in Verilog, for example `points$valid`.
     name: String,
-    /// Number of bits.
+    /// Number of bits of the port.
     width: u32,
     /// Direction: 0 for an input, 1 for an output, as in `shim.hpp`.
     direction: u32,
@@ -116,7 +116,8 @@ pub(super) fn rust_table(package: &str, names: &[&str]) -> String {
         arms += &format!("        \"{name}\" => {name}(),\n");
     }
     format!(
-        "#[allow(unsafe_code, non_upper_case_globals)]\nmod linked {{\n    unsafe extern \"C\" {{\n{externs}    }}\n}}\n\
+        "#[allow(unsafe_code, non_upper_case_globals)]\nmod linked {{\n    \
+         unsafe extern \"C\" {{\n{externs}    }}\n}}\n\
          {functions}\
          /// The model of this name, if there is one.\n#[allow(dead_code)]\n\
          pub fn find(name: &str) -> Option<&'static ::verilated::ModelDescription> {{\n    \
@@ -132,7 +133,8 @@ mod tests {
 
     #[test]
     fn reads_ports_of_every_size() {
-        let header = "  VL_IN8(&clock,0,0);\n VL_INW(&wide_a,99,0,4);\n VL_OUT64(&count,39,0);\n VL_OUT(&a__024b,31,0);\n int x;";
+        let header = "  VL_IN8(&clock,0,0);\n VL_INW(&wide_a,99,0,4);\n VL_OUT64(&count,39,0);\n \
+                      VL_OUT(&a__024b,31,0);\n int x;";
         let ports = ports("m", header).unwrap();
         let found: Vec<_> = ports.iter().map(|p| (p.name.as_str(), p.width, p.direction)).collect();
         assert_eq!(found, [("a$b", 32, 1), ("clock", 1, 0), ("count", 40, 1), ("wide_a", 100, 0)]);
