@@ -137,7 +137,7 @@ impl Layout {
         }
     }
 
-    /// The number of [`triangles_words`](Self::triangles_words), in 64 bits and so always defined.
+    /// The result of [`Layout::triangles_words`] in 64 bits, which hold every number.
     pub(crate) const fn packed_words(self, records: u32) -> u64 {
         let ids = 3 * records as u64;
         if self.record_words == 3 {

@@ -42,7 +42,7 @@ pub enum StreamRegister {
     Errors = 0x48,
     /// Header of the last answer that had a status other than `Ok`.
     Fault = 0x4c,
-    /// Low half of the count of bus clocks. Reading it stores the high half for [`ClocksHigh`](Self::ClocksHigh).
+    /// Low half of the count of bus clocks. Reading it stores the high half for `ClocksHigh`.
     ClocksLow = 0x80,
     /// High half of the count of bus clocks, as stored when the low half was read.
     ClocksHigh = 0x84,

@@ -50,7 +50,7 @@ enum Task {
         /// Leave out the bits of the line: run the model of the serial link around the Verilated core.
         #[arg(long)]
         fast: bool,
-        /// Smallest ratio of real time to the board's time; measured if not given.
+        /// Smallest ratio of real time to the board's time; by default it is measured, or 50 with `--fast`.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
         slow: Option<u32>,
     },

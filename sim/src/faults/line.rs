@@ -116,7 +116,7 @@ impl FaultyLine {
     }
 
     fn carry_frame(&mut self, mut frame: Vec<u8>) {
-        // Consecutive zeros end no frame, so no fault of frames is due.
+        // A zero that follows a zero ends no frame, so there is nothing to stall, to precede by noise or to truncate.
         if frame.len() > 1 {
             if self.happens(self.spec.stall.0) {
                 self.items.push_back(Item::Pause(self.spec.stall.1 * 1_000_000));
@@ -170,7 +170,7 @@ impl FaultyLine {
         }
     }
 
-    /// The next symbol, or `None` while the line is idle. Each of the symbol's bits is flipped with the chance
+    /// The next symbol, or `None` while the line is empty or stands still. Each of the symbol's bits is flipped with the chance
     /// of a bit error.
     pub fn next(&mut self, now: u64) -> Option<Symbol> {
         loop {

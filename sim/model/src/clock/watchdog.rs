@@ -8,7 +8,7 @@ use incircle_protocol::{patience, Config};
 pub(super) struct Watchdog {
     /// Whether a point was finished at the edge before, or there was nothing to do.
     rests: bool,
-    /// Number of clocks since `rests`.
+    /// Number of clocks since `rests` was last set.
     clocks: u32,
     /// Whether `clocks` has reached the patience.
     is_over: bool,

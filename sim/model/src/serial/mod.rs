@@ -118,7 +118,7 @@ impl<D: WordDevice> SerialModel<D> {
     }
 
     /// The step of the baud generator, with which a bit takes `2^24 / step` clocks. Ask before [`SerialModel::give`]:
-    /// the byte that it returns has this rate, even if it is the last at this rate.
+    /// the byte that `give` returns has this rate, even if it is the last at this rate.
     pub fn rate_step(&self) -> u32 {
         self.step
     }
