@@ -28,8 +28,8 @@ pub const NAMED: [Config; 4] = [TINY, SMALL, FULL, LARGE];
 pub const MAX_POINTS: u32 = 16384;
 /// Largest number of points of any device, the software model included: twice as many record ids must fit into 31 bits.
 pub const MAX_MODEL_POINTS: u32 = (1 << 30) - 1;
-/// Smallest number of points of a core. Two points would do for the memories, but a mesh needs three, and a
-/// vertex id two bits.
+/// Smallest number of points of a core. One address bit would do for a memory of two records, but a mesh needs three
+/// points, and ids need two bits.
 pub const MIN_POINTS: u32 = 4;
 /// Largest number of boundary edges in a list: the number of an entry must fit into 6 bits.
 pub const MAX_RING: u32 = 64;
@@ -55,7 +55,7 @@ pub const fn patience(points: u32) -> u32 {
 /// A parameter with which no core can be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConfigError {
-    /// The number of points is no power of two in `MIN_POINTS..=MAX_POINTS`.
+    /// The number of points is not a power of two in `MIN_POINTS..=MAX_POINTS`.
     Points(u32),
     /// The length of the boundary lists is outside `MIN_RING..=MAX_RING`.
     Ring(u32),

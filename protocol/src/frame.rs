@@ -220,7 +220,7 @@ pub const MAX_SILENCE_MS: u32 = SILENCE_MS;
 pub enum LinkConfigError {
     /// The clock is outside `MIN_LINK_CLOCK_HZ..=MAX_LINK_CLOCK_HZ`.
     Clock(u32),
-    /// The size of the FIFO is no power of two in `MIN_FIFO_BYTES..=MAX_FIFO_BYTES`.
+    /// The size of the FIFO is not a power of two in `MIN_FIFO_BYTES..=MAX_FIFO_BYTES`.
     Fifo(u32),
     /// The silence is outside `1..=MAX_SILENCE_MS`.
     Silence(u32),

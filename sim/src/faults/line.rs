@@ -170,8 +170,8 @@ impl FaultyLine {
         }
     }
 
-    /// The next symbol, or `None` while the line is empty or stands still. Each of the symbol's bits is flipped with the chance
-    /// of a bit error.
+    /// The next symbol, or `None` while the line is empty or stands still. Each of the symbol's bits is flipped with the
+    /// chance of a bit error.
     pub fn next(&mut self, now: u64) -> Option<Symbol> {
         loop {
             if now < self.paused_until {
