@@ -1,7 +1,8 @@
-//! The completion of visits: what each asks for next, and the attempt of every context.
+//! The completion of visits: what each visit asks for next, and the attempt of every context. Its hardware twin
+//! is the block `Attempts`.
 //!
-//! A visit that completes belongs to one context, and the state of that context's attempt is read, changed and written back in the
-//! same clock. Nothing else changes it, so no two visits ever meet at it.
+//! A completing visit belongs to one context, and the state of that context's attempt is read, changed and written back
+//! in the same clock. Nothing else changes that state, so two visits can never interfere.
 
 use super::commit_job::CommitJob;
 use super::defect::Defect;
@@ -11,62 +12,63 @@ use super::release::ReleaseJob;
 use super::wires::{Registers, Wires};
 use incircle_protocol::Config;
 
-/// One insertion's cavity, from the visit that locks its root.
+/// The cavity of one insertion, from the root visit on.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Attempt {
-    /// Visits pushed and not completed.
+    /// Number of visits that were pushed and have not completed.
     pub outstanding: u32,
-    /// Ring entries.
+    /// Number of entries in the ring.
     pub count: u32,
-    /// Cavity triangles without a boundary edge.
+    /// Number of inner records.
     pub inners: u32,
-    /// Locks in the log.
+    /// Number of locks in the log.
     pub logged: u32,
-    /// Bit `y`: one of the two edges that entry `y`'s cavity triangle brought has been passed; the root uses bits 0 and 1.
+    /// Bit `y` says that the boundary has moved across one of the two edges that the cavity record of entry `y`
+    /// brought. The root uses bits 0 and 1.
     pub half_open: u64,
-    /// It has failed: its visits run out.
+    /// Whether the attempt aborts: its visits that are out complete first.
     pub drains: bool,
 }
 
-/// What becomes of the context whose visit completes.
+/// The consequences of a completing visit for its context.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Outcome {
     pub context: usize,
-    /// Visits to make.
+    /// The visits to be made next.
     pub push: Option<Bundle>,
-    /// No visit of the context is out any more.
+    /// Whether no visit of the context is out any more.
     pub sleeps: bool,
-    /// It tries its point again when it wakes.
+    /// Whether the context tries its point again when it wakes.
     pub will_retry: bool,
-    /// Where it then starts to walk.
+    /// The record at which the context then starts to walk.
     pub root: Option<u32>,
-    /// The attempt as it stands afterwards.
+    /// The attempt after this visit.
     pub attempt: Option<Attempt>,
-    /// A final edge of the boundary.
+    /// A final edge of the boundary, with its place in the list.
     pub entry: Option<(usize, Entry)>,
-    /// An inner triangle, with its place in the list.
+    /// An inner record, with its place in the list.
     pub inner: Option<(u32, u32)>,
     /// A lock that was set, with its place in the log.
     pub lock: Option<(u32, u32)>,
     pub commit: Option<CommitJob>,
     pub release: Option<ReleaseJob>,
-    /// It takes the priority, if that is free.
+    /// Whether the context acquires the priority, if that is free.
     pub asks_for_priority: bool,
-    /// It gives the priority back, if it holds it.
+    /// Whether the context returns the priority, if it holds it.
     pub returns_priority: bool,
-    /// Its list has overflowed: it asks to be alone.
+    /// Whether the list has overflowed, so that the context asks for a solo insertion.
     pub overflows: bool,
     pub aborts: bool,
     pub root_changed: bool,
-    /// The same visit is made again, or the same because of a lock that the context waits for.
+    /// Whether the same visit is made again, and whether that is because of a lock for which the context waits.
     pub revisits: bool,
     pub waits: bool,
     pub duplicate: bool,
-    /// The look at the first three points.
+    /// Whether the visit was the look at the first three points.
     pub looks: bool,
 }
 
-/// What a completion sees of the machine around it.
+/// The surroundings that a completion sees.
 pub(super) struct Around<'a> {
     pub was: &'a Registers,
     pub attempt: Attempt,
@@ -77,12 +79,12 @@ pub(super) struct Around<'a> {
 }
 
 impl Around<'_> {
-    /// L6: a commit or release of the context's last point is due.
+    /// L6: whether a commit or release of the context's last point is due.
     fn is_busy(&self, context: usize) -> bool {
         self.was.noted.busy & 1 << context != 0 && self.defect != Some(Defect::OpensWhileBusy)
     }
 
-    /// L2: the context holds the priority.
+    /// L2: whether the context holds the priority.
     fn holds_priority(&self, context: usize) -> bool {
         self.was.noted.priority_context == Some(context)
     }
@@ -98,14 +100,14 @@ impl Outcome {
         }
     }
 
-    /// The same visit again.
+    /// Asks for the same visit once more.
     fn again(mut self, done: &Completion) -> Self {
         self.push = Some(Bundle::one(done.visit));
         self.revisits = true;
         self
     }
 
-    /// The context sleeps, and tries again later from this triangle.
+    /// Puts the context to sleep; later it tries again from this record.
     fn abort(mut self, root: u32) -> Self {
         self.sleeps = true;
         self.will_retry = true;
@@ -138,12 +140,12 @@ impl Outcome {
         self
     }
 
-    /// L5: the visit of the root under its lock; what the walk saw may not be true any more.
+    /// L5: the root visit reads the root under its lock, because what the walk saw may not be true any more.
     fn root(mut self, done: &Completion, around: &Around) -> Self {
         let record = done.visit.record;
         let trusts = around.defect == Some(Defect::TrustsTheWalk);
         let (located, on_corner) = (done.located || trusts, done.falls_onto_corner && !trusts);
-        // L1, L2: the root belongs to another context.
+        // L1, L2: another context holds the lock of the root.
         if done.foreign {
             if around.holds_priority(self.context) {
                 self.waits = true;
@@ -186,7 +188,7 @@ impl Outcome {
             self.waits = true;
             state.outstanding += 1;
         } else if foreign {
-            // L1: the attempt fails; its visits run out before its locks are released.
+            // L1: the attempt aborts. Its visits complete before its locks are released.
             state.drains = true;
             self.aborts = true;
             self.asks_for_priority = true;
@@ -208,7 +210,7 @@ impl Outcome {
         } else {
             self.split(done, &mut state);
         }
-        // L1: the locks are released when the attempt's visits have run out.
+        // L1: the locks are released when all visits of the attempt have completed.
         let ends = match around.defect {
             Some(Defect::ReleasesBeforeDrained) => state.outstanding == 0 && !around.attempt.drains || self.aborts,
             _ => state.outstanding == 0,
@@ -231,7 +233,7 @@ impl Outcome {
         }
     }
 
-    /// The last visit of an attempt has completed.
+    /// Ends an attempt, whose last visit has completed.
     fn end(&mut self, state: &Attempt, around: &Around) {
         self.sleeps = true;
         if state.drains {
@@ -260,11 +262,11 @@ impl Attempt {
     }
 }
 
-/// What every context is at; each field is a small memory with a word per context.
+/// The state of every context. Each field is a small memory with a word for each context.
 #[derive(Clone, Debug)]
 pub(super) struct Tables {
     pub attempts: Vec<Attempt>,
-    /// Where a context goes on when it tries its point again.
+    /// The record at which a context starts to walk when it tries its point again.
     pub root: Vec<u32>,
 }
 

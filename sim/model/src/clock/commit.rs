@@ -1,4 +1,5 @@
-//! The commit: one pass over a finished ring writes the star of the new point.
+//! The commit: one pass over a complete ring writes the star of the new vertex. Its hardware twin
+//! is the block `Commit`.
 
 use super::commit_job::CommitJob;
 use super::memory::{Entry, Memory, Write};
@@ -11,13 +12,13 @@ pub(super) enum State {
     Idle,
     /// The record of the current entry is written.
     Record,
-    /// The link of the triangle outside it is written.
+    /// The neighbour in the record outside the current entry is written.
     Link,
-    /// The record of the first entry, which needed the last one's id, is written.
+    /// The record of the first entry is written, which needed the id of the last one.
     Close,
 }
 
-/// Clocks from the place of an inner triangle to its id.
+/// Number of clocks from the place of an inner record to its id.
 const INNER_LATENCY: u32 = 3;
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,26 +29,26 @@ pub(super) struct Commit {
     current: Entry,
     current_id: u32,
     current_is_last: bool,
-    /// The current entry is the first, before the last one's id is known.
+    /// Whether the current entry is the first, whose record must wait for the id of the last.
     opens: bool,
     before_id: u32,
     second_vertex: u32,
     second_id: u32,
     inner_index: u32,
-    /// Clocks that the place of the next inner triangle has stood, up to `INNER_LATENCY`.
+    /// Number of clocks for which the place of the next inner record has been stable, up to `INNER_LATENCY`.
     inner_age: u32,
     link: Write,
     closes: bool,
     pub write: Write,
     /// The next new id.
     pub fresh: u32,
-    /// New ids up to here are written two, one and no clock from now.
+    /// The numbers below which new ids count as written, two clocks and one clock from now.
     written: [Option<u32>; 2],
-    /// Records of the mesh: ids from here on are not written yet.
+    /// Number of records in the mesh. Ids from here on are not written yet.
     pub records: u32,
 }
 
-/// What a step does.
+/// The effect of one step.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     ahead: Entry,
@@ -62,7 +63,7 @@ impl Commit {
         (self.state == State::Close).then_some(self.job)
     }
 
-    /// The head of the ring reader is taken at this edge.
+    /// Whether the head of the ring reader is taken at this edge.
     pub(super) fn takes(&self, head: Option<Head>, memory: &Memory) -> bool {
         match self.state {
             State::Idle | State::Close => head.is_some(),
@@ -147,7 +148,7 @@ impl Commit {
         }
     }
 
-    /// Writes the current entry's record, now that the id of the one ahead is decided, and moves on.
+    /// Writes the record of the current entry, now that the id of the next record is decided, and moves on.
     fn advance(&mut self, step: &Step, head: Option<Head>) {
         let Step { ahead, ahead_id, is_inner, is_fresh } = *step;
         if is_inner {

@@ -8,7 +8,7 @@ use incircle_protocol::{latency_bucket, Counter, COUNTER_WORDS, LATENCY_BITS, LA
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Counters {
-    /// A clock count that wraps, for latencies.
+    /// A count of clocks that wraps, for latencies.
     pub now: u32,
     insert_cycles: u64,
     wait_cycles: u64,
@@ -78,12 +78,12 @@ impl Counters {
         self.cavity_triangles += outcome.commit.map_or(0, |_| outcome.attempt.map_or(0, |attempt| attempt.count - 2));
     }
 
-    /// Clocks since then.
+    /// Number of clocks since `since`.
     pub(super) fn latency_since(&self, since: u32) -> u32 {
         self.now.wrapping_sub(since) & ((1 << LATENCY_BITS) - 1)
     }
 
-    /// The answer to `Counters`.
+    /// The payload of the answer to `Counters`.
     pub(super) fn words(&self, refused: u32) -> [u32; COUNTER_WORDS] {
         let mut words = [0; COUNTER_WORDS];
         for (counter, value) in [
@@ -121,11 +121,11 @@ impl Counters {
     }
 }
 
-/// How many insertions took how long; see [`latency_bucket`].
+/// The numbers of insertions by latency; see [`latency_bucket`].
 #[derive(Clone, Debug)]
 pub(super) struct Latencies {
     pub buckets: [u32; LATENCY_BUCKETS],
-    /// The next bucket to be cleared, after reset and `Clear`.
+    /// The next bucket that is cleared, after a reset and after `Clear`.
     sweep: Option<usize>,
 }
 
@@ -134,7 +134,7 @@ impl Latencies {
         Self { buckets: [0; LATENCY_BUCKETS], sweep: Some(0) }
     }
 
-    /// The buckets are being cleared.
+    /// Whether the buckets are being cleared.
     pub(super) fn sweeps(&self) -> bool {
         self.sweep.is_some()
     }

@@ -1,4 +1,5 @@
-//! The visit pipeline: bundle queue, issue, record and vertex reads, predicates, verdict. One visit a clock, in order.
+//! The visit pipeline: queue of bundles, issue, reads of record and vertices, predicates, verdict. One visit enters in
+//! each clock, and visits complete in the order of issue. Its hardware twin is the block `VisitPipeline`.
 
 use super::defect::Defect;
 use super::memory::Memory;
@@ -7,39 +8,39 @@ use crate::mesh::Record;
 use crate::predicate::{finite_conflict, ghost_conflict, orient2d};
 use std::collections::VecDeque;
 
-/// Clocks from the issue register, which addresses the triangle memory, to the completion register:
-/// record 2, vertices 2, with slot and rotation beside and behind them, corner registers 1, predicates 10, completion register 1.
+/// Number of clocks from the issue register, which addresses the triangle memory, to the completion register: record 2,
+/// vertices 2 (slot and rotation beside and behind them), corner registers 1, predicates 10, completion register 1.
 const STAGES: usize = 16;
 
-/// Clocks from the issue register to the record.
+/// Number of clocks from the issue register to the record.
 const RECORD_STAGES: usize = 2;
 
-/// One visit.
+/// One visit of a record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Visit {
     pub context: usize,
-    /// The record is turned so that its link to `cavity_record` comes first.
+    /// Whether the record is rotated so that its neighbour `cavity_record` comes first.
     pub rotates: bool,
-    /// The record's lock is taken.
+    /// Whether the visit takes the lock of the record.
     pub locks: bool,
-    /// Ring entry, the entry after it, and the entry that names `cavity_record`.
+    /// The entry of the ring, the entry after it, and the entry that stands for `cavity_record`.
     pub entry: usize,
     pub after: usize,
     pub cavity_entry: usize,
     pub cavity_record: u32,
-    /// The record visited.
+    /// Id of the visited record.
     pub record: u32,
 }
 
 /// One to three visits that one completion asks for.
 ///
-/// The second is from the entry after the first one's, the third from the entry after that.
+/// The second visit is for the entry after that of the first, and the third for the entry after that of the second.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Bundle {
     pub first: Visit,
-    /// Visits.
+    /// Number of visits, 1 to 3.
     pub count: u32,
-    /// The entry after the second visit's.
+    /// The entry after that of the second visit.
     second_after: usize,
     second_record: u32,
     third_record: u32,
@@ -50,17 +51,17 @@ impl Bundle {
         Self { first, count: 1, ..Self::default() }
     }
 
-    /// A plain look at a record.
+    /// A visit that only reads a record.
     pub(super) fn look(context: usize, record: u32) -> Self {
         Self::one(Visit { context, record, ..Visit::default() })
     }
 
-    /// The visit that locks a root.
+    /// A root visit, which takes the lock of the root.
     pub(super) fn root(context: usize, record: u32) -> Self {
         Self::one(Visit { context, record, locks: true, ..Visit::default() })
     }
 
-    /// A visit without a lock, turned to the link to `cavity_record`.
+    /// A visit without a lock, with the record rotated so that its neighbour `cavity_record` comes first.
     pub(super) fn turned(context: usize, cavity_record: u32, record: u32) -> Self {
         Self::one(Visit { context, rotates: true, cavity_record, record, ..Visit::default() })
     }
@@ -82,14 +83,15 @@ impl Bundle {
         Self { first, count: 3, second_after: 2, second_record: n[1], third_record: n[2] }
     }
 
-    /// The bundle of a conflict: both halves of the edge go on to the triangles behind, the second as the new entry `y`.
+    /// The tests after a conflict: both halves of the edge move on to the neighbours behind it, the second half as
+    /// the new entry `y`.
     pub(super) fn split(done: &Completion, y: usize) -> Self {
         let [_, n1, n2] = done.record.n;
         let first = Visit { after: y, cavity_entry: y, cavity_record: done.visit.record, record: n1, ..done.visit };
         Self { first, count: 2, second_after: done.visit.after, second_record: n2, third_record: 0 }
     }
 
-    /// The visit with this place in the bundle.
+    /// The visit at this place of the bundle.
     fn visit(&self, place: u32) -> Visit {
         match place {
             0 => self.first,
@@ -99,33 +101,33 @@ impl Bundle {
     }
 }
 
-/// A visit that has been made.
+/// A completed visit, with what it found out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Completion {
     pub visit: Visit,
-    /// The record, turned if the visit says so.
+    /// The record, rotated if the visit asked for it.
     pub record: Record,
-    /// How far it was turned.
+    /// The slot by which the record was rotated.
     pub slot: usize,
-    /// It took the lock.
+    /// Whether the visit took the lock.
     pub took: bool,
-    /// Another context holds the lock.
+    /// Whether another context holds the lock.
     pub foreign: bool,
-    /// The record was not written yet, or being written: a walk looks again.
+    /// Whether the record was not written yet, or being written, so that a walk must revisit it.
     pub again: bool,
-    /// It goes when the context's point comes.
+    /// Whether the record conflicts with the context's point.
     pub conflict: bool,
-    /// The point lies here, or falls onto a corner.
+    /// Whether the record holds the point, and whether the point equals one of the record's vertices.
     pub located: bool,
     pub falls_onto_corner: bool,
-    /// Where a walk goes on.
+    /// The record at which a walk goes on.
     pub walk_next: u32,
     /// The sign of `orient2d(r[0], r[1], p)`.
     pub turn: i32,
 }
 
 impl Completion {
-    /// It may ask for other visits: all do but tests that find their edge final.
+    /// Whether the completion may ask for other visits, as all do but tests that find their edge final.
     pub(super) fn may_ask(&self) -> bool {
         !self.visit.rotates || self.conflict || self.foreign
     }
@@ -134,11 +136,11 @@ impl Completion {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pipeline {
     queue: VecDeque<Bundle>,
-    /// Visits of the bundle at the head that have been issued.
+    /// Number of visits of the first bundle that have been issued.
     place: u32,
     issued: Option<Visit>,
     stages: [Option<Completion>; STAGES],
-    /// Place of the completion register in `stages`, which turns round.
+    /// Place of the completion register in `stages`, which are used as a ring.
     head: usize,
     reads: [Option<u32>; RECORD_STAGES + 1],
 }
@@ -152,12 +154,12 @@ impl Pipeline {
         self.stages[self.head]
     }
 
-    /// A visit reads the memories in this clock.
+    /// Whether a visit reads the memories in this clock.
     pub(super) fn reads(&self) -> bool {
         self.issued.is_some()
     }
 
-    /// The record id whose words a read-out gets at this edge.
+    /// The record whose words a read-out gets at this edge.
     pub(super) fn record_read(&self) -> Option<u32> {
         self.reads[RECORD_STAGES]
     }
@@ -180,7 +182,7 @@ impl Pipeline {
         }
     }
 
-    /// A read-out meets no write: it comes when nothing is at work.
+    /// Panics if a read-out meets a write. A read-out comes only when nothing else is in progress.
     fn expect_no_collision(&self, was: &Registers) {
         if let Some(id) = self.reads[0].filter(|&id| was.write.valid && was.write.id == id) {
             panic!("record {id} is read out and written at one edge");
@@ -190,7 +192,8 @@ impl Pipeline {
 
 /// Reads a record, takes its lock if asked to, and evaluates the predicates.
 fn complete(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
-    // L7: a record that is written while it is read comes out torn, and a new one counts once its commit has ended.
+    // L7: a record that is read while it is being written is torn, and a new record counts only when
+    // its commit has ended.
     let is_torn = was.write.valid && was.write.id == visit.record;
     let is_written =
         visit.record < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);

@@ -1,4 +1,5 @@
-//! The growth of a cavity and its replacement by the star of the new vertex (Bowyer 1981, Watson 1981).
+//! The growth of a cavity, and its replacement by the star of the new vertex (Bowyer 1981, Watson 1981). In hardware,
+//! `hdl/src/engine/commit/` writes the star.
 
 use super::cavity::{Cavity, Entry};
 use super::record::Record;
@@ -6,7 +7,7 @@ use super::Mesh;
 use crate::predicate::Point;
 
 impl Mesh {
-    /// Finds the cavity of `p`, located in `root`. False if its boundary has more entries than the list.
+    /// Finds the cavity of `p`, whose root is `root`. Returns false if the boundary has more entries than the list.
     pub(super) fn grow(&mut self, root: u32, p: Point) -> bool {
         let mut cavity = std::mem::replace(&mut self.cavity, Cavity::new(0));
         cavity.start(root, self.records[root as usize].n);
@@ -30,16 +31,16 @@ impl Mesh {
                 };
             }
         }
-        // Tests already under way when the list overflows run out, and are counted.
+        // In the core, the visits that are out when the list overflows complete, and are counted.
         self.counts.tests += cavity.queue.len() as u32;
         self.cavity = cavity;
         fits
     }
 
-    /// Replaces the cavity by the star of `p`: one record per boundary entry.
+    /// Replaces the cavity by the star of `p`, with one record for each entry of the boundary.
     ///
-    /// An entry's record takes the id of the cavity triangle behind it, unless the entry before or the first one did;
-    /// then it takes an inner triangle's id, and the last two take new ones.
+    /// The record of an entry takes the id of the cavity record behind it, unless the entry before or the first entry
+    /// took that id. Then it takes the id of an inner record, and the last two take new ids.
     pub(super) fn commit(&mut self, p: u32) {
         let cavity = std::mem::replace(&mut self.cavity, Cavity::new(0));
         self.counts.cavity_triangles += u32::from(cavity.count) - 2;
@@ -57,7 +58,7 @@ impl Mesh {
         let mut second_id = 0;
         let (mut before_record, mut before_id) = (first.cavity_record, first_id);
         let mut at_second = true;
-        // `entry` runs from the second to the last; its record needs the id of the one after it.
+        // `entry` runs from the second entry to the last. Writing a record needs the id of the record after it.
         let mut is_last = first.after == 0;
         let mut pending = None::<(Entry, u32, u32)>;
         while !is_last {
@@ -85,7 +86,7 @@ impl Mesh {
         self.cavity = cavity;
     }
 
-    /// Writes the record of one entry, and the link of the triangle outside unless it is right already.
+    /// Writes the record of one entry, and the neighbour in the record outside unless it is right already.
     fn write_star(&mut self, p: u32, entry: Entry, id: u32, b: u32, after: u32, before: u32) {
         self.records[id as usize] = Record { v: [p, entry.first_vertex, b], n: [entry.outside_record, after, before] };
         if id != entry.cavity_record {

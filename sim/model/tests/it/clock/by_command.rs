@@ -1,4 +1,4 @@
-//! The model clock by clock against the model by commands: same answers, same mesh, all locks released.
+//! The model clock by clock against the model by commands: the same answers, the same mesh, and all locks released.
 //!
 //! Ids depend on the order in which insertions finish, so meshes are compared in their canonical form.
 
@@ -11,7 +11,7 @@ use incircle_protocol::{
     COUNTER_WORDS, LATENCY_BUCKETS, PADDING,
 };
 
-/// A job: contexts that work, and the points of each `Insert`.
+/// A job: the number of contexts that work, and the points of each `Insert`.
 struct Job {
     contexts: u32,
     pieces: Vec<Vec<u32>>,
@@ -22,7 +22,7 @@ impl Job {
         self.pieces.concat()
     }
 
-    /// `Clear` for so many contexts, and an `Insert` for each piece.
+    /// A `Clear` for this many contexts, and an `Insert` for each piece.
     fn words(&self, contexts: u32) -> Vec<u32> {
         let mut words = vec![clear_word(contexts)];
         for piece in &self.pieces {
@@ -32,7 +32,7 @@ impl Job {
         words
     }
 
-    /// Of any kind that fits the core, and a little more than fits.
+    /// A random job of any kind, with as many points as fit the core or a few more.
     fn random(config: Config, random: &mut Random) -> Self {
         let most = config.points.min(300);
         let count = 1 + random.below(most + most / 4);
@@ -42,7 +42,7 @@ impl Job {
             1 => sets::parabola(random, count.min(255)),
             2 => sets::wheel(random, count),
             3 => {
-                // On one line, or nearly.
+                // The points lie on one line, or nearly so.
                 let mut points: Vec<u32> = (0..count).map(|_| random.below(side) * 0x1_0001).collect();
                 points.extend(sets::boxed(random, count / 4, side));
                 points
@@ -59,7 +59,7 @@ impl Job {
     }
 }
 
-/// What the model by commands answers.
+/// The answers of the model by commands.
 fn expected(model: &mut CommandModel, words: &[u32]) -> Vec<Answer> {
     model.send(words);
     let mut answers = Answers::default();
@@ -70,7 +70,7 @@ fn expected(model: &mut CommandModel, words: &[u32]) -> Vec<Answer> {
     answers.whole
 }
 
-/// Runs a job on both and compares; returns the counters.
+/// Runs a job on both models and compares them; returns the counters.
 fn compare(bench: &mut Bench, job: &Job, stalls: Stalls, random: &mut Random) -> Answer {
     let config = bench.config;
     let mut model = CommandModel::new(16, config.points, config.ring).unwrap();
@@ -108,7 +108,7 @@ fn compare(bench: &mut Bench, job: &Job, stalls: Stalls, random: &mut Random) ->
     bench.counters().unwrap()
 }
 
-/// What must hold of the counters after a job that made a mesh, whatever the timing.
+/// Checks the relations between the counters that hold after every job that made a mesh, whatever the timing.
 fn check_counters(bench: &mut Bench, job: &Job, counters: &Answer) {
     let latencies = {
         let words = [command_word(Opcode::Latencies)];
@@ -131,13 +131,15 @@ fn check_counters(bench: &mut Bench, job: &Job, counters: &Answer) {
     expect(cavities >= commits && tests >= cavities + 2 * commits, "every edge of a boundary is tested");
     expect(tests >= cavities + 2 * commits + 2 * flips + 3 * solo, "two tests a flip, and three");
 
-    // The look at the first three; for one alone: its place, two links to mend, and each triangle of its star.
+    // One visit is that of the first three points. A solo insertion has a visit of its root, two neighbours to correct,
+    // and a visit for each triangle of its star.
     let visits = 1 + walks + roots + tests;
     match of(Counter::Overflows) {
         0 => expect(of(Counter::IssueCycles) == visits, "every visit is counted"),
         _ => expect(of(Counter::IssueCycles) >= visits + 6 * solo + flips, "a solo insertion looks at its star"),
     }
-    // The first three points and their ghosts, and the records of stars; a link for each record at most.
+    // The writes are the first triangle and its ghosts, the records of stars, and at most one
+    // neighbour for each record.
     let stars = cavities + 2 * commits;
     let splits = 5 * solo + 3 * flips;
     let writes = of(Counter::WriteCycles);
@@ -266,7 +268,7 @@ fn reset_in_mid_job_leaves_nothing_behind() {
             let mut words = vec![clear_word(0), command_word(Opcode::Insert), 128];
             words.extend(points);
             let clocks = u64::from(random.below(6000));
-            // The job may end before that or not.
+            // The job may end before the limit or not; both are fine.
             let _ = bench.run(&words, 2, Stalls::default(), clocks, &mut random);
             bench.reset();
             let job = Job::random(config, &mut random);
@@ -275,7 +277,7 @@ fn reset_in_mid_job_leaves_nothing_behind() {
     }
 }
 
-/// A host that is in step with the pointer that goes round the contexts keeps none of them from its turn.
+/// A host in step with the pointer that goes round the contexts must not keep any of them from its turn.
 #[test]
 fn no_beat_of_the_host_slows_the_core_down() {
     let mut random = Random(9);
