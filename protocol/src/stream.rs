@@ -18,7 +18,7 @@ pub enum StreamRegister {
     Magic = 0x00,
     /// Version of the stream link, as [`STREAM_VERSION`] packs it.
     StreamVersion = 0x04,
-    /// Version of the protocol. This register and the next five repeat the core's [`Identity`](crate::Identity).
+    /// Version of the protocol. The register and the next five repeat the core's [`Identity`](crate::Identity).
     ProtocolVersion = 0x08,
     /// Version of the core, `major << 16 | minor << 8 | patch`.
     CoreVersion = 0x0c,

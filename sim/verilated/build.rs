@@ -1,7 +1,6 @@
 //! Compiles Verilator's runtime for the run side of this crate, and the models of this crate's own tests.
 
-// A package cannot be its own build dependency, so the build side comes in as source. This script does not
-// use all of it.
+// A package cannot be its own build dependency, so the build side comes in as source. The script uses a part of it.
 #[allow(dead_code)]
 #[path = "src/build/mod.rs"]
 pub mod build;

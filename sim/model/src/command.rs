@@ -1,5 +1,6 @@
-//! The model by commands as a device: words in, words out. Its hardware twin is the core behind its command port
-//! and responder, without clocks.
+//! The model by commands as a device: words in, words out.
+//!
+//! Hardware twin: the core behind its command port and responder, without clocks.
 
 use crate::mesh::Mesh;
 use crate::predicate::Point;

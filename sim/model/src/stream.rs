@@ -1,5 +1,6 @@
-//! The device's end of the stream link: words in beats between two FIFOs, and the registers beside them. Its
-//! hardware twin is `hdl/src/stream/`.
+//! The device's end of the stream link: words in beats between two FIFOs, and the registers beside them.
+//!
+//! Hardware twin: the blocks of `hdl/src/stream/`.
 //!
 //! [`StreamModel`] models the device behind one AXI4-Stream in each direction and a register block, without a clock:
 //! the device takes beats while there is room, and gives answers while there are some. Behind the beats is a

@@ -170,7 +170,7 @@ impl FaultyLine {
         }
     }
 
-    /// The next symbol, or `None` while the line is empty or stands still. Each of the symbol's bits is flipped with the
+    /// The next symbol, or `None` while the line is empty or stands still. Every bit of the symbol is flipped with the
     /// chance of a bit error.
     pub fn next(&mut self, now: u64) -> Option<Symbol> {
         loop {

@@ -1,5 +1,5 @@
-//! A board without bits: the software model of the serial link around the Verilated core. Where `PinBoard` simulates
-//! the hardware of the link, this board exchanges whole bytes with its model, and is faster.
+//! A board without bits: the software model of the serial link around the Verilated core. `PinBoard` simulates the
+//! hardware of the link; `QuickBoard` exchanges whole bytes with its model, and is faster.
 
 use std::collections::VecDeque;
 

@@ -92,8 +92,8 @@ impl Terminal {
         }
     }
 
-    /// Writes bytes for a host, and returns how many the caller may forget. If no host has the terminal open, all bytes
-    /// are lost.
+    /// Writes bytes for a host, and returns how many the caller may forget. All bytes are lost if no host
+    /// has the terminal open.
     pub(super) fn write(&self, bytes: &[u8]) -> io::Result<usize> {
         let Some(master) = &self.master else {
             return Ok(bytes.len());

@@ -1,5 +1,6 @@
-//! The completion of visits: what each visit asks for next, and the attempt of every context. Its hardware twin
-//! is the block `Attempts`.
+//! The completion of visits: what each visit asks for next, and the attempt of every context.
+//!
+//! Hardware twin: the block `Attempts`.
 //!
 //! A completing visit belongs to one context, and the state of that context's attempt is read, changed and written back
 //! in the same clock. Nothing else changes that state, so two visits can never interfere.
@@ -188,7 +189,7 @@ impl Outcome {
             self.waits = true;
             state.outstanding += 1;
         } else if foreign {
-            // L1: the attempt aborts. Its visits complete before its locks are released.
+            // L1: the attempt aborts, and its visits complete before its locks are released.
             state.drains = true;
             self.aborts = true;
             self.asks_for_priority = true;

@@ -1,4 +1,6 @@
-//! Takes command words: opcodes, arguments, and points one at a time. Its hardware twin is the block `CommandPort`.
+//! Takes command words: opcodes, arguments, and points one at a time.
+//!
+//! Hardware twin: the block `CommandPort`.
 
 use super::wires::{Registers, Wires};
 use incircle_protocol::{command_contexts, command_opcode, command_starts_batch, Config, Opcode, FIRST_ROUND, PADDING};

@@ -1,5 +1,6 @@
-//! The commit: one pass over a complete ring writes the star of the new vertex. Its hardware twin
-//! is the block `Commit`.
+//! The commit: one pass over a complete ring writes the star of the new vertex.
+//!
+//! Hardware twin: the block `Commit`.
 
 use super::commit_job::CommitJob;
 use super::memory::{Entry, Memory, Write};

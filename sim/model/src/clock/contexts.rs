@@ -1,5 +1,7 @@
 //! The flags of the contexts: asleep, retrying, or with a commit or release due; further the context that holds the
-//! priority, and the solo insertion. Its hardware twin is the block `ContextFlags`.
+//! priority, and the solo insertion.
+//!
+//! Hardware twin: the block `ContextFlags`.
 
 use super::attempts::Outcome;
 use super::defect::Defect;

@@ -1,4 +1,6 @@
-//! The memories, and the registered write port of the triangle memory. Their hardware twins are in `hdl/src/mesh/`.
+//! The memories, and the registered write port of the triangle memory.
+//!
+//! Hardware twin: the blocks of `hdl/src/mesh/`.
 
 use super::defect::Defect;
 use super::wires::{Registers, Wires};

@@ -1,5 +1,7 @@
 //! The visit pipeline: queue of bundles, issue, reads of record and vertices, predicates, verdict. One visit enters in
-//! each clock, and visits complete in the order of issue. Its hardware twin is the block `VisitPipeline`.
+//! each clock, and visits complete in the order of issue.
+//!
+//! Hardware twin: the block `VisitPipeline`.
 
 use super::defect::Defect;
 use super::memory::Memory;

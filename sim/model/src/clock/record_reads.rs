@@ -1,5 +1,7 @@
-//! The payload of a read-out: reads records, one at a time for all their words, or one in each clock for their vertices
-//! only. Its hardware twin is the block `RecordReads`.
+//! The payload of a read-out: reads records, one at a time for all their words, or one in each clock
+//! for their vertices only.
+//!
+//! Hardware twin: the block `RecordReads`.
 
 use super::beat::Beat;
 use incircle_protocol::NARROW_ID_BITS;

@@ -1,5 +1,7 @@
-//! Releases the locks of committed and aborted attempts, one in each clock. After a reset it clears the whole lock
-//! memory. Its hardware twin is the block `Release`.
+//! Releases the locks of committed and aborted attempts, one in each clock. After a reset it clears
+//! the whole lock memory.
+//!
+//! Hardware twin: the block `Release`.
 
 use super::defect::Defect;
 use super::memory::Memory;

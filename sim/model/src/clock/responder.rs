@@ -1,4 +1,6 @@
-//! Sends answers: header and length in one beat, then the payload. Its hardware twin is the block `Responder`.
+//! Sends answers: header and length in one beat, then the payload.
+//!
+//! Hardware twin: the block `Responder`.
 
 use super::answer::Answer;
 use super::beat::Beat;

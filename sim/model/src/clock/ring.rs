@@ -1,5 +1,6 @@
-//! Reads complete rings in their order, one entry in each clock, one ring after the other. Its hardware twin
-//! is the block `RingReader`.
+//! Reads complete rings in their order, one entry in each clock, one ring after the other.
+//!
+//! Hardware twin: the block `RingReader`.
 
 use super::attempts::Outcome;
 use super::commit_job::CommitJob;

@@ -1,5 +1,6 @@
-//! Writes the first triangle and its three ghost triangles; in a batch, one after the other for each job. Its hardware
-//! twin is the block `Seeder`.
+//! Writes the first triangle and its three ghost triangles; in a batch, one after the other for each job.
+//!
+//! Hardware twin: the block `Seeder`.
 
 use super::memory::Write;
 use super::wires::{Registers, Wires};

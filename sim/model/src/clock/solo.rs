@@ -1,5 +1,6 @@
-//! Solo insertion, in constant memory: splits the root, then flips once round the star. Its hardware twin
-//! is the block `Solo`.
+//! Solo insertion, in constant memory: splits the root, then flips once round the star.
+//!
+//! Hardware twin: the block `Solo`.
 
 use super::attempts::Tables;
 use super::memory::{Memory, Write};

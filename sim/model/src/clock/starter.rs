@@ -1,5 +1,7 @@
-//! Wakes sleeping contexts: a pointer visits one context in each clock, round and round, and starts a walk if one is
-//! due. Its hardware twin is the block `Starter`.
+//! Wakes sleeping contexts: a pointer visits one context in each clock, round and round, and starts a walk
+//! if one is due.
+//!
+//! Hardware twin: the block `Starter`.
 
 use super::attempts::Tables;
 use super::defect::Defect;

@@ -1,5 +1,7 @@
 //! Solo insertion, in constant memory, for cavities whose boundary is longer than the list: split the root, then flip
-//! once round the star (Lawson's flips, in the order of the star). Its hardware twin is `hdl/src/engine/solo/`.
+//! once round the star (Lawson's flips, in the order of the star).
+//!
+//! Hardware twin: the blocks of `hdl/src/engine/solo/`.
 
 use super::record::Record;
 use super::Mesh;

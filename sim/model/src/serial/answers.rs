@@ -1,4 +1,6 @@
-//! The answers of the device on their way into frames. Its hardware twin is the answer packer of `hdl/src/serial/`.
+//! The answers of the device on their way into frames.
+//!
+//! Hardware twin: the answer packer of `hdl/src/serial/`.
 
 use std::collections::VecDeque;
 

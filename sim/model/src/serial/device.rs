@@ -23,7 +23,7 @@ pub struct Passed {
     pub answer: [Option<u32>; 2],
 }
 
-/// The model by commands. It takes one word in each clock, and its insertions take no time.
+/// The model by commands, as a device that takes one word in each clock and needs no time for insertions.
 #[derive(Debug)]
 pub struct Instantly {
     model: CommandModel,

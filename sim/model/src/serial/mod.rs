@@ -1,5 +1,6 @@
-//! The device's end of the serial link, byte by byte, as `protocol/SERIAL.md` describes it. Its
-//! hardware twin is `hdl/src/serial/`.
+//! The device's end of the serial link, byte by byte, as `protocol/SERIAL.md` describes it.
+//!
+//! Hardware twin: the blocks of `hdl/src/serial/`.
 //!
 //! [`SerialModel`] stands between a line of bytes and a [`WordDevice`]. The caller decides when bytes come and go and
 //! when clocks pass, so the same model serves tests in virtual time and boards in real time. Bits are not modelled: a

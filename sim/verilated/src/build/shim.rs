@@ -19,7 +19,7 @@ pub(super) struct DeclaredPort {
     direction: u32,
 }
 
-/// The class name of a model. It is unique in a program, since two crates may use the same model name.
+/// The class name of a model, made unique in a program by the package, since two crates may use the same model name.
 pub(super) fn class_name(package: &str, model: &str) -> String {
     format!("V{package}_{model}")
 }
