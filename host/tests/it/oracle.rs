@@ -1,5 +1,5 @@
-//! The embedded model and the engine in this process against a brute-force oracle on tiny grids, and the validator against the
-//! oracle's meshes.
+//! The software model and the CPU triangulator against a brute-force oracle on tiny grids, and the
+//! validator against the oracle's meshes.
 
 use crate::common::{brute_force, by_engine, by_model, Random};
 use incircle::{triangulate, verify, Point};
@@ -57,7 +57,7 @@ fn the_validator_refuses_every_flip_of_the_one_right_mesh() {
     }
 }
 
-/// Any list but the canonical one is wrong: spoils it in some way.
+/// Spoils a canonical list in some way. Every other list is wrong.
 fn spoil(triangles: &mut Vec<[u32; 3]>, points: u32, random: &mut Random) {
     let place = random.below(triangles.len() as u32) as usize;
     let corner = random.below(3) as usize;
