@@ -25,7 +25,7 @@ use crate::transports::serial;
 /// | `model?coord-bits=B&capacity=N` | a model that holds at most `N` points | |
 /// | `clock` | the core's model, clock by clock, in the configuration `large` | to learn a core's records and cycles |
 /// | `clock?config=NAME` | the same in the configuration `tiny`, `small`, `full` or `large` | |
-/// | `sim`, `sim?config=NAME` | the Verilog of the core in Verilator | to run the hardware itself |
+/// | `sim`, `sim?config=NAME` | the Verilog of the core in Verilator | to simulate the hardware itself |
 /// | `serial:PORT` | a board at a serial port, such as `serial:/dev/ttyUSB0` | |
 /// | `serial:PORT?baud=B&slow=S` | the same at `B` bits per second, with times stretched `S` times | |
 /// | `pcie:N` | the card `N` in a PCIe slot, behind the driver XDMA | |
@@ -47,12 +47,12 @@ use crate::transports::serial;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DeviceAddress {
-    /// The CPU triangulator.
+    /// The CPU triangulator in this program.
     Cpu {
         /// Upper bound on the threads; `None` for one thread a processor.
         threads: Option<NonZeroU32>,
     },
-    /// The software model.
+    /// The software model in this program.
     Model {
         /// Bits of a coordinate, 1 to 31; `None` for the choice of whoever opens the model.
         coord_bits: Option<u32>,

@@ -141,7 +141,7 @@ impl Device {
     /// Does what [`Device::session`] does, with another time limit for the greeting.
     ///
     /// # Errors
-    /// As [`Device::session`].
+    /// The errors of [`Device::session`].
     pub fn session_within(&mut self, timeout: Duration) -> Result<Session<'_>, Error> {
         let identity = self.backend.greet(Limit::of(timeout))?;
         Ok(Session::new(&mut *self.backend, identity))

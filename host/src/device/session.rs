@@ -49,7 +49,7 @@ impl<'d> Session<'d> {
     /// Triangulates one set of points with the default [`Options`].
     ///
     /// # Errors
-    /// As [`Session::triangulate_with`].
+    /// The errors of [`Session::triangulate_with`].
     pub fn triangulate<P: Into<Point> + Copy>(
         &mut self,
         points: &(impl AsRef<[P]> + ?Sized),
@@ -85,7 +85,7 @@ impl<'d> Session<'d> {
     /// Triangulates points that the caller hands over. The mesh takes them as its own, so that they are not copied.
     ///
     /// # Errors
-    /// As [`Session::triangulate_with`].
+    /// The errors of [`Session::triangulate_with`].
     pub fn triangulate_owned(&mut self, points: Vec<Point>, options: &Options<'_>) -> Result<Solution, Error> {
         let terms = self.terms(points.len(), options);
         self.check_input(&points, terms.contexts)?;
@@ -99,7 +99,7 @@ impl<'d> Session<'d> {
     /// so a device works on several jobs side by side, one in each context. [`Options::contexts`] bounds their
     /// number. Jobs that are too large to share the memory are *exclusive*: each has the memory to itself, with as
     /// many contexts as pay. The host chooses the division that is expected to take the device the fewest clocks.
-    /// Where the transport takes commands ahead, the next job is sent, and the one behind it is put in order, while
+    /// If the transport takes commands ahead, the next job is sent, and the one behind it is put in order, while
     /// the device works on the current one; three jobs are held in order at once. The CPU triangulator works on one
     /// small job in each thread.
     ///

@@ -109,7 +109,7 @@ pub enum DeviceFault {
         record: usize,
         /// Number of the word within the record, from 0.
         place: usize,
-        /// Word received.
+        /// Value of the word received.
         word: u32,
     },
     /// The unused half word behind the last packed vertex is not 0.
@@ -117,7 +117,7 @@ pub enum DeviceFault {
     SpareHalf {
         /// Number of the last record read.
         record: usize,
-        /// Last word received.
+        /// Value of the last word received.
         word: u32,
     },
     /// A record has vertices of several jobs of a batch.
@@ -156,7 +156,7 @@ pub enum DeviceFault {
         "its {ghosts} ghost triangles do not close one hull: the edge that leaves point {point} is missing or doubled"
     )]
     OpenHull {
-        /// Ghost triangles received.
+        /// Number of ghost triangles received.
         ghosts: usize,
         /// Input index of the point where the hull breaks.
         point: u32,

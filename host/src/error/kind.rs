@@ -1,4 +1,4 @@
-//! Kinds of errors.
+//! Kinds of errors, for exit codes.
 
 /// The kind of an error: whose fault it is, and so who can do something about it.
 ///

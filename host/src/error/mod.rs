@@ -51,9 +51,9 @@ pub enum Error {
     NotFinite {
         /// Input index of the point.
         index: usize,
-        /// `x` or `y`.
+        /// Axis of the coordinate, `x` or `y`.
         axis: char,
-        /// The value.
+        /// Value of the coordinate, in input units.
         value: f64,
     },
     /// A value has a fraction, but coordinates must be integers.
@@ -61,9 +61,9 @@ pub enum Error {
     NotInteger {
         /// Input index of the point.
         index: usize,
-        /// `x` or `y`.
+        /// Axis of the coordinate, `x` or `y`.
         axis: char,
-        /// The value.
+        /// Value of the coordinate, in input units.
         value: f64,
     },
     /// A value is outside the grid.
@@ -74,7 +74,7 @@ pub enum Error {
     OutOfGrid {
         /// Input index of the point.
         index: usize,
-        /// `x` or `y`.
+        /// Axis of the coordinate, `x` or `y`.
         axis: char,
         /// The value, in grid units.
         value: f64,
@@ -107,7 +107,7 @@ pub enum Error {
     /// More points than any job may have.
     #[error("{points} points are more than the {max} that indices allow: cut the set into parts")]
     TooManyPoints {
-        /// Points given.
+        /// Number of points given.
         points: usize,
         /// Most points of a job.
         max: usize,
@@ -120,7 +120,7 @@ pub enum Error {
     Capacity {
         /// Distinct points of the job.
         distinct: usize,
-        /// Points the device holds.
+        /// Number of points that the device holds.
         capacity: u32,
         /// Name of the device.
         device: String,
@@ -128,9 +128,9 @@ pub enum Error {
     /// No contexts, or more than the device has.
     #[error("{device} cannot work with {asked} contexts: choose {}, or leave the choice out", from_one_to(*contexts))]
     Contexts {
-        /// Contexts asked for.
+        /// Number of contexts asked for.
         asked: u32,
-        /// Contexts the device has.
+        /// Number of contexts that the device has.
         contexts: u32,
         /// Name of the device.
         device: String,
@@ -151,8 +151,10 @@ pub enum Error {
     Open {
         /// Name of the port or the card.
         device: String,
-        /// The reason, and what to do: a [`PortFault`](crate::serial::PortFault) or a
-        /// [`CardFault`](crate::pcie::CardFault).
+        /// The reason, and what to do.
+        ///
+        /// For a board this is a [`PortFault`](crate::serial::PortFault), for a card a
+        /// [`CardFault`](crate::pcie::CardFault), which `downcast_ref` gives.
         source: Box<dyn StdError + Send + Sync>,
     },
     /// Words did not get through between the host and the device.
@@ -172,7 +174,7 @@ pub enum Error {
         device: String,
         /// The command under way.
         during: &'static str,
-        /// The time allowed.
+        /// Time that the device was given.
         timeout: Duration,
     },
     /// The device gave an answer that no sound device gives.

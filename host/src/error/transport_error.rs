@@ -1,4 +1,4 @@
-//! Errors of transports.
+//! The error that every transport returns.
 
 use std::error::Error as StdError;
 

@@ -17,7 +17,7 @@ pub struct Counters {
     pub wait_cycles: u64,
     /// Clock cycles of the read-out.
     pub read_cycles: u64,
-    /// Points inserted.
+    /// Number of points inserted.
     pub insertions: u32,
     /// Points that fell onto an earlier one; 0, since the host removes them first.
     pub duplicates: u32,

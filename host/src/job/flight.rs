@@ -1,7 +1,7 @@
 //! Carrying loads to a device: sending them, receiving and checking the answers, and trying once
 //! more after a passing fault.
 //!
-//! Where the transport takes commands ahead, the commands of the next load are sent before the answers to
+//! If the transport takes commands ahead, the commands of the next load are sent before the answers to
 //! the current one are received.
 
 use std::collections::VecDeque;

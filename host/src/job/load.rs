@@ -27,7 +27,7 @@ pub(crate) enum Step {
     Insert(Range<usize>),
     /// Reads a range of the records.
     Read(Range<usize>),
-    /// Reads the counters.
+    /// Reads the event counters.
     Counters,
     /// Reads the histogram of latencies.
     Latencies,

@@ -101,7 +101,7 @@ pub struct Options<'a> {
 }
 
 impl<'a> Options<'a> {
-    /// Sets the [`timeout`](Self::timeout).
+    /// Sets the time limit, [`timeout`](Self::timeout).
     #[must_use]
     pub fn timeout(self, timeout: impl Into<Option<Duration>>) -> Self {
         Self { timeout: timeout.into(), ..self }
@@ -133,7 +133,7 @@ impl<'a> Options<'a> {
 
     /// The time limit of a job of this many points unless the caller sets one: a minute and 2 ms per point.
     ///
-    /// That is generous. The simulated core with one context takes about 0.07 ms per uniform point:
+    /// The limit is generous. The simulated core with one context takes about 0.07 ms per uniform point:
     /// 120 clocks, at two million clocks a second. Choose more for a device that is much slower, such
     /// as a simulation that writes waveforms.
     pub fn default_timeout(points: usize) -> Duration {

@@ -1,4 +1,4 @@
-//! Reports on jobs.
+//! Reports on jobs that are done.
 
 use std::time::Duration;
 
@@ -25,7 +25,7 @@ use super::options::Stage;
 pub struct Report {
     /// Input points, duplicates included.
     pub points: usize,
-    /// Distinct input points.
+    /// Distinct points among them.
     pub distinct: usize,
     /// Points that fell onto an earlier one: `points - distinct`.
     pub duplicates: usize,

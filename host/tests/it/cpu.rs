@@ -98,7 +98,7 @@ fn collinear_and_tiny_sets_are_answers() {
 fn progress_covers_the_stages_and_cancels_anywhere() {
     let points = Random(24).points(150_000, 1 << 20);
     for threads in [1, 2] {
-        let mut device = Device::open(&format!("cpu?threads={threads}")).expect("the engine");
+        let mut device = Device::open(&format!("cpu?threads={threads}")).expect("the CPU triangulator");
         let mut session = device.session().expect("a session");
         let calls = RefCell::new(Vec::new());
         let listen = |progress| {
@@ -140,7 +140,7 @@ fn a_passed_deadline_is_a_timeout_and_no_more() {
 
 #[test]
 fn wrong_choices_are_named() {
-    let mut device = Device::open("cpu?threads=2").expect("the engine");
+    let mut device = Device::open("cpu?threads=2").expect("the CPU triangulator");
     let mut session = device.session().expect("a session");
     assert_eq!((session.identity().contexts, session.identity().coord_bits), (2, 31));
     for asked in [0, 3] {

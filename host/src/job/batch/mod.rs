@@ -2,7 +2,7 @@
 //!
 //! A small mesh has no room for many insertions at once. A device with several contexts therefore gets a *group* of
 //! small jobs, one mesh for each context. A job that is too large for that, or left over, is an *exclusive job*: it has
-//! the whole memory to itself ([`plan`] decides). Where the transport takes commands ahead, the commands of the next
+//! the whole memory to itself ([`plan`] decides). If the transport takes commands ahead, the commands of the next
 //! group or exclusive job are sent before the answers to the current one are received ([`super::flight`]), so that the
 //! device never waits for the host.
 
@@ -46,9 +46,9 @@ impl<'b> Batch<'b> {
         Self { carrier, contexts, done, left }
     }
 
-    /// Does the jobs of the batch, except those that gain nothing from it: very large jobs, and all
-    /// exclusive jobs where the transport takes nothing ahead. For each of these the second result has the
-    /// number of contexts that pay.
+    /// Does the jobs of the batch, except those that must go one by one: very large jobs, and all exclusive jobs if the
+    /// transport takes nothing ahead. The second result has the number of contexts that pay for each job left over, and
+    /// `None` for all others.
     pub(crate) fn run(mut self) -> Result<(Done, Vec<Option<u32>>), JobError> {
         let (jobs, options) = (self.carrier.jobs, self.carrier.options);
         let plan = Plan::new(self.contexts, self.carrier.identity.capacity);

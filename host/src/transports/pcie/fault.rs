@@ -179,7 +179,7 @@ pub enum PcieFault {
     Endless {
         /// Words that the answer announced.
         announced: u64,
-        /// Words that came.
+        /// Words that came so far.
         came: u64,
     },
 }

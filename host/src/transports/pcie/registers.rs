@@ -51,12 +51,12 @@ impl Registers {
         Self { accesses, values, hangs: false }
     }
 
-    /// Reads a register.
+    /// Reads a register of the card.
     pub fn read(&mut self, register: StreamRegister) -> Result<u32, PcieFault> {
         self.access((register, None))
     }
 
-    /// Writes a register.
+    /// Writes a register of the card.
     pub fn write(&mut self, register: StreamRegister, value: u32) -> Result<(), PcieFault> {
         self.access((register, Some(value))).map(|_| ())
     }

@@ -68,9 +68,9 @@ pub(crate) const LONGEST: Duration = {
 /// A step of connecting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Step {
-    /// Greet the device.
+    /// Greet the device until it answers.
     Greet,
-    /// Open the session.
+    /// Open the session on the device.
     Open,
     /// Ask for a rate.
     Rate,

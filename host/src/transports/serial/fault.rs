@@ -159,9 +159,9 @@ pub enum SerialFault {
          reset the device, and if that does not help, do not trust it"
     )]
     AnswerLength {
-        /// Words that the answer announced.
+        /// Words of payload that the answer announced.
         announced: u32,
-        /// Words that came.
+        /// Words of payload that came.
         came: usize,
     },
     /// The command cannot be sent over a serial link.

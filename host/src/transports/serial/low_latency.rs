@@ -21,7 +21,7 @@ mod linux {
     use std::ffi::{c_int, c_long, c_uint, c_ushort};
     use std::os::fd::RawFd;
 
-    /// `ASYNC_LOW_LATENCY` of `linux/tty_flags.h`.
+    /// The flag `ASYNC_LOW_LATENCY` of `linux/tty_flags.h`.
     const LOW_LATENCY: c_int = 1 << 13;
 
     /// `struct serial_struct` of `linux/serial.h`. On every Linux `unsigned long` is as wide as a pointer.

@@ -39,7 +39,7 @@ struct Asked {
 /// The part of the command that a question is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Question {
-    /// The whole command.
+    /// The command as a whole.
     Whole,
     /// A part of the command's range of records.
     Range { first: u32, count: u32 },

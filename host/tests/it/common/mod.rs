@@ -40,7 +40,7 @@ pub fn by_model(points: &[Point]) -> Solution {
 }
 
 /// The mesh by the CPU triangulator.
-pub fn by_engine(points: &[Point]) -> Solution {
+pub fn by_cpu(points: &[Point]) -> Solution {
     let mut device = Device::cpu(None);
     let mesh = device.session().and_then(|mut session| session.triangulate(points)).expect("a mesh");
     assert_right(&mesh);

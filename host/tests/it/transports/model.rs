@@ -5,13 +5,13 @@ use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::common::{assert_right, by_engine, by_model, Random};
+use crate::common::{assert_right, by_cpu, by_model, Random};
 use incircle::{triangulate, Device, Error, ErrorKind, Options, Order, Point, Solution, Stage};
 
 /// The solution by the model, after a check that the CPU triangulator agrees.
 fn solved(points: &[Point]) -> Solution {
     let solution = by_model(points);
-    let other = by_engine(points);
+    let other = by_cpu(points);
     assert_eq!(solution.mesh, other.mesh);
     solution
 }

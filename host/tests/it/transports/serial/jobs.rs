@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use crate::common::by_engine;
+use crate::common::by_cpu;
 use crate::common::rig::{Fate, Rig};
 use crate::common::Random;
 use incircle::serial::SerialFault;
@@ -44,7 +44,7 @@ fn ends_right(rig: Rig, points: &[Point], expected: &[[u32; 3]], what: &str) {
 }
 
 fn expected(points: &[Point]) -> Solution {
-    by_engine(points)
+    by_cpu(points)
 }
 
 fn fault(result: Result<Vec<u32>, TransportError>) -> SerialFault {
