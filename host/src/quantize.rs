@@ -87,9 +87,11 @@ pub fn integers(points: &[[f64; 2]], coord_bits: u32) -> Result<Vec<Point>, Erro
 /// ```
 ///
 /// # Errors
-/// [`Error::NotFinite`] with the first value that is NaN or infinite, [`Error::Extent`] if the box is too large or too
-/// small for a scale, [`Error::Scale`] and [`Error::OutOfGrid`] with [`Quantize::Scale`], [`Error::CoordBits`] outside
-/// 1 to 31, [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
+/// - [`Error::NotFinite`] for the first value that is NaN or infinite.
+/// - With [`Quantize::Fit`]: [`Error::Extent`] if the bounding box is too large or too small for a scale.
+/// - With [`Quantize::Scale`]: [`Error::Scale`] for a scale that is not positive and finite, and [`Error::OutOfGrid`]
+///   for the first value that falls outside the grid.
+/// - [`Error::CoordBits`] for bits outside 1 to 31, and [`Error::TooManyPoints`] beyond [`MAX_POINTS`].
 pub fn quantize(points: &[[f64; 2]], coord_bits: u32, how: Quantize) -> Result<(Vec<Point>, Quantization), Error> {
     check_coord_bits(coord_bits)?;
     check_count(points)?;

@@ -161,7 +161,7 @@ pub enum DeviceFault {
         /// Input index of the point where the hull breaks.
         point: u32,
     },
-    /// The triangles do not fill the hull.
+    /// The areas of the triangles do not sum to the area of the hull.
     #[error("its triangles cover {triangles} half grid squares, but its hull covers {hull}")]
     Area {
         /// Twice the area of all triangles, in grid squares.

@@ -162,7 +162,7 @@ pub enum Error {
     Link {
         /// Name of the device.
         device: String,
-        /// The command under way.
+        /// Noun for the command under way, such as `"the insertion"`.
         during: &'static str,
         /// The reason that the transport gives.
         source: TransportError,
@@ -172,7 +172,7 @@ pub enum Error {
     Timeout {
         /// Name of the device.
         device: String,
-        /// The command under way.
+        /// Noun for the command under way, such as `"the insertion"`.
         during: &'static str,
         /// Time that the device was given.
         timeout: Duration,
@@ -184,7 +184,7 @@ pub enum Error {
     Device {
         /// Name of the device.
         device: String,
-        /// The command under way.
+        /// Noun for the command under way, such as `"the insertion"`.
         during: &'static str,
         /// The fault in the answer.
         fault: DeviceFault,

@@ -130,7 +130,7 @@ pub enum PcieFault {
         /// The reason that the system gives.
         reason: String,
     },
-    /// A transfer moved nothing.
+    /// A transfer moved no byte.
     #[error("{call} moved no byte, as if the stream had ended: check that these are the files of a DMA engine")]
     Ended {
         /// Noun for the call under way.

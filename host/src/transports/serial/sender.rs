@@ -47,7 +47,7 @@ pub(super) struct Sender {
     base: u64,
     /// Number of frames of `sent` that are out. The others will be sent again.
     out: usize,
-    /// Free bytes of the device's FIFO, not counting the frames under way.
+    /// Free bytes of the device's FIFO before the frames under way arrive.
     free: usize,
     /// Bytes of this session so far.
     pushed_bytes: u64,

@@ -93,14 +93,14 @@ impl Rig {
 
     /// Puts bytes on the line.
     fn carry(&mut self, to_host: bool, bytes: &[u8], rate: u32) -> Duration {
-        let way = usize::from(to_host);
+        let direction = usize::from(to_host);
         for piece in bytes.split_inclusive(|&byte| byte == 0) {
             let bits = if self.is_instant { 0 } else { 10 * piece.len() as u64 };
             let time = Duration::from_nanos(bits * 1_000_000_000 / u64::from(rate));
-            self.wires[way].free_at = self.wires[way].free_at.max(self.now) + time;
+            self.wires[direction].free_at = self.wires[direction].free_at.max(self.now) + time;
             let fate = if piece.len() > 1 {
-                self.frames[way] += 1;
-                (self.faults)(to_host, self.frames[way] - 1)
+                self.frames[direction] += 1;
+                (self.faults)(to_host, self.frames[direction] - 1)
             } else {
                 Fate::Passes
             };
@@ -110,20 +110,20 @@ impl Rig {
                 Fate::Lost => vec![],
                 Fate::Twice => vec![bytes.clone(), bytes],
                 Fate::Overtaken => {
-                    self.held[way] = Some(bytes);
+                    self.held[direction] = Some(bytes);
                     vec![]
                 }
                 Fate::Passes | Fate::Changed => vec![bytes],
             };
             if fate != Fate::Overtaken && piece.len() > 1 {
-                pieces.extend(self.held[way].take());
+                pieces.extend(self.held[direction].take());
             }
-            let arrival = self.wires[way].free_at + self.delay;
+            let arrival = self.wires[direction].free_at + self.delay;
             if self.now < self.cut_at {
-                self.wires[way].under_way.extend(pieces.into_iter().map(|bytes| (arrival, rate, bytes)));
+                self.wires[direction].under_way.extend(pieces.into_iter().map(|bytes| (arrival, rate, bytes)));
             }
         }
-        self.wires[way].free_at
+        self.wires[direction].free_at
     }
 
     fn disturb(&mut self, bytes: &mut [u8], must: bool) {

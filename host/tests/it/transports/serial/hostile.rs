@@ -15,7 +15,7 @@ use proptest::test_runner::{Config, TestRunner};
 /// Cases tried for each property.
 const CASES: u32 = 36_000;
 /// Bytes that the protocol may hold besides command and answer, for frames under way and a frame that comes.
-const BESIDES: isize = 48 * 1024;
+const MOST_OVERHEAD: isize = 48 * 1024;
 /// Words of the longest answer that is not a range of records.
 const LONGEST: usize = 2 + 128;
 
@@ -252,7 +252,7 @@ impl Bench {
 /// Runs the events, and checks that the protocol stays within its bounds at each of them.
 fn check(bench: &mut Bench, command: &Command<Vec<u32>>, events: &[Event]) -> Result<(), TestCaseError> {
     let most = most_words(command);
-    let bound = 4 * (command.words() + most) as isize + BESIDES;
+    let bound = 4 * (command.words() + most) as isize + MOST_OVERHEAD;
     for event in events {
         bench.happen(event);
         prop_assert!(heap::held() <= bound, "{} bytes held, {bound} allowed", heap::held());
@@ -379,7 +379,7 @@ fn answers_that_are_counted_and_never_come() {
     for (command, takes) in commands().into_iter().flat_map(|command| [(command.clone(), false), (command, true)]) {
         heap::watch();
         let mut bench = asked(&command);
-        let bound = 4 * (command.words() + most_words(&command)) as isize + BESIDES;
+        let bound = 4 * (command.words() + most_words(&command)) as isize + MOST_OVERHEAD;
         for step in 0..100_000 {
             if takes {
                 bench.wait(bench.now + Duration::from_millis(3));

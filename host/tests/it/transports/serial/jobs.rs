@@ -113,12 +113,13 @@ fn a_fault_of_any_frame_leaves_no_trace() {
     let points = points(300);
     let expected = expected(&points).mesh.triangles;
     for fate in [Fate::Lost, Fate::Changed, Fate::Twice, Fate::Overtaken] {
-        for way in [false, true] {
+        for direction in [false, true] {
             for place in 0..40 {
                 let mut rig = rig();
-                rig.faults =
-                    Box::new(move |to_host, frame| if to_host == way && frame == place { fate } else { Fate::Passes });
-                ends_right(rig, &points, &expected, &format!("{fate:?} {way} {place}"));
+                rig.faults = Box::new(
+                    move |to_host, frame| if to_host == direction && frame == place { fate } else { Fate::Passes },
+                );
+                ends_right(rig, &points, &expected, &format!("{fate:?} {direction} {place}"));
             }
         }
     }
