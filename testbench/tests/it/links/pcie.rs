@@ -159,7 +159,7 @@ fn cards_that_lie_are_found_out() {
         for (lie, kind, sentence) in [
             ("magic", ErrorKind::DeviceNotFound, "begin with"),
             ("stream", ErrorKind::Device, "version 2.0 of the stream device"),
-            ("protocol", ErrorKind::Device, "protocol 9.0"),
+            ("protocol", ErrorKind::Device, "version 9.0 of the protocol"),
             ("capacity", ErrorKind::Device, "4294967295 points"),
             ("beat", ErrorKind::Device, "bits of a beat reads 96"),
             ("report", ErrorKind::Device, "1000000"),

@@ -178,10 +178,10 @@ fn two_clients_at_once_are_told() {
 fn devices_that_lie_are_found_out() {
     let what = [
         ("liar=version", ErrorKind::Device, "version 2.0 of the link"),
-        ("liar=protocol", ErrorKind::Device, "protocol 9.0"),
+        ("liar=protocol", ErrorKind::Device, "version 9.0 of the protocol"),
         ("liar=capacity", ErrorKind::Device, "4294967295 points"),
         ("liar=index", ErrorKind::Device, "wrongly"),
-        ("liar=endless", ErrorKind::Device, "more than the"),
+        ("liar=endless", ErrorKind::Device, "has more than"),
         ("liar=credit", ErrorKind::Device, "65535 free bytes"),
         ("liar=report", ErrorKind::Device, "1000000"),
     ];

@@ -7,7 +7,7 @@ fn addresses_are_checked_before_anything_is_opened() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n4,0\n0,4\n");
     for (backend, parts) in [
-        ("pcie:", ["names no card", "pcie:0"]),
+        ("pcie:", ["no card is named", "pcie:0"]),
         ("pcie:300", ["from 0 to 255", "numbers"]),
         ("pcie", ["'pcie:N'", "pcie:0"]),
     ] {
@@ -34,7 +34,7 @@ fn cards_that_cannot_be_had_end_with_exit_code_4() {
     for name in ["xdma0_h2c_0", "xdma0_c2h_0", "xdma0_user"] {
         scratch.write(name, "");
     }
-    scratch.run("info --backend pcie:.").fails(5, &["the reading of a register failed", "the file ends before it"]);
+    scratch.run("info --backend pcie:.").fails(5, &["the reading of a register failed", "the file ends before this register"]);
     scratch.write("xdma0_user", "none".repeat(64));
     scratch.run("info --backend pcie:.").fails(4, &["begin with 0x656e6f6e", "choose another card"]);
 }

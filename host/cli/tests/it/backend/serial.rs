@@ -14,7 +14,7 @@ fn addresses_are_checked_before_anything_is_opened() {
     let scratch = Scratch::new();
     scratch.write("p.csv", "0,0\n4,0\n0,4\n");
     for (backend, parts) in [
-        ("serial:", ["names no port", "serial:/dev/ttyUSB0"]),
+        ("serial:", ["no port is named", "serial:/dev/ttyUSB0"]),
         ("serial", ["'serial:PORT'", "/dev/ttyUSB0"]),
         ("serial:/nowhere/tty?baud=9600", ["baud", "115200"]),
         ("serial:/nowhere/tty?parity=odd", ["parity", "slow"]),

@@ -1,4 +1,4 @@
-//! Frames: jobs of a batch that need the whole memory of a device, one behind the other, each sent while the last is under way.
+//! Exclusive jobs of a batch: each has the whole memory of the device, and is sent while the previous one is under way.
 
 use std::cell::RefCell;
 use std::ops::ControlFlow;
@@ -13,7 +13,8 @@ use incircle::{Device, Error, ErrorKind, Options, Order, Point, Progress, Stage}
 use incircle_model::stream::ModelCore;
 use incircle_protocol::{Config, FULL, SMALL};
 
-/// Frames of a device for 512 points and 5 contexts, with small jobs, jobs on a line and duplicates among them.
+/// Jobs that are exclusive on a device for 512 points and 5 contexts, with small jobs, jobs on a
+/// line and duplicates among them.
 fn mixed(random: &mut Random, count: usize) -> Vec<Vec<Point>> {
     let job = |place: usize| {
         let points = 257 + random.below(250) as usize;
@@ -39,7 +40,7 @@ fn watched_card(beat_bits: u32, mischief: Mischief) -> (Device, MemoryCard) {
 }
 
 #[test]
-fn frames_go_in_any_order() {
+fn exclusive_jobs_go_in_any_order() {
     let jobs = mixed(&mut Random(78), 12);
     let right = alone(&jobs);
     for order in [Order::Input, Order::Random, Order::Hilbert] {
@@ -50,7 +51,7 @@ fn frames_go_in_any_order() {
 }
 
 #[test]
-fn every_kind_of_link_carries_frames() {
+fn every_kind_of_link_carries_exclusive_jobs() {
     let jobs = mixed(&mut Random(71), 30);
     let right = alone(&jobs);
     for (takes_ahead, packs_records) in [(true, true), (true, false), (false, true), (false, false)] {
@@ -58,7 +59,7 @@ fn every_kind_of_link_carries_frames() {
             let (mut device, most_ahead) = Mock::watched(takes_ahead, packs_records, (0, 0));
             let options = Options::default().contexts(contexts);
             assert!(batch(&mut device, &jobs, &options).expect("meshes") == right, "{takes_ahead}, {contexts:?}");
-            // The next one is under way, and no more than that.
+            // The next job is sent ahead, but no more than that.
             assert_eq!(most_ahead.get(), 1 + usize::from(takes_ahead));
         }
     }
@@ -72,7 +73,7 @@ fn every_kind_of_link_carries_frames() {
 }
 
 #[test]
-fn frames_of_wide_points_and_jobs_too_large_for_a_frame() {
+fn exclusive_jobs_of_wide_points_and_jobs_too_large_to_be_sent_ahead() {
     let mut random = Random(72);
     let jobs = [9000, 65_600, 8193, 300].map(|count| random.points(count, 1 << 20));
     let mut device = Device::model(20, 70_000).expect("possible");
@@ -80,11 +81,11 @@ fn frames_of_wide_points_and_jobs_too_large_for_a_frame() {
 }
 
 #[test]
-fn a_frame_beyond_the_capacity_ends_the_batch_in_step() {
+fn an_exclusive_job_beyond_the_capacity_ends_the_batch_in_step() {
     let mut random = Random(73);
     let mut jobs = mixed(&mut random, 8);
     let right = alone(&jobs);
-    // As many points, but not as many places, are no matter.
+    // More points than the capacity do no harm, so long as there are not more distinct ones.
     let mut crowd = random.points(512, 1 << 16);
     crowd.extend_from_within(..200);
     jobs.push(crowd);
@@ -109,7 +110,7 @@ fn a_frame_beyond_the_capacity_ends_the_batch_in_step() {
 }
 
 #[test]
-fn a_batch_of_frames_can_be_cancelled_anywhere() {
+fn a_batch_of_exclusive_jobs_can_be_cancelled_anywhere() {
     let jobs = mixed(&mut Random(74), 12);
     let right = alone(&jobs);
     let total: usize = jobs.iter().map(Vec::len).sum();
@@ -138,7 +139,7 @@ fn progress_never_goes_back() {
         (Device::model(16, 9000).expect("possible"), jobs.clone()),
         (Device::clock_model(FULL).expect("possible"), fits(8192)),
         (Mock::device(false, true, (0, 0)), fits(512)),
-        // Something is done once more.
+        // On this card a job is done twice, since a read fails.
         (card(64, Mischief { bad_read: Some((9, 5)), ..Mischief::default() }), fits(1024)),
     ];
     for (mut device, jobs) in devices {
@@ -157,10 +158,10 @@ fn progress_never_goes_back() {
 }
 
 #[test]
-fn a_transfer_that_fails_once_costs_no_frame() {
+fn a_transfer_that_fails_once_costs_no_job() {
     let jobs = mixed(&mut Random(76), 16);
     let right = alone(&jobs);
-    // How many reads and writes it took.
+    // The number of reads and of writes that the batch took.
     let run = |mischief| {
         let (mut device, card) = watched_card(64, mischief);
         assert!(batch(&mut device, &jobs, &Options::default()).expect("meshes") == right, "{mischief:?}");
@@ -169,14 +170,14 @@ fn a_transfer_that_fails_once_costs_no_frame() {
     let (reads, writes) = run(Mischief::default());
     assert!(reads > 20 && writes > 5, "{reads} {writes}");
     for errno in [5, 512] {
-        // Behind the greeting.
+        // The greeting is left out: transfers are numbered from 0.
         for number in 1..writes {
             run(Mischief { bad_write: Some((number, errno)), ..Mischief::default() });
         }
         for number in 1..reads.min(30) {
             run(Mischief { bad_read: Some((number, errno)), ..Mischief::default() });
         }
-        // Once in the first jobs, and once in later ones.
+        // One fault in the first jobs, and one in later ones.
         for number in 20..reads.min(40) {
             run(Mischief { bad_write: Some((1, errno)), bad_read: Some((number, errno)), ..Mischief::default() });
         }
@@ -187,7 +188,8 @@ fn a_transfer_that_fails_once_costs_no_frame() {
 fn a_card_that_is_lost_ends_the_batch_with_the_job() {
     let jobs: Vec<Vec<Point>> = (0..6).map(|_| Random(77).points(400, 1 << 16)).collect();
     let options = Options::default().timeout(Duration::from_secs(20));
-    // Four reads to a frame, behind that of the greeting. The one of this number may be the last that brings something, or bring nothing.
+    // Each job takes four reads, after the one of the greeting. The read of this number may be the last that brings
+    // something, or the first that brings nothing.
     for number in 1..24 {
         let mut lost = card(64, Mischief { gone: Some(number), ..Mischief::default() });
         match batch(&mut lost, &jobs, &options) {
@@ -204,24 +206,24 @@ fn a_card_that_is_lost_ends_the_batch_with_the_job() {
     let error = batch(&mut card(64, Mischief { silent: Some(1), ..Mischief::default() }), &jobs, &options);
     let error = error.expect_err("silence");
     assert!(matches!(&error, Error::InJob { job: 0, .. }) && error.kind() == ErrorKind::Timeout, "{error}");
-    // Its own time, and that of the frame behind it.
+    // The time of the job itself, and that of the job sent ahead.
     assert!(error.to_string().contains("within 0.04 s"), "{error}");
 }
 
 #[test]
-fn lies_about_frames_end_in_typed_errors() {
+fn lies_about_exclusive_jobs_end_in_typed_errors() {
     let mut random = Random(78);
     let jobs: Vec<Vec<Point>> = (0..3).map(|_| random.points(270, 1 << 16)).collect();
     let right = alone(&jobs);
     let (mut faults, mut others) = (0, 0);
     for packs_records in [true, false] {
-        // Behind the identity.
+        // Lies begin after the identity.
         for place in (9..80).chain((80..2000).step_by(17)) {
             for bits in [1, 1 << 16, 1 << 31, 0xffff_ffff] {
                 let mut device = Mock::device(true, packs_records, (place, bits));
                 let mut session = device.session().expect("an honest greeting");
                 match session.triangulate_batch(&jobs, &Options::default()) {
-                    // Behind the last word, in a counter, or in a link.
+                    // This lie is after the last word, in a counter, or in a neighbour's id, which is not used.
                     Ok(meshes) => {
                         assert!(meshes.into_iter().map(bare).eq(right.iter().cloned()), "{place}, {bits:x}");
                         others += 1;
@@ -241,7 +243,7 @@ fn lies_about_frames_end_in_typed_errors() {
 }
 
 #[test]
-fn the_clocks_of_frames_are_all_there_are() {
+fn the_clocks_of_exclusive_jobs_are_all_there_are() {
     let mut random = Random(79);
     let jobs: Vec<Vec<Point>> = (0..5).map(|_| random.points(900, 1 << 16)).collect();
     let mut device = Device::clock_model(FULL).expect("possible");
@@ -251,13 +253,14 @@ fn the_clocks_of_frames_are_all_there_are() {
     let clocks = session.clocks().expect("a clock") - before;
     let of = |of: fn(&incircle::Report) -> Option<u64>| meshes.iter().filter_map(|mesh| of(&mesh.report)).sum::<u64>();
     assert_eq!(of(|report| report.clocks), clocks);
-    let engine = of(|report| Some(report.counters?.insert_cycles));
+    let inserting = of(|report| Some(report.counters?.insert_cycles));
     let points: u64 = of(|report| Some(report.distinct as u64));
-    // Two clocks a point for the read-out.
-    assert!(engine + 2 * points < clocks && clocks < engine + 3 * points, "{engine} of {clocks} for {points} points");
+    // The read-out takes two clocks a point.
+    let rest = clocks.checked_sub(inserting).expect("inserting is a part of it");
+    assert!(2 * points < rest && rest < 3 * points, "{inserting} of {clocks} for {points} points");
     let alone = session.triangulate(&jobs[2]).expect("a mesh").report.counters.expect("counters");
     let with_others = meshes[2].report.counters.expect("counters");
     assert_eq!((alone.insertions, with_others.read_cycles), (with_others.insertions, 0));
-    // As many as pay for so few points.
+    // More contexts than these do not pay for so few points.
     assert_eq!(meshes[2].report.contexts, 12);
 }
