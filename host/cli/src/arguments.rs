@@ -26,7 +26,7 @@ pub struct Cli {
     pub command: Command,
 }
 
-/// The subcommands.
+/// The subcommands of the command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Triangulate a file of points
@@ -53,8 +53,8 @@ pub enum Command {
     ///   upper bounds, at most an eighth above the true value.
     ///
     /// For a board there is also the time of a job of n points as a line t = c + m n, fitted to four
-    /// sizes of each set. The back ends 'cpu' and 'model' have the time on this machine, the best of
-    /// three runs.
+    /// sizes of each set. The back ends 'cpu' and 'model' have the time on this machine: the best
+    /// time of three runs.
     #[command(verbatim_doc_comment, after_help = help::BENCH, after_long_help = help::BENCH_LONG)]
     Bench(BenchArguments),
     /// Describe a back end: version, coordinates, capacity, contexts
@@ -78,8 +78,8 @@ pub struct GridArguments {
     ///
     /// 'fit' scales the bounding box to fill the grid, both axes alike. 'SCALE,X0,Y0' computes
     /// (x - X0) * SCALE and (y - Y0) * SCALE; 'SCALE' alone takes 0 for X0 and Y0.
-    /// Without this option integers on the grid are left as they are, and points with fractions
-    /// are fitted.
+    /// Without this option integers on the grid are left as they are, and the bounding box of
+    /// points with fractions is fitted.
     #[arg(
         long,
         value_name = "HOW",
@@ -102,11 +102,11 @@ pub struct BackendArguments {
     /// - serial:PORT: a board at a serial port, such as serial:/dev/ttyUSB0
     /// - pcie:N: the card N in a PCIe slot; pcie:DIR is a card by the directory of its files
     ///
-    /// Choices follow a question mark: cpu?threads=2, model?coord-bits=20&capacity=5000,
-    /// clock?config=full, serial:/dev/ttyUSB0?baud=12000000.
+    /// Choices follow a question mark, as in cpu?threads=2, model?coord-bits=20&capacity=5000,
+    /// clock?config=full or serial:/dev/ttyUSB0?baud=12000000.
     ///
-    /// Default: 'triangulate' takes 'cpu', or 'model' if --order or --contexts is given; other
-    /// commands take 'model'.
+    /// Default: 'triangulate' takes 'cpu', or 'model' if --order or --contexts is given.
+    /// All other commands take 'model'.
     #[arg(long, value_parser = backend_parser(), verbatim_doc_comment)]
     pub backend: Option<DeviceAddress>,
     /// Threads of the back end 'cpu' (default: one per processor)
@@ -164,7 +164,7 @@ impl JobArguments {
     }
 }
 
-/// Arguments of `triangulate`.
+/// The arguments of `incircle triangulate`.
 #[derive(Debug, Args)]
 pub struct TriangulateArguments {
     /// File of points, in the format of its extension; '-' is CSV from standard input
@@ -192,8 +192,7 @@ pub struct TriangulateArguments {
     pub job: JobArguments,
     /// Record a waveform of the back end 'sim' in this file, for small sets
     ///
-    /// The file has every signal of the simulated core at every clock, so it is large, and writing it is
-    /// slow.
+    /// The file has every signal of the simulated core at every clock, so it is large and slow to write.
     #[arg(long, value_name = "FILE.vcd")]
     pub trace: Option<PathBuf>,
     /// Print a report of the run as one JSON object on standard output
@@ -207,7 +206,7 @@ pub struct TriangulateArguments {
     pub verbose: bool,
 }
 
-/// Arguments of `verify`.
+/// The arguments of `incircle verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
     /// File of points, in the format of its extension; '-' is CSV from standard input
@@ -234,7 +233,7 @@ pub struct VerifyArguments {
     pub quiet: bool,
 }
 
-/// Arguments of `generate`.
+/// The arguments of `incircle generate`.
 #[derive(Debug, Args)]
 pub struct GenerateArguments {
     /// Set
@@ -261,7 +260,7 @@ pub struct GenerateArguments {
     pub output: PathBuf,
 }
 
-/// Arguments of `bench`.
+/// The arguments of `incircle bench`.
 #[derive(Debug, Args)]
 pub struct BenchArguments {
     /// Sets (default: the five distributions of the literature, and the lattice)
@@ -301,7 +300,7 @@ pub struct BenchArguments {
     pub json: bool,
 }
 
-/// Arguments of `info`.
+/// The arguments of `incircle info`.
 #[derive(Debug, Args)]
 pub struct InfoArguments {
     #[command(flatten)]
@@ -311,7 +310,7 @@ pub struct InfoArguments {
     pub port: Option<Address>,
 }
 
-/// Arguments of `devices`.
+/// The arguments of `incircle devices`.
 #[derive(Debug, Args)]
 pub struct DevicesArguments {
     /// Ask at every port and card whether an incircle core is there
@@ -322,7 +321,7 @@ pub struct DevicesArguments {
     pub greet: bool,
 }
 
-/// Arguments of `completions`.
+/// The arguments of `incircle completions`.
 #[derive(Debug, Args)]
 pub struct CompletionsArguments {
     /// Shell

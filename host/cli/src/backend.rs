@@ -103,8 +103,8 @@ pub struct Choice {
 
 impl Choice {
     /// The back end of the arguments, or else the one at the address `default`. Coordinates have the bits of
-    /// `--coord-bits` or of the address, or else [`CORE_COORD_BITS`]. An address and an argument may not choose the same
-    /// thing.
+    /// `--coord-bits` or of the address, or else [`CORE_COORD_BITS`]. An address and an argument may not
+    /// choose the same thing.
     pub fn of(arguments: &BackendArguments, coord_bits: Option<u32>, default: &str) -> Result<Self, Failure> {
         let address = arguments.or(default)?;
         let coord_bits = once(bits_in(&address), coord_bits, "coord-bits")?.unwrap_or(CORE_COORD_BITS);
@@ -174,7 +174,8 @@ pub fn open(
     open_with_room(choice, room, trace, timeout)
 }
 
-/// Opens the back end as [`open`] does, for jobs of up to `room` points. A model counts all points, a core distinct ones.
+/// Opens the back end as [`open`] does, for jobs of up to `room` points. A model counts all points,
+/// a core distinct ones.
 pub fn open_with_room(
     choice: &Choice,
     room: Option<usize>,

@@ -37,8 +37,8 @@ pub struct Written {
 }
 
 impl Output {
-    /// Checks an output before the work: the output must not be the input, its folder must exist, and an existing file
-    /// must be writable.
+    /// Checks an output before the work: the output must not be the input, its folder must exist, and an existing
+    /// file must be writable.
     pub fn prepare(path: &Path, input: Option<&Path>) -> Result<Self, Failure> {
         if is_standard(path) {
             return Ok(Self { target: Target::Standard, name: "standard output".to_owned() });
@@ -77,8 +77,8 @@ impl Output {
         matches!(self.target, Target::Standard)
     }
 
-    /// Makes an empty file for a writer that needs a file name, which is [`Written::part`]. Devices, pipes and standard
-    /// output are refused.
+    /// Makes an empty file for a writer that needs a file name, which is [`Written::part`]. Devices, pipes and
+    /// standard output are refused.
     pub fn reserve(self) -> Result<Written, Failure> {
         match self.target {
             Target::Ordinary(_) => self.write(|_| Ok(())),
@@ -220,8 +220,8 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// The working name of a file: hidden, and in the same folder, so that the rename stays on one disk. The process id
-/// keeps runs apart.
+/// The working name of a file: hidden, and in the same folder, so that the rename stays on one disk. The process
+/// id keeps runs apart.
 fn part_beside(path: &Path) -> PathBuf {
     let mut name = std::ffi::OsString::from(".");
     name.push(path.file_name().unwrap_or_default());

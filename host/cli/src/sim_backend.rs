@@ -24,8 +24,8 @@ pub fn open(config: Config, trace: Option<&Path>) -> Result<Device, Failure> {
     Ok(Device::from_transport(Box::new(SimTransport { device, name: config.name })))
 }
 
-/// The transport to a simulated core. The simulation runs in slices of clocks until the answer is there or the deadline
-/// has passed.
+/// The transport to a simulated core. The simulation runs in slices of clocks until the answer is there or
+/// the deadline has passed.
 struct SimTransport {
     device: SimDevice,
     name: &'static str,

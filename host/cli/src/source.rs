@@ -12,8 +12,8 @@ pub fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Reads all points of a file or of standard input. The format is `from`, or else the one of the extension, or CSV for
-/// standard input.
+/// Reads all points of a file or of standard input. The format is `from`, or else the one of the extension, or
+/// CSV for standard input.
 pub fn read_points(path: &Path, from: Option<PointFormat>) -> Result<PointTable, Failure> {
     let format = match from {
         Some(format) => format,

@@ -1,4 +1,4 @@
-//! No reader panics, whatever the bytes; what it accepts is finite.
+//! Tests that no reader panics on any bytes, and that accepted coordinates are finite.
 
 use incircle_cli::formats::{MeshFormat, PointFormat};
 use incircle_testkit::SplitMix64;
@@ -42,10 +42,10 @@ const MESH_FILES: [(MeshFormat, &[u8]); 5] = [
     (MeshFormat::Csv, b"a,b,c\n0,1,2\n1,3,2\n"),
 ];
 
-/// Bytes that mean something to some format.
+/// Bytes that have a meaning in some format.
 const SPICE: &[u8] = b"0123456789-+.eE,; \t\r\n\"#/[]{}:naif\xff\x00\x80";
 
-/// One to four random edits: a byte replaced, put in, taken out, or the end cut off.
+/// Makes one to four random edits: replaces, inserts or removes a byte, or cuts off the end.
 fn spoil(sample: &[u8], random: &mut SplitMix64) -> Vec<u8> {
     let mut bytes = sample.to_vec();
     for _ in 0..=random.below(4) {
