@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 /// The incircle core: export to Verilog, and bitstreams for boards.
 #[derive(Parser)]
-#[command(name = "incircle-hdl", version)]
+#[command(name = "incircle-hdl", version, after_help = "Example:\n  incircle-hdl export --config full -o core.v")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -30,6 +30,7 @@ enum Command {
 }
 
 #[derive(Args)]
+#[command(after_help = "Example:\n  incircle-hdl export --config full --top serial -o serial.v")]
 struct ExportArguments {
     /// Configuration: tiny, small, full or large. Default: those the repository holds.
     #[arg(long, value_parser = config)]
@@ -55,6 +56,7 @@ struct ExportArguments {
 }
 
 #[derive(Args)]
+#[command(after_help = "Example:\n  incircle-hdl board ulx3s-85f --out build/ulx3s-85f")]
 struct BoardArguments {
     /// The board: ulx3s-85f, colorlight-i5 or ecpix-5.
     #[arg(value_parser = named_board, required_unless_present_any = ["all", "table"], conflicts_with_all = ["all", "table"])]

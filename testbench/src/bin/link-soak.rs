@@ -1,6 +1,9 @@
-//! Two hundred jobs and more for each bit error rate, in both directions: through the pins with up to 100 points at 12 Mbaud, and
-//! larger ones without the bits. A number as argument is that of the jobs. No mesh may be wrong. Up to one bit error in 100,000 bits every job
-//! must be right; at one in 10,000, where frames are lost by the dozen, nineteen of twenty, and the others end with an error.
+//! Runs jobs over a serial link with bit errors in both directions, 200 jobs for each bit error rate. The only argument is
+//! another number of jobs.
+//!
+//! Jobs of up to 100 points run through the pins at 12 Mbaud, larger ones without the bits. No mesh may be wrong. Up to
+//! one bit error in 100,000 bits every job must succeed. At one in 10,000, where frames are lost by the dozen, nineteen
+//! jobs of twenty must succeed, and the others must end with an error.
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -16,7 +19,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
     let mut is_good = true;
     for (detail, config, points) in [(Detail::Pins, SMALL, 100), (Detail::Bytes, FULL, 1500)] {
-        // Of so many jobs one at least meets a fault; few small jobs do at one bit error in a million bits.
+        // At least one job in `one_in` must meet a fault. Few small jobs do at one bit error in a million bits.
         for (ber, least, one_in) in [(1e-6, 1.0, 200), (1e-5, 1.0, 20), (1e-4, 0.95, 2)] {
             let faults = FaultSpec { ber, seed: 1000, ..FaultSpec::default() };
             let report = soak(&Soak { detail, config, faults, rate: 12_000_000, jobs, points })?;

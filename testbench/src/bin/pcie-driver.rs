@@ -1,4 +1,6 @@
-//! What the driver of PCIe cards costs a point, against a card that does nothing: in memory, and through the files of a directory.
+//! Measures the cost of the driver of PCIe cards per point, against a card that does nothing.
+//!
+//! One measurement is in memory, the other through the files of a directory.
 
 use std::error::Error;
 
@@ -6,16 +8,17 @@ use clap::Parser;
 use incircle_protocol::{Opcode, FULL};
 use incircle_testbench::card::{driver_cost, DriverCost, Jobs, Way};
 
-/// The cost of the driver, ordering of points and mapping of indices apart.
+/// Measure the driver of PCIe cards, without the ordering of points and the mapping of indices
 #[derive(Parser)]
+#[command(after_help = "Example:\n  pcie-driver -n 8192 --jobs 200")]
 struct Arguments {
-    /// Points of a job.
+    /// Points of a job
     #[arg(short, default_value_t = FULL.points, value_parser = clap::value_parser!(u32).range(3..=1 << 20))]
     n: u32,
-    /// Jobs.
+    /// Number of jobs
     #[arg(long, default_value_t = 200)]
     jobs: usize,
-    /// Print JSON.
+    /// Print the figures as JSON
     #[arg(long)]
     json: bool,
 }

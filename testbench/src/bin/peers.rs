@@ -1,4 +1,5 @@
-//! Triangulators beside each other, in one run: `cargo run --release -p incircle-testbench --bin peers -- --help`.
+//! Measures this triangulator and others side by side, in one run. The arguments are listed by
+//! `cargo run --release -p incircle-testbench --bin peers -- --help`.
 
 use std::process::ExitCode;
 
