@@ -37,7 +37,8 @@ pub fn write_mesh(mesh: &MeshView<'_>, out: &mut dyn Write) -> io::Result<()> {
     let shown = PIXELS * height / width;
     writeln!(
         out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{PIXELS}\" height=\"{shown:.0}\">"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" \
+         width=\"{PIXELS}\" height=\"{shown:.0}\">"
     )?;
     let (points, triangles) = (counted(mesh.points.len(), "point"), counted(mesh.triangles.len(), "triangle"));
     writeln!(out, "<title>Delaunay triangulation: {points}, {triangles}</title>")?;
@@ -176,7 +177,8 @@ fn write_hull(mesh: &MeshView<'_>, canvas: &Canvas, out: &mut dyn Write) -> io::
     }
     writeln!(
         out,
-        "<path fill=\"none\" stroke=\"#e4572e\" stroke-width=\"45\" stroke-linejoin=\"round\" stroke-linecap=\"round\" d=\"{d}\"/>"
+        "<path fill=\"none\" stroke=\"#e4572e\" stroke-width=\"45\" stroke-linejoin=\"round\" \
+         stroke-linecap=\"round\" d=\"{d}\"/>"
     )
 }
 

@@ -31,7 +31,7 @@ pub enum Stage {
     Assemble,
 }
 
-/// How far the CPU triangulator is: the stage, and the points done in this stage.
+/// The progress of the CPU triangulator: its stage, and the points done in this stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
@@ -62,7 +62,7 @@ pub enum Error {
     CoordinateOutOfRange {
         /// Input index of the point.
         index: usize,
-        /// The point itself.
+        /// The point with this coordinate.
         point: Point,
     },
     /// There are more points than [`MAX_POINTS`].

@@ -120,7 +120,9 @@ fn sets_that_the_host_answers_alone_have_dashes() {
 fn a_batch_is_told_from_the_first_word_to_the_last_triangle() {
     let scratch = Scratch::new();
     let run = scratch.run("bench --batch 40 -n 200 --backend clock --seed 5").ok();
-    let about = "clock full, 16 contexts; 40 jobs of 200 points each, 16 bits, seeds from 5, order brio-hilbert, ms at 125 MHz\n";
+    let about =
+        "clock full, 16 contexts; 40 jobs of 200 points each, 16 bits, seeds from 5, order brio-hilbert, ms at \
+                 125 MHz\n";
     assert!(run.stdout.starts_with(about), "{run:?}");
     let widths: Vec<usize> = run.stdout.lines().skip(1).map(str::len).collect();
     assert!(widths.iter().all(|&width| width == widths[0]), "{widths:?}");

@@ -16,7 +16,8 @@ fn binary_ply(format: &str, bytes: fn(f64) -> Vec<u8>) -> Vec<u8> {
     // The file has a list before the properties that are read, and an element before the one that is read.
     let header = format!(
         "ply\r\nformat {format} 1.0\r\ncomment test\r\nelement extra 1\r\nproperty uchar a\r\nelement vertex 6\r\n\
-         property uchar flag\r\nproperty double x\r\nproperty double y\r\nproperty list uchar uchar more\r\nend_header\r\n"
+         property uchar flag\r\nproperty double x\r\nproperty double y\r\nproperty list uchar uchar more\r\n\
+         end_header\r\n"
     );
     let mut file = header.into_bytes();
     file.push(9);
@@ -35,7 +36,8 @@ fn every_point_format_gives_the_same_mesh() {
     let collection = |items: String| format!("{{\"type\":\"FeatureCollection\",\"features\":[{items}]}}");
     let feature = |x, y| {
         format!(
-            "{{\"type\":\"Feature\",\"properties\":{{\"a\":1}},\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{x},{y}]}}}}"
+            "{{\"type\":\"Feature\",\"properties\":{{\"a\":1}},\
+             \"geometry\":{{\"type\":\"Point\",\"coordinates\":[{x},{y}]}}}}"
         )
     };
     let features = POINTS.map(|[x, y]| feature(x, y)).join(",");
@@ -54,7 +56,8 @@ fn every_point_format_gives_the_same_mesh() {
         (
             "ascii.ply",
             format!(
-                "ply\nformat ascii 1.0\nelement vertex 6\nproperty list uchar int more\nproperty int x\nproperty float y\n\
+                "ply\nformat ascii 1.0\nelement vertex 6\nproperty list uchar int more\nproperty int x\n\
+                 property float y\n\
                  end_header\n{}",
                 rows(|_, x, y| format!("2 8 9 {x} {y}"))
             )

@@ -102,7 +102,9 @@ proptest! {
     }
 
     #[test]
-    fn coordinates_beyond_all_devices_are_ordered_too(raw in prop::collection::vec((any::<u32>(), any::<u32>()), 0..60)) {
+    fn coordinates_beyond_all_devices_are_ordered_too(
+        raw in prop::collection::vec((any::<u32>(), any::<u32>()), 0..60),
+    ) {
         let points: Vec<Point> = raw.into_iter().map(Point::from).collect();
         for by in BrioDc::ALL {
             check(&points, &brio_dc(&points, by));

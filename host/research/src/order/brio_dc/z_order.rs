@@ -78,7 +78,8 @@ mod tests {
             let order = along_z(&points, BrioDc::Linear);
             let other = along_z(&points, BrioDc::LogU);
             prop_assert_eq!((&order.indices, &order.points), (&other.indices, &other.points));
-            prop_assert!(order.indices.iter().zip(&order.points).all(|(&index, &point)| points[index as usize] == point));
+            let mut pairs = order.indices.iter().zip(&order.points);
+            prop_assert!(pairs.all(|(&index, &point)| points[index as usize] == point));
             let key = |index: &u32| (position(points[*index as usize].x, points[*index as usize].y), *index);
             prop_assert!(order.indices.iter().is_sorted_by_key(key));
             prop_assert_eq!(order.indices.len(), points.len());
