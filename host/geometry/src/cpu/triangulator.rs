@@ -88,7 +88,7 @@ pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
 ///
 /// Cost: O(n log n) at worst and O(n) on even sets, about 0.15 µs a point on one thread. The peak of memory is below
 /// 200 bytes a point, with the mesh but without the caller's points. The result does not depend on the number of
-/// threads. Source: Guibas and Stolfi 1985, with exact integers and the tie rule (see [the module](self)).
+/// threads. Source: Guibas and Stolfi 1985, with exact integers and the tie rule (see [the module](crate::cpu)).
 ///
 /// ```
 /// use core::num::NonZeroUsize;
