@@ -1,6 +1,5 @@
-//! Lists the signals that cross between the two clocks of a core behind a stream link.
-//!
-//! The exit code is 0 only if all crossings go through synchronisers and the memories of the FIFOs.
+//! Lists what crosses between the two clocks of a core behind a stream link. The exit code is 0 only if every crossing
+//! goes through a synchroniser or the memory of a FIFO.
 
 use std::error::Error;
 use std::process::ExitCode;

@@ -1,5 +1,4 @@
-//! Measures this triangulator and others side by side, in one run. The arguments are listed by
-//! `cargo run --release -p incircle-testbench --bin peers -- --help`.
+//! Compares triangulators in one run: `cargo run --release -p incircle-testbench --bin peers -- --help`.
 
 use std::process::ExitCode;
 
