@@ -31,7 +31,7 @@ pub struct FiguresArguments {
 const WIDE_BITS: u32 = 24;
 const SEED: u64 = 1;
 
-/// Runs the subcommand: prints the table of all orders, the published ranking, and the guided walks of README.md.
+/// Runs the subcommand: the table of all orders, the published ranking, and the guided walks of README.md.
 ///
 /// # Errors
 /// A file cannot be written, or a set cannot be made.

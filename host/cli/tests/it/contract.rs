@@ -69,7 +69,7 @@ fn json_report_has_all_keys() {
     assert_eq!(report["counters"]["insertions"], 5);
     assert_eq!(report["coord_bits"], 16);
     assert_eq!((&report["contexts"], &report["latency"]), (&Value::from(1), &Value::Null));
-    // The software model has no clock and one context, so these counters exist and are 0.
+    // The software model has no clock, and one context: these are there, and 0.
     for counter in ["insert_cycles", "root_visits", "aborts", "waiting_tokens", "issue_cycles", "latency_max"] {
         assert_eq!(report["counters"][counter], 0, "{counter}");
     }

@@ -197,13 +197,13 @@ fn jobs_of_middle_size_go_side_by_side() {
     assert!(cycles(&small) < 18.0 && cycles(&middle) < 24.0 && cycles(&large) < 28.0, "{small} {middle} {large}");
     let is_exclusive = [&small, &middle, &large].map(|set| !set["longest_job_cycles"].is_null());
     assert_eq!(is_exclusive, [false, false, true]);
-    let readme =
-        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).expect("it is there");
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/performance.md");
+    let page = std::fs::read_to_string(page).expect("docs/performance.md is there");
     let figure = format!("{:.1} cycles a point", cycles(&middle));
-    assert!(readme.contains(&figure), "README.md has no {figure}");
+    assert!(page.contains(&figure), "docs/performance.md has no {figure}");
 }
 
-/// Checks figures of the README. Cycles are the same on every machine, so this test does not depend on time.
+/// Checks figures of the documents. Cycles are the same on every machine, so this test does not depend on time.
 #[test]
 fn a_sequence_of_exclusive_jobs_costs_little_more_than_the_insertions() {
     let scratch = Scratch::new();
@@ -220,7 +220,7 @@ fn a_sequence_of_exclusive_jobs_costs_little_more_than_the_insertions() {
         let cycles = number(key).round() as u64;
         format!("{},{:03}", cycles / 1000, cycles % 1000)
     };
-    for document in ["README.md", "docs/engine.md"] {
+    for document in ["docs/performance.md", "docs/core.md", "docs/engine.md", "docs/batches.md"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(document);
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         for figure in [shown("cycles_per_job"), shown("longest_job_cycles")] {
