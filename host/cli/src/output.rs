@@ -83,7 +83,7 @@ impl Output {
         match self.target {
             Target::Ordinary(_) => self.write(|_| Ok(())),
             Target::Standard | Target::Special(_) => {
-                Err(Failure::usage(format!("{} is no ordinary file: choose another output for this", self.name)))
+                Err(Failure::usage(format!("{} is not an ordinary file: choose another output", self.name)))
             }
         }
     }

@@ -108,7 +108,7 @@ impl<'a> RunReport<'a> {
         let total: Duration = self.stages.iter().map(|&(_, duration)| duration).sum();
         let duplicates = match job.duplicates {
             0 => String::new(),
-            count => format!(" ({count} of them on the place of an earlier one)"),
+            count => format!(" ({count} of them with the coordinates of an earlier one)"),
         };
         format!(
             "{}{duplicates}, {}, {} on the hull; {}, {:.3} s",

@@ -15,7 +15,8 @@ const GREET_TIMEOUT: Duration = Duration::from_secs(4);
 /// Runs the subcommand. Each port and card has a line with its description by the system, and with `--greet`
 /// also with its answer.
 pub fn run(arguments: &DevicesArguments) -> Result<(), Failure> {
-    let ports = serial::ports().map_err(|fault| Failure::new(Exit::NoDevice, format!("no ports: {fault}")))?;
+    let ports = serial::ports()
+        .map_err(|fault| Failure::new(Exit::NoDevice, format!("the serial ports cannot be listed: {fault}")))?;
     let cards = pcie::cards();
     if ports.is_empty() && cards.is_empty() {
         output::note("the system knows of no serial port and of no PCIe card; pseudo-terminals are not listed");
