@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 /// Export the incircle core to Verilog, and make bitstreams for boards.
 #[derive(Parser)]
-#[command(name = "incircle-hdl", version)]
+#[command(name = "incircle-hdl", version, after_help = "Example:\n  incircle-hdl export --config full -o core.v")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -31,6 +31,7 @@ enum Command {
 }
 
 #[derive(Args)]
+#[command(after_help = "Example:\n  incircle-hdl export --config full --top serial -o serial.v")]
 struct ExportArguments {
     /// Configuration: tiny, small, full or large. Default: the ones that the repository holds.
     #[arg(long, value_parser = config)]
@@ -56,6 +57,7 @@ struct ExportArguments {
 }
 
 #[derive(Args)]
+#[command(after_help = "Example:\n  incircle-hdl board ulx3s-85f --out build/ulx3s-85f")]
 struct BoardArguments {
     /// Name of the board: ulx3s-85f, colorlight-i5 or ecpix-5.
     #[arg(value_parser = named_board, required_unless_present_any = ["all", "table"], conflicts_with_all = ["all", "table"])]

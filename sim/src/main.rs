@@ -28,7 +28,7 @@ const QUICK_SLOW: u32 = 50;
 
 /// The incircle core on a simulated board or card.
 #[derive(Parser)]
-#[command(version)]
+#[command(version, after_help = "Example:\n  incircle-sim serve --link /tmp/board --config full")]
 struct Arguments {
     #[command(subcommand)]
     command: Task,

@@ -6,14 +6,14 @@ use crate::sort::{sort_by_key, Entry, Keyed, Wide};
 
 /// Half-edges sorted by their undirected edge. Half-edge `3 t + k` runs from vertex `k` of triangle `t` to the next.
 ///
-/// Works on any triples, also such as are no mesh; no vertex is used as an index.
+/// Any triples are allowed, even if they are no mesh, because no vertex is used as an index.
 pub(crate) struct EdgeList<'a> {
     triangles: &'a [[u32; 3]],
     sorted: Vec<Wide>,
 }
 
 impl<'a> EdgeList<'a> {
-    /// Sorts the half-edges. O(n).
+    /// Sorts the half-edges of a list of triangles. O(n).
     pub(crate) fn of(triangles: &'a [[u32; 3]]) -> Self {
         let mut sorted = Vec::with_capacity(3 * triangles.len());
         for (t, v) in triangles.iter().enumerate() {
@@ -27,19 +27,19 @@ impl<'a> EdgeList<'a> {
         Self { triangles, sorted }
     }
 
-    /// The vertices of a half-edge, from and to.
+    /// The two vertices of a half-edge: its origin, then its end.
     pub(crate) fn ends(&self, halfedge: u32) -> [u32; 2] {
         let v = self.triangles[(halfedge / 3) as usize];
         let k = (halfedge % 3) as usize;
         [v[k], v[(k + 1) % 3]]
     }
 
-    /// The groups of half-edges that share an edge, in order of the edge's vertices.
+    /// The groups of half-edges that share an edge, sorted by the vertices of the edge.
     pub(crate) fn groups(&self) -> impl Iterator<Item = &[Wide]> {
         self.sorted.chunk_by(|one, other| one.key() == other.key())
     }
 
-    /// The half-edges that form a proper pair: the only two of their edge, in opposite directions.
+    /// The half-edges that form a proper pair, which are the only two of their edge and run in opposite directions.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         self.groups().filter_map(|group| match group {
             [one, other] if self.ends(one.value())[0] != self.ends(other.value())[0] => {

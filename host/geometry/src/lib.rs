@@ -1,8 +1,21 @@
-//! Exact geometry of integer points: predicates, the canonical Delaunay triangulation on a processor, orders of
+//! Exact geometry of integer points: predicates, the canonical Delaunay triangulation in software, orders of
 //! insertion, and a validator.
 //!
-//! For programs that want the triangulation without a device, a link or a file. The library `incircle` is built on this
-//! crate and re-exports what its users need under the same paths.
+//! Use this crate if you have integer points and want their triangulation without a device, a link or a file. The
+//! library `incircle` is built on it, adds devices and points with fractions, and re-exports what its users need
+//! under the same paths.
+//!
+//! | you want | call | cost |
+//! |---|---|---|
+//! | the triangulation of a set | [`cpu::triangulate`] | O(n) on even sets, about 0.15 µs a point on one thread |
+//! | the triangles beside a triangle | [`Mesh::neighbors`], [`Mesh::halfedges`] | O(n) for the whole mesh |
+//! | proof that a mesh is right | [`verify()`], [`Mesh::verify`] | O(n log n) |
+//! | the side of a line that a point is on | [`orient2d`] | two multiplications |
+//! | whether a point is inside a circle | [`incircle`] | ten multiplications |
+//! | a good order of insertion | [`Order::order`] | O(n), about 20 ns a point |
+//!
+//! Nothing is rounded anywhere: coordinates are unsigned integers below 2^31, and every intermediate result
+//! has a proven width.
 //!
 //! ```
 //! use core::num::NonZeroUsize;
@@ -17,8 +30,8 @@
 //! ```
 //!
 //! # Features
-//! - `std`, on by default: threads, and large pages on Linux. Without it the crate needs `alloc` alone, and the engine
-//!   works on one thread.
+//! - `std`, on by default: threads, and large pages on Linux. Without this feature the crate needs only `alloc`, and
+//!   the CPU triangulator works on one thread.
 //! - `glam`: conversions between [`Point`] and `glam::UVec2`.
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 #![warn(missing_docs)]

@@ -1,4 +1,4 @@
-//! The answer: the canonical mesh of a point set.
+//! The canonical mesh of a point set.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -7,13 +7,31 @@ use crate::edges::EdgeList;
 use crate::point::{Duplicate, Point};
 use crate::verify::{self, VerifyError};
 
-/// "No half-edge": the other side of an edge on the hull, in [`Mesh::halfedges`].
+/// Marks in [`Mesh::halfedges`] that there is no triangle on the other side: the edge lies on the hull.
 pub const EMPTY: u32 = u32::MAX;
 
-/// The Delaunay triangulation of the distinct points, in canonical form.
+/// The Delaunay triangulation of the distinct points of a set, in canonical form.
 ///
-/// There is exactly one answer for a set of points: every device and every order of insertion gives the same
-/// `triangles` and the same `hull`. Two meshes are equal if all four lists are.
+/// There is exactly one answer for a set of points: every back end and every order of insertion gives the same
+/// `triangles` and the same `hull`. Two meshes are equal if all four lists are, so `==` on two meshes of the same
+/// points shows any difference between two back ends.
+///
+/// A mesh comes from [`cpu::triangulate`](crate::cpu::triangulate) or from the library `incircle`. All
+/// indices are positions in [`points`](Self::points). `n` distinct points with `h` of them on the hull have
+/// `2 n - 2 - h` triangles.
+///
+/// ```
+/// use core::num::NonZeroUsize;
+/// use core::ops::ControlFlow;
+/// use incircle_geometry::{cpu, Point};
+///
+/// let points = [(0, 0), (4, 0), (4, 4), (0, 4), (4, 0)].map(Point::from).to_vec();
+/// let mesh = cpu::triangulate(points, NonZeroUsize::MIN, &mut |_| ControlFlow::Continue(()))?;
+/// assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+/// assert_eq!(mesh.hull, [0, 1, 2, 3]);
+/// assert_eq!((mesh.duplicates[0].index, mesh.duplicates[0].of), (4, 1));
+/// # Ok::<(), cpu::Error>(())
+/// ```
 #[non_exhaustive]
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Mesh {
@@ -22,26 +40,34 @@ pub struct Mesh {
     /// Triples of indices into `points`, counter-clockwise, each with its smallest index first, sorted.
     pub triangles: Vec<[u32; 3]>,
     /// Indices of the points on the hull, counter-clockwise, lowest index first; points in the middle of a hull edge
-    /// are included. Without triangles: all distinct points in lexicographic order.
+    /// are included. A mesh without triangles lists all distinct points in lexicographic order here.
     pub hull: Vec<u32>,
-    /// Points that fell onto an earlier one, by index.
+    /// Input points with the coordinates of an earlier one, sorted by index.
     pub duplicates: Vec<Duplicate>,
 }
 
 impl Mesh {
-    /// A mesh of these parts. Nothing is checked: see [`Mesh::verify`].
+    /// Makes a mesh of its four lists, without any check. Call [`Mesh::verify`] on lists from elsewhere.
     pub fn new(points: Vec<Point>, triangles: Vec<[u32; 3]>, hull: Vec<u32>, duplicates: Vec<Duplicate>) -> Self {
         Self { points, triangles, hull, duplicates }
     }
 
-    /// There are no triangles: fewer than three distinct points, or all on one line.
+    /// Whether the mesh has no triangles, because there are fewer than three distinct points or all lie on one line.
     pub fn is_collinear(&self) -> bool {
         self.triangles.is_empty()
     }
 
-    /// The neighbours of each triangle: the `k`-th is across the edge opposite the `k`-th vertex; `None` on the hull.
+    /// The neighbours of each triangle, for walks through the mesh and floods of regions.
     ///
-    /// O(n): a radix sort of the edges; 190 bytes per point while it runs.
+    /// Neighbour `k` of a triangle lies across the edge opposite its vertex `k`; on the hull there is `None`. The list
+    /// is computed at each call, so keep it. O(n) by a radix sort of the edges, with 190 bytes a point while it runs.
+    ///
+    /// ```
+    /// use incircle_geometry::Mesh;
+    ///
+    /// let square = Mesh::new(Vec::new(), vec![[0, 1, 2], [0, 2, 3]], Vec::new(), Vec::new());
+    /// assert_eq!(square.neighbors(), [[None, Some(1), None], [None, None, Some(0)]]);
+    /// ```
     pub fn neighbors(&self) -> Vec<[Option<u32>; 3]> {
         let mut neighbors = vec![[None; 3]; self.triangles.len()];
         for [one, other] in EdgeList::of(&self.triangles).pairs() {
@@ -53,10 +79,17 @@ impl Mesh {
         neighbors
     }
 
-    /// Half-edges in delaunator's convention: half-edge `3 t + k` runs from vertex `k` of triangle `t` to the next one,
-    /// and its value is the half-edge of the same edge in the other triangle, or [`EMPTY`] on the hull.
+    /// The half-edges in the convention of delaunator, for code that was written for that library.
     ///
-    /// O(n), as [`Mesh::neighbors`].
+    /// Half-edge `3 t + k` runs from vertex `k` of triangle `t` to the next one. The value at that place is the
+    /// half-edge of the same edge in the other triangle, or [`EMPTY`] on the hull. O(n), as [`Mesh::neighbors`].
+    ///
+    /// ```
+    /// use incircle_geometry::{Mesh, EMPTY};
+    ///
+    /// let square = Mesh::new(Vec::new(), vec![[0, 1, 2], [0, 2, 3]], Vec::new(), Vec::new());
+    /// assert_eq!(square.halfedges(), [EMPTY, EMPTY, 3, 2, EMPTY, EMPTY]);
+    /// ```
     pub fn halfedges(&self) -> Vec<u32> {
         let mut halfedges = vec![EMPTY; 3 * self.triangles.len()];
         for [one, other] in EdgeList::of(&self.triangles).pairs() {
@@ -66,10 +99,12 @@ impl Mesh {
         halfedges
     }
 
-    /// Checks the whole mesh with the independent validator, hull and duplicates included. O(n log n).
+    /// Proves with the independent validator that the whole mesh is the canonical one, hull and duplicates included.
+    ///
+    /// O(n log n). The function [`verify`](fn@crate::verify) checks triangles without a hull and duplicates.
     ///
     /// # Errors
-    /// The first thing found wrong, with its numbers.
+    /// The first defect found, with its numbers.
     pub fn verify(&self) -> Result<(), VerifyError> {
         let summary = verify::verify(&self.points, &self.triangles)?;
         verify::check_hull(&self.hull, &summary)?;

@@ -1,17 +1,16 @@
-//! Room for long lists, in large pages where the system has them.
+//! Memory for long lists, in large pages where the system has them.
 //!
-//! Lists are read and written all over, in the order of the input along the curve and back. In pages of 4 kB nearly
-//! every such access first has to find its page; in pages of 2 MB the processor knows them all, and the system hands
-//! out far fewer.
+//! The CPU triangulator reads and writes its lists in scattered order. In pages of 4 kB nearly every such access misses
+//! the processor's table of pages. Pages of 2 MB all fit that table, and the system has far fewer of them to hand out.
 
 use alloc::vec::Vec;
 
 use bytemuck::Zeroable;
 
-/// Bytes from which on a list is worth large pages: two of them.
+/// Lists of at least this many bytes, two large pages, ask for large pages.
 const LARGE: usize = 4 << 20;
 
-/// An empty list with room for so many items.
+/// Makes an empty list with room for `count` items.
 pub fn with_room<T>(count: usize) -> Vec<T> {
     let list = Vec::with_capacity(count);
     if size_of::<T>() * list.capacity() >= LARGE {
@@ -20,10 +19,12 @@ pub fn with_room<T>(count: usize) -> Vec<T> {
     list
 }
 
-/// A list of so many zeros, which the system gives as they are needed: to whichever thread needs them first.
+/// Makes a list of `count` zeros.
+///
+/// The system provides each page when a thread first touches it, so an untouched end of the list costs nothing.
 pub fn zeros<T: Zeroable>(count: usize) -> Vec<T> {
     let list = bytemuck::try_zeroed_vec(count).unwrap_or_else(|()| {
-        // There is no memory, and the standard library says so in its own way.
+        // There is not enough memory. The standard library then ends the program with its usual message.
         let mut list = Vec::with_capacity(count);
         list.resize_with(count, T::zeroed);
         list
@@ -34,8 +35,7 @@ pub fn zeros<T: Zeroable>(count: usize) -> Vec<T> {
     list
 }
 
-/// Asks for large pages for the room of a list. Where they cannot be had, nothing happens: it is a matter of speed
-/// only.
+/// Asks for large pages for the memory of a list. A refusal is ignored, because large pages only affect speed.
 #[cfg(all(target_os = "linux", feature = "std"))]
 #[allow(unsafe_code)] // a system call that no safe library offers for a `Vec`
 fn advise<T>(list: &Vec<T>) {
@@ -43,11 +43,12 @@ fn advise<T>(list: &Vec<T>) {
     let begin = list.as_ptr().addr().next_multiple_of(PAGE);
     let end = (list.as_ptr().addr() + size_of::<T>() * list.capacity()) / PAGE * PAGE;
     if begin < end {
-        // SAFETY: the whole pages between belong to this list alone, and the advice changes nothing of what is in them.
+        // SAFETY: the whole pages between `begin` and `end` belong to this list alone, and the advice
+        // leaves their contents unchanged.
         unsafe { libc::madvise(list.as_ptr().with_addr(begin).cast_mut().cast(), end - begin, libc::MADV_HUGEPAGE) };
     }
 }
 
-/// Other systems choose by themselves, and without `std` there may be no system to ask.
+/// Does nothing: other systems choose their pages themselves, and without `std` there may be no system to ask.
 #[cfg(not(all(target_os = "linux", feature = "std")))]
 fn advise<T>(_: &Vec<T>) {}

@@ -1,16 +1,27 @@
-//! Grid points, and points that fall together.
+//! Points of the integer grid, and duplicates among them.
 
 use core::fmt;
 
-/// Most bits of a coordinate: coordinates lie below 2^31, so that differences fit 32 bits with their sign.
+/// The most bits of a coordinate. Coordinates lie below 2^31, so differences fit 32 bits with their sign.
 pub const MAX_COORD_BITS: u32 = 31;
-/// Most points of one set: the numbers of all half-edges must fit 32 bits.
+/// The most points of one set. With this limit the numbers of all half-edges fit 32 bits.
 pub const MAX_POINTS: usize = (1 << 29) - 1;
 
 /// A point of the grid: two unsigned integers.
 ///
-/// A device takes coordinates below 2^`coord_bits` (16 in the standard core, 31 at most); nothing is checked here.
-/// The order is lexicographic, `x` before `y`: it is the order of the tie rule.
+/// Points are plain values of 8 bytes. Pairs and arrays of `u32` convert both ways, as do vectors of the crate `glam`
+/// with the feature `glam`. Points compare lexicographically, `x` before `y`; the tie rule uses the same order.
+///
+/// The type accepts any `u32`. Triangulation needs coordinates below 2^31, and a device may take fewer bits: 16 in the
+/// standard core. Points with fractions come onto the grid by `incircle::quantize`.
+///
+/// ```
+/// use incircle_geometry::Point;
+///
+/// let points: Vec<Point> = [(1, 9), (2, 0), (2, 1)].map(Point::from).to_vec();
+/// assert!(points.is_sorted());
+/// assert_eq!(points[0].to_string(), "(1, 9)");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Point {
     /// Horizontal coordinate, in grid units.
@@ -20,7 +31,7 @@ pub struct Point {
 }
 
 impl Point {
-    /// The point `(x, y)`.
+    /// Makes the point `(x, y)`.
     #[inline]
     pub const fn new(x: u32, y: u32) -> Self {
         Self { x, y }
@@ -65,12 +76,14 @@ impl From<Point> for (u32, u32) {
     }
 }
 
-/// An input point that fell onto an earlier one.
+/// An input point with the coordinates of an earlier one.
+///
+/// The mesh has each place once, under its lowest index. All other input points of that place are listed as duplicates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Duplicate {
     /// Input index of the point.
     pub index: u32,
-    /// Lowest input index of the same coordinates; the mesh uses that one.
+    /// Lowest input index with the same coordinates, which stands for all of them in the mesh.
     pub of: u32,
 }
 

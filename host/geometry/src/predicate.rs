@@ -1,7 +1,8 @@
 //! The two predicates of Delaunay triangulations, exact for all coordinates below 2^31.
 //!
-//! The engine evaluates the same determinants in a form that shares work between points (`cpu/view.rs`), and the
-//! validator has its own.
+//! The CPU triangulator evaluates the same determinants in a form that shares work between points (`cpu/view.rs`), and
+//! the validator has predicates of its own (`verify/exact.rs`). The names are those of Shewchuk, *Adaptive Precision
+//! Floating-Point Arithmetic and Fast Robust Geometric Predicates*, 1997.
 
 use crate::point::Point;
 
@@ -10,11 +11,14 @@ const fn vector(from: Point, to: Point) -> [i64; 2] {
     [to.x as i64 - from.x as i64, to.y as i64 - from.y as i64]
 }
 
-/// Twice the signed area of the triangle, in squares of the grid: positive if `a`, `b`, `c` turn counter-clockwise,
-/// zero if they lie on one line.
+/// Tells on which side of the line from `a` to `b` the point `c` lies.
+///
+/// The result is positive if `a`, `b`, `c` turn counter-clockwise (`c` lies to the left), zero if they lie on one line,
+/// and negative otherwise. The value is twice the signed area of the triangle in squares of the grid, so areas of
+/// polygons are sums of it. Two multiplications; usable in constants.
 ///
 /// Exact for coordinates below 2^31: differences stay below 2^31 in magnitude, each product below 2^62, their
-/// difference below 2^63.
+/// difference below 2^63. Wider coordinates may overflow.
 ///
 /// ```
 /// use incircle_geometry::{orient2d, Point};
@@ -26,12 +30,17 @@ pub const fn orient2d(a: Point, b: Point, c: Point) -> i64 {
     bx * cy - by * cx
 }
 
-/// Positive if `d` lies inside the circle through the counter-clockwise triangle `a`, `b`, `c`, zero if on the circle,
-/// negative if outside. The sign is the other way round for a clockwise triangle. This is the plain determinant,
-/// without the tie rule of the canonical mesh.
+/// Tells whether `d` lies inside the circle through `a`, `b` and `c`.
 ///
-/// Exact for coordinates below 2^31: the determinant is a difference of two products of a doubled area (below 2^63) and
-/// a scalar product (at most 2^63), both of vectors in one square of the grid; it is at most 2^123 (`cpu/view.rs`).
+/// For a counter-clockwise triangle the result is positive if `d` is inside, zero if `d` is on the circle, and
+/// negative if `d` is outside. A clockwise triangle has the opposite sign. The function is the plain determinant: the
+/// tie rule, by which the canonical mesh decides a zero, is not part of it. Ten multiplications, two of them to 128
+/// bits; usable in constants.
+///
+/// The determinant is evaluated as `dot(c) cross(d) - dot(d) cross(c)`, where `dot` and `cross` are the products of the
+/// vectors from a point to `a` and `b` (Cline and Renka 1984). Exact for coordinates below 2^31: `cross`, which is an
+/// `orient2d`, stays below 2^63 in magnitude, `dot` is at most 2^63, and all vectors lie in one square of the grid, so
+/// the determinant is at most 2^123 (`cpu/view.rs`). Wider coordinates may overflow.
 ///
 /// ```
 /// use incircle_geometry::{incircle, Point};

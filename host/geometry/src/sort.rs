@@ -1,4 +1,4 @@
-//! Stable radix sort of keyed entries.
+//! A stable radix sort of entries with integer keys.
 
 use alloc::vec::Vec;
 
@@ -6,24 +6,24 @@ use bytemuck::Zeroable;
 
 use crate::pages;
 
-/// Most bits of a radix digit: 2048 counters stay in the first-level cache.
+/// Most bits of a radix digit. The 2048 counters of such a digit stay in the first-level cache.
 const DIGIT_BITS: u32 = 11;
-/// Most bits of a digit of few entries: there are fewer counters to sum up.
+/// Most bits of a digit if there are fewer than [`FEW`] entries, so that summing up the counters costs less.
 const SMALL_DIGIT_BITS: u32 = 8;
-/// Below this length digits are small.
+/// Lists of fewer entries than this are sorted by small digits.
 const FEW: usize = 4096;
-/// Below this length a comparison sort is faster than all passes.
+/// Below this length a comparison sort is faster than all passes of the radix sort.
 pub const SMALL: usize = 256;
-/// Bytes from which on entries do not stay in a second-level cache, and are sorted in parts.
+/// Entries of at least this many bytes do not stay in a second-level cache, and are sorted in parts.
 const LARGE: usize = 1 << 20;
-/// Bytes of a part, about: it and its copy stay in the first-level cache, or nearly.
+/// Approximate bytes of a part. A part and its copy stay in the first-level cache, or nearly.
 const PART: usize = 32 << 10;
-/// Bits of which the parts are made: more would be too many places to write to at a time.
+/// Bits of the key that number the parts. More bits would mean too many places to write to at a time.
 const PART_BITS: core::ops::RangeInclusive<u32> = 6..=DIGIT_BITS;
 
-/// Something with an unsigned integer key.
+/// A value with an unsigned integer key.
 pub trait Keyed: Copy + Zeroable {
-    /// The key to sort by.
+    /// The key that the value is sorted by.
     fn key(&self) -> u64;
 }
 
@@ -32,7 +32,7 @@ pub trait Keyed: Copy + Zeroable {
 pub struct Narrow(u64);
 
 impl Narrow {
-    /// An entry of this key and value.
+    /// Makes an entry of a key and a value.
     #[inline]
     pub fn new(key: u32, value: u32) -> Self {
         Self(u64::from(key) << 32 | u64::from(value))
@@ -54,7 +54,7 @@ pub struct Wide {
 }
 
 impl Wide {
-    /// An entry of this key and value.
+    /// Makes an entry of a key and a value.
     #[inline]
     pub fn new(key: u64, value: u32) -> Self {
         Self { key, value }
@@ -68,9 +68,9 @@ impl Keyed for Wide {
     }
 }
 
-/// An entry that carries an index.
+/// A keyed value that carries an index.
 pub trait Entry: Keyed {
-    /// The index carried.
+    /// The index that the entry carries.
     fn value(&self) -> u32;
 }
 
@@ -88,7 +88,18 @@ impl Entry for Wide {
     }
 }
 
-/// Sorts by key; entries of equal key keep their order. O(n) per digit in which the keys differ.
+/// Sorts entries by their keys; entries of equal keys keep their order.
+///
+/// O(n) for each digit of up to 11 bits in which the keys differ, with a second list of the same length while it runs.
+/// Lists of fewer than [`SMALL`] entries are sorted by comparison.
+///
+/// ```
+/// use incircle_geometry::sort::{sort_by_key, Entry, Narrow};
+///
+/// let mut entries = vec![Narrow::new(7, 0), Narrow::new(3, 1), Narrow::new(7, 2)];
+/// sort_by_key(&mut entries);
+/// assert_eq!(entries.iter().map(Entry::value).collect::<Vec<_>>(), [1, 0, 2]);
+/// ```
 pub fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
     if entries.len() < SMALL {
         entries.sort_by_key(E::key);
@@ -107,8 +118,8 @@ pub fn sort_by_key<E: Keyed>(entries: &mut Vec<E>) {
     }
 }
 
-/// Sorts by the bits from `shift` up, then each part of entries that agree in them by itself, so that only the first
-/// pass goes through all the memory at once.
+/// Sorts entries by the bits from `shift` up, then sorts each part of entries that agree in those bits by itself. So
+/// only the first pass goes through all the memory at once.
 fn sort_in_parts<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64, shift: u32) {
     sort_by_digit(entries, scratch, shift, u64::BITS - varying.leading_zeros() - shift);
     let mut rest = entries;
@@ -124,8 +135,8 @@ fn sort_in_parts<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64, s
     }
 }
 
-/// Sorts by all digits in which the keys differ, lowest first: all of one width, the least for their number. True if
-/// the result is in `scratch`.
+/// Sorts by all digits in which the keys differ, lowest first. All digits have one width, the least for their number.
+/// Returns true if the result is in `scratch`.
 fn sort_by_digits<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64) -> bool {
     if varying == 0 {
         return false;
@@ -145,7 +156,7 @@ fn sort_by_digits<E: Keyed>(entries: &mut [E], scratch: &mut [E], varying: u64) 
     is_in_scratch
 }
 
-/// One counting pass over the digit of up to [`DIGIT_BITS`] bits from `shift` up.
+/// Makes one counting pass over the digit of up to [`DIGIT_BITS`] bits from `shift` up.
 fn sort_by_digit<E: Keyed>(from: &[E], to: &mut [E], shift: u32, bits: u32) {
     const MASK: usize = (1 << DIGIT_BITS) - 1;
     let mask = (1 << bits) - 1;

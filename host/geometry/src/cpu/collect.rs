@@ -1,9 +1,10 @@
 //! From the subdivision to the canonical mesh.
 //!
-//! The list is sorted by smallest corner, then by the second one. Each edge knows one triangle of which its end with
-//! the smaller id may be the smallest corner: the one to its left, seen from there. So a pass over the edges finds
-//! every triangle once, in the order of the curve. They are dealt to buckets of neighbouring ids, and each bucket is
-//! sorted while it is in the cache: no list is walked in an order far from that of the curve or of the ids.
+//! The list of triangles is sorted by the smallest corner, then by the second one. Each edge names at most one
+//! triangle: the one to the left of the edge, seen from the end with the smaller id, if that end is the smallest
+//! corner. So a pass over the edges finds every triangle once, in the order of the curve. The triangles are distributed
+//! to buckets of neighbouring ids, and each bucket is sorted while it is in the cache. No list is read in an order far
+//! from that of the curve or of the ids.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -11,27 +12,28 @@ use core::ops::Range;
 
 use bytemuck::Zeroable;
 
-use super::deal::{bucket_ends, runs, stretch, Dealt, CHUNK, MOST_BUCKETS_BITS};
+use super::buckets::{bucket_ends, items_of, runs, Bucketed, CHUNK, MOST_BUCKETS_BITS};
 use super::edges::Half;
 use super::parallel::in_parallel;
 
-/// Marks the end of a half-edge that has the outside to its left.
+/// Marks, in the `end` of a half-edge, that the outside lies to the left of the half-edge.
 const GAP: u32 = 1 << 31;
-/// Ids of a bucket, as a power of two, where there are several buckets and few enough: two triangles an id make 64 kB
-/// with their copy.
+/// Ids of a bucket, as a power of two, unless threads or very many points ask for more. With two triangles an id a
+/// bucket and its copy take 64 kB.
 const BUCKET_BITS: u32 = 11;
-/// Triangles of an id that are sorted without branches: it is the smallest corner of two on average, and of more than
-/// four one time in ten.
+/// Triangles of an id that are sorted without branches. An id is the smallest corner of two triangles on average, and
+/// of more than four one time in ten.
 const FEW: usize = 4;
-/// Edges that are looked at together: they and their triangles, 14 kB, stay in the first-level cache.
+/// Edges that are processed together. A block and its triangles, 14 kB, stay in the first-level cache.
 const BLOCK: usize = 512;
 
-/// The hull, counter-clockwise from its lowest id on; marks its half-edges.
+/// The hull, counter-clockwise from its lowest id on. The function also marks the half-edges that have the
+/// outside to their left.
 pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
     let mut hull = Vec::new();
     let mut e = start;
     loop {
-        // The outside lies to the right of `e`, and so clockwise of it at its origin.
+        // The outside lies to the right of `e`, so the next half-edge clockwise around its origin has it to the left.
         let Half { previous, end, .. } = halves[e as usize];
         halves[previous as usize].end |= GAP;
         hull.push(ids[(end & !GAP) as usize]);
@@ -45,8 +47,8 @@ pub(super) fn hull(halves: &mut [Half], ids: &[u32], start: u32) -> Vec<u32> {
     hull
 }
 
-/// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The half-edges are
-/// not needed any more.
+/// All `count` triangles of the mesh of `points` input points, smallest id first in each, sorted. The memory of the
+/// half-edges is reused for the result.
 pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: usize, threads: usize) -> Vec<[u32; 3]> {
     let buckets = Buckets::of(points, threads);
     if buckets.fit_a_word() {
@@ -56,19 +58,19 @@ pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: us
     }
 }
 
-/// Triangles by their smallest corner: neighbouring ids are together.
+/// The buckets of triangles: each holds the triangles whose smallest corner is in a range of ids.
 #[derive(Clone, Copy)]
 struct Buckets {
     /// Ids of a bucket, as a power of two.
     bits: u32,
-    /// Bits of an id.
+    /// The number of bits of an id.
     id_bits: u32,
     count: usize,
 }
 
-/// A triangle in a bucket. The order is that of the corners.
+/// A triangle in a bucket, ordered by its corners.
 trait Triangle: Copy + Ord + Zeroable + Send + Sync {
-    /// After all others of its bucket.
+    /// A value that sorts after all triangles of its bucket.
     const LAST: Self;
 
     fn of(corners: [u32; 3], buckets: Buckets) -> Self;
@@ -80,7 +82,7 @@ trait Triangle: Copy + Ord + Zeroable + Send + Sync {
     fn corners(self, first: u32, buckets: Buckets) -> [u32; 3];
 }
 
-/// Any number of points.
+/// The form for any number of points.
 impl Triangle for [u32; 3] {
     const LAST: Self = [u32::MAX; 3];
 
@@ -97,7 +99,8 @@ impl Triangle for [u32; 3] {
     }
 }
 
-/// All corners in one word, the smallest one at the top, where the bucket says its leading bits: up to 2^25 points.
+/// The form for up to 2^25 points: all corners in one word, the smallest one at the top, without the leading bits that
+/// follow from the bucket.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
 struct Packed(u64);
 
@@ -127,19 +130,19 @@ impl Triangle for Packed {
 struct Edge {
     smaller: u32,
     larger: u32,
-    /// The next half-edge counter-clockwise, then the vertex that it leads to.
+    /// The next half-edge counter-clockwise; later the vertex that this half-edge leads to.
     next: u32,
-    /// There is a triangle to the left.
+    /// Whether there is a triangle to the left of the edge.
     is_inside: bool,
 }
 
-/// Looks at the edges of some half-edges; returns how many there are.
+/// Lists the edges of a block of half-edges; returns their number.
 fn look_at(halves: &[Half], ids: &[u32], edges: &mut [Edge; BLOCK]) -> usize {
     let mut count = 0;
     for pair in halves.as_chunks::<2>().0.iter().filter(|pair| pair[0].is_used()) {
         let id = |half: Half| ids[(half.end & !GAP) as usize];
         let (from, to) = (id(pair[1]), id(pair[0]));
-        // An index instead of a branch: no processor predicts which.
+        // An index instead of a branch, because no processor predicts which end has the smaller id.
         let leaving = pair[usize::from(to < from)];
         edges[count] =
             Edge { smaller: from.min(to), larger: from.max(to), next: leaving.next, is_inside: leaving.end < GAP };
@@ -149,22 +152,22 @@ fn look_at(halves: &[Half], ids: &[u32], edges: &mut [Edge; BLOCK]) -> usize {
 }
 
 impl Buckets {
-    /// For ids below `points`, and triangles that so many threads find.
+    /// Buckets for ids below `points`, and for triangles that `threads` threads find.
     fn of(points: usize, threads: usize) -> Self {
         let last = points.saturating_sub(1);
         let id_bits = usize::BITS - last.leading_zeros();
-        // Two triangles an id: a chunk of them at least for each thread and bucket.
+        // There are two triangles an id. Each thread and bucket should have at least a chunk of them.
         let least = BUCKET_BITS.max((CHUNK * threads / 2).next_power_of_two().ilog2());
         let bits = least.min(id_bits).max(id_bits.saturating_sub(MOST_BUCKETS_BITS));
         Self { bits, id_bits, count: (last >> bits) + 1 }
     }
 
-    /// Triangles can be packed.
+    /// Whether a triangle fits one word.
     fn fit_a_word(self) -> bool {
         self.bits + 2 * self.id_bits <= u64::BITS
     }
 
-    /// The bits of an id that say which one of its bucket it is.
+    /// The bits of an id that number it inside its bucket.
     #[inline(always)]
     fn mask(self) -> u32 {
         (1 << self.bits) - 1
@@ -172,8 +175,9 @@ impl Buckets {
 
     fn sorted<T: Triangle>(self, halves: Vec<Half>, ids: &[u32], count: usize, threads: usize) -> Vec<[u32; 3]> {
         let own = (halves.len() / 2).div_ceil(threads).max(1) * 2;
-        let found: Vec<Dealt<T>> = in_parallel(halves.chunks(own), |own| self.find(&halves, own, ids, count / threads));
-        // They take the room of the half-edges, which the system has given already.
+        let found: Vec<Bucketed<T>> =
+            in_parallel(halves.chunks(own), |own| self.find(&halves, own, ids, count / threads));
+        // The triangles take the memory of the half-edges, whose pages the system has provided already.
         let mut triangles: Vec<[u32; 3]> = bytemuck::cast_vec(halves);
         triangles.truncate(count);
         let ends = bucket_ends(&found, self.count);
@@ -181,7 +185,7 @@ impl Buckets {
         debug_assert_eq!(ends.last(), Some(&count));
         let mut rest = triangles.as_mut_slice();
         let tasks = runs(&ends, threads).into_iter().map(|run| {
-            let own = rest.split_off_mut(..stretch(&run, &ends).len()).unwrap_or_default();
+            let own = rest.split_off_mut(..items_of(&run, &ends).len()).unwrap_or_default();
             (own, run)
         });
         in_parallel(tasks, |(own, run)| self.sort(&found, own, run));
@@ -189,34 +193,34 @@ impl Buckets {
         triangles
     }
 
-    /// Deals out the triangles of which an edge in a stretch of the half-edges knows. There should be about `expected`.
-    fn find<T: Triangle>(self, halves: &[Half], own: &[Half], ids: &[u32], expected: usize) -> Dealt<T> {
-        let mut dealt = Dealt::new(self.count, expected);
+    /// Distributes the triangles that the edges in a range of the half-edges name, about `expected` of them.
+    fn find<T: Triangle>(self, halves: &[Half], own: &[Half], ids: &[u32], expected: usize) -> Bucketed<T> {
+        let mut bucketed = Bucketed::new(self.count, expected);
         let mut edges = [Edge::default(); BLOCK];
         let mut triangles = [[0; 3]; BLOCK];
         for block in own.chunks(2 * BLOCK) {
             let count = look_at(block, ids, &mut edges);
             let edges = &mut edges[..count];
-            // A loop of its own, with so little in it that the processor waits for many of these at a time.
+            // This loop is short so that the processor has many of its scattered reads under way at a time.
             for edge in &mut *edges {
                 edge.next = halves[edge.next as usize].end & !GAP;
             }
             let mut found = 0;
             for &Edge { smaller, larger, next, is_inside } in &*edges {
                 let third = ids[next as usize];
-                // Written in any case and kept in some: no processor predicts which.
+                // Every triangle is written, and the counter keeps the right ones: no processor would predict a branch.
                 triangles[found] = [smaller, larger, third];
                 found += usize::from(is_inside & (smaller < third));
             }
             for &triangle in &triangles[..found] {
-                dealt.put((triangle[0] >> self.bits) as usize, T::of(triangle, self));
+                bucketed.put((triangle[0] >> self.bits) as usize, T::of(triangle, self));
             }
         }
-        dealt
+        bucketed
     }
 
-    /// Sorts a run of buckets into its stretch of the list.
-    fn sort<T: Triangle>(self, found: &[Dealt<T>], mut rest: &mut [[u32; 3]], run: Range<usize>) {
+    /// Sorts a run of buckets into its range of the list.
+    fn sort<T: Triangle>(self, found: &[Bucketed<T>], mut rest: &mut [[u32; 3]], run: Range<usize>) {
         let mut room = Room { id_ends: vec![0; 1 << self.bits], sorted: Vec::new() };
         for bucket in run {
             let triangles = || found.iter().flat_map(|found| found.chunks(bucket)).flatten().copied();
@@ -231,16 +235,16 @@ impl Buckets {
     }
 }
 
-/// The memory in which buckets are sorted, one after the other.
+/// The memory in which a thread sorts its buckets, one after the other.
 struct Room<T> {
     /// For each id of the bucket, the end of its triangles in `sorted`.
     id_ends: Vec<u32>,
-    /// The triangles of the bucket, then a few more places.
+    /// The triangles of the bucket, then [`FEW`] more places.
     sorted: Vec<T>,
 }
 
 impl<T: Triangle> Room<T> {
-    /// Sorts the triangles of a bucket: by counting for the smallest corner, then the few of each id.
+    /// Sorts the triangles of a bucket by counting their smallest corners, then sorts the few triangles of each id.
     fn sort<I: Iterator<Item = T>>(&mut self, triangles: impl Fn() -> I, buckets: Buckets) -> &[T] {
         let Self { id_ends, sorted } = self;
         id_ends.fill(0);
@@ -263,7 +267,7 @@ impl<T: Triangle> Room<T> {
             if start - own > FEW {
                 sorted[own..start].sort_unstable();
             } else if let Some(few) = sorted[own..].first_chunk_mut() {
-                // There are so many: `sorted` has a few places behind the triangles.
+                // `first_chunk_mut` always succeeds, because `sorted` has `FEW` places behind the triangles.
                 sort_few(few);
             }
         }
@@ -271,8 +275,8 @@ impl<T: Triangle> Room<T> {
     }
 }
 
-/// Sorts a few triangles without branches: no processor predicts how many an id has. Those at the end may be of larger
-/// ids. They are larger, and so are what is behind them, so that each id's stay together.
+/// Sorts four triangles without branches, because no processor predicts how many triangles an id has. The last ones may
+/// belong to larger ids. As these sort behind, the triangles of each id stay together.
 #[inline(always)]
 fn sort_few<T: Ord + Copy>([a, b, c, d]: &mut [T; FEW]) {
     let order = |a: &mut T, b: &mut T| (*a, *b) = ((*a).min(*b), (*a).max(*b));
@@ -287,7 +291,7 @@ fn sort_few<T: Ord + Copy>([a, b, c, d]: &mut [T; FEW]) {
 mod tests {
     use super::super::edges::HALVES;
     use super::super::sites::{sort, Sites};
-    use super::super::{stretches, view::Narrow};
+    use super::super::{segments, view::Narrow};
     use super::*;
     use crate::order::mix;
     use crate::pages;
@@ -299,7 +303,7 @@ mod tests {
         let points: Vec<Point> = (0..6000).map(mix).map(|k| Point::new(k as u32 & 0xffff, k as u32 >> 16)).collect();
         let Sites { sites, ids, .. } = sort(&points, 1);
         let mut halves = pages::zeros(HALVES * sites.len());
-        let whole = stretches::triangulate::<Narrow>(&sites, &mut halves, 1, &mut |_| true).expect("points");
+        let whole = segments::triangulate::<Narrow>(&sites, &mut halves, 1, &mut |_| true).expect("points");
         let hull = hull(&mut halves, &ids, whole.leftmost());
         let (buckets, count) = (Buckets::of(points.len(), 1), 2 * ids.len() - 2 - hull.len());
         let words = buckets.sorted::<Packed>(halves.clone(), &ids, count, 1);
@@ -346,7 +350,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_bucket_is_sorted(counts in prop::collection::vec(0u32..10, 1 << 8), full in 0u32..10, seed in any::<u64>()) {
+        fn a_bucket_is_sorted(
+            counts in prop::collection::vec(0u32..10, 1 << 8),
+            full in 0u32..10,
+            seed in any::<u64>(),
+        ) {
             let buckets = Buckets::of(1 << 8, 1);
             let mut triangles: Vec<[u32; 3]> = Vec::new();
             let counts = counts.into_iter().chain([full]).rev().take(1 << 8);
@@ -355,7 +363,7 @@ mod tests {
             }
             triangles.sort_by_key(|&[a, b, c]| mix(seed ^ u64::from(a << 16 | b << 8 | c)));
             let mut room = Room { id_ends: vec![0; 1 << 8], sorted: Vec::new() };
-            // The second time there is something in the room.
+            // The second part is sorted in memory that still holds the first one.
             for part in [&triangles[..], &triangles[triangles.len() / 2..]] {
                 let mut expected = part.to_vec();
                 expected.sort_unstable();

@@ -1,10 +1,10 @@
 //! Divide and conquer along the Z-curve.
 //!
-//! The points stand in the order of the curve, so every square and half square of the quadtree is a stretch of them.
-//! Where two neighbours first differ, in which bit of which coordinate, says which cut separates them: the tree of cuts
-//! need not be built, a stack of parts that wait for their other half is enough. Cuts alternate between vertical and
-//! horizontal ones, so parts stay compact and the work of all merges is O(n) on even sets; there are at most `2 w` cuts
-//! above a point, so it is O(n w) on any.
+//! The points stand in the order of the curve, so every square and half square of the quadtree is a range of them. The
+//! highest bit in which two neighbours differ, of x or of y, says which cut separates them. So the tree of cuts need
+//! not be built: a stack of parts that wait for their other half is enough. Cuts alternate between vertical and
+//! horizontal ones, so parts stay compact and the work of all merges is O(n) on even sets. With coordinates of `w` bits
+//! there are at most `2 w` cuts above a point, so the work is O(n w) on any set.
 
 use alloc::vec::Vec;
 
@@ -12,14 +12,15 @@ use super::edges::{Edges, Half};
 use super::merge::{Cut, Part};
 use super::view::{Site, Width};
 
-/// Most parts that wait at a time: one for each bit of both coordinates, and the one that comes.
+/// Most parts that wait at a time: one for each bit of both coordinates, and the new one.
 const DEPTH: usize = 64;
-/// Above all cuts.
+/// A level above all cuts, for both ends of the curve.
 const TOP: u32 = u32::MAX;
-/// Vertices between two looks at the clock.
+/// Vertices between two questions whether the work goes on.
 const SLICE: usize = 1 << 15;
 
-/// The height in the tree of the cut between two neighbours: each bit of x, then of y, from the lowest on; odd for x.
+/// The level, in the tree of cuts, of the cut between two sites. Levels rise with the bit in which the sites differ,
+/// and for the same bit a cut of x is above a cut of y. Levels of x are odd.
 #[inline(always)]
 pub(super) fn level(one: Site, other: Site) -> u32 {
     let bits = |one: i32, other: i32| u32::BITS - ((one ^ other) as u32).leading_zeros();
@@ -32,10 +33,12 @@ pub(super) fn level_after(sites: &[Site], v: usize) -> u32 {
     sites.get(v..v + 2).map_or(TOP, |pair| level(pair[0], pair[1]))
 }
 
-/// Whether the work goes on, asked from time to time with the number of vertices done since the last time.
+/// A function that says whether the work goes on. Called from time to time with the number of vertices done
+/// since the previous call.
 pub(super) type GoOn<'a> = &'a mut dyn FnMut(usize) -> bool;
 
-/// Parts that wait for their other halves, each with the level of the cut after it. Levels fall towards the end.
+/// The stack of parts that wait for their other halves, each with the level of the cut after it. Levels fall towards
+/// the top of the stack.
 pub(super) struct Waiting(Vec<(Part, u32)>);
 
 impl Waiting {
@@ -43,7 +46,7 @@ impl Waiting {
         Self(Vec::with_capacity(DEPTH))
     }
 
-    /// Takes the next part, and joins what is below the cut after it.
+    /// Pushes the next part, after joining it with all waiting parts that lie below the cut `above`, which follows it.
     #[inline(always)]
     pub(super) fn take<W: Width>(&mut self, edges: &mut Edges<'_>, mut part: Part, above: u32) {
         while let Some((one, between)) = self.0.pop_if(|(_, between)| *between < above) {
@@ -53,19 +56,20 @@ impl Waiting {
         self.0.push((part, above));
     }
 
-    /// The part of all, after the last one.
+    /// The part of all vertices, once the last part has been pushed.
     pub(super) fn whole(mut self) -> Option<Part> {
         self.0.pop().map(|(part, _)| part)
     }
 }
 
-/// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread. `None` if there are none,
-/// or if the work shall not go on.
+/// Triangulates the distinct sites of a subtree, which stand along the curve, on this thread. Returns `None` if there
+/// are no sites, or if `go_on` ends the work.
 pub(super) fn conquer<W: Width>(sites: &[Site], halves: &mut [Half], go_on: GoOn<'_>) -> Option<Part> {
     let mut edges = Edges { sites, halves };
     let mut waiting = Waiting::new();
     let (mut v, mut asked) = (0, 0);
-    // The levels of the cut before vertex `v`, and of those after it, after the next and the one after that.
+    // `before` is the level of the cut before vertex `v`; `after` has the levels of the cuts after `v`,
+    // `v + 1` and `v + 2`.
     let mut before = TOP;
     let mut after = [0, 1, 2].map(|ahead| level_after(sites, ahead));
     while v < sites.len() {
@@ -87,8 +91,8 @@ pub(super) fn conquer<W: Width>(sites: &[Site], halves: &mut [Half], go_on: GoOn
 }
 
 impl Edges<'_> {
-    /// The largest square or half square that begins with vertex `v` and has up to three vertices, and how many: given
-    /// the cuts around them. Three on a line are left to merges.
+    /// Triangulates the largest square or half square that begins with vertex `v` and has up to three vertices, and
+    /// counts these, given the levels of the cuts around them. Three vertices on a line are left to merges.
     #[inline(always)]
     fn leaf(&mut self, v: u32, before: u32, after: [u32; 3]) -> (Part, usize) {
         if after[0].max(after[1]) < before.min(after[2]) {

@@ -1,9 +1,9 @@
-//! The subdivision: half-edges in pairs, with the ring of half-edges around each vertex (Guibas and Stolfi 1985,
-//! without the dual).
+//! The subdivision of the plane: half-edges in pairs, linked into a circle around each vertex (Guibas and Stolfi
+//! 1985, without the dual).
 //!
 //! Half-edge `e` leads to its `end`; `e ^ 1` is the other half and leads back. Around a vertex, `next` is the next
 //! half-edge counter-clockwise and `previous` the next one clockwise. `n` points never have more than `3 n` edges, so
-//! vertex `v` brings the six half-edges from `6 v` on: a part of the plane owns a stretch of the list, nothing is
+//! vertex `v` brings the six half-edges from `6 v` on: a part of the plane owns a range of the list, nothing is
 //! allocated, and neighbours in the plane are neighbours in memory.
 
 use bytemuck::{Pod, Zeroable};
@@ -13,10 +13,10 @@ use super::view::Site;
 /// Half-edges that a vertex brings.
 pub(super) const HALVES: usize = 6;
 
-/// No half-edge.
+/// Stands for the absence of a half-edge.
 const NONE: u32 = u32::MAX;
 
-/// End of half-edges that are not in use.
+/// The `end` of half-edges that are not in use.
 const UNUSED: u32 = u32::MAX;
 
 /// One half of an edge.
@@ -27,7 +27,7 @@ pub(super) struct Half {
     pub(super) next: u32,
     /// The next half-edge of this origin, clockwise.
     pub(super) previous: u32,
-    /// The vertex that it leads to.
+    /// The vertex that the half-edge leads to.
     pub(super) end: u32,
 }
 
@@ -37,8 +37,8 @@ impl Half {
         self.end != UNUSED
     }
 
-    /// Adds `by` to the numbers of half-edges and `vertices` to those of vertices: the part becomes a part of a longer
-    /// list.
+    /// Renumbers the half-edge for a longer list: adds `by` to the numbers of half-edges and `vertices`
+    /// to those of vertices.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub(super) fn move_by(&mut self, by: u32, vertices: u32) {
@@ -48,7 +48,7 @@ impl Half {
     }
 }
 
-/// The number of a half-edge plus `by`; no half-edge stays none.
+/// The number of a half-edge plus `by`; [`NONE`] stays as it is.
 #[cfg(feature = "std")]
 #[inline(always)]
 pub(super) fn moved(e: u32, by: u32) -> u32 {
@@ -59,14 +59,14 @@ pub(super) fn moved(e: u32, by: u32) -> u32 {
     }
 }
 
-/// Unused pairs, linked.
+/// A linked list of unused pairs of half-edges.
 #[derive(Clone, Copy)]
 pub(super) struct Free {
     pub(super) first: u32,
     pub(super) last: u32,
 }
 
-/// The points of a stretch and the half-edges between them. Numbers of both count from the start of the stretch.
+/// The sites of a segment and the half-edges between them, both numbered from the start of the segment.
 pub(super) struct Edges<'a> {
     pub(super) sites: &'a [Site],
     pub(super) halves: &'a mut [Half],
@@ -124,7 +124,7 @@ impl Edges<'_> {
         self.site(self.end(e))
     }
 
-    /// The half-edges of a single vertex: a pair that begins and ends at it, alone in its ring.
+    /// Makes the half-edges of a single vertex: a pair that begins and ends at the vertex, each alone in its circle.
     #[inline(always)]
     pub(super) fn start_vertex(&mut self, v: u32) -> (u32, Free) {
         let first = HALVES as u32 * v;
@@ -134,7 +134,7 @@ impl Edges<'_> {
         (first, unused(&mut own[2..], first + 2))
     }
 
-    /// The half-edges of two vertices, `v` and the next one: an edge between them.
+    /// Makes the half-edges of two vertices, `v` and the next one: an edge between them.
     #[inline(always)]
     pub(super) fn start_edge(&mut self, v: u32) -> (u32, Free) {
         let first = HALVES as u32 * v;
@@ -144,8 +144,8 @@ impl Edges<'_> {
         (first, unused(&mut own[2..], first + 2))
     }
 
-    /// The half-edges of three vertices from `v` on: the triangle that they form in this counter-clockwise order. Its
-    /// edges leave them in this order, a pair each.
+    /// Makes the half-edges of three vertices from `v` on: a triangle with these corners, counter-clockwise. The first
+    /// half-edge of each pair leaves the corners in this order.
     #[inline(always)]
     pub(super) fn start_triangle(&mut self, v: u32, [a, b, c]: [u32; 3]) -> (u32, Free) {
         let first = HALVES as u32 * v;
@@ -155,7 +155,7 @@ impl Edges<'_> {
         (first, unused(&mut own[6..], first + 6))
     }
 
-    /// Puts half-edge `e`, which leads to `end`, between two neighbours of its ring.
+    /// Puts half-edge `e`, which leads to `end`, between two neighbours of the circle around its origin.
     #[inline(always)]
     pub(super) fn insert(&mut self, e: u32, end: u32, previous: u32, next: u32) {
         self.halves[previous as usize].next = e;
@@ -163,13 +163,13 @@ impl Edges<'_> {
         self.halves[e as usize] = Half { next, previous, end };
     }
 
-    /// Makes half-edge `e`, which leads to `end`, the only one of its origin.
+    /// Makes half-edge `e`, which leads to `end`, the only half-edge of its origin.
     #[inline(always)]
     pub(super) fn alone(&mut self, e: u32, end: u32) {
         self.halves[e as usize] = Half { next: e, previous: e, end };
     }
 
-    /// Takes an unused pair. There is one: a plane graph has fewer edges than three times its vertices.
+    /// Takes an unused pair. There is always one, because a plane graph has fewer edges than three times its vertices.
     #[inline(always)]
     pub(super) fn take(&mut self, free: &mut Free) -> u32 {
         let pair = free.first;
@@ -177,7 +177,7 @@ impl Edges<'_> {
         pair
     }
 
-    /// Takes an edge out of both rings; its pair is unused then.
+    /// Takes an edge out of the circles around both its ends, and makes its pair unused.
     #[inline(always)]
     pub(super) fn remove(&mut self, e: u32, free: &mut Free) {
         for half in [e, e ^ 1] {
@@ -188,7 +188,7 @@ impl Edges<'_> {
         self.give(e & !1, free);
     }
 
-    /// Gives a pair back.
+    /// Returns a pair to the unused ones.
     #[inline(always)]
     pub(super) fn give(&mut self, pair: u32, free: &mut Free) {
         self.halves[pair as usize] = Half { next: free.first, previous: NONE, end: UNUSED };
@@ -199,7 +199,7 @@ impl Edges<'_> {
         free.first = pair;
     }
 
-    /// Both lists as one.
+    /// Joins two lists of unused pairs.
     #[inline(always)]
     pub(super) fn join(&mut self, one: Free, other: Free) -> Free {
         if one.first == NONE {
@@ -210,7 +210,7 @@ impl Edges<'_> {
     }
 }
 
-/// Links all pairs of a stretch that begins with half-edge `first`.
+/// Links all pairs of a range that begins with half-edge `first` into a list of unused pairs.
 #[inline(always)]
 fn unused(own: &mut [Half], first: u32) -> Free {
     let last = first + own.len() as u32 - 2;

@@ -1,31 +1,31 @@
-//! Two triangulations on both sides of a line become one (Guibas and Stolfi 1985).
+//! The merge of two triangulations on both sides of a line (Guibas and Stolfi 1985).
 
 #[cfg(feature = "std")]
 use super::edges::{moved, Half, HALVES};
 use super::edges::{Edges, Free};
 use super::view::{incircle, orient2d, Seen, Site, Width};
 
-/// The triangulation of some points: its outermost vertices, each as the half-edge that leaves it counter-clockwise
-/// along the hull.
+/// The triangulation of a subset of the points, known by its outermost vertices. Each of those is given as the
+/// half-edge that leaves it counter-clockwise along the hull.
 #[derive(Clone, Copy)]
 pub(super) struct Part {
-    /// Smallest x, then y.
+    /// At the vertex of smallest x, and of smallest y among those.
     left: u32,
-    /// Largest x, then y.
+    /// At the vertex of largest x, and of largest y among those.
     right: u32,
-    /// Smallest y, then x.
+    /// At the vertex of smallest y, and of smallest x among those.
     bottom: u32,
-    /// Largest y, then x.
+    /// At the vertex of largest y, and of largest x among those.
     top: u32,
-    /// Half-edges for more edges.
+    /// Unused half-edges for more edges.
     free: Free,
-    /// The part is a single vertex, and its half-edge leads nowhere.
+    /// Whether the part is a single vertex, whose half-edge leads back to it.
     is_vertex: bool,
 }
 
 impl Part {
-    /// The part after its half-edges, numbered from the start of a stretch, are numbered from the start of all, where
-    /// the stretch begins with vertex `first`.
+    /// Renumbers the half-edges of a segment, which begins with vertex `first`, from the start of all; returns the part
+    /// with the new numbers.
     #[cfg(feature = "std")]
     pub(super) fn moved(self, halves: &mut [Half], first: u32) -> Self {
         let by = HALVES as u32 * first;
@@ -37,7 +37,7 @@ impl Part {
         Self { left: left + by, right: right + by, bottom: bottom + by, top: top + by, free, is_vertex }
     }
 
-    /// The half-edge that leaves the leftmost vertex along the hull.
+    /// The half-edge that leaves the leftmost vertex counter-clockwise along the hull.
     pub(super) fn leftmost(&self) -> u32 {
         self.left
     }
@@ -46,14 +46,14 @@ impl Part {
 /// The cut between two parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
-    /// The first lies to the left of the second: all its x are smaller.
+    /// The first part lies to the left of the second: all its x are smaller.
     Vertical,
-    /// The first lies below the second: all its y are smaller.
+    /// The first part lies below the second: all its y are smaller.
     Horizontal,
 }
 
-/// The base edge: it runs from `a` in the first part to `b` in the second one, and all that is left to do lies to its
-/// left.
+/// The base edge, from `a` in the first part to `b` in the second. The gap that is still to be filled lies to the left
+/// of the base edge.
 #[derive(Clone, Copy)]
 struct Base {
     /// The half of the base edge that begins at `a`.
@@ -64,7 +64,8 @@ struct Base {
     b: u32,
 }
 
-/// The end of an edge that may become a corner of the next triangle.
+/// A vertex of one part that may become the third corner of the next triangle: the end of `edge`, which begins
+/// at `a` or `b`.
 #[derive(Clone, Copy)]
 struct Candidate {
     edge: u32,
@@ -73,7 +74,7 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// Whether the point lies to the left of the base edge.
+    /// Whether the vertex lies to the left of the base edge.
     #[inline(always)]
     fn is_valid(&self) -> bool {
         self.seen.view.cross > 0
@@ -81,14 +82,14 @@ impl Candidate {
 }
 
 impl Edges<'_> {
-    /// The part of one vertex.
+    /// Makes the part of one vertex.
     #[inline(always)]
     pub(super) fn vertex(&mut self, v: u32) -> Part {
         let (own, free) = self.start_vertex(v);
         Part { left: own, right: own, bottom: own, top: own, free, is_vertex: true }
     }
 
-    /// The part of two vertices, `v` and the next one.
+    /// Makes the part of two vertices, `v` and the next one.
     #[inline(always)]
     pub(super) fn edge(&mut self, v: u32) -> Part {
         let (own, free) = self.start_edge(v);
@@ -98,7 +99,7 @@ impl Edges<'_> {
         Part { left: by_x, right: by_x ^ 1, bottom: by_y, top: by_y ^ 1, free, is_vertex: false }
     }
 
-    /// The part of three vertices, `v` and the next two; `None` if they lie on one line.
+    /// Makes the part of three vertices, `v` and the next two; `None` if they lie on one line.
     #[inline(always)]
     pub(super) fn triangle(&mut self, v: u32) -> Option<Part> {
         let at = |k: u32| self.site(v + k);
@@ -109,7 +110,7 @@ impl Edges<'_> {
         let (second, third) = if area > 0 { (1, 2) } else { (2, 1) };
         let corners = [at(0), at(second), at(third)];
         let (own, free) = self.start_triangle(v, [v, v + second, v + third]);
-        // Each corner's half-edge along the hull is the first one of a pair.
+        // The half-edge of each corner along the hull is the first one of a pair: 0, 2 and 4 from `own` on.
         let least = |keys: [Site; 3]| {
             let (key, place) = if keys[1] < keys[0] { (keys[1], 2) } else { (keys[0], 0) };
             own + if keys[2] < key { 4 } else { place }
@@ -123,12 +124,13 @@ impl Edges<'_> {
         Some(Part { left, right, bottom, top, free, is_vertex: false })
     }
 
-    /// Joins two parts, of which one at least has an edge.
+    /// Joins two parts, at least one of which has an edge.
     pub(super) fn merge<W: Width>(&mut self, one: Part, other: Part, cut: Cut) -> Part {
         debug_assert!(!(one.is_vertex && other.is_vertex), "the pair of one would be lost");
         let mut free = self.join(one.free, other.free);
         let first = self.lower_tangent(&one, &other, cut, &mut free);
-        // Their half-edges may be gone after the next line, where they are the ends of the first or the last base edge.
+        // `zip` may remove the half-edges of vertices that are ends of the first or the last base edge. The vertices
+        // stay, so both are remembered, and such a half-edge is replaced by that of the base edge.
         let outermost = self.outermost(&one, &other, cut).map(|e| (e, self.origin(e)));
         let last = self.zip::<W>(first, &mut free);
         let [left, right, bottom, top] = outermost.map(|(e, vertex)| {
@@ -142,15 +144,15 @@ impl Edges<'_> {
         Part { left, right, bottom, top, free, is_vertex: false }
     }
 
-    /// The first base edge: all points of both parts lie on its line or to its left.
+    /// Makes the first base edge. All points of both parts lie on its line or to its left.
     #[inline(always)]
     fn lower_tangent(&mut self, one: &Part, other: &Part, cut: Cut, free: &mut Free) -> Base {
         let (facing, mut rdi) = match cut {
             Cut::Vertical => (one.right, other.left),
             Cut::Horizontal => (one.top, other.bottom),
         };
-        // Half-edges along the hulls: of the first part clockwise, of the other one counter-clockwise. That of a single
-        // vertex ends where it begins, and nothing turns around it.
+        // `ldi` runs clockwise along the hull of the first part, `rdi` counter-clockwise along that of the other one.
+        // The half-edge of a single vertex ends where it begins, so its predicate is zero and it never moves.
         let mut ldi = self.previous(facing);
         let (mut a, mut b) = (self.from(ldi), self.from(rdi));
         loop {
@@ -167,7 +169,8 @@ impl Edges<'_> {
         self.first_edge((ldi, one.is_vertex), (rdi, other.is_vertex), free)
     }
 
-    /// The edge between the origins of two half-edges along the hulls. A single vertex has a pair for it already.
+    /// Makes the edge between the origins of two half-edges along the hulls. A single vertex already has a
+    /// pair for the edge.
     #[inline(always)]
     fn first_edge(
         &mut self,
@@ -195,7 +198,7 @@ impl Edges<'_> {
         Base { at_a, at_b, a, b }
     }
 
-    /// Fills the gap from the first base edge on; returns the last one.
+    /// Fills the gap with triangles from the first base edge on; returns the last base edge.
     #[inline(always)]
     fn zip<W: Width>(&mut self, mut base: Base, free: &mut Free) -> Base {
         loop {
@@ -211,8 +214,8 @@ impl Edges<'_> {
         }
     }
 
-    /// The first point of one part, the first one if `OF_A`, that a circle through `a` and `b` meets as it grows to the
-    /// left; edges of that part's end of the base that are in the way are removed.
+    /// Finds the first vertex of one part that a circle through `a` and `b` meets as it grows to the left, and removes
+    /// the edges at `a` or `b` that cross the new triangle. The part is the first one if `OF_A`, else the second.
     #[inline(always)]
     fn candidate<W: Width, const OF_A: bool>(&mut self, base: Base, a: Site, b: Site, free: &mut Free) -> Candidate {
         let mut edge = if OF_A { self.next(base.at_a) } else { self.previous(base.at_b) };
@@ -230,7 +233,7 @@ impl Edges<'_> {
         Candidate { edge, end, seen }
     }
 
-    /// The half-edge further from the base around the same vertex, and the end of this one.
+    /// The next half-edge around the same vertex, away from the base edge, and the end of the given half-edge.
     #[inline(always)]
     fn beside<const OF_A: bool>(&self, edge: u32) -> (u32, u32) {
         if OF_A {
@@ -240,14 +243,15 @@ impl Edges<'_> {
         }
     }
 
-    /// The next base edge: from `a` to the end of `other`, or from the end of `one` to `b`. Selections instead of
-    /// branches: no processor predicts which one it is.
+    /// Makes the next base edge: from `a` to the end of `other`, or from the end of `one` to `b`. The code selects
+    /// instead of branching, because no processor predicts which of the two it is.
     #[inline(always)]
     fn connect(&mut self, base: Base, one: Candidate, other: Candidate, other_is_next: bool, free: &mut Free) -> Base {
         let select = |if_other: u32, if_one: u32| if other_is_next { if_other } else { if_one };
         let pair = self.take(free);
         let (at_kept, at_corner) = (pair, pair ^ 1);
-        // The half-edge from the new corner back to `a` or `b`; the new one stands beside it, on the side of the base.
+        // `back` leads from the new corner to `a` or `b`. The new half-edge stands beside `back`, on the
+        // side of the base.
         let back = select(other.edge, one.edge) ^ 1;
         let (corner, kept) = (select(other.end, one.end), select(base.a, base.b));
         let (next, previous) = (self.next(back), self.previous(back));
@@ -261,7 +265,7 @@ impl Edges<'_> {
         }
     }
 
-    /// The outermost vertices of both parts together: left, right, bottom, top.
+    /// The half-edges of the outermost vertices of both parts together: left, right, bottom, top.
     #[inline(always)]
     fn outermost(&self, one: &Part, other: &Part, cut: Cut) -> [u32; 4] {
         let by_x = |e: u32| self.from(e);

@@ -1,34 +1,42 @@
-//! The engine: the fastest way to the mesh on a processor, by divide and conquer with exact integers, on any number of
-//! threads.
+//! The CPU triangulator: divide and conquer with exact integers, on any number of threads.
 //!
-//! [`triangulate`] is the whole of it. The mesh is the one that every device gives, byte for byte, since there is only
-//! one.
+//! [`triangulate`] does it all: points in, the canonical mesh out. The mesh is the one that every device gives, byte
+//! for byte, because there is only one. Use the CPU triangulator whenever you want the mesh and not the hardware; it is
+//! the fastest back end of a usual computer.
 //!
-//! How it works, file by file: points are sorted along a Z-curve (`sites`), which is the tree that they are divided by
-//! (`conquer`, on several threads `stretches`); two parts are joined along their common border (`merge`, `edges`), with
-//! predicates that never round, in which the tie rule enters (`view`); edges in the order of the curve name the
-//! triangles, which are sorted (`collect`). Before they are sorted, points and triangles are dealt to buckets, each of
-//! which is sorted in the cache (`deal`).
+//! The algorithm is that of Guibas and Stolfi, *Primitives for the manipulation of general subdivisions and the
+//! computation of Voronoi diagrams*, 1985, with alternating cuts (Dwyer, *A faster divide-and-conquer algorithm for
+//! constructing Delaunay triangulations*, 1987). File by file:
 //!
-//! Lawson's and Delaunay's theorems make the joined parts right for any lifting of the points onto a strictly convex
-//! surface, and the tie rule is one: the paraboloid, each point lowered by an amount that is infinitely small, and
-//! infinitely smaller than that of all lexicographically smaller ones. So the tie rule need not be restored at the end:
-//! every part, at every moment, is canonical.
+//! 1. `sites` sorts the points along a Z-curve, whose quadrants form the tree of cuts.
+//! 2. `conquer` triangulates the parts of that tree from the leaves up, and `segments` does so on several threads.
+//! 3. `merge` joins two parts along their common border, on the half-edges of `edges`, with the predicates of `view`,
+//!    which never round and contain the tie rule.
+//! 4. `collect` finds the triangles at the edges, in the order of the curve, and sorts them.
+//!
+//! Before points and triangles are sorted, `buckets` distributes them to buckets that are small enough to be
+//! sorted in the cache.
+//!
+//! **Why the tie rule needs no step of its own.** Lawson's and Delaunay's theorems make the joined parts right
+//! for any lifting of the points onto a strictly convex surface, and the tie rule is such a lifting: the
+//! paraboloid, with each point lowered by an amount that is infinitely small, and infinitely smaller than the
+//! amounts of all lexicographically smaller points. So the tie rule need not be restored at the end: every part,
+//! at every moment, is canonical.
 
+mod buckets;
 mod collect;
 mod conquer;
-mod deal;
 mod edges;
-mod engine;
 mod merge;
 #[cfg(test)]
 mod oracle;
 mod parallel;
-mod sites;
 #[cfg(feature = "std")]
-mod stretches;
+mod segments;
+mod sites;
 #[cfg(test)]
 mod tests;
+mod triangulator;
 mod view;
 
-pub use engine::{threads_for, triangulate, Error, Progress, Stage, Watch};
+pub use triangulator::{threads_for, triangulate, Error, Progress, Stage, Watch};

@@ -1,11 +1,11 @@
-//! The whole engine against the definition of the mesh, and what a watch hears.
+//! Tests of the whole CPU triangulator against the definition of the mesh, and of the progress that a watch hears.
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
 use incircle_testkit::{delaunay, SplitMix64};
 
-use super::engine::{threads_for, triangulate, Error, Progress, Stage};
+use super::triangulator::{threads_for, triangulate, Error, Progress, Stage};
 use crate::mesh::Mesh;
 use crate::point::{Point, MAX_COORD_BITS};
 
@@ -70,7 +70,7 @@ fn a_watch_hears_all_stages_in_order_and_can_end_each() {
             }
             None => ControlFlow::Break(()),
         });
-        // Two threads tell of other numbers between the stages, and perhaps fewer times.
+        // Two threads report other numbers between the stages, and perhaps less often.
         match found {
             Err(Error::Cancelled(at)) => assert!(at.total == last.total || at.stage != last.stage, "{at:?}, {last:?}"),
             other => assert!(other.is_ok() && place > 3, "{place}: {other:?}"),

@@ -1,11 +1,12 @@
-//! Work on several threads; without `std`, on the one that there is.
+//! Work on several threads, or without `std` on the caller's thread.
 
 use alloc::vec::Vec;
 #[cfg(feature = "std")]
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The results of all items, in their order, worked out on as many threads as there are items, this one among them. If
-/// the system will not start a thread, the threads that did start share its work.
+/// Applies `work` to all items and returns the results in the order of the items. The number of threads is
+/// that of the items, the calling thread included. If the system will not start a thread, the threads that did
+/// start share its work.
 #[cfg(feature = "std")]
 pub(super) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     use std::panic::resume_unwind;
@@ -28,13 +29,14 @@ pub(super) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work
     results.into_iter().map(|(_, result)| result).collect()
 }
 
-/// The results of all items, in their order.
+/// Applies `work` to all items, one after the other, and returns the results in the order of the items.
 #[cfg(not(feature = "std"))]
 pub(super) fn in_parallel<T: Send, R: Send>(items: impl Iterator<Item = T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     items.map(work).collect()
 }
 
-/// A thread that panics ends the whole, so nobody sees what it left.
+/// Locks a mutex, even if a thread panicked with it. A panic of one thread ends the whole work, so nobody sees what
+/// that thread left in the mutex.
 #[cfg(feature = "std")]
 pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)

@@ -1,15 +1,15 @@
-//! The distinct points along the Z-curve, which is what the engine divides by.
+//! The distinct points along the Z-curve, by which the CPU triangulator divides the plane.
 //!
-//! The leading bits of a point's position on the curve name its bucket, a cell of the plane. The other bits and the
-//! index of the point make one word, and each bucket of words is sorted by itself. Where both do not fit 64 bits the
-//! last bits of the position are left out: words that agree in the others are sorted by those once more, for which
-//! their points are looked up.
+//! The leading bits of a point's position on the curve name its bucket, which is a cell of the plane. The other bits
+//! and the index of the point make one word, and each bucket of words is sorted by itself. If both do not fit 64 bits,
+//! the word leaves out the last bits of the position. Words that agree in the bits they have are then sorted once more,
+//! by the missing bits, for which their points are looked up.
 
 use alloc::vec::Vec;
 
 use bytemuck::Zeroable;
 
-use super::deal::{bucket_ends, runs, stretch, Dealt, CHUNK, MOST_BUCKETS_BITS};
+use super::buckets::{bucket_ends, items_of, runs, Bucketed, CHUNK, MOST_BUCKETS_BITS};
 use super::parallel::in_parallel;
 use super::view::Site;
 use crate::order::z_curve::{point_at, position};
@@ -18,29 +18,30 @@ use crate::point::Duplicate;
 use crate::point::Point;
 use crate::sort::{sort_by_key, Keyed, SMALL};
 
-/// Bits of a word that are sorted at a time: three digits of the radix sort of a usual bucket, enough to tell nearly
-/// all its points apart.
+/// Bits of a word that are sorted at a time: three digits of the radix sort of a usual bucket, enough to distinguish
+/// nearly all its points.
 const KEY_BITS: u32 = 24;
-/// Points of a bucket, where there are several, as many to twice as many on average if points are even: 16 to 32 kB,
-/// and as much again to sort them, which is near what a first-level cache holds.
+/// Points of a bucket on average, if there are several buckets and the points are even: this number to twice as many,
+/// unless many threads or very many points ask for larger buckets. Such a bucket takes 16 to 32 kB, and as much again
+/// to be sorted, which is near what a first-level cache holds.
 const BUCKET: usize = 2048;
 
-/// The distinct points, sorted.
+/// The distinct points of a set, sorted along the Z-curve.
 pub(super) struct Sites {
-    /// Along the Z-curve, seen from the lower left corner of all.
+    /// The coordinates, counted from the lower left corner of the bounding box.
     pub(super) sites: Vec<Site>,
-    /// The input index of each: the lowest of its place.
+    /// The input index of each site: the lowest of all points at its place.
     pub(super) ids: Vec<u32>,
-    /// Points that fell onto an earlier one, in any order.
+    /// Points with the coordinates of an earlier one, in any order.
     pub(super) duplicates: Vec<Duplicate>,
-    /// Bits of a coordinate of `sites`.
+    /// The number of bits of a coordinate of `sites`.
     pub(super) bits: u32,
 }
 
-/// A point of the grid as a word to sort by, and where it comes from.
+/// A point as a word to sort by.
 ///
-/// From the top: the position on the curve without the bits that the bucket says, as many as there is room for; the
-/// index of the point.
+/// From the top, the word has the position on the curve without the bits that name the bucket, as far as there is room,
+/// then the index of the point.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
 struct Placed(u64);
 
@@ -50,7 +51,7 @@ impl Keyed for Placed {
     }
 }
 
-/// Sorts words by their leading bits, then those that agree in them by the others.
+/// Sorts words by their leading bits, then sorts those that agree in the leading bits by the other bits.
 fn sort_words(words: &mut Vec<Placed>) {
     if words.len() < SMALL {
         return words.sort_unstable();
@@ -70,23 +71,22 @@ fn sort_words(words: &mut Vec<Placed>) {
     }
 }
 
-/// The window onto the grid that the points are in, and the curve through it: positions count from its lower left
-/// corner.
+/// The bounding box of the points and the curve through it, with positions counted from its lower left corner.
 #[derive(Clone, Copy)]
 struct Curve {
     corner: Point,
-    /// Bits of a coordinate seen from the corner.
+    /// The number of bits of a coordinate counted from the corner.
     bits: u32,
-    /// Leading bits of a position, which say the bucket.
+    /// The number of leading bits of a position, which name the bucket.
     bucket_bits: u32,
-    /// The other bits of a position. At least one, which is zero where all points are at one place.
+    /// The number of the other bits of a position: at least one, which is zero if all points are at one place.
     rest_bits: u32,
-    /// Bits of an index.
+    /// The number of bits of an index.
     index_bits: u32,
 }
 
 impl Curve {
-    /// For points that so many threads deal.
+    /// The curve for these points, with buckets for `threads` threads.
     fn of(points: &[Point], threads: usize) -> Self {
         let none = (Point::new(u32::MAX, u32::MAX), Point::new(0, 0));
         let (corner, far) = points.iter().fold(none, |(low, high), p| {
@@ -106,13 +106,13 @@ impl Curve {
         1 << self.bucket_bits
     }
 
-    /// The position of a point: its coordinates' bits in turn, x first.
+    /// The position of a point on the curve: the bits of its coordinates in turn, x first.
     #[inline(always)]
     fn position(&self, point: Point) -> u64 {
         position(point.x - self.corner.x, point.y - self.corner.y)
     }
 
-    /// The point, seen from the corner.
+    /// The point with its coordinates counted from the corner.
     #[inline(always)]
     fn site(&self, point: Point) -> Site {
         Point::new(point.x - self.corner.x, point.y - self.corner.y).into()
@@ -130,38 +130,39 @@ impl Curve {
         (1 << self.index_bits) - 1
     }
 
-    /// Positions stand whole in the words.
+    /// Whether the words have whole positions.
     fn is_exact(&self) -> bool {
         self.rest_bits + self.index_bits <= u64::BITS
     }
 
-    /// The word of a point that has this position.
+    /// The word of the point at this position.
     #[inline(always)]
     fn placed(&self, position: u64, index: u64) -> Placed {
         Placed(self.rest(position) & !self.indices() | index)
     }
 
-    /// The word for a second sort, where words are not exact: with the bits of the position that those leave out. They fit: `rest_bits` is
-    /// at most 62, an index has 29.
+    /// The word for the second sort, if words are not exact: the bits of the position that the first word left out, and
+    /// the index. Both fit one word, because `rest_bits` is at most 62 and an index has at most 29 bits.
     fn placed_finely(&self, position: u64, index: u64) -> Placed {
         let missing = self.rest_bits + self.index_bits - u64::BITS;
         Placed(position << (u64::BITS - missing) | index)
     }
 
-    /// Deals points, the first of which has this index, to the cells that their leading bits name.
-    fn deal(&self, points: &[Point], first: usize) -> Dealt<Placed> {
-        let mut dealt = Dealt::new(self.buckets(), points.len());
+    /// Distributes points to the buckets that their leading bits name. The first point has the index `first`.
+    fn distribute(&self, points: &[Point], first: usize) -> Bucketed<Placed> {
+        let mut bucketed = Bucketed::new(self.buckets(), points.len());
         for (&point, index) in points.iter().zip(first as u64..) {
             let position = self.position(point);
-            dealt.put((position >> self.rest_bits) as usize, self.placed(position, index));
+            bucketed.put((position >> self.rest_bits) as usize, self.placed(position, index));
         }
-        dealt
+        bucketed
     }
 }
 
-/// Sorts the points along the curve and takes duplicates out, on so many threads. O(n), by radix: points are dealt to
-/// cells of [`BUCKET`] points or some more, if they are even, and each cell is sorted by itself. A thread has whole
-/// cells, so threads help less where most points are in few of them.
+/// Sorts the points along the curve and takes duplicates out, on `threads` threads.
+///
+/// O(n), by radix: points are distributed to buckets of [`BUCKET`] points or somewhat more, if the set is even, and
+/// each bucket is sorted by itself. A thread has whole buckets, so threads help less if most points are in few of them.
 pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
     let curve = Curve::of(points, threads);
     let mut all = Sites {
@@ -171,11 +172,11 @@ pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
         bits: curve.bits,
     };
     let share = points.len().div_ceil(threads).max(1);
-    let dealt = in_parallel(points.chunks(share).enumerate(), |(place, own)| curve.deal(own, share * place));
-    let ends = bucket_ends(&dealt, curve.buckets());
+    let bucketed = in_parallel(points.chunks(share).enumerate(), |(place, own)| curve.distribute(own, share * place));
+    let ends = bucket_ends(&bucketed, curve.buckets());
     let (mut sites, mut ids) = (all.sites.as_mut_slice(), all.ids.as_mut_slice());
     let tasks = runs(&ends, threads).into_iter().map(|run| {
-        let room = ..stretch(&run, &ends).len();
+        let room = ..items_of(&run, &ends).len();
         let sites = sites.split_off_mut(room).unwrap_or_default();
         let ids = ids.split_off_mut(room).unwrap_or_default();
         (run, Kept { sites, ids, count: 0, duplicates: Vec::new() })
@@ -185,7 +186,7 @@ pub(super) fn sort(points: &[Point], threads: usize) -> Sites {
         let mut words = Vec::new();
         for bucket in run {
             words.clear();
-            dealt.iter().flat_map(|own| own.chunks(bucket)).for_each(|chunk| words.extend_from_slice(chunk));
+            bucketed.iter().flat_map(|own| own.chunks(bucket)).for_each(|chunk| words.extend_from_slice(chunk));
             sort_words(&mut words);
             if curve.is_exact() {
                 kept.take_exact(&words, bucket as u64, curve);
@@ -208,7 +209,7 @@ struct Kept<'a> {
 }
 
 impl Kept<'_> {
-    /// Takes the words of a bucket, sorted, which have the whole position.
+    /// Takes the sorted words of a bucket that have whole positions.
     fn take_exact(&mut self, words: &[Placed], bucket: u64, curve: Curve) {
         let mut before = None;
         for &Placed(word) in words {
@@ -224,7 +225,7 @@ impl Kept<'_> {
         }
     }
 
-    /// Takes the words of a bucket, sorted, which have the leading bits of the position.
+    /// Takes the sorted words of a bucket that have only the leading bits of their positions.
     fn take_rounded(&mut self, words: &mut [Placed], points: &[Point], curve: Curve) {
         for group in words.chunk_by_mut(|one, other| (one.0 ^ other.0) & !curve.indices() == 0) {
             if group.len() > 1 {
@@ -257,13 +258,13 @@ impl Kept<'_> {
     }
 
     fn drop_onto_last(&mut self, index: u32) {
-        // There is a last one: the point fell onto it.
+        // The list of kept points is never empty here, because the point has the coordinates of the last of them.
         self.duplicates.extend(self.ids[..self.count].last().map(|&of| Duplicate { index, of }));
     }
 }
 
 impl Sites {
-    /// Takes runs together: of each its room, how much of that is used, and its duplicates.
+    /// Closes the gaps between runs. Each run is given by its room, the number of sites in it, and its duplicates.
     fn close_up(&mut self, runs: Vec<(usize, usize, Vec<Duplicate>)>) {
         let (mut from, mut to) = (0, 0);
         for (room, count, duplicates) in runs {

@@ -1,4 +1,4 @@
-//! The parts of the engine against plain definitions. The whole is held by `host/tests/it/cpu.rs`.
+//! Tests of the parts of the CPU triangulator against plain definitions. `host/tests/it/cpu.rs` tests the whole.
 
 use std::cmp::Ordering;
 
@@ -7,12 +7,12 @@ use proptest::prelude::*;
 use super::edges::{Half, HALVES};
 use super::sites::{sort, Sites};
 use super::view::{incircle, Narrow, Seen, Site, View, Wide, Width};
-use super::{collect, stretches};
+use super::{collect, segments};
 use crate::order::mix;
 use crate::pages;
 use crate::point::Point;
 
-/// A coordinate of so many bits, often an extreme one.
+/// A coordinate of up to `bits` bits, often an extreme one.
 fn coordinate(bits: u32) -> impl Strategy<Value = i32> {
     let last = ((1u64 << bits) - 1) as i32;
     prop_oneof![2 => 0..=last, 1 => Just(0), 1 => Just(last), 1 => Just(last / 2), 1 => Just(last - last / 2)]
@@ -22,8 +22,8 @@ fn site(bits: u32) -> impl Strategy<Value = Site> {
     (coordinate(bits), coordinate(bits)).prop_map(|(x, y)| Site { x, y })
 }
 
-/// The 3x3 determinant of the points seen from `d` and lifted: positive if `d` lies inside the circle of a triangle
-/// that turns left. For up to 31 bits it fits 128 bits.
+/// The 3x3 determinant of the points seen from `d` and lifted: positive if `d` lies inside the circle of a
+/// counter-clockwise triangle. For coordinates of up to 31 bits the determinant fits 128 bits.
 fn lifted(a: Site, b: Site, c: Site, d: Site) -> i128 {
     let seen = |p: Site| [i128::from(p.x) - i128::from(d.x), i128::from(p.y) - i128::from(d.y)];
     let [a, b, c] = [a, b, c].map(seen);
@@ -32,15 +32,15 @@ fn lifted(a: Site, b: Site, c: Site, d: Site) -> i128 {
     lift(a) * minor(b, c) + lift(b) * minor(c, a) + lift(c) * minor(a, b)
 }
 
-/// Whether `q` is inside the circle of `a`, `b`, `c`, the smallest of the four lowered on the paraboloid: its lift has
-/// this factor in the determinant.
+/// Whether `q` is inside the circle of `a`, `b`, `c`, with the smallest of the four lowered on the paraboloid.
+/// `lowered` is the factor of the smallest point's lift in the determinant.
 fn conflicts(a: Site, b: Site, c: Site, q: Site) -> bool {
-    let area = |p: Site, q: Site, r: Site| View::of(p, q, r).cross;
+    let orient2d = |p: Site, q: Site, r: Site| View::of(p, q, r).cross;
     let lowered = match [a, b, c, q].into_iter().min() {
-        Some(smallest) if smallest == a => -area(q, b, c),
-        Some(smallest) if smallest == b => -area(q, c, a),
-        Some(smallest) if smallest == c => -area(q, a, b),
-        _ => area(a, b, c),
+        Some(smallest) if smallest == a => -orient2d(q, b, c),
+        Some(smallest) if smallest == b => -orient2d(q, c, a),
+        Some(smallest) if smallest == c => -orient2d(q, a, b),
+        _ => orient2d(a, b, c),
     };
     match lifted(a, b, c, q).cmp(&0) {
         Ordering::Equal => lowered > 0,
@@ -64,23 +64,23 @@ fn ties_are_decided_by_the_smallest() {
     assert!(ties > 100, "{ties}");
 }
 
-/// Along the curve: interleaved bits rise, those of x first.
+/// The position along the curve, bit by bit: the bits of x and y in turn, x first.
 fn position(point: Point) -> u64 {
     let bits = |bit: u32| u64::from(point.x >> bit & 1) << 1 | u64::from(point.y >> bit & 1);
     (0..32).rev().fold(0, |position, bit| position << 2 | bits(bit))
 }
 
-/// The triangles of points that are not on one line, with all stages on so many threads, be the points ever so few.
+/// The triangles of points that are not on one line, with all stages on `threads` threads, even for few points.
 fn triangles(points: &[Point], threads: usize) -> Vec<[u32; 3]> {
     let Sites { sites, ids, .. } = sort(points, threads);
     let mut halves = pages::zeros::<Half>(HALVES * sites.len());
-    let whole = stretches::triangulate::<Wide>(&sites, &mut halves, threads, &mut |_| true).expect("points");
+    let whole = segments::triangulate::<Wide>(&sites, &mut halves, threads, &mut |_| true).expect("points");
     let hull = collect::hull(&mut halves, &ids, whole.leftmost());
     collect::triangles(halves, &ids, points.len(), 2 * ids.len() - 2 - hull.len(), threads)
 }
 
-/// Points that come in an order of their own are in few buckets at a time, and the lowest ids have most of the
-/// triangles.
+/// If the points come in sorted order, a thread fills few buckets at a time, and the lowest ids have
+/// most of the triangles.
 #[test]
 fn threads_find_the_same_triangles_whatever_the_order_of_the_points() {
     let mut points: Vec<Point> =
@@ -91,7 +91,7 @@ fn threads_find_the_same_triangles_whatever_the_order_of_the_points() {
         for threads in 2..=5 {
             assert!(triangles(&points, threads) == expected, "{threads}");
         }
-        // Along the curve, then back.
+        // The second round takes the points along the curve, the third in the opposite order.
         let is_sorted = points.is_sorted_by_key(|&p| position(p));
         if is_sorted {
             points.reverse();
@@ -101,7 +101,7 @@ fn threads_find_the_same_triangles_whatever_the_order_of_the_points() {
     }
 }
 
-/// Fewer places than stretches: no stretch may be a single vertex beside another.
+/// If there are fewer places than segments, no segment may be a single vertex beside another one.
 #[test]
 fn many_threads_share_few_places() {
     for side in 2..=12 {
@@ -122,7 +122,7 @@ fn many_threads_share_few_places() {
     }
 }
 
-/// More points in a square of the curve's leading bits than are sorted by comparison.
+/// More points agree in the leading bits of their positions than are sorted by comparison.
 #[test]
 fn a_crowd_beside_a_far_point_is_sorted() {
     let far = Point::new((1 << 31) - 1, (1 << 31) - 1);
@@ -135,7 +135,7 @@ fn a_crowd_beside_a_far_point_is_sorted() {
     assert!(sites.iter().zip(&ids).all(|(&site, &id)| site == Site::from(points[id as usize])));
 }
 
-/// Several buckets, positions that fit a word and those that do not, and many points of one place.
+/// Covers several buckets, positions that fit a word and positions that do not, and many points of one place.
 #[test]
 fn many_points_are_sorted_with_their_duplicates() {
     for bits in [1, 5, 11, 16, 24, 31] {
@@ -163,7 +163,7 @@ fn many_points_are_sorted_with_their_duplicates() {
     }
 }
 
-/// Words leave bits of the position out, and hundreds of points agree in the others, in several buckets.
+/// Words leave out bits of the position, and hundreds of points in several buckets agree in the bits they have.
 #[test]
 fn a_dense_lattice_beside_a_far_point_is_sorted() {
     let far = Point::new((1 << 31) - 1, (1 << 31) - 1);
@@ -184,7 +184,7 @@ proptest! {
     #[test]
     fn narrow_determinants_are_exact(a in site(16), b in site(16), c in site(16), q in site(16)) {
         let expected = lifted(a, b, c, q);
-        // The bound by which they fit 64 bits.
+        // The bound by which determinants fit 64 bits.
         let side = i128::from(u16::MAX);
         prop_assert!(2 * expected.abs() <= side * side * side * side);
         let found = Narrow::determinant(View::of(a, b, c), View::of(a, b, q));

@@ -1,9 +1,9 @@
-//! Exact predicates of the engine: how an edge is seen from a point.
+//! The exact predicates of the CPU triangulator: how an edge is seen from a point.
 //!
-//! From a point `p`, the edge from `a` to `b` has the vectors `a - p` and `b - p`. Their cross product is `orient2d(a,
-//! b, p)`; with their dot product it gives the angle at which the edge is seen, and that says everything about circles:
-//! `q` lies inside the circle through `a`, `b` and `c` iff the edge is seen from `q` at a larger angle than from `c`.
-//! In integers, with `(cross, dot)` of `c` and of `q`,
+//! From a point `p`, the edge from `a` to `b` has the vectors `a - p` and `b - p`. The cross product of both is
+//! `orient2d(a, b, p)`. Cross product and dot product together give the angle at which the edge is seen, and that angle
+//! says everything about circles: `q` lies inside the circle through `a`, `b` and `c` iff the edge is seen from `q` at
+//! a larger angle than from `c`. In integers, with `(cross, dot)` of `c` and of `q`,
 //!
 //! ```text
 //! incircle(a, b, c, q) = dot(c) cross(q) - dot(q) cross(c)
@@ -17,12 +17,12 @@
 //! and **for `w` up to 16 64-bit arithmetic gives it exactly, however its two products overflow**, because their
 //! difference is right modulo 2^64.
 //!
-//! Why `S⁴ / 2`: the determinant is `Σ λ_v |v|²` over the four points, where `λ_v` does not depend on `v` and `Σ λ_v =
-//! 0`, `Σ λ_v v = 0`. Take a place of its maximum over the square with as many points in corners as possible. As a
-//! function of `v` alone it is convex where `λ_v >= 0`, so such a point can be moved to a corner: all points outside
-//! corners have `λ_v < 0`.
-//! - One point is outside: three corners make a right triangle of doubled area `S²` whose circle has the squared radius
-//!   `S² / 2`, and the determinant, doubled area times power of the point, is at most `S⁴ / 2`.
+//! Why `S⁴ / 2`: the determinant is `Σ λ_v |v|²` over the four points, where `λ_v` does not depend on `v` and
+//! `Σ λ_v = 0`, `Σ λ_v v = 0`. Take a place of its maximum over the square with as many points in corners as possible.
+//! As a function of `v` alone it is convex where `λ_v >= 0`, so such a point can be moved to a corner: all points
+//! outside corners have `λ_v < 0`.
+//! - One point is outside: three corners make a right triangle whose `orient2d` is `S²` and whose circle has the
+//!   squared radius `S² / 2`, and the determinant, that `orient2d` times the power of the point, is at most `S⁴ / 2`.
 //! - Two points `u`, `v` are outside: the segment between the two corners crosses theirs (the signs of `λ` say so), so
 //!   the corners are opposite ones, and `u`, `v` lie on both sides of that diagonal, at distances `h` and `g` from it.
 //!   With `S = 1` the determinant is at most `√2 (h + g) (1/2 - h g)`. For a given sum that is largest where one of
@@ -33,10 +33,10 @@ use bytemuck::Zeroable;
 
 use crate::point::Point;
 
-/// Coordinates of up to this many bits have determinants of 64 bits.
+/// Determinants fit 64 bits if coordinates have up to this many bits.
 pub(super) const NARROW_BITS: u32 = 16;
 
-/// A point of the grid, with the coordinates as signed numbers: the widest are below 2^31.
+/// A point of the grid with signed coordinates from 0 to 2^31 - 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
 pub(super) struct Site {
     pub(super) x: i32,
@@ -44,7 +44,7 @@ pub(super) struct Site {
 }
 
 impl Site {
-    /// With the axes swapped: compares by y, then x.
+    /// The site with its axes swapped, which compares by y, then x.
     #[inline(always)]
     pub(super) fn swapped(self) -> Self {
         Self { x: self.y, y: self.x }
@@ -52,7 +52,7 @@ impl Site {
 }
 
 impl From<Point> for Site {
-    /// Coordinates must be below 2^31.
+    /// Converts a point with coordinates below 2^31.
     fn from(point: Point) -> Self {
         Self { x: point.x as i32, y: point.y as i32 }
     }
@@ -61,7 +61,7 @@ impl From<Point> for Site {
 /// The edge from `a` to `b`, seen from a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
-    /// Positive if the point lies to the left of the edge, zero if on its line.
+    /// `orient2d` of the edge and the point: positive if the point lies to the left of the edge, zero if on its line.
     pub(super) cross: i64,
     dot: i64,
 }
@@ -76,22 +76,22 @@ impl View {
     }
 }
 
-/// Twice the signed area of the triangle: positive if it is counter-clockwise.
+/// Twice the signed area of a triangle: positive if the triangle is counter-clockwise.
 #[inline(always)]
 pub(super) fn orient2d(a: Site, b: Site, p: Site) -> i64 {
     View::of(a, b, p).cross
 }
 
-/// The integers in which determinants are worked out.
+/// The integers in which determinants are computed.
 pub(super) trait Width: Copy + Sync {
-    /// The determinant of the views from `c` and `q`, or a number of its sign.
+    /// The integer that holds the determinant.
     type Determinant: Ord + Default;
 
-    /// `dot(c) cross(q) - dot(q) cross(c)`.
+    /// Computes the determinant of the views from `c` and `q`, `dot(c) cross(q) - dot(q) cross(c)`.
     fn determinant(c: View, q: View) -> Self::Determinant;
 }
 
-/// Coordinates of up to [`NARROW_BITS`] bits.
+/// Arithmetic for coordinates of up to [`NARROW_BITS`] bits.
 #[derive(Clone, Copy)]
 pub(super) struct Narrow;
 
@@ -104,7 +104,7 @@ impl Width for Narrow {
     }
 }
 
-/// Coordinates of up to 31 bits.
+/// Arithmetic for coordinates of up to 31 bits.
 #[derive(Clone, Copy)]
 pub(super) struct Wide;
 
@@ -131,11 +131,11 @@ impl Seen {
     }
 }
 
-/// Whether `q` lies inside the circle through `a`, `b` and `c`, a point on it decided by the tie rule: the
-/// lexicographically smallest of the four is lowered on the lifted paraboloid.
+/// Whether `q` lies inside the circle through `a`, `b` and `c`. If `q` lies on the circle, the tie rule decides: the
+/// lexicographically smallest of the four points is lowered on the lifted paraboloid.
 ///
-/// `c` must lie to the left of the edge from `a` to `b`. The answer for a `q` that does not is `false`: the engine asks
-/// only where nothing on that side can be inside.
+/// `c` must lie to the left of the edge from `a` to `b`. The answer is `false` for a `q` that does not lie to the left:
+/// the merge asks only where no such point can be inside the circle, and a tie with such a point is refused.
 #[inline(always)]
 pub(super) fn incircle<W: Width>(a: Site, b: Site, c: Seen, q: Seen) -> bool {
     let determinant = W::determinant(c.view, q.view);
@@ -146,15 +146,15 @@ pub(super) fn incircle<W: Width>(a: Site, b: Site, c: Seen, q: Seen) -> bool {
     determinant > zero
 }
 
-/// Ties: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`.
+/// Decides a tie: `a`, `b`, `c`, `q` lie on one circle, or `q` is on the line of `a` and `b`.
 #[inline(never)]
 fn tie_is_inside(a: Site, b: Site, c: Site, q: Seen) -> bool {
     if q.view.cross <= 0 {
         return false;
     }
     let smallest = a.min(b).min(c).min(q.site);
-    // Lowering a corner moves `q` inside iff the other three turn right around it; lowering `q` always does, and
-    // lowering `c` does not, because `c` and `q` lie on one side of the edge.
+    // Lowering a corner moves `q` inside iff the other three turn right around that corner. Lowering `q` always moves
+    // it inside, and lowering `c` never does, because `c` and `q` lie on one side of the edge.
     if smallest == a {
         orient2d(q.site, b, c) < 0
     } else if smallest == b {

@@ -1,7 +1,7 @@
-//! BRIO: rounds of growing random samples, each along the Hilbert curve.
+//! BRIO, the biased randomized insertion order: rounds of growing random samples, each along the Hilbert curve.
 //!
-//! Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003; Buchin, *Constructing Delaunay triangulations along
-//! space-filling curves*, 2009.
+//! Sources: Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003; Buchin, *Constructing Delaunay
+//! triangulations along space-filling curves*, 2009.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -12,13 +12,13 @@ use crate::point::Point;
 use crate::predicate::orient2d;
 use crate::sort::Entry;
 
-/// The first round has at least about this many points. (The contexts of a device share the work only from the
-/// protocol's own first round on, which is another constant.)
+/// Approximate least number of points of the first round. The contexts of a device share the work only from the
+/// protocol's own first round on, which is another constant.
 const LEAST_ROUND: usize = 16;
-/// α = 1/4 as a power of two: a quarter of the points come before the last round.
+/// The share α = 1/4 as a power of two: a quarter of the points come before the last round.
 const SHARE: u32 = 2;
 
-/// The biased randomised order of α = 1/4 along a Hilbert curve: a permutation of `0..points.len()`.
+/// The biased randomized insertion order of α = 1/4 along a Hilbert curve, as a permutation of `0..points.len()`.
 ///
 /// The last round takes three quarters of the points, the round before it three quarters of the rest, down to about 16
 /// points. Each round runs along the Hilbert curve of the grid. The round of a point follows from a hash of its
@@ -28,7 +28,7 @@ pub fn brio_hilbert(points: &[Point]) -> Vec<u32> {
     rounds(&along_curve(points)).order
 }
 
-/// The points in rounds.
+/// The points of a set, divided into the rounds of BRIO.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Rounds {
     /// The indices of the points, first round first.
@@ -38,13 +38,13 @@ pub struct Rounds {
 }
 
 impl Rounds {
-    /// One round of points in this order.
+    /// Makes one round of all points in this order.
     pub fn single(order: Vec<u32>) -> Self {
         Self { order, starts: vec![0] }
     }
 
     /// Moves the first point that is not on one line with the first two to the third place, so that the first three
-    /// span a triangle; all others keep their order and their round. Gives the place that the point came from, or
+    /// span a triangle; all others keep their order and their round. Returns the place that the point came from, or
     /// `None` if there is no such point. O(n) at worst.
     pub fn start_with_a_triangle(&mut self, points: &[Point]) -> Option<usize> {
         let at = |index: u32| points[index as usize];
@@ -54,7 +54,7 @@ impl Rounds {
         let (a, b) = (at(*first), at(*second));
         let found = 2 + rest.iter().position(|&index| orient2d(a, b, at(index)) != 0)?;
         self.order[2..=found].rotate_right(1);
-        // What stood before the point is a place further on, and so are the rounds that began there.
+        // The points that stood before the found one moved up by a place, and so did the rounds that began there.
         for start in self.starts.iter_mut().filter(|start| (2..=found).contains(*start)) {
             *start += 1;
         }
@@ -71,12 +71,12 @@ pub fn rounds_of_share(curve: &Hilbert, shift: u32) -> Rounds {
     }
 }
 
-/// Sorts points that stand along the curve into the rounds of α = 1/4.
+/// Sorts points that stand along the curve into the rounds of α = 1/4. O(n).
 pub fn rounds(curve: &Hilbert) -> Rounds {
     rounds_of_share(curve, SHARE)
 }
 
-/// Counting sort by round, first round first; the curve's order stays inside a round.
+/// Sorts entries by their round, first round first, by counting; the order of the curve stays inside a round.
 fn sort_into_rounds<E: Entry>(entries: &[E], shift: u32) -> Rounds {
     let level = |key: u64, last: usize| level(key, last, shift);
     let last = last_level(entries.len(), shift);
@@ -94,13 +94,13 @@ fn sort_into_rounds<E: Entry>(entries: &[E], shift: u32) -> Rounds {
         order[*slot] = entry.value();
         *slot += 1;
     }
-    // By now each slot is the end of its level, which is where the round after it begins.
+    // After the loop each slot holds the end of its level, where the next round begins.
     let mut rounds = vec![0];
     rounds.extend((1..=last).rev().map(|level| starts[level]));
     Rounds { order, starts: rounds }
 }
 
-/// Levels there can be: the trailing zeros of a 64-bit hash, and all of them zero.
+/// The most levels there can be: 0 to 64 trailing zeros of a 64-bit hash.
 const LEVELS: usize = u64::BITS as usize + 1;
 
 /// The number of rounds of `points` points, less one.
@@ -114,7 +114,7 @@ fn last_level(points: usize, shift: u32) -> usize {
     level
 }
 
-/// The level of a point: 0 is the last round, and one in 2^`shift` reaches the next level.
+/// The level of a point: 0 is the last round, and one point in 2^`shift` reaches the next level.
 fn level(key: u64, last: usize, shift: u32) -> usize {
     ((mix(key).trailing_zeros() / shift) as usize).min(last)
 }

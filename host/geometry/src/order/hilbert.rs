@@ -1,24 +1,25 @@
 //! The order along the Hilbert curve.
 //!
-//! The curve of order 32 over the whole grid, so the order of two points does not depend on the coordinate bits. Four
-//! bits of each coordinate are taken at a time from a table that the compiler fills.
+//! The curve has order 32 and covers the whole grid, so the order of two points does not depend on the coordinate bits.
+//! A table, which the compiler fills, turns four bits of each coordinate at a time into a position.
 //!
-//! A quadrant's copy of the curve is the first one with its axes swapped, or both turned round, or both: two flags
-//! are the whole state. Hilbert, Über die stetige Abbildung einer Linie auf ein Flächenstück, 1891.
+//! A quadrant's copy of the curve is the first copy with its axes swapped, or with both axes reversed, or
+//! with both changes. Two flags are the whole state. Source: Hilbert, *Über die stetige Abbildung einer Linie
+//! auf ein Flächenstück*, 1891.
 
 use alloc::vec::Vec;
 
 use crate::point::Point;
 use crate::sort::{sort_by_key, Entry, Narrow, Wide};
 
-/// Both axes run backwards in this copy of the curve.
+/// Flag of a state: both axes run backwards in this copy of the curve.
 const TURNED: u8 = 1;
-/// The axes are swapped in this copy of the curve.
+/// Flag of a state: the axes are swapped in this copy of the curve.
 const SWAPPED: u8 = 2;
-/// Next states lie above the eight bits of position.
+/// In an entry of [`STEPS`] the next state lies above the eight bits of position.
 const STATE_SHIFT: u32 = 8;
 
-/// For each state, and each four bits of x and y: eight bits of position and the next state.
+/// For each state and each four bits of x and y, eight bits of position and the next state.
 static STEPS: [[u16; 256]; 4] = steps();
 
 const fn steps() -> [[u16; 256]; 4] {
@@ -55,7 +56,7 @@ const fn four_steps(mut state: u8, xy: u8) -> u16 {
     position | (state as u16) << STATE_SHIFT
 }
 
-/// The position of `(x, y)` along the curve, for coordinates below 2^16. About 5 ns.
+/// The position of `(x, y)` along the curve, for coordinates below 2^16, in about 5 ns.
 fn position_16(x: u32, y: u32) -> u32 {
     position::<4>(x, y) as u32
 }
@@ -65,8 +66,8 @@ fn position_32(x: u32, y: u32) -> u64 {
     position::<8>(x, y)
 }
 
-/// Takes `STEPS_DOWN` times four bits. Each zero pair of four bits leaves the state as it is, so a longer walk gives
-/// the same position.
+/// The position of `(x, y)` from `4 * STEPS_DOWN` bits of each coordinate. Two zero groups of four bits leave the state
+/// as it is, so more steps give the same position.
 fn position<const STEPS_DOWN: u32>(x: u32, y: u32) -> u64 {
     let mut state = 0;
     let mut position = 0;
@@ -79,21 +80,23 @@ fn position<const STEPS_DOWN: u32>(x: u32, y: u32) -> u64 {
     position
 }
 
-/// One pass along the Hilbert curve: a permutation of `0..points.len()`. Equal points stay together, in input order.
+/// One pass along the Hilbert curve, as a permutation of `0..points.len()`.
+///
+/// Equal points stay together, in input order. O(n) by a radix sort of the positions.
 pub fn hilbert(points: &[Point]) -> Vec<u32> {
     along_curve(points).into_indices()
 }
 
 /// Points sorted along the curve, in the smallest form that holds them.
 pub enum Hilbert {
-    /// Coordinates below 2^16: 8 bytes per point.
+    /// Points with coordinates below 2^16, in 8 bytes per point.
     Narrow(Vec<Narrow>),
-    /// Any: 16 bytes per point.
+    /// Points with any coordinates, in 16 bytes per point.
     Wide(Vec<Wide>),
 }
 
 impl Hilbert {
-    /// The indices along the curve.
+    /// The indices of the points, in the order of the curve.
     pub fn into_indices(self) -> Vec<u32> {
         match self {
             Self::Narrow(entries) => entries.iter().map(Entry::value).collect(),
@@ -102,7 +105,7 @@ impl Hilbert {
     }
 }
 
-/// Sorts indices by position along the curve; equal positions are equal points, and stay in input order.
+/// Sorts points by their position along the curve. Equal positions are equal points, and stay in input order. O(n).
 pub fn along_curve(points: &[Point]) -> Hilbert {
     let all = points.iter().fold(0, |all, point| all | point.x | point.y);
     if all < 1 << 16 {

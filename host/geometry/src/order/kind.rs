@@ -9,26 +9,38 @@ use super::hilbert::hilbert;
 use super::random::random;
 use crate::point::Point;
 
-/// The order in which points reach the device. The mesh does not depend on it, the time does.
+/// The order in which points are inserted. The mesh does not depend on the order, but the time does.
+///
+/// Keep the default for points that come in no useful order. Choose [`Order::Input`] if neighbours in the input
+/// are neighbours in the plane already, as in a scan; sorting is then saved. The CPU triangulator inserts nothing
+/// and needs no order.
+///
+/// ```
+/// use incircle_geometry::{Order, Point};
+///
+/// let points = [(9, 9), (0, 0), (1, 0)].map(Point::from);
+/// assert_eq!(Order::Hilbert.order(&points).len(), 3);
+/// assert_eq!("brio-hilbert".parse(), Ok(Order::default()));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Order {
     /// Rounds of growing random samples (a quarter of the points in all rounds but the last), each along a Hilbert
-    /// curve. Good for every distribution: the default. See [`brio_hilbert`].
+    /// curve. Good for every distribution, and the default. See [`brio_hilbert`].
     #[default]
     BrioHilbert,
     /// One pass along a Hilbert curve: fast on even distributions, without a guarantee on others. See [`hilbert()`].
     Hilbert,
-    /// As the points come.
+    /// The order of the input.
     Input,
-    /// Random, in an order that follows from the coordinates. See [`random()`].
+    /// A random order that follows from the coordinates, the classic one of textbooks. See [`random()`].
     Random,
 }
 
 impl Order {
-    /// All orders.
+    /// All four orders, the default first.
     pub const ALL: [Self; 4] = [Self::BrioHilbert, Self::Hilbert, Self::Input, Self::Random];
-    /// The best, the plainest curve, and none.
+    /// The default order, the plain curve, and the order of the input, for comparisons.
     pub const BASIC: [Self; 3] = [Self::BrioHilbert, Self::Hilbert, Self::Input];
 
     /// The name in reports and on the command line.
@@ -41,7 +53,7 @@ impl Order {
         }
     }
 
-    /// The points in this order: a permutation of `0..points.len()`.
+    /// Puts points into this order: returns a permutation of their indices, `0..points.len()`. O(n).
     pub fn order(self, points: &[Point]) -> Vec<u32> {
         match self {
             Self::BrioHilbert => brio_hilbert(points),
@@ -51,7 +63,7 @@ impl Order {
         }
     }
 
-    /// The order of this name; `None` if there is none.
+    /// Finds an order by its name; `None` if no order has it.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|order| order.name() == name)
     }
@@ -65,7 +77,7 @@ impl FromStr for Order {
     }
 }
 
-/// A name that no order has. The message lists the names that there are.
+/// The error of a name that no order has. The message lists the names of the orders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UnknownOrder;
 
@@ -74,8 +86,8 @@ impl fmt::Display for UnknownOrder {
         let [first, second, third, last] = Order::ALL.map(Order::name);
         write!(
             f,
-            "the orders are '{first}', '{second}', '{third}' and '{last}'; the other curves, rounds and guides are in the \
-             repository's package incircle-research"
+            "the orders are '{first}', '{second}', '{third}' and '{last}'; the other curves, rounds and guides are in \
+             the repository's package incircle-research"
         )
     }
 }

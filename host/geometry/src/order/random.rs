@@ -1,7 +1,7 @@
-//! Random order: the classic randomised incremental construction.
+//! The random order of the classic randomized incremental construction.
 //!
-//! Clarkson and Shor, *Applications of random sampling in computational geometry II*, 1989. The expected number of
-//! changes is O(n) for any set; but each point must be found from far away.
+//! The expected number of changes of the mesh is O(n) for any set, but each point must be located from far away.
+//! Source: Clarkson and Shor, *Applications of random sampling in computational geometry II*, 1989.
 
 use alloc::vec::Vec;
 

@@ -1,12 +1,12 @@
-//! Positions along the Z-curve: quadrants in the order lower left, upper left, lower right, upper right, each the same
-//! way.
+//! Positions along the Z-curve, which visits the quadrants in the order lower left, upper left, lower right, upper
+//! right, and each quadrant in the same way.
 //!
-//! Morton, *A computer oriented geodetic data base*, 1966. A position has the bits of x and y in turn, so no curve is
-//! cheaper to compute; from one half to the other the curve jumps.
+//! A position has the bits of x and y in turn, so no curve is cheaper to compute; from one half to the other the curve
+//! jumps. Source: Morton, *A computer oriented geodetic data base*, 1966.
 
 use crate::point::Point;
 
-/// The position of the cell `(x, y)`. Takes any coordinates.
+/// The position of the cell `(x, y)` along the curve, for any coordinates.
 #[inline(always)]
 pub fn position(x: u32, y: u32) -> u64 {
     spread(x) << 1 | spread(y)
@@ -18,7 +18,7 @@ pub fn point_at(position: u64) -> Point {
     Point::new(gather(position >> 1), gather(position))
 }
 
-/// The even bits of a number, side by side.
+/// Collects the even bits of a number, side by side.
 #[inline(always)]
 fn gather(bits: u64) -> u32 {
     let fold = |bits: u64, shift: u32, mask: u64| (bits | bits >> shift) & mask;
@@ -29,7 +29,7 @@ fn gather(bits: u64) -> u32 {
     fold(bits, 16, 0x0000_0000_ffff_ffff) as u32
 }
 
-/// The bits of a number, each with a zero above it.
+/// Spreads the bits of a number, each with a zero above it.
 #[inline(always)]
 fn spread(value: u32) -> u64 {
     let fold = |bits: u64, shift: u32, mask: u64| (bits | bits << shift) & mask;

@@ -1,4 +1,4 @@
-//! Edges: each has its two sides, and each inner one is locally Delaunay.
+//! The validator's checks of edges: each edge has its two sides, and each inner edge is locally Delaunay.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,7 +9,7 @@ use super::exact::incircle;
 use super::sites::Sites;
 use super::summary::VerifySummary;
 
-/// Checks all edges and counts edges and ties.
+/// Checks all edges, and counts edges and ties in the summary.
 pub(super) fn check(sites: &Sites<'_>, triangles: &[[u32; 3]], summary: &mut VerifySummary) -> Result<(), VerifyError> {
     let sides = sides(triangles);
     let edges = || sides.chunk_by(|one, other| one.0 == other.0);
@@ -23,7 +23,7 @@ pub(super) fn check(sites: &Sites<'_>, triangles: &[[u32; 3]], summary: &mut Ver
     }
     hull.check_complete(&summary.hull)?;
     for edge in edges() {
-        // No edge has more sides than two, and those run opposite ways: `check_sides`.
+        // `check_sides` has refused edges of more than two sides, and sides that run the same way.
         if let [(_, one), (_, other)] = *edge {
             summary.ties += usize::from(check_inner_edge(sites, triangles, one, other)?);
         }
@@ -31,13 +31,14 @@ pub(super) fn check(sites: &Sites<'_>, triangles: &[[u32; 3]], summary: &mut Ver
     Ok(())
 }
 
-/// One side of an edge: its two points in rising order, and the half-edge. Half-edge `3 t + k` runs from corner `k` of
+/// One side of an edge: the two points in rising order, and the half-edge. Half-edge `3 t + k` runs from corner `k` of
 /// triangle `t` to the next.
 type Side = ([u32; 2], u32);
 
-/// All sides, those of one edge in a row. O(n log n): a plain sort, so that the validator shares none with the host.
+/// The sides of all edges, those of one edge in a row. O(n log n) by a plain sort, so that the validator shares no
+/// sort with the host.
 fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
-    // Three half-edges of each triangle fit 32 bits: `check_sizes`.
+    // `check_sizes` has made sure that three half-edges of each triangle fit 32 bits.
     let halfedges = 0..3 * triangles.len() as u32;
     let mut sides: Vec<Side> = halfedges
         .map(|halfedge| {
@@ -49,14 +50,14 @@ fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
     sides
 }
 
-/// The points of a half-edge, from and to.
+/// The two points of a half-edge: its origin, then its end.
 fn ends(triangles: &[[u32; 3]], halfedge: u32) -> [u32; 2] {
     let corners = triangles[(halfedge / 3) as usize];
     let k = (halfedge % 3) as usize;
     [corners[k], corners[(k + 1) % 3]]
 }
 
-/// No two half-edges of one edge may run the same way. Of three or more, two do.
+/// Refuses two half-edges of one edge that run the same way. Among three or more half-edges there are always two such.
 fn check_sides(triangles: &[[u32; 3]], sides: &[Side]) -> Result<(), VerifyError> {
     for (place, &(_, later)) in sides.iter().enumerate() {
         let edge = ends(triangles, later);
@@ -68,9 +69,9 @@ fn check_sides(triangles: &[[u32; 3]], sides: &[Side]) -> Result<(), VerifyError
     Ok(())
 }
 
-/// The hull edges, to be met once each.
+/// The hull edges, each of which must be met exactly once.
 struct HullEdges {
-    /// The point after each point of the hull, until its edge is met.
+    /// For each point of the hull, the next point, until the edge between both is met.
     following: Vec<Option<u32>>,
 }
 
@@ -102,7 +103,7 @@ impl HullEdges {
     }
 }
 
-/// Local Delaunay property and tie rule of the edge between two triangles; true for a tie.
+/// Checks the local Delaunay property and the tie rule of the edge between two triangles; returns true for a tie.
 fn check_inner_edge(sites: &Sites<'_>, triangles: &[[u32; 3]], one: u32, other: u32) -> Result<bool, VerifyError> {
     let corner = |halfedge: u32, step: u32| triangles[(halfedge / 3) as usize][((halfedge % 3 + step) % 3) as usize];
     let (a, b, c, d) = (corner(one, 0), corner(one, 1), corner(one, 2), corner(other, 2));

@@ -1,125 +1,132 @@
-//! What the validator can find wrong.
+//! The defects that the validator finds.
 
 use crate::point::Point;
 
-/// The first thing wrong with a mesh. Triangles are numbered by their place in the list, points by input index.
+/// The first defect that [`verify`](fn@crate::verify) found in a mesh.
+///
+/// Triangles are numbered by their place in the list, points by their input index. The message names both.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum VerifyError {
     /// A coordinate is too large for exact arithmetic in 128 bits.
     #[error("point {index} is {point}, but the validator takes coordinates below 2147483648")]
     CoordinateTooLarge {
-        /// Input index.
+        /// Input index of the point.
         index: usize,
-        /// The point.
+        /// The point with this coordinate.
         point: Point,
     },
-    /// More points or triangles than 32-bit half-edge numbers allow.
+    /// There are more points or triangles than 32-bit half-edge numbers allow.
     #[error("{count} points or triangles are more than the validator's {max}")]
     TooLarge {
-        /// Points or triangles given.
+        /// Number of points or triangles given, whichever is larger.
         count: usize,
-        /// Points or triangles possible.
+        /// Number of points or triangles that are possible.
         max: usize,
     },
     /// A triangle names a point that does not exist.
     #[error("triangle {triangle} names point {index}, but there are only {points} points")]
     IndexOutOfRange {
-        /// Number of the triangle.
+        /// Number of the triangle in the list.
         triangle: usize,
-        /// The index it names.
+        /// The index that the triangle names.
         index: u32,
-        /// Points given.
+        /// Number of points given.
         points: usize,
     },
     /// A triangle has no area or turns clockwise.
     #[error("triangle {triangle} ({} {} {}) is not counter-clockwise", corners[0], corners[1], corners[2])]
     NotCounterClockwise {
-        /// Number of the triangle.
+        /// Number of the triangle in the list.
         triangle: usize,
         /// The corners of the triangle.
         corners: [u32; 3],
     },
     /// A triangle does not start with its smallest index.
-    #[error("triangle {triangle} ({} {} {}) does not start with its smallest index", corners[0], corners[1], corners[2])]
+    #[error(
+        "triangle {triangle} ({} {} {}) does not start with its smallest index", corners[0], corners[1], corners[2]
+    )]
     NotRotated {
-        /// Number of the triangle.
+        /// Number of the triangle in the list.
         triangle: usize,
         /// The corners of the triangle.
         corners: [u32; 3],
     },
-    /// A triangle is smaller than the one before it.
+    /// A triangle sorts before the previous one of the list.
     #[error("triangle {triangle} ({} {} {}) is out of order", corners[0], corners[1], corners[2])]
     NotSorted {
-        /// Number of the triangle.
+        /// Number of the triangle in the list.
         triangle: usize,
         /// The corners of the triangle.
         corners: [u32; 3],
     },
-    /// A triangle is there twice.
+    /// The list has a triangle twice.
     #[error("triangle {triangle} ({} {} {}) is there twice", corners[0], corners[1], corners[2])]
     DoubledTriangle {
-        /// Number of the second one.
+        /// Number of the second copy.
         triangle: usize,
         /// The corners of the triangle.
         corners: [u32; 3],
     },
-    /// A triangle uses a duplicate under an index that is not its lowest.
+    /// A triangle names a duplicate instead of the lowest index of its coordinates.
     #[error("triangle {triangle} names point {index}, a duplicate of point {of}")]
     NotLowestIndex {
-        /// Number of the triangle.
+        /// Number of the triangle in the list.
         triangle: usize,
-        /// The index it names.
+        /// The index that the triangle names.
         index: u32,
-        /// The lowest index of the same coordinates.
+        /// The lowest index with the same coordinates.
         of: u32,
     },
     /// A distinct point is in no triangle.
     #[error("point {index} is in no triangle")]
     UnusedPoint {
-        /// Input index.
+        /// Input index of the point.
         index: u32,
     },
-    /// All points are on one line, but there are triangles.
+    /// There are triangles, although all points are on one line.
     #[error("{triangles} triangles are given, but all points are on one line")]
     TrianglesOfCollinearPoints {
-        /// Triangles given.
+        /// Number of triangles given.
         triangles: usize,
     },
-    /// The number of triangles is not the one Euler's formula gives.
+    /// The number of triangles is not the one of Euler's formula.
     #[error("{found} triangles are given, but {distinct} points with {hull} on the hull have {expected}")]
     TriangleCount {
-        /// Triangles given.
+        /// Number of triangles given.
         found: usize,
-        /// 2 · distinct - 2 - hull.
+        /// Number of triangles by the formula, 2 · distinct - 2 - hull.
         expected: usize,
-        /// Distinct points.
+        /// Number of distinct points.
         distinct: usize,
-        /// Points on the hull.
+        /// Number of points on the hull.
         hull: usize,
     },
     /// Two triangles lie on the same side of an edge.
     #[error("triangles {one} and {other} lie on the same side of the edge from point {} to point {}", edge[0], edge[1])]
     SameSide {
-        /// A triangle.
+        /// Number of the first triangle.
         one: usize,
-        /// Another.
+        /// Number of the second triangle.
         other: usize,
-        /// The directed edge both have.
+        /// The directed edge that both have.
         edge: [u32; 2],
     },
-    /// An edge with one triangle is not on the hull.
-    #[error("the edge from point {} to point {} of triangle {triangle} has no other triangle and is not on the hull", edge[0], edge[1])]
+    /// An edge has only one triangle, but is not on the hull.
+    #[error(
+        "the edge from point {} to point {} of triangle {triangle} has no other triangle and is not on the hull",
+        edge[0], edge[1]
+    )]
     OpenEdge {
-        /// The triangle.
+        /// Number of the only triangle.
         triangle: usize,
-        /// The edge.
+        /// The edge by its two points.
         edge: [u32; 2],
     },
-    /// A hull edge has no triangle.
+    /// An edge of the hull has no triangle.
     #[error("the hull edge from point {} to point {} has no triangle", edge[0], edge[1])]
     MissingHullEdge {
-        /// The edge.
+        /// The edge by its two points.
         edge: [u32; 2],
     },
     /// The triangles do not fill the hull.
@@ -131,42 +138,45 @@ pub enum VerifyError {
         hull: i128,
     },
     /// A point lies inside the circumcircle of a neighbouring triangle.
-    #[error("point {point} lies inside the circle of triangle {triangle}, so the edge from point {} to point {} is not Delaunay", edge[0], edge[1])]
+    #[error(
+        "point {point} lies inside the circle of triangle {triangle}, so the edge from point {} to point {} is not \
+         Delaunay", edge[0], edge[1]
+    )]
     NotDelaunay {
-        /// Number of the triangle.
+        /// Number of the triangle in the list.
         triangle: usize,
-        /// The point inside its circle.
+        /// The point inside the circle of that triangle.
         point: u32,
-        /// The edge between them.
+        /// The edge between the triangle and the point.
         edge: [u32; 2],
     },
-    /// Four cocircular points, and the diagonal is not the one of the tie rule.
+    /// Four points lie on one circle, and the edge between them is not the diagonal of the tie rule.
     #[error(
         "the points {}, {}, {}, {} lie on one circle, and the edge from point {} to point {} breaks the tie rule: \
          the diagonal of point {smallest} is due", corners[0], corners[1], corners[2], corners[3], edge[0], edge[1]
     )]
     WrongTie {
-        /// The four points.
+        /// The four points on the circle.
         corners: [u32; 4],
-        /// The edge that is there.
+        /// The edge of the mesh.
         edge: [u32; 2],
-        /// The lexicographically smallest of the four.
+        /// The lexicographically smallest of the four points.
         smallest: u32,
     },
     /// The hull list is not the hull of the points.
     #[error("the hull list differs from the hull of the points at place {place}: {found:?} instead of {expected:?}")]
     Hull {
-        /// First place that differs.
+        /// The first place at which the lists differ.
         place: usize,
-        /// Index found; `None` past the end of the list.
+        /// The index found; `None` past the end of the list.
         found: Option<u32>,
-        /// Index expected; `None` past its end.
+        /// The index expected; `None` past the end of the hull.
         expected: Option<u32>,
     },
     /// The list of duplicates is not that of the points.
     #[error("the list of duplicates differs from that of the points at place {place}")]
     Duplicates {
-        /// First place that differs.
+        /// The first place at which the lists differ.
         place: usize,
     },
 }

@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 
 use crate::point::Point;
 
-/// Coordinates must stay below this.
+/// The limit below which coordinates must stay.
 pub(super) const COORDINATE_LIMIT: u32 = 1 << 31;
 
 /// The vector from `from` to `to`.
@@ -16,17 +16,17 @@ fn minor(one: [i128; 2], other: [i128; 2]) -> i128 {
     one[0] * other[1] - one[1] * other[0]
 }
 
-/// Twice the signed area of the triangle: positive if `a`, `b`, `c` turn left.
+/// Twice the signed area of a triangle: positive if `a`, `b`, `c` turn left.
 pub(super) fn orient2d(a: Point, b: Point, c: Point) -> i128 {
     minor(vector(a, b), vector(a, c))
 }
 
 /// Whether `d` is inside (`Greater`), on (`Equal`) or outside (`Less`) the circle of the counter-clockwise triangle.
 ///
-/// The 3x3 determinant of the corners seen from `d` and lifted onto a paraboloid. Differences are below 2^31, lifts and
-/// minors below 2^63, so each of its three products is below 2^126 and the sum of two below 2^127. The determinant
-/// itself is at most 2^126: it equals a difference of two products of a doubled area in the square of the grid
-/// (at most 2^62) with a scalar product (at most 2^63).
+/// The sign is that of the 3x3 determinant of the corners seen from `d` and lifted onto a paraboloid. Differences are
+/// below 2^31, lifts and minors below 2^63, so each of the three products is below 2^126 and the sum of two below
+/// 2^127. The determinant itself is at most 2^126: it equals a difference of two products, each of an `orient2d` in the
+/// square of the grid (at most 2^62) and a scalar product (at most 2^63).
 pub(super) fn incircle(a: Point, b: Point, c: Point, d: Point) -> Ordering {
     let [a, b, c] = [a, b, c].map(|corner| vector(d, corner));
     let lift = |v: [i128; 2]| v[0] * v[0] + v[1] * v[1];

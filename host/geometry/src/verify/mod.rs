@@ -1,9 +1,15 @@
-//! The validator: is this mesh right at all?
+//! The validator, which proves that a mesh is the canonical one.
 //!
-//! It shares no predicate, no sort and no step of the algorithm with the devices, the model or the rest of the host,
-//! only the types of points and meshes: exact 128-bit integers, the lifted 3x3 determinant, a hull by monotone chain.
-//! What it accepts is the canonical mesh: all triangles counter-clockwise, their areas sum to the hull's, each inner
-//! edge is locally Delaunay (so all are: Delaunay 1934), and each tie follows the rule.
+//! Use the validator in tests of code that makes or changes meshes, and on answers of hardware that you do not
+//! trust. It shares no predicate, no sort and no step of an algorithm with the devices, the model or the rest of the
+//! host, only the types of points and meshes. The validator has exact 128-bit integers, the lifted 3x3 determinant,
+//! and a hull by monotone chain (Andrew 1979) instead.
+//!
+//! An accepted list of triangles is the canonical mesh, because
+//! - all triangles are counter-clockwise and their areas sum to the area of the hull, each edge has its two sides or is
+//!   a hull edge, and the number of triangles is the one of Euler's formula: so the triangles fill the hull;
+//! - each inner edge is locally Delaunay: so all triangles are Delaunay (Delaunay 1934);
+//! - each tie follows the tie rule, and the list is sorted: so there is no other such list.
 
 mod edges;
 mod error;
@@ -23,11 +29,14 @@ use crate::point::Point;
 use exact::COORDINATE_LIMIT;
 use sites::Sites;
 
-/// Most points or triangles: three half-edges of each triangle must fit 32 bits.
+/// Most points or triangles that the validator takes: three half-edges of each triangle must fit 32 bits.
 const MAX_COUNT: usize = (u32::MAX / 3) as usize;
 
-/// Checks that `triangles` is the canonical Delaunay triangulation of `points`. O(n log n), about 200 bytes per
-/// point.
+/// Proves that `triangles` is the canonical Delaunay triangulation of `points`, and counts what it has seen.
+///
+/// The triangles may come from anywhere; indices out of range and other nonsense are errors, never a panic. Coordinates
+/// must be below 2^31. O(n log n), with about 200 bytes a point. [`Mesh::verify`](crate::Mesh::verify) also checks the
+/// hull and the duplicates of a mesh.
 ///
 /// ```
 /// use incircle_geometry::{verify, Point};
@@ -39,7 +48,7 @@ const MAX_COUNT: usize = (u32::MAX / 3) as usize;
 /// ```
 ///
 /// # Errors
-/// The first thing found wrong, with its numbers.
+/// The first defect found, with the numbers of its points and triangles.
 pub fn verify(points: &[Point], triangles: &[[u32; 3]]) -> Result<VerifySummary, VerifyError> {
     check_sizes(points, triangles)?;
     let sites = Sites::of(points);
@@ -78,7 +87,7 @@ fn check_sizes(points: &[Point], triangles: &[[u32; 3]]) -> Result<(), VerifyErr
     }
 }
 
-/// Checks each triangle by itself and the order of the list; returns twice the sum of their areas.
+/// Checks each triangle by itself and the order of the list; returns twice the sum of the areas.
 fn check_triangles(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<i128, VerifyError> {
     let mut covered = 0;
     for (triangle, &corners) in triangles.iter().enumerate() {
@@ -101,7 +110,7 @@ fn check_triangles(sites: &Sites<'_>, triangles: &[[u32; 3]]) -> Result<i128, Ve
     Ok(covered)
 }
 
-/// Corners must exist and be the lowest index of their coordinates.
+/// Checks that the corners of a triangle exist, each under the lowest index of its coordinates.
 fn check_corners(sites: &Sites<'_>, triangle: usize, corners: [u32; 3]) -> Result<(), VerifyError> {
     for index in corners {
         match sites.lowest.get(index as usize) {
@@ -113,7 +122,7 @@ fn check_corners(sites: &Sites<'_>, triangle: usize, corners: [u32; 3]) -> Resul
     Ok(())
 }
 
-/// Euler: a triangulation of n points with h of them on the hull has 2n - 2 - h triangles.
+/// Checks Euler's formula: a triangulation of n points with h of them on the hull has 2n - 2 - h triangles.
 fn check_count(summary: &VerifySummary) -> Result<(), VerifyError> {
     let expected = 2 * summary.distinct - 2 - summary.hull.len();
     if summary.triangles == expected {
@@ -151,7 +160,7 @@ fn check_area(sites: &Sites<'_>, hull: &[u32], triangles: i128) -> Result<(), Ve
     }
 }
 
-/// The hull list must be that of the summary.
+/// Checks that the hull of a mesh is the one of the summary.
 pub(crate) fn check_hull(hull: &[u32], summary: &VerifySummary) -> Result<(), VerifyError> {
     match first_difference(hull, &summary.hull) {
         Some(place) => Err(VerifyError::Hull {
@@ -163,7 +172,7 @@ pub(crate) fn check_hull(hull: &[u32], summary: &VerifySummary) -> Result<(), Ve
     }
 }
 
-/// The list of duplicates must be that of the points.
+/// Checks that the duplicates of a mesh are those of its points.
 pub(crate) fn check_duplicates(points: &[Point], duplicates: &[Duplicate]) -> Result<(), VerifyError> {
     let expected: Vec<Duplicate> = Sites::of(points).duplicates().collect();
     match first_difference(duplicates, &expected) {

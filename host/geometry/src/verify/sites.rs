@@ -1,4 +1,4 @@
-//! The distinct points, their hull, and which index stands for which.
+//! The validator's view of the input: the distinct points, their hull, and the index that stands for each place.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -8,7 +8,7 @@ use crate::point::Point;
 
 use super::exact::orient2d;
 
-/// The distinct points of an input.
+/// The points of an input, sorted, with the lowest index of each place.
 pub(super) struct Sites<'a> {
     pub(super) points: &'a [Point],
     /// Lowest index of each distinct point, in lexicographic order of the points.
@@ -18,7 +18,7 @@ pub(super) struct Sites<'a> {
 }
 
 impl<'a> Sites<'a> {
-    /// Sorts the points. O(n log n).
+    /// Sorts the points and finds the lowest index of each place. O(n log n).
     pub(super) fn of(points: &'a [Point]) -> Self {
         let mut distinct: Vec<u32> = (0..points.len() as u32).collect();
         distinct.sort_unstable_by_key(|&index| (points[index as usize], index));
@@ -38,7 +38,7 @@ impl<'a> Sites<'a> {
         self.points[index as usize]
     }
 
-    /// Fewer than three distinct points, or all on one line.
+    /// Whether there are fewer than three distinct points, or all lie on one line.
     pub(super) fn are_collinear(&self) -> bool {
         let [first, second, rest @ ..] = &self.distinct[..] else {
             return true;
@@ -47,8 +47,8 @@ impl<'a> Sites<'a> {
         rest.iter().all(|&index| orient2d(a, b, self.at(index)) == 0)
     }
 
-    /// The hull, counter-clockwise from its lowest index, points in the middle of its edges included; all distinct
-    /// points in lexicographic order if they are collinear. Andrew's monotone chain. O(n).
+    /// The hull by Andrew's monotone chain, counter-clockwise from its lowest index, with the points in the middle of
+    /// its edges. Collinear points give all distinct points in lexicographic order. O(n).
     pub(super) fn hull(&self) -> Vec<u32> {
         if self.are_collinear() {
             return self.distinct.clone();
@@ -60,7 +60,7 @@ impl<'a> Sites<'a> {
         hull
     }
 
-    /// One side of the hull, without its last point: no right turn is left.
+    /// One side of the hull, which has no right turn, without its last point.
     fn chain(&self, sorted: impl Iterator<Item = u32>) -> Vec<u32> {
         let mut chain: Vec<u32> = Vec::new();
         for next in sorted {
@@ -76,7 +76,7 @@ impl<'a> Sites<'a> {
         chain
     }
 
-    /// The points that fell onto an earlier one, by index.
+    /// The input points with the coordinates of an earlier one, sorted by index.
     pub(super) fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
         let all = (0..).zip(self.lowest.iter());
         all.filter(|(index, of)| index != *of).map(|(index, &of)| Duplicate { index, of })

@@ -1,25 +1,25 @@
-//! What the validator counted.
+//! The counts of a mesh that the validator accepted.
 
 use alloc::vec::Vec;
 
-/// What the validator counted in a right mesh.
+/// The counts of a mesh that [`verify`](fn@crate::verify) accepted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct VerifySummary {
-    /// Points given.
+    /// Number of points given.
     pub points: usize,
-    /// Distinct points.
+    /// Number of distinct points.
     pub distinct: usize,
-    /// Points that fell onto an earlier one.
+    /// Number of points with the coordinates of an earlier one.
     pub duplicates: usize,
-    /// Triangles.
+    /// Number of triangles.
     pub triangles: usize,
-    /// Edges, each counted once.
+    /// Number of edges, each counted once.
     pub edges: usize,
-    /// Edges whose four points lie on one circle, decided by the tie rule.
+    /// Number of edges that the tie rule decides, because the four points of their two triangles lie on one circle.
     pub ties: usize,
-    /// The hull in canonical form, as [`Mesh::hull`](crate::Mesh::hull).
+    /// The hull in canonical form, as in [`Mesh::hull`](crate::Mesh::hull).
     pub hull: Vec<u32>,
-    /// All points on one line, or fewer than three distinct ones.
+    /// Whether there are fewer than three distinct points, or all lie on one line.
     pub collinear: bool,
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// A 4 x 4 lattice without its tie-free variants: every inner square is a tie.
+/// A lattice of 4 x 4 points with its canonical triangles. Each of its nine squares is a tie.
 fn lattice() -> (Vec<Point>, Vec<[u32; 3]>) {
     let points: Vec<Point> = (0..16).map(|k| Point::new(k / 4, k % 4)).collect();
     let mut triangles = Vec::new();
@@ -92,7 +92,7 @@ fn duplicates_go_by_their_lowest_index() {
 
 #[test]
 fn an_unused_point_is_found() {
-    // Three triangles of five points with the count of four around point 4, but point 4 left out.
+    // The number of triangles is right for five points, but no triangle has point 4.
     let points = [(0, 0), (4, 0), (4, 4), (0, 4), (2, 1)].map(Point::from);
     let found = error(&points, &[[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]);
     assert_eq!(found, VerifyError::UnusedPoint { index: 4 });
@@ -107,8 +107,8 @@ fn overlapping_triangles_do_not_pass_by_count() {
 
 #[test]
 fn an_open_edge_and_a_shared_side_are_found_behind_right_sums() {
-    // Right count and right area, but the triangles overlap: a parallelogram's halves of equal area in the wrong
-    // places.
+    // Right count and right area, but the triangles overlap: a parallelogram's halves of equal area
+    // in the wrong places.
     let points = [(0, 0), (4, 0), (4, 4), (0, 4)].map(Point::from);
     let found = error(&points, &[[0, 1, 2], [0, 1, 3]]);
     assert!(matches!(found, VerifyError::SameSide { edge: [0, 1], .. }), "{found}");
@@ -145,10 +145,10 @@ fn hull_and_duplicates_are_compared_place_by_place() {
     assert_eq!(check_duplicates(&points, &[]), Err(VerifyError::Duplicates { place: 0 }));
 }
 
-/// Types of the rest of the library that the validator takes: they carry numbers and decide nothing.
+/// Types of the rest of the library that the validator may use, because they carry numbers and decide nothing.
 const TYPES: [&str; 2] = ["use crate::point::Duplicate;", "use crate::point::Point;"];
 
-/// Whether a line of the validator uses code from outside of it and of the standard library.
+/// Whether a line of the validator uses code from outside the validator and the standard library.
 fn shares_code(line: &str, modules: &[String]) -> bool {
     let line = line.trim();
     if line.starts_with("//") || TYPES.contains(&line) {
@@ -168,7 +168,7 @@ fn shares_code(line: &str, modules: &[String]) -> bool {
 fn only_types_come_from_the_rest_of_the_library() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/verify");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    // All but this file.
+    // This file tests the validator and is not part of it.
     let sources: Vec<_> = files.filter(|path| !path.ends_with("tests.rs")).collect();
     let modules: Vec<String> =
         sources.iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
@@ -179,7 +179,7 @@ fn only_types_come_from_the_rest_of_the_library() {
         }
     }
     for line in [
-        "use crate::prepare::doubled_area;",
+        "use crate::prepare::orient2d;",
         "    let side = crate::cpu::orient2d(a, b, c);",
         "use super::super::cpu;",
         "pub use incircle_model::CommandModel;",

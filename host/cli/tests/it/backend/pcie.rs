@@ -1,4 +1,5 @@
-//! PCIe back ends without a card: what is no address, and what is no card, is told in a sentence. Jobs are tested with the simulated card.
+//! Tests of PCIe back ends without a card: a wrong address, or files that are no card, are named in a sentence. Other
+//! tests run jobs with the simulated card.
 
 use crate::common::Scratch;
 
@@ -27,10 +28,10 @@ fn cards_that_cannot_be_had_end_with_exit_code_4() {
     scratch.run("triangulate p.csv -o m.ele --backend pcie:/nowhere").fails(4, &missing);
     scratch.run("bench --backend pcie:/nowhere").fails(4, &missing);
     scratch.run("info --backend pcie:/nowhere").fails(4, &missing);
-    // The driver has nothing to do with a directory.
+    // A card that is named by its directory needs no driver, so the advice must not name one.
     let refusal = scratch.run("info --backend pcie:/nowhere");
     assert!(refusal.stderr.contains("serve-pcie") && !refusal.stderr.contains("modprobe"), "{refusal:?}");
-    // Files that are no card: they end, or have other registers.
+    // These files are no card, because they are too short or have other registers.
     for name in ["xdma0_h2c_0", "xdma0_c2h_0", "xdma0_user"] {
         scratch.write(name, "");
     }

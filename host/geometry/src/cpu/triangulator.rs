@@ -1,4 +1,4 @@
-//! The engine as a whole: from points to the mesh.
+//! The CPU triangulator as a whole: from points to the mesh.
 
 use alloc::vec::Vec;
 use core::num::NonZeroUsize;
@@ -7,51 +7,54 @@ use core::ops::ControlFlow;
 #[cfg(not(feature = "std"))]
 use super::conquer::conquer;
 use super::edges::{Half, HALVES};
-use super::sites::{sort, Sites};
 #[cfg(feature = "std")]
-use super::stretches;
+use super::segments;
+use super::sites::{sort, Sites};
 use super::view::{orient2d, Narrow, Site, Wide, Width, NARROW_BITS};
 use super::{collect, conquer::GoOn, merge::Part};
 use crate::mesh::Mesh;
 use crate::pages;
 use crate::point::{Point, MAX_COORD_BITS, MAX_POINTS};
 
-/// Points that are worth a thread.
+/// Points that justify one more thread.
 const THREAD_POINTS: usize = 16_384;
 
-/// A part of the work.
+/// A stage of the CPU triangulator's work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Stage {
-    /// Points are sorted along the curve, and duplicates taken out.
+    /// Sorts the points along the curve and takes duplicates out.
     Order,
-    /// Parts of the plane are triangulated and joined.
+    /// Triangulates parts of the plane and joins them.
     Insert,
-    /// Triangles and hull are put into canonical form.
+    /// Puts triangles and hull into canonical form.
     Assemble,
 }
 
-/// A report on the way: the stage, and how far the engine is in it.
+/// The progress of the CPU triangulator: its stage, and the points done in this stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// The part of the work.
+    /// The stage that the work has reached.
     pub stage: Stage,
-    /// Points done in this stage: 0 when the stage begins. [`Stage::Insert`] counts distinct points, and is told of at
-    /// its end and now and then before; the other stages are told of at their beginning alone.
+    /// Points done in this stage, 0 when the stage begins.
+    ///
+    /// [`Stage::Insert`] counts distinct points and is reported at its beginning, from time to time, and at its end.
+    /// The other stages are reported only when they begin.
     pub done: usize,
-    /// Points of this stage.
+    /// Points to do in this stage.
     pub total: usize,
 }
 
-/// A listener that hears how far the engine is. [`ControlFlow::Break`] ends the work with [`Error::Cancelled`].
+/// A function that is called with the progress of the work. If it returns [`ControlFlow::Break`], the
+/// work ends with [`Error::Cancelled`].
 pub type Watch<'w> = &'w mut dyn FnMut(Progress) -> ControlFlow<()>;
 
-/// Why there is no mesh.
+/// The reasons why [`triangulate`] returns no mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The watch ended the work.
+    /// The watch ended the work at this point.
     #[error("the triangulation was cancelled after {} of {} points in the stage {:?}", .0.done, .0.total, .0.stage)]
     Cancelled(Progress),
     /// A coordinate has more than 31 bits.
@@ -59,29 +62,33 @@ pub enum Error {
     CoordinateOutOfRange {
         /// Input index of the point.
         index: usize,
-        /// The point.
+        /// The point with this coordinate.
         point: Point,
     },
-    /// More points than [`MAX_POINTS`].
+    /// There are more points than [`MAX_POINTS`].
     #[error("{points} points are more than the {MAX_POINTS} that indices allow: cut the set into parts")]
     TooManyPoints {
-        /// Points given.
+        /// Number of points given.
         points: usize,
     },
 }
 
-/// The threads that the engine uses for so many points, of those it may use: one for each 16,384 of them. Without the feature
-/// `std` one thread.
+/// The number of threads that [`triangulate`] uses for a set of `points` points: one, and one more for every full
+/// 16,384 points, but at most `allowed`. Without the feature `std` the number is 1.
 pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
     let most = if cfg!(feature = "std") { points / THREAD_POINTS + 1 } else { 1 };
     allowed.min(NonZeroUsize::MIN.saturating_add(most - 1))
 }
 
-/// The canonical Delaunay triangulation of the points, on at most so many threads; see [`threads_for`].
+/// Computes the canonical Delaunay triangulation of a set of points, on at most `threads` threads; see [`threads_for`].
 ///
-/// Coordinates must be below 2^31. Duplicates collapse onto their lowest index and are listed. The watch hears of
-/// progress, on the thread of the caller, and can end the work. O(n log n) at worst and O(n) on even sets: about 0.15
-/// µs a point on one thread. The peak is below 200 bytes per point, the mesh included, the caller's points not.
+/// Coordinates must be below 2^31. Duplicates collapse onto their lowest index and are listed in the mesh. Fewer than
+/// three distinct points, or points on one line, give a mesh without triangles. The function calls `watch` with its
+/// progress, on the caller's thread, and ends early if `watch` asks for it.
+///
+/// Cost: O(n log n) at worst and O(n) on even sets, about 0.15 µs a point on one thread. The peak of memory is below
+/// 200 bytes a point, with the mesh but without the caller's points. The result does not depend on the number of
+/// threads. Source: Guibas and Stolfi 1985, with exact integers and the tie rule (see [the module](crate::cpu)).
 ///
 /// ```
 /// use core::num::NonZeroUsize;
@@ -96,7 +103,7 @@ pub fn threads_for(points: usize, allowed: NonZeroUsize) -> NonZeroUsize {
 /// ```
 ///
 /// # Errors
-/// More than [`MAX_POINTS`] points, a coordinate of more than 31 bits, or a watch that ends the work.
+/// There are more than [`MAX_POINTS`] points, a coordinate has more than 31 bits, or the watch ends the work.
 pub fn triangulate(points: Vec<Point>, threads: NonZeroUsize, watch: Watch<'_>) -> Result<Mesh, Error> {
     check(&points)?;
     let threads = threads_for(points.len(), threads).get();
@@ -119,7 +126,8 @@ fn check(points: &[Point]) -> Result<(), Error> {
     if points.len() > MAX_POINTS {
         return Err(Error::TooManyPoints { points: points.len() });
     }
-    // All at once, which is far faster than to look at each: nearly always all are right.
+    // One pass without branches decides for all points together, far faster than a look at each. Nearly always all
+    // coordinates are in range.
     let all = points.iter().fold(0, |all, point| all | point.x | point.y);
     if all >> MAX_COORD_BITS == 0 {
         return Ok(());
@@ -130,7 +138,7 @@ fn check(points: &[Point]) -> Result<(), Error> {
     }
 }
 
-/// Tells the watch, which may end the work.
+/// Reports progress to the watch, which may end the work.
 fn tell(watch: Watch<'_>, stage: Stage, done: usize, total: usize) -> Result<(), Error> {
     let progress = Progress { stage, done, total };
     match watch(progress) {
@@ -171,7 +179,7 @@ fn triangles_and_hull<W: Width>(
 
 #[cfg(feature = "std")]
 fn whole<W: Width>(sites: &[Site], halves: &mut [Half], threads: usize, go_on: GoOn<'_>) -> Option<Part> {
-    stretches::triangulate::<W>(sites, halves, threads, go_on)
+    segments::triangulate::<W>(sites, halves, threads, go_on)
 }
 
 #[cfg(not(feature = "std"))]
@@ -179,7 +187,7 @@ fn whole<W: Width>(sites: &[Site], halves: &mut [Half], _threads: usize, go_on: 
     conquer::<W>(sites, halves, go_on)
 }
 
-/// There are fewer than three sites, or all lie on one line.
+/// Whether there are fewer than three sites, or all lie on one line.
 fn is_collinear(sites: &[Site]) -> bool {
     let [a, b, rest @ ..] = sites else {
         return true;
