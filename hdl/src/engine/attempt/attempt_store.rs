@@ -20,7 +20,7 @@ use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
 crate::packed! {
-    /// An attempt, with flags that are ready sooner because they are stored beside it.
+    /// An attempt, with flags that are ready sooner because they are kept apart from it.
     pub struct Held {
         pub attempt: Attempt,
         /// Only one visit of the attempt is out; or the list has no room for another entry (`is_full`).

@@ -23,7 +23,6 @@ pub struct CommitPath {
     pub clock: Signal<In, Clock>,
     /// Reset drops all rings; clear forgets the records.
     pub reset: Signal<In, Bit>,
-    /// A lock to clear at this edge; with the last lock of a context also `released`.
     pub clears: Signal<In, Bit>,
     /// The highest record id, a constant.
     pub last_id: Signal<In, TriangleId>,
@@ -47,6 +46,7 @@ pub struct CommitPath {
     pub fresh: Signal<Out, TriangleId>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
+    /// A lock to clear at this edge; with the last lock of a context also `released`.
     pub clear: Signal<Out, LockClear>,
     pub released: Signal<Out, Released>,
     /// The lock memory is being cleared after reset.

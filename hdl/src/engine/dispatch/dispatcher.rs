@@ -1,4 +1,4 @@
-//! Hands points to contexts, and knows when every point is finished or when none will be any more.
+//! Hands points to contexts, and knows when every point is finished or the work has come to a halt.
 //!
 //! 1. The consequences of a visit for its context are noted a clock after the visit completes. From then on the
 //!    context may start again, and its foreign locks count.

@@ -28,7 +28,6 @@ crate::packed! {
         pub id: VertexId,
         /// The vertex is the third of the context's own first triangle, in a batch; then `dealt` follows it.
         pub is_seed: bool,
-        /// The number of contexts that work, and whether each has a mesh of its own.
         pub dealt: Bits<7>,
     }
 
@@ -46,7 +45,7 @@ crate::packed! {
 /// The next vertex of a context; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct NextPoint {
-    /// Contexts that work, and whether each has a mesh of its own.
+    /// The number of contexts that work, and whether each has a mesh of its own.
     pub deal: Signal<In, Deal>,
     /// The context under the pointer.
     pub pointer: Signal<In, Pointer>,
