@@ -12,7 +12,7 @@
 //!                 |               v       v              v
 //!                 +------------ WritePort: one record or one link in each clock
 //! ```
-//! `Insertions` alone sets and clears locks: by its visits, and by `clear` into `VisitPipeline`.
+//! Only `Insertions` sets and clears locks: by its visits, and by `clear` into `VisitPipeline`.
 
 use super::insertions::Insertions;
 use super::seed::Seeder;

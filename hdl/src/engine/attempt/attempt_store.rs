@@ -1,5 +1,5 @@
-//! The states of the attempts of all contexts. The state of a context is at hand in the clock in which one
-//! of its visits completes.
+//! The states of the attempts of all contexts. The state of a context is at hand in the clock in which one of its
+//! visits completes, and changes in the same clock, because the next visit of the context may complete a clock later.
 //!
 //! 1. `early_visit` announces every visit in the clock before its own. There may be pauses.
 //! 2. A visit sees the effects of all visits before it, also of a test in the clock before. The visit that opens a

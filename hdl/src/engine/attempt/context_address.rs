@@ -1,4 +1,5 @@
-//! The address of a context's word in a memory that has the same number of words for each context.
+//! The address of a context's word in a memory that has the same number of words for each context. The lists of all
+//! contexts share such memories.
 //!
 //! Latency: none; the block has no logic, because both sides are the same wires.
 

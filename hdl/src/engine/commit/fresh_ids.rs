@@ -1,4 +1,5 @@
-//! Counts the records of the mesh twice: new ids as they are taken, and the records that are written.
+//! Counts the records of the mesh twice: new ids as they are taken, and the records that are written. Ids in between
+//! belong to records that no walk may trust yet.
 //!
 //! 1. The new ids of a ring count as written when its last record has passed the write port and stands
 //!    in the memory (L7).

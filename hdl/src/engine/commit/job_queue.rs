@@ -1,4 +1,5 @@
-//! A queue of jobs of contexts, first come, first served.
+//! A queue of jobs of contexts, first come, first served. A commit or a release takes many clocks, and
+//! others become due meanwhile.
 //!
 //! 1. Every context has at most one job in a queue, so there is a place for each.
 //!

@@ -1,4 +1,5 @@
-//! Releases the locks of attempts that are over, one a clock. After reset, clears the whole lock memory.
+//! Releases the locks of attempts that are over, one a clock. After reset, clears the whole lock memory. The memory
+//! clears one lock in each clock, so the locks of each attempt are logged and wait here.
 //!
 //! 1. Locks of rings go before locks of aborted attempts. Among equals, those that came first go first.
 //! 2. A context has one job at a time, of at least one lock. Its log is not written from the job on until `released`,

@@ -1,4 +1,5 @@
-//! Reads complete rings in the order of their entries, an entry a clock, one ring after another.
+//! Reads complete rings in the order of their entries, an entry a clock, one ring after another. A list in memory
+//! takes several clocks to follow, so the reader works ahead of the commit.
 //!
 //! 1. A ring starts at entry 0 and follows `after` until that is 0. It has three entries or more.
 //! 2. All entries of a ring are final when `commit` comes, or become so at the same edge. None is written again until
@@ -8,7 +9,7 @@
 //!    register, a register away from it, and the head. So the entries of a ring follow each other without a gap.
 //! 5. All decisions about an entry are made on its way to the head, and the head is a function of registers. The last
 //!    entry of a ring is known only when it is in the array. So the pointer runs one place too far, and one place
-//!    between two rings stays empty. The commit has the end of a ring to write in that clock.
+//!    between two rings stays empty. The commit writes the end of a ring in that clock and needs no entry.
 //! 6. A context has one ring here at a time.
 //!
 //! Latency: 6 clocks from `commit` to `head` if no ring is before it.

@@ -1,5 +1,6 @@
 //! The bucket of a latency: eight buckets to an octave from 16 clocks on. The first one takes all latencies below 18,
-//! the last one all from 2^20 - 2^16 on.
+//! the last one all from 2^20 - 2^16 on. The buckets between are an eighth of their latencies wide at most, so short
+//! and long insertions are told apart equally well.
 //!
 //! 1. The highest bit that is set gives the octave, the three bits below it the place in the octave.
 //!

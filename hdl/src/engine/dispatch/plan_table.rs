@@ -1,5 +1,5 @@
-//! The next vertex of each context: written down in the first round of the pointer, and whenever a
-//! context takes a vertex.
+//! The next vertex of each context: written down in the first round of the pointer, and whenever a context takes a
+//! vertex. A start then needs no sum to know its vertex.
 //!
 //! 1. The table is never cleared. Until the pointer has gone round once, the first vertex of a context comes from its
 //!    number, and is written down.

@@ -1,5 +1,5 @@
-//! Reads the record of a visit, rotates it by the edge it was reached through, and passes on the
-//! coordinates of its corners.
+//! Reads the record of a visit, rotates it by the edge it was reached through, and passes on the coordinates of its
+//! corners. A test then finds the edge it came across opposite slot 0, whatever the stored order.
 //!
 //! 1. With `visit.rotates` the slot whose neighbour is `visit.cavity_record` comes first, otherwise slot 0 does. The
 //!    neighbours of a record differ, so the slot is unique.

@@ -1,4 +1,5 @@
-//! The two forms of a write into the triangle memory: a whole record of the new vertex's star, and one link.
+//! The two forms of a write into the triangle memory: a whole record of the new vertex's star, and one link. Several
+//! blocks make such writes, so the columns are filled in here.
 //!
 //! Latency: none, the blocks are combinational.
 
