@@ -1,13 +1,18 @@
-//! The insertion engine: points in, triangle records kept, many insertions in flight on one pipeline.
+//! The insertion engine: accepts points, keeps the triangle records, and has many insertions in
+//! flight on one pipeline.
 //!
 //! ```text
-//!                 +------------------- visits, one to three a push -----------------------------+
-//!                 v                                                                            |
-//! points -> VisitPipeline -> completion -> Insertions: Dispatcher (who starts) -- Attempts (what follows) -- CommitPath
-//!                 ^               |                                                                 |      |
-//!                 |               +-> Seeder (the first triangle), Solo (alone) -> WritePort <------+      | locks
-//!                 +---------------------------------------------------------------------+  <--------------+
+//!                 +------- PushPort <-----+--------------+
+//!                 v                       | visits       | visits
+//!  points -> VisitPipeline -+-------> Insertions       Solo <-+
+//!                 ^         |             | stars        |    |
+//!                 |         +-> Seeder    |              |    | completed visits
+//!                 |         |     | first triangles      |    |
+//!                 |         +-----|-------|--------------|----+
+//!                 |               v       v              v
+//!                 +------------ WritePort: one record or one link in each clock
 //! ```
+//! Only `Insertions` sets and clears locks: by its visits, and by `clear` into `VisitPipeline`.
 
 use super::insertions::Insertions;
 use super::seed::Seeder;
@@ -21,29 +26,29 @@ use crate::mesh::ReadRecord;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
-/// The engine; see the top of this file.
+/// The insertion engine; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct InsertionEngine {
     pub clock: Signal<In, Clock>,
-    /// Reset forgets everything but the memories, and sweeps the locks.
+    /// Reset forgets everything except the memories, and starts the sweep that clears all locks.
     pub reset: Signal<In, Bit>,
     pub limits: Signal<In, Limits>,
-    /// Contexts that work, and which points are theirs; changes only with `clears`.
+    /// The rule by which points belong to contexts; changes only together with `clears`.
     pub deal: Signal<In, Deal>,
-    /// Forget the mesh at this edge; only while quiet.
+    /// The mesh is forgotten at this edge; only while the engine is quiet.
     pub clears: Signal<In, Bit>,
-    /// A point is stored at this edge; points that have come.
+    /// A point that is stored at this edge, and the number of points that have come.
     pub arrival: Signal<In, Arrival>,
     pub arrived: Signal<In, VertexId>,
-    /// Read-out of a record; only while quiet.
+    /// A record that the read-out wants, only while the engine is quiet; and the record that has been read.
     pub read: Signal<In, RecordRead>,
     pub read_out: Signal<Out, ReadRecord>,
-    /// The time.
+    /// The clock count, from which latencies are taken.
     pub now: Signal<In, Clocks>,
     pub state: Signal<Out, EngineState>,
-    /// The write port of the triangle memory.
+    /// The write port of the triangle memory, for those who watch the mesh from outside.
     pub write: Signal<Out, Write>,
-    /// What happens at this edge, for the counters.
+    /// The events of this edge, for the counters.
     pub events: Signal<Out, Events>,
     insertions: Insertions,
     pipeline: VisitPipeline,
@@ -56,7 +61,7 @@ pub struct InsertionEngine {
 }
 
 impl InsertionEngine {
-    /// The engine of a configuration, which must be a valid one.
+    /// Builds the engine of a configuration, which must be a valid one.
     pub fn new(config: Config) -> Self {
         Self { insertions: Insertions::new(config), pipeline: VisitPipeline::new(config), ..Self::default() }
     }
@@ -75,7 +80,6 @@ impl Logic for InsertionEngine {
         self.insertions.clears.next = self.clears.val();
         self.seeder.clears.next = self.clears.val();
 
-        // What the link sees.
         self.state.next.start_is_open = self.seeder.start_is_open.val();
         self.state.next.collinear = self.seeder.collinear.val();
         self.state.next.is_quiet = self.insertions.is_quiet.val();
@@ -85,7 +89,6 @@ impl Logic for InsertionEngine {
         self.read_out.next = self.pipeline.read_out.val();
         self.write.next = self.write_port.write.val();
 
-        // The visits.
         self.completion.next = self.pipeline.completion.val();
         self.verdict.next = self.pipeline.completion.val().verdict;
         self.pipeline.infinite.next = self.limits.val().infinite;
@@ -101,7 +104,7 @@ impl Logic for InsertionEngine {
         self.pipeline.fetch_id.next = self.insertions.start.val().id;
         self.pipeline.clear.next = self.insertions.clear.val();
 
-        // The insertions in flight. No visit is out when an insertion alone starts or ends, so a clock earlier makes no difference.
+        // A solo insertion starts and ends only while no visit is out. So its progress may hide visits a clock ahead.
         self.insertions.limits.next = self.limits.val();
         self.insertions.deal.next = self.deal.val();
         self.insertions.arrived.next = self.arrived.val();
@@ -114,7 +117,6 @@ impl Logic for InsertionEngine {
         self.insertions.seed.next = self.seeder.progress.val();
         self.insertions.solo.next = self.solo.progress.val();
 
-        // The first triangle, and an insertion alone.
         self.seeder.infinite.next = self.limits.val().infinite;
         self.seeder.deal.next = self.deal.val();
         self.seeder.arrival.next = self.arrival.val();
@@ -125,7 +127,6 @@ impl Logic for InsertionEngine {
         self.solo.records.next = self.insertions.fresh.val();
         self.solo.completion.next = self.completion.val();
 
-        // Who pushes visits, and who writes.
         self.push_port.follow.next = self.insertions.follow.val();
         self.push_port.start.next = self.insertions.start.val();
         self.push_port.solo_is_at_work.next = self.solo.progress.val().is_at_work;

@@ -1,9 +1,11 @@
-//! What becomes of the context whose visit completes.
+//! The consequences of a completed visit for its context: whether the context falls asleep, keeps its point,
+//! or needs the priority.
 //!
-//! 1. It falls asleep with its last visit, and keeps its point unless that is in a finished ring or a duplicate (L1).
-//! 2. It asks for the priority when it gives up, and needs the priority no more when its point is settled (L2).
+//! 1. A context falls asleep when its last visit completes. The context keeps its point, unless its ring is complete
+//!    or the point equals a vertex (L1).
+//! 2. A context asks for the priority when it aborts, and returns the priority when its point is settled (L2).
 //!
-//! Latency: none (combinational).
+//! Latency: none, the block is combinational.
 
 use crate::engine::types::{Case, Outcome, Step, TriangleId, Visit};
 use rust_hdl_core::prelude::*;
@@ -11,16 +13,17 @@ use rust_hdl_core::prelude::*;
 /// The outcome of a visit; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Aftermath {
-    /// The visit, what it means, and what it makes of its attempt.
+    /// The completed visit, its case, and the step of its attempt.
     pub visit: Signal<In, Visit>,
     pub found: Signal<In, Case>,
     pub step: Signal<In, Step>,
-    /// Where its walk would go on.
+    /// The neighbour to which a walk through this record would go on.
     pub walk_next: Signal<In, TriangleId>,
-    /// A commit or a release becomes due with it.
+    /// A commit or a release of the context becomes due with this visit.
     pub hands_over: Signal<In, Bit>,
     pub outcome: Signal<Out, Outcome>,
-    /// A failed attempt is over; the root's visit is, with the root locked.
+    /// An aborted attempt is over; or a root visit that locked the root ends the attempt (`stops_at_root`). Either
+    /// way the locks are due for release.
     pub fails: Signal<Out, Bit>,
     pub stops_at_root: Signal<Out, Bit>,
     is_failure: Signal<Local, Bit>,

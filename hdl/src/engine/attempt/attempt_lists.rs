@@ -1,9 +1,11 @@
-//! What a visit adds to the lists of its context, and who gets the lists when the attempt is over.
+//! Adds what a visit has found to the lists of its context, and hands the lists over when the attempt is over: a
+//! complete ring to the commit, the locks of an aborted attempt to the release.
 //!
-//! 1. An edge stands at its own place; inner triangles and locks stand in the order in which they came, the root's lock first.
-//! 2. A lock taken by an attempt's last visit counts in its job.
+//! 1. An entry stands in the place of its own number. Inner records and locks stand in the order in which they came,
+//!    the lock of the root first.
+//! 2. The job of an attempt also counts a lock that its last visit took. Otherwise that lock would stay set.
 //!
-//! Latency: none (combinational).
+//! Latency: none, the block is combinational.
 
 use crate::engine::types::{
     Attempt, Case, Clocks, CommitJob, CommitRequest, Completion, Entry, EntryWrite, InnerWrite, LockWrite, ReleaseJob,
@@ -14,22 +16,25 @@ use rust_hdl_core::prelude::*;
 /// The lists of an attempt; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptLists {
+    /// The visit that completes in this clock.
     pub completion: Signal<In, Completion>,
-    /// The state of its attempt before and afterwards.
+    /// The state of the attempt before and after the visit.
     pub attempt: Signal<In, Attempt>,
     pub after: Signal<In, Attempt>,
-    /// The point of its context, and when it was taken.
+    /// The point of the context, and the clock count when the context took it.
     pub vertex: Signal<In, VertexId>,
     pub since: Signal<In, Clocks>,
+    /// The case of the visit, and the step of its attempt.
     pub found: Signal<In, Case>,
     pub step: Signal<In, Step>,
-    /// A failed attempt is over; the root's visit is, with the root locked.
+    /// An aborted attempt is over; or a root visit that locked the root ends the attempt (`stops_at_root`).
     pub fails: Signal<In, Bit>,
     pub stops_at_root: Signal<In, Bit>,
+    /// Additions to the lists of the context: a final entry, an inner record, a lock.
     pub entry: Signal<Out, EntryWrite>,
     pub inner: Signal<Out, InnerWrite>,
     pub lock: Signal<Out, LockWrite>,
-    /// The ring goes to the commit; the locks go to the release.
+    /// The ring goes to the commit; or the locks go to the release.
     pub commit: Signal<Out, CommitRequest>,
     pub releases: Signal<Out, ReleaseRequest>,
     visit: Signal<Local, Visit>,

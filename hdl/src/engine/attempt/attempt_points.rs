@@ -1,8 +1,10 @@
-//! The point that each context inserts, and when it took it.
+//! The point that each context inserts, and the clock count when the context took it. A commit needs both: the new
+//! vertex for its records, the clock count for the latency.
 //!
-//! 1. There is no reset: what a context has taken is arbitrary until it takes something.
+//! 1. There is no reset: the point of a context is arbitrary until the context takes one.
 //!
-//! Latency: a point is there 2 clocks after it is taken, long before any visit of it completes. A context is answered at once.
+//! Latency: 2 clocks from `start` to `vertex` and `since`, long before any visit for the point
+//! completes; none from `context_id`.
 //!
 //! Context 1 takes point 7 at time 3:
 //! ```text
@@ -21,14 +23,14 @@ use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// The points at hand; see the top of this file.
+/// The points of the contexts; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct AttemptPoints {
     pub clock: Signal<In, Clock>,
-    /// A context that starts may take a point at this edge; the time.
+    /// A context that starts and may take a point at this edge; the clock count.
     pub start: Signal<In, Start>,
     pub now: Signal<In, Clocks>,
-    /// A context; its point, and when it was taken.
+    /// The context that is asked about; its point, and the clock count when it took the point.
     pub context_id: Signal<In, ContextId>,
     pub vertex: Signal<Out, VertexId>,
     pub since: Signal<Out, Clocks>,
@@ -41,7 +43,7 @@ pub struct AttemptPoints {
 }
 
 impl AttemptPoints {
-    /// The points of a configuration.
+    /// Builds the table of a configuration.
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         Self { points: LutMemory::new(bits, VERTEX_BITS), times: LutMemory::new(bits, LATENCY_BITS), ..Self::default() }

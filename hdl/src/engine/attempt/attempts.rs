@@ -1,15 +1,17 @@
-//! Takes each visit that completes to the next step of its context: the heart of the engine.
+//! Takes each completed visit to the next step of its context: the heart of the engine.
 //!
-//! 1. A visit changes the state of its own context only, which is read a clock ahead, and changed and written back in one clock; so
-//!    visits of all contexts complete in any order, one a clock.
-//! 2. A failed attempt drains: its visits run out, locks that they take are logged, and then all its locks are released (L1).
-//! 3. All outputs belong to the visit of this clock. `seeded`, `busy` and the priority are looked at a clock ahead.
+//! 1. A visit changes the state of its own context only. The state is read a clock ahead, and is changed and written
+//!    back in one clock. So the visits of all contexts may complete in any order, one a clock.
+//! 2. An aborted attempt drains: its visits in flight complete, the locks that they take are logged, and then all its
+//!    locks are released (L1).
+//! 3. All outputs belong to the visit of this clock. `seeded`, the busy contexts and the priority are looked
+//!    at a clock ahead.
 //!
-//! Latency: 1 clock from the early inputs to the outputs; the state is there for the visit of the next clock.
+//! Latency: 1 clock from `early` to the outputs; the state is there for the visit of the next clock.
 //!
-//! A walk finds its triangle, the root is locked, and its three neighbours are tested; the second one joins the cavity, and the visits
-//! that this asks for find its two edges final. Visits take two clocks here; the locks of the root and of its neighbours are places 0
-//! to 3:
+//! A walk finds its record, the root is locked, and the three neighbours are tested. The second one joins the cavity,
+//! and the two visits that follow find their edges final. Visits take two clocks here; the locks of the root and its
+//! neighbours have the places 0 to 3:
 //! ```text
 //! early_done      /^^\__/^^\__/^^^^^^^^\__/^^^^^\_____
 //! walk_visit      ___/^^\_____________________________
@@ -25,7 +27,7 @@
 //! commit_enable   ______________________________/^^\__
 //! ```
 //!
-//! Source: Bowyer and Watson's cavity; the ring that is split in place is ours.
+//! Source: the cavity of Bowyer and Watson. The ring that is split in place is our own.
 
 use super::aftermath::Aftermath;
 use super::attempt_lists::AttemptLists;
@@ -41,38 +43,39 @@ use crate::engine::types::{
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
-/// The completion of visits; see the top of this file.
+/// The effects of completed visits; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Attempts {
     pub clock: Signal<In, Clock>,
-    /// Entries a boundary list holds, a constant.
+    /// The number of entries that a ring can have, a constant.
     pub ring_capacity: Signal<In, RingCount>,
-    /// The visit that completes in the next clock and is none of an insertion alone, and the same visit a clock later.
+    /// The visit that completes in the next clock, unless it belongs to a solo insertion; and the same
+    /// visit a clock later.
     pub early: Signal<In, Upcoming>,
     pub completion: Signal<In, Completion>,
-    /// The first triangle stands.
+    /// Every first triangle is in the mesh.
     pub seeded: Signal<In, Bit>,
-    /// Contexts with a commit or release due, and who holds the priority.
+    /// The state of the contexts, of which the busy contexts and the priority are used.
     pub contexts: Signal<In, ContextState>,
-    /// A context that starts may take a point at this edge; the time.
+    /// A context that starts and may take a point at this edge; the clock count.
     pub start: Signal<In, Start>,
     pub now: Signal<In, Clocks>,
-    /// A visit completes.
+    /// A visit completes in this clock.
     pub is_done: Signal<Out, Bit>,
-    /// The visits that follow it.
+    /// The visits that follow the completed visit.
     pub follow: Signal<Out, Follow>,
-    /// What becomes of its context.
+    /// The consequences for the context of the completed visit.
     pub outcome: Signal<Out, Outcome>,
-    /// It is the look at the first three points.
+    /// The completed visit is the look at the first three points.
     pub looks: Signal<Out, Bit>,
-    /// What it adds to the lists of its context.
+    /// Additions to the lists of the context: a final entry, an inner record, a lock.
     pub entry: Signal<Out, EntryWrite>,
     pub inner: Signal<Out, InnerWrite>,
     pub lock: Signal<Out, LockWrite>,
-    /// A ring is finished; locks are to be released.
+    /// A ring is complete; or the locks of an attempt are to be released.
     pub commit: Signal<Out, CommitRequest>,
     pub releases: Signal<Out, ReleaseRequest>,
-    /// For the counters.
+    /// The events of completed visits, for the counters.
     pub events: Signal<Out, VisitEvents>,
     store: AttemptStore,
     points: AttemptPoints,
@@ -93,7 +96,7 @@ pub struct Attempts {
 }
 
 impl Attempts {
-    /// The attempts of a configuration.
+    /// Builds the attempts of a configuration.
     pub fn new(config: Config) -> Self {
         Self { store: AttemptStore::new(config), points: AttemptPoints::new(config), ..Self::default() }
     }
@@ -109,7 +112,6 @@ impl Logic for Attempts {
         self.turned.next = self.completion.val().turned;
         self.verdict.next = self.completion.val().verdict;
 
-        // The context's state.
         self.store.ring_capacity.next = self.ring_capacity.val();
         self.store.early_visit.next = self.early_visit.val();
         self.store.visit.next = self.visit.val();
@@ -119,7 +121,8 @@ impl Logic for Attempts {
         self.points.start.next = self.start.val();
         self.points.now.next = self.now.val();
 
-        // What the visit means.
+        // `busy` and the priority are chosen by the early visit: a choice among 24 flags takes long, and
+        // the verdict comes late.
         self.context_index.next = self.early_visit.val().context;
         self.busy.next = self.contexts.val().busy;
         self.meaning.early.next = self.early.val();
@@ -133,7 +136,6 @@ impl Logic for Attempts {
         self.is_done.next = self.meaning.found.val().is_done;
         self.looks.next = self.meaning.found.val().looks;
 
-        // The state afterwards.
         self.step.held.next = self.store.held.val();
         self.step.took.next = self.turned.val().took;
         self.step.found.next = self.meaning.found.val();
@@ -141,7 +143,6 @@ impl Logic for Attempts {
         self.store.step.next = self.step.step.val();
         self.store.after.next = self.step.after.val();
 
-        // The visits that follow.
         self.visits.early_visit.next = self.early_visit.val();
         self.visits.early_turned.next = self.early.val().turned;
         self.visits.found.next = self.meaning.found.val();
@@ -151,7 +152,6 @@ impl Logic for Attempts {
         self.follow.next.may_ask = self.meaning.found.val().may_ask;
         self.follow.next.bundle = self.visits.bundle.val();
 
-        // What becomes of the context.
         self.aftermath.visit.next = self.visit.val();
         self.aftermath.found.next = self.meaning.found.val();
         self.aftermath.step.next = self.step.step.val();
@@ -159,7 +159,6 @@ impl Logic for Attempts {
         self.aftermath.hands_over.next = self.lists.commit.val().valid | self.lists.releases.val().valid;
         self.outcome.next = self.aftermath.outcome.val();
 
-        // What the lists take.
         self.lists.completion.next = self.completion.val();
         self.lists.attempt.next = self.attempt.val();
         self.lists.after.next = self.step.after.val();
@@ -175,7 +174,7 @@ impl Logic for Attempts {
         self.commit.next = self.lists.commit.val();
         self.releases.next = self.lists.releases.val();
 
-        // For the counters.
+        // A cavity with `n` boundary edges has `n - 2` records, as the polygon has no vertex inside.
         self.events.next.walk_visit = self.meaning.found.val().is_walk;
         self.events.next.root_visit = self.meaning.found.val().is_root;
         self.events.next.test = self.meaning.found.val().is_test;

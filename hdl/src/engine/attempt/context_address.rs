@@ -1,17 +1,18 @@
-//! Where a context's word stands in a memory with as many words for each context.
+//! The address of a context's word in a memory that has the same number of words for each context. The lists of all
+//! contexts share such memories.
 //!
-//! Latency: none. No logic: both sides are the same wires.
+//! Latency: none; the block has no logic, because both sides are the same wires.
 
 use rust_hdl_core::prelude::*;
 
 /// An address; see the top of this file.
 #[derive(LogicBlock)]
 pub struct ContextAddress<const P: usize, const A: usize> {
-    /// The context.
+    /// The context that the word belongs to.
     pub context_id: Signal<In, Bits<5>>,
-    /// Its word; less than `2^place_bits`.
+    /// The place of the word among those of the context, less than `2^place_bits`.
     pub place: Signal<In, Bits<P>>,
-    /// `context_id * 2^place_bits + place`.
+    /// The address `context_id * 2^place_bits + place`.
     pub address: Signal<Out, Bits<A>>,
     wide_context: Signal<Local, Bits<A>>,
     wide_place: Signal<Local, Bits<A>>,
@@ -20,9 +21,10 @@ pub struct ContextAddress<const P: usize, const A: usize> {
 }
 
 impl<const P: usize, const A: usize> ContextAddress<P, A> {
-    /// Addresses of `2^place_bits` words a context.
+    /// Builds the addresses of a memory with `2^place_bits` words for each context.
     ///
     /// # Panics
+    ///
     /// If `place_bits` is not in `1..=P`.
     pub fn new(place_bits: usize) -> Self {
         assert!((1..=P).contains(&place_bits), "a word of a context has 1 to {P} bits here, not {place_bits}");

@@ -1,7 +1,8 @@
-//! The visits that follow one that completes.
+//! The visits that follow a completed visit.
 //!
-//! 1. A root or a test whose lock is the context's own asks for what follows if it opens the cavity or passes through its edge; every
-//!    other visit asks for itself again, unless `walks_on` or `locates`.
+//! 1. If a root visit or a test met no foreign lock, `bundle` holds the visits that follow when the cavity opens or
+//!    the tested record joins it. For every other visit `bundle` holds the same visit again, except that `walks_on`
+//!    changes its record and `locates` lets it take the lock.
 //!
 //! ```text
 //!           c                         c
@@ -13,7 +14,7 @@
 //! ```
 //! Latency: 1 clock from the early inputs; none from the others.
 //!
-//! A walk goes on at record 6, a root opens, a test of entry 4 passes and allocates entry 9:
+//! A walk goes on at record 6, a root opens the cavity, and a test of entry 4 passes and allocates entry 9:
 //! ```text
 //! early.record           5  6  7  .  .
 //! early.n1               .  1  8  .  .
@@ -29,22 +30,22 @@ use crate::engine::types::{Bundle, Case, RingEntry, TriangleId, Turned, Visit};
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// The visits asked for; see the top of this file.
+/// The visits that follow; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct NextVisits {
     pub clock: Signal<In, Clock>,
-    /// The visit that completes in the next clock.
+    /// The visit that completes in the next clock, with its record.
     pub early_visit: Signal<In, Visit>,
     pub early_turned: Signal<In, Turned>,
-    /// What the visit of this clock means.
+    /// The case of the visit that completes in this clock.
     pub found: Signal<In, Case>,
-    /// Where its walk goes on.
+    /// The neighbour to which the walk goes on.
     pub walk_next: Signal<In, TriangleId>,
-    /// The entry that it allocates if it is a test.
+    /// The entry that a test allocates if the tested record joins the cavity.
     pub entry: Signal<In, RingEntry>,
-    /// The visits that it asks for, if it asks for any.
+    /// The visits that the completed visit asks for, if it asks for any.
     pub bundle: Signal<Out, Bundle>,
-    /// All that is known ahead.
+    /// The part of the bundle that is known a clock ahead.
     prepared: DFF<Bundle>,
     halves: DFF<Bit>,
     opens: Signal<Local, Bit>,
@@ -59,7 +60,7 @@ impl Logic for NextVisits {
             (!self.early_visit.val().rotates) & self.early_visit.val().locks & (!self.early_turned.val().foreign);
         self.splits.next = self.early_visit.val().rotates & (!self.early_turned.val().foreign);
 
-        // The same visit again, but for what each case changes.
+        // A revisit is the default, so that only the fields of the other cases need a choice.
         self.prepared.d.next.is_pair = self.opens.val() | self.splits.val();
         self.prepared.d.next.is_triple = self.opens.val();
         self.prepared.d.next.context = self.early_visit.val().context;
@@ -88,8 +89,9 @@ impl Logic for NextVisits {
         }
         self.halves.d.next = self.splits.val();
 
+        // `found`, `walk_next` and `entry` come late in the clock, so only a few fields depend on them.
         self.bundle.next = self.prepared.q.val();
-        // L5: the same record again, this time under its lock.
+        // L5: the walk saw the root without a lock, so the same record is visited again, this time under its lock.
         if self.found.val().locates {
             self.bundle.next.locks = true;
         }

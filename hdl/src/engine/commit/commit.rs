@@ -1,17 +1,19 @@
-//! One pass over a finished ring writes the star of the new point; one ring follows the other without a pause.
+//! Writes the star of a new point in one pass over its ring; one ring follows another without a pause.
 //!
-//! 1. Entry `i` writes the record of the new vertex, the first vertex of entry `i` and that of entry `i + 1`; its neighbours are the
-//!    outside record and the records of entries `i + 1` and `i - 1`. Then it writes the link of the outside record, unless that is right.
-//! 2. Its id is that of the cavity triangle behind it, unless the entry before or the first entry took it: then an inner
-//!    triangle's, or a new one. Two new ones are taken in all. An id given so is never that of the triangle behind the entry.
-//! 3. The first entry's record is written last, because it needs the last one's id.
-//! 4. A ring has three entries or more. Its inner triangles are listed before its first entry is offered.
+//! 1. Entry `i` writes the record of the new vertex, the first vertex of entry `i` and that of entry `i + 1`. The
+//!    neighbours of this record are the outside record and the records of entries `i + 1` and `i - 1`. Then the entry
+//!    writes the link of the outside record back to the star, unless that link is right already.
+//! 2. The record takes the id of the cavity record behind its entry, unless the entry before or the first entry has
+//!    taken that id. Then it takes the id of an inner record, or a new one: two new ids for each ring. An id given in
+//!    this way is never that of the cavity record behind the entry.
+//! 3. The record of the first entry is written last, because it needs the id of the last one.
+//! 4. A ring has three entries or more. Its inner records are listed before its first entry is offered.
 //!
-//! Latency: entries + links + 1 clocks from the first entry on the head to `committed`, and up to three more for each inner triangle
-//! given back.
+//! Latency: entries + links + 1 clocks from the first entry on `head` to `committed`, and up to three more for each
+//! inner record whose id is used.
 //!
-//! Four entries behind two triangles: ids 0, 10, 1, 11, of which 10 and 11 are new; 7 and 8 are triangles outside. The next
-//! ring follows.
+//! Four entries lie along two cavity records. The star has the ids 0, 10, 1, 11, of which 10 and 11 are new; 7 and 8
+//! are records outside. The next ring follows.
 //! ```text
 //! head_valid      ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\__
 //! takes           ___/^^^^^^^^^^^\________/^^^^^^^^^^^\__
@@ -37,17 +39,17 @@ pub struct Commit {
     pub clock: Signal<In, Clock>,
     /// Reset drops the ring.
     pub reset: Signal<In, Bit>,
-    /// An entry of the list, and its ring; the ring is looked at with the first entry.
+    /// The next entry of the ring reader, and the job of its ring, which counts with the first entry.
     pub head: Signal<In, RingHead>,
     pub head_job: Signal<In, CommitJob>,
     /// The entry is taken at this edge, if there is one.
     pub takes: Signal<Out, Bit>,
-    /// An inner triangle joins the list of a context.
+    /// An inner record joins the list of a context.
     pub inner: Signal<In, InnerWrite>,
-    /// The next new id; it is taken.
+    /// The next new id; the commit takes it at this edge (`takes_fresh`).
     pub fresh: Signal<In, TriangleId>,
     pub takes_fresh: Signal<Out, Bit>,
-    /// A record or a link, registered; its data count while it is valid.
+    /// A record or a link, from a register; the data count while it is valid.
     pub write: Signal<Out, Write>,
     /// The last write of a ring is requested at this edge.
     pub committed: Signal<Out, Committed>,
@@ -72,7 +74,7 @@ pub struct Commit {
 }
 
 impl Commit {
-    /// The commit of a configuration.
+    /// Builds the commit of a configuration.
     pub fn new(config: Config) -> Self {
         Self { inner_list: InnerList::new(config), ..Self::default() }
     }
@@ -91,7 +93,7 @@ impl Logic for Commit {
         self.committed.next.hint = self.first.q.val().cavity_record;
         self.is_at_work.next = self.steps.is_at_work.val();
 
-        // The entry ahead and its id.
+        // The id of the next record must be known before the current one is written, which names it as neighbour.
         self.steps.reset.next = self.reset.val();
         self.steps.head.next = self.head.val();
         self.steps.awaits_id.next = self.inner_list.is_awaited.val();
@@ -110,7 +112,8 @@ impl Logic for Commit {
         self.star_id.inner_is_used_up.next = self.inner_list.is_used_up.val();
         self.star_id.fresh.next = self.fresh.val();
 
-        // The writes; when the ring closes, the current entry is the first again.
+        // When the ring closes, the current entry is the first one again. The second entry has long left the head, so
+        // its vertex and id come from registers.
         self.record.id.next = self.current_id.q.val();
         self.record.v0.next = self.ring.q.val().vertex;
         self.record.v1.next = self.current.q.val().first_vertex;

@@ -1,6 +1,6 @@
-//! Counts of what visits have come to.
+//! Counts of completed visits and their effects.
 //!
-//! Latency: 2 clocks; `value` follows `select` by 1.
+//! Latency: 2 clocks to a count; `value` follows `select` by 1.
 
 use super::event_counter::EventCounter;
 use crate::engine::types::{RingCount, VisitEvents};
@@ -12,12 +12,13 @@ use rust_hdl_widgets::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct VisitCounters {
     pub clock: Signal<In, Clock>,
-    /// `zero` forgets the clocks before.
+    /// All counts go to zero at this edge.
     pub zero: Signal<In, Bit>,
+    /// The events of visits at this edge.
     pub events: Signal<In, VisitEvents>,
-    /// Word to read: its place in the answer to `Counters`.
+    /// The word to read, by its place in the answer to `Counters`.
     pub select: Signal<In, Bits<5>>,
-    /// That word, if it is one of these, a clock later.
+    /// The selected word a clock later, if it is one of this block.
     pub value: Signal<Out, Bits<32>>,
     chosen: DFF<Bits<32>>,
     last_triangles: DFF<RingCount>,

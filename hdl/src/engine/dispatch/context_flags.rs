@@ -1,16 +1,19 @@
-//! What each context is at, a bit each; who holds the priority, and who wants to be alone.
+//! The state of each context, a bit each; and which context holds the priority or asks for a solo insertion.
 //!
-//! 1. One priority: whoever gives up while it is free takes it, and keeps it until its point is in (L2). Nobody else ever waits
-//!    while it holds locks. But others that fail again and again could keep it from its locks for ever, in step with it: when it has met
-//!    8 foreign locks, nobody else tries again until its point is in (L3). New points may start: they finish, or fail and then rest, so
-//!    something is always finished in the end.
-//! 2. The first to overflow is alone first; another that overflows meanwhile tries again later.
-//! 3. What becomes of a context comes from one visit: who asks for the priority neither waits nor gives it back. None of them comes with `solo_ends`,
-//!    because then all visits are the insertion alone's. All other events may come together. Who hands over falls asleep with it.
+//! 1. There is one priority. A context that aborts while the priority is free takes it, and keeps it until its point
+//!    is finished (L2). No other context ever waits while it holds locks. But contexts that abort and retry in step
+//!    with the waiting one could keep its locks taken for ever. So when the waiting context has met 8 foreign locks,
+//!    no other context retries until its point is finished (L3). New points may start: they are finished, or abort
+//!    and then rest, so some point is always finished in the end.
+//! 2. The first context whose list overflows gets its solo insertion first. Another one that
+//!    overflows meanwhile retries later.
+//! 3. All flags of `outcome` come from one visit. A visit that asks for the priority neither waits nor returns it,
+//!    and one that hands over also falls asleep. `outcome` never comes with `solo_ends`, because all visits then
+//!    belong to the solo insertion. All other events may come together.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from an event to `contexts`.
 //!
-//! Of two contexts, 1 starts, gives up and takes the priority, starts again, and hands over a ring:
+//! There are two contexts. Context 1 starts, aborts and takes the priority, starts again, and hands over a ring:
 //! ```text
 //! starts            ___/^^\________/^^\_______________________
 //! sleeps            _________/^^\________/^^\_________________
@@ -33,7 +36,7 @@ use crate::engine::types::{CommitJob, Committed, ContextSet, ContextState, Outco
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// What each context is at; see the top of this file.
+/// The state of each context; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct ContextFlags {
     pub clock: Signal<In, Clock>,
@@ -42,16 +45,18 @@ pub struct ContextFlags {
     pub clears: Signal<In, Bit>,
     /// The contexts that are built, a constant.
     pub built_contexts: Signal<In, ContextSet>,
-    /// What becomes of a context whose visit has completed.
+    /// The consequences of a completed visit for its context, a clock after the visit.
     pub outcome: Signal<In, Outcome>,
-    /// A context starts to walk at this edge.
+    /// A context that starts to walk at this edge.
     pub start: Signal<In, Start>,
+    /// The last lock of a context is cleared at this edge; or the last write of its commit is requested.
     pub released: Signal<In, Released>,
     pub committed: Signal<In, Committed>,
-    /// The insertion alone is over.
+    /// A solo insertion has ended.
     pub solo_ends: Signal<In, Bit>,
+    /// The state of all contexts.
     pub contexts: Signal<Out, ContextState>,
-    /// Event: the priority is taken.
+    /// The priority is taken at this edge, for the counters.
     pub takes_priority: Signal<Out, Bit>,
     state: DFF<ContextState>,
     waited: DFF<Bits<4>>,
@@ -98,7 +103,7 @@ impl Logic for ContextFlags {
             & (self.due.val() == self.none.val())
             & (!self.start.val().valid);
 
-        // Each context as a bit. Those that are not built never show, or their flags would be built.
+        // Contexts that are not built must never show here, or synthesis would build their flags.
         self.wide_context.next = bit_cast::<24, 5>(self.outcome.val().context);
         self.wide_starter.next = bit_cast::<24, 5>(self.start.val().context);
         self.wide_released.next = bit_cast::<24, 5>(self.released.val().context);
@@ -144,7 +149,8 @@ impl Logic for ContextFlags {
         self.state.d.next.began = self.state.q.val().began | self.starting.val();
         self.state.d.next.hinted = self.state.q.val().hinted | self.had_commit.val();
 
-        // L2: the priority goes to who asks while it is free. And the wish to be alone.
+        // L2: only the first context to ask gets the priority. If two could wait, each could wait for a
+        // lock of the other.
         self.takes.next = self.outcome.val().asks_for_priority & (!self.state.q.val().priority_is_held);
         self.takes_priority.next = self.takes.val();
         self.is_holder.next = (self.outcome.val().returns_priority
@@ -154,7 +160,8 @@ impl Logic for ContextFlags {
             self.state.d.next.priority_is_held = true;
             self.state.d.next.priority_context = self.outcome.val().context;
         }
-        // L3: who has met 8 foreign locks with the priority keeps all others from trying again.
+        // L3: 8 foreign locks make the wait of the context with the priority a long one, and then no
+        // other context may retry.
         self.has_waited_long.next = self.waited.q.val().get_bit(3);
         self.contexts.next.is_urgent = self.state.q.val().priority_is_held & self.has_waited_long.val();
         if self.outcome.val().waits & (!self.has_waited_long.val()) {

@@ -1,6 +1,7 @@
-//! Hands points to contexts, and knows when all are finished or nothing is any more.
+//! Hands points to contexts, and knows when every point is finished or the work has come to a halt.
 //!
-//! 1. What becomes of a context is noted a clock after its visit completes: from then on it may start, and is asked whether it waits.
+//! 1. The consequences of a visit for its context are noted a clock after the visit completes. From then on the
+//!    context may start again, and its foreign locks count.
 
 use super::context_flags::ContextFlags;
 use super::finished_points::FinishedPoints;
@@ -14,36 +15,44 @@ use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// Contexts at work; see the top of this file.
+/// The dispatcher; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Dispatcher {
     pub clock: Signal<In, Clock>,
     /// Reset and clear put all contexts to sleep.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
-    /// Contexts that are built, clocks without a finished point: constants.
+    /// Constants: the contexts that are built, and the number of clocks without a finished point
+    /// before the watchdog reports.
     pub built_contexts: Signal<In, ContextSet>,
     pub patience: Signal<In, Clocks>,
-    /// Contexts that work, and which points are theirs.
+    /// The rule by which points belong to contexts.
     pub deal: Signal<In, Deal>,
-    /// Points that have come; one is being stored.
+    /// The number of points that have come; a point is being stored at this edge (`came`).
     pub arrived: Signal<In, VertexId>,
     pub came: Signal<In, Bit>,
+    /// The progress of the first triangles.
     pub seed: Signal<In, SeedProgress>,
-    /// A visit completes; what becomes of its context; it may ask for others: the queue is not free for a start.
+    /// A visit completes, with these consequences for its context. While it may ask for visits, the queue is not
+    /// free for a start.
     pub is_done: Signal<In, Bit>,
     pub outcome: Signal<In, Outcome>,
     pub may_ask: Signal<In, Bit>,
+    /// The last write of a commit is requested; or the last lock of a context is cleared.
     pub committed: Signal<In, Committed>,
     pub released: Signal<In, Released>,
+    /// The progress of a solo insertion.
     pub solo: Signal<In, SoloProgress>,
+    /// A context that starts to walk, and later the coordinates of the point that it has taken.
     pub start: Signal<Out, Start>,
     pub fetched: Signal<Out, Fetched>,
+    /// The state of all contexts.
     pub contexts: Signal<Out, ContextState>,
+    /// A context starts the solo insertion of its point.
     pub solo_start: Signal<Out, SoloStart>,
-    /// Event: the priority is taken.
+    /// The priority is taken at this edge, for the counters.
     pub takes_priority: Signal<Out, Bit>,
-    /// Every point is finished; nothing is finished any more.
+    /// Every point is finished; or the watchdog has reported (`stuck`).
     pub is_quiet: Signal<Out, Bit>,
     pub stuck: Signal<Out, Bit>,
     found: DFF<Outcome>,
@@ -58,7 +67,7 @@ pub struct Dispatcher {
 }
 
 impl Dispatcher {
-    /// The dispatcher of a configuration.
+    /// Builds the dispatcher of a configuration.
     pub fn new(config: Config) -> Self {
         Self { starter: Starter::new(config), ..Self::default() }
     }
@@ -77,7 +86,7 @@ impl Logic for Dispatcher {
         self.starter.clears.next = self.clears.val();
         self.finished_points.clears.next = self.clears.val();
 
-        // What a visit leads to is known late: it is noted in the next clock.
+        // The outcome of a visit is known late in the clock, so all flags take it from a register.
         self.found.d.next = self.outcome.val();
         if self.reset.val() {
             self.found.d.next.sleeps = false;
@@ -90,7 +99,6 @@ impl Logic for Dispatcher {
             self.found.d.next.duplicate = false;
         }
 
-        // What each context is at.
         self.flags.built_contexts.next = self.built_contexts.val();
         self.flags.outcome.next = self.found.q.val();
         self.flags.start.next = self.starter.start.val();
@@ -100,7 +108,6 @@ impl Logic for Dispatcher {
         self.contexts.next = self.flags.contexts.val();
         self.takes_priority.next = self.flags.takes_priority.val();
 
-        // Who starts.
         self.starter.deal.next = self.deal.val();
         self.starter.arrived.next = self.arrived.val();
         self.starter.came.next = self.came.val();
@@ -114,7 +121,7 @@ impl Logic for Dispatcher {
         self.start.next = self.starter.start.val();
         self.solo_start.next = self.starter.solo_start.val();
 
-        // The coordinates of a point that is taken come 2 clocks later.
+        // The vertex memory answers after 2 clocks, so the context is delayed as long.
         self.taken1.d.next = self.starter.start.val().takes & (!self.reset.val());
         self.taken2.d.next = self.taken1.q.val() & (!self.reset.val());
         self.taker1.d.next = self.starter.start.val().context;
@@ -122,7 +129,6 @@ impl Logic for Dispatcher {
         self.fetched.next.valid = self.taken2.q.val();
         self.fetched.next.context = self.taker2.q.val();
 
-        // What is finished.
         self.finished_points.arrived.next = self.arrived.val();
         self.finished_points.seeds.next = self.seed.val().seeds;
         self.finished_points.commit_ends.next = self.committed.val().valid;

@@ -1,15 +1,15 @@
-//! Counts the points that are finished, and says when there is nothing left to do.
+//! Counts the points that are finished, and says when nothing is left to do.
 //!
-//! 1. Two points may be finished in one clock: one by a commit or alone, and a duplicate.
-//! 2. Fewer than three points, or three collinear ones, are never finished: then there is nothing left to do as soon as no visit is
-//!    out.
+//! 1. Two points may be finished in one clock: one by a commit or a solo insertion, and a duplicate.
+//! 2. Fewer than three points, or three collinear ones, are never finished. Then nothing is left to do as soon as
+//!    no visit is out.
+//! 3. A finished point is noted at its edge, counted at the next and compared at the third, but `arrived` is compared
+//!    at once. In the clock after a point has come `is_quiet` may still say what held before, but no command relies
+//!    on it in that clock.
 //!
-//! 3. What is finished is noted at its edge, counted at the next one and compared at the third; `arrived` is compared at once. In
-//!    the clock after a point has come `is_quiet` may still say what held before; nobody settles in it.
+//! Latency: 3 clocks from a finished point to `is_quiet`, 1 from `arrived`, none from the other inputs.
 //!
-//! Latency: 3 clocks from a point that is finished, 1 from `arrived`, none from the other inputs.
-//!
-//! Three points come and make the first triangle. Two more come, of which one is a duplicate:
+//! Three points come and make the first triangle. Then two more come, one of them a duplicate:
 //! ```text
 //! arrived           0  1  2  3  3  3  3  3  3  4  5  5  5  5  5  5
 //! all_rest        /^^^^^^^^^^^\_____/^^^^^^^^^^^^^^\________/^^^^^
@@ -24,31 +24,31 @@
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// Finished points; see the top of this file.
+/// The count of finished points; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct FinishedPoints {
     pub clock: Signal<In, Clock>,
     /// Reset and clear set the count to zero.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
-    /// Points that have come.
+    /// The number of points that have come.
     pub arrived: Signal<In, Bits<15>>,
-    /// A first triangle stands: three points are finished.
+    /// A first triangle is complete: three points are finished.
     pub seeds: Signal<In, Bit>,
-    /// A point is finished each.
+    /// A commit is complete, a solo insertion has ended, or a duplicate is found: each finishes a point.
     pub commit_ends: Signal<In, Bit>,
     pub solo_ends: Signal<In, Bit>,
     pub duplicate: Signal<In, Bit>,
-    /// No first triangle is being made, and none can be from the points that have come.
+    /// No first triangle is being made, because the points that have come are too few or collinear.
     pub has_no_start: Signal<In, Bit>,
-    /// No visit is out and no lock held.
+    /// No visit is out and no lock is held.
     pub all_rest: Signal<In, Bit>,
-    /// Every point is finished or will never be, and nothing is at work.
+    /// Every point is finished or never will be, and no insertion is at work.
     pub is_quiet: Signal<Out, Bit>,
     /// A point is finished at this edge.
     pub finishes: Signal<Out, Bit>,
     finished: DFF<Bits<15>>,
-    /// Points that were finished at the last edge.
+    /// The number of points that were finished at the last edge.
     more: DFF<Bits<2>>,
     is_behind: DFF<Bit>,
     inserts: Signal<Local, Bit>,
@@ -65,7 +65,6 @@ impl Logic for FinishedPoints {
         self.is_behind.d.next = self.finished.q.val() != self.arrived.val();
         self.is_quiet.next = ((!self.is_behind.q.val()) | self.has_no_start.val()) & self.all_rest.val();
 
-        // A commit and a duplicate may end in one clock.
         self.more.d.next = 0.into();
         if self.inserts.val() | self.duplicate.val() {
             self.more.d.next = 1.into();

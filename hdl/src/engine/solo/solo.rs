@@ -1,23 +1,27 @@
-//! Insertion alone, in constant state: locates the point, splits the triangle into three, then flips once round the star.
+//! Solo insertion in constant state: locates the point, splits its triangle into three, then goes once round the
+//! star and flips edges.
 //!
-//! 1. The mesh has changed since the attempt that overflowed, so the point is located again, from the triangle that held it then.
-//! 2. Its visits set no locks, and at most one is out.
-//! 3. While the triangle outside the star triangle at work is in conflict, the edge is flipped and the same position is tested again;
-//!    otherwise the link that leads back is mended and the next star triangle is taken. It ends where the round began.
-//! 4. All outputs come a clock later than they could: other blocks have their clock for themselves, and speed is no matter here.
+//! 1. The mesh has changed since the attempt that overflowed. So the point is located again, from the root
+//!    that held it then.
+//! 2. Visits of a solo insertion take no locks, and at most one is out.
+//! 3. While the record outside the star record at work conflicts with the point, the edge between them is flipped and
+//!    the same position is tested again. Otherwise the link from outside is mended, and the next star record is at
+//!    work. The insertion ends where the round began.
+//! 4. All outputs come a clock later than they could. The other blocks then have the whole clock for themselves, and
+//!    the speed of a solo insertion does not matter.
 //!
 //! ```text
 //!        apex                  apex
-//!        /  \                  /| \            star triangle  (p, a, apex)
+//!        /  \                  /| \            star record    (p, a, apex)
 //!      a ---- b     ----->    a |  b           flipped        (p, apex, b)
 //!        \  /                  \| /
 //!         p                     p
 //! ```
-//! Latency, with `w` triangles walked through and `f` flips: `w + 3 f + 8` visits one after the other (2 mends, `f + 3` fetches,
-//! `2 f + 3` tests), each two clocks more than the visit latency, and `3 f + 5` clocks. A duplicate takes `w` visits and
-//! two clocks.
+//! Latency, with `w` records in the walk and `f` flips: `w + 3 f + 8` visits one after the other (2 mends, `f + 3`
+//! fetches, `2 f + 3` tests), each two clocks longer than the visit latency, and `3 f + 5` clocks besides. A
+//! duplicate takes `w` visits and two clocks.
 //!
-//! A walk of two triangles, the split, and the first mend, with visits of two clocks:
+//! A walk of two records, the split, and the first mend, with visits of two clocks:
 //! ```text
 //! starts          ___/^^\_________________________________________
 //! is_at_work      _________/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
@@ -39,22 +43,23 @@ use crate::engine::types::{
 use rust_hdl_core::prelude::*;
 use rust_hdl_widgets::prelude::*;
 
-/// Insertion alone; see the top of this file.
+/// The solo insertion; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct Solo {
     pub clock: Signal<In, Clock>,
     /// Reset ends the insertion.
     pub reset: Signal<In, Bit>,
-    /// Begin at this edge: no visit is out and no lock held; only while idle.
+    /// A solo insertion begins at this edge, with no visit out and no lock held; only while none is at work.
     pub start: Signal<In, SoloStart>,
     /// The next new id.
     pub records: Signal<In, TriangleId>,
+    /// The visit that completes in this clock.
     pub completion: Signal<In, Completion>,
-    /// A visit to make; it names the context.
+    /// A visit to make, for the context of the insertion.
     pub push: Signal<Out, Push>,
-    /// A record or a link, registered.
+    /// A record or a link, from a register.
     pub write: Signal<Out, Write>,
-    /// `is_at_work` from the clock after `start` has been taken to `ends`.
+    /// The progress; `is_at_work` is high from the clock after `start` has been taken to the clock of `ends`.
     pub progress: Signal<Out, SoloProgress>,
     awaits: DFF<Bit>,
     at_work_for: DFF<ContextId>,

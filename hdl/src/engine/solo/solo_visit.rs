@@ -1,24 +1,26 @@
-//! The visit that an insertion alone makes, by what it does.
+//! The visit that a solo insertion makes in each phase.
 //!
-//! Latency: none (combinational).
+//! Latency: none, the block is combinational.
 
 use super::star_state::{SoloPhase, StarTriangle};
 use crate::engine::types::{Bundle, ContextId, TriangleId, Turned};
 use rust_hdl_core::prelude::*;
 
-/// Visits of an insertion alone; see the top of this file.
+/// Visits of a solo insertion; see the top of this file.
 #[derive(LogicBlock, Default)]
 pub struct SoloVisit {
-    /// The context.
+    /// The context of the insertion.
     pub context_id: Signal<In, ContextId>,
-    /// What is done; a test if nothing else. An outer neighbour of the split is the second one.
+    /// The phase; in no other phase, the visit is that of a test. A mend visits the first outer neighbour of the
+    /// split root, or the second.
     pub phase: Signal<In, SoloPhase>,
     pub is_second: Signal<In, Bit>,
-    /// The located triangle, or the one that the walk has come to.
+    /// The located record, or the one that the walk has come to.
     pub root_id: Signal<In, TriangleId>,
     pub root: Signal<In, Turned>,
+    /// The star record at work.
     pub triangle: Signal<In, StarTriangle>,
-    /// The visit; it sets no lock.
+    /// The visit, which takes no lock.
     pub bundle: Signal<Out, Bundle>,
 }
 

@@ -1,14 +1,17 @@
-//! Queues bundles and issues their visits, one a clock, first in first out.
+//! The queue of visits: bundles come in, and their visits are issued, one in each clock, first in, first out. A
+//! cavity asks for up to three visits at once, but the read port of the triangle memory serves one a clock.
 //!
-//! 1. A bundle takes a clock for each of its one to three visits, the first visit first; see `Bundle` for what tells them apart.
-//! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring has entries,
-//!    so it never overflows.
-//! 3. The record's id goes to all block RAMs of the triangle memory. Three registers hold it, so that each may stand near the RAMs that it
-//!    drives; reset gives each another value, or synthesis would make one register of them.
+//! 1. A bundle takes a clock for each of its one to three visits, the first visit first. `Bundle` says in
+//!    which fields they differ.
+//! 2. The queue has a place for every ring entry of every context. A context never has more visits out than its ring
+//!    has entries, so the queue never overflows.
+//! 3. The id of the record goes to all block RAMs of the triangle memory. Three registers hold the id, so that each
+//!    can stand near the RAMs that it drives. Reset gives each register another value, because synthesis would
+//!    otherwise merge the three.
 //!
-//! Latency: 1 clock from `push` to `visit` when the queue is empty.
+//! Latency: 1 clock from `push` to `visit` if the queue is empty.
 //!
-//! A bundle of three visits and one of one, then a read-out:
+//! A bundle of three visits and one of a single visit, then a read-out:
 //! ```text
 //! push            ___/^^^^^\_________________
 //! bundle.entry      .  1  4  .  .  .  .  .  .
@@ -30,17 +33,17 @@ pub struct Issue {
     pub clock: Signal<In, Clock>,
     /// Reset empties the queue.
     pub reset: Signal<In, Bit>,
-    /// A bundle enters the queue.
+    /// A bundle that enters the queue at this edge.
     pub push: Signal<In, Push>,
-    /// A read-out wants this record; only while the queue is empty.
+    /// A record that the read-out wants; only while the queue is empty.
     pub read: Signal<In, RecordRead>,
-    /// The visit issued; in a read-out `visit.record` alone counts.
+    /// The visit that is issued in this clock; in a read-out only `visit.record` counts.
     pub visit_valid: Signal<Out, Bit>,
     pub visit: Signal<Out, Visit>,
-    /// `visit.record` from two more registers; arbitrary after a reset until the next visit or read-out.
+    /// Copies of `visit.record` from two more registers; arbitrary after a reset until the next visit or read-out.
     pub vertices_id: Signal<Out, TriangleId>,
     pub links_id: Signal<Out, TriangleId>,
-    /// The issue register holds a read-out.
+    /// The issue register holds a read-out, not a visit.
     pub read_valid: Signal<Out, Bit>,
     queue: DeepFifo<RING_ADDRESS_BITS, BUNDLE_BITS>,
     head: Unpack<Bundle, BUNDLE_BITS>,
@@ -61,12 +64,13 @@ pub struct Issue {
 }
 
 impl Issue {
-    /// Fewest address bits of the queue: it is a deep one.
+    /// The smallest width that `DeepFifo` accepts for its address.
     const MIN_ADDRESS_BITS: usize = DeepFifo::<RING_ADDRESS_BITS, BUNDLE_BITS>::WINDOW_BITS + 1;
 
-    /// A queue of `2^address_bits` bundles, 32 at least.
+    /// Builds a queue of `2^address_bits` bundles, 32 at least.
     ///
     /// # Panics
+    ///
     /// If `address_bits` is above `RING_ADDRESS_BITS`.
     pub fn new(address_bits: usize) -> Self {
         Self { queue: DeepFifo::new(address_bits.max(Self::MIN_ADDRESS_BITS), BUNDLE_BITS), ..Self::default() }
@@ -133,6 +137,7 @@ impl Logic for Issue {
         self.issued.d.next.record = self.record.val();
         self.vertices_copy.d.next = self.record.val();
         self.links_copy.d.next = self.record.val();
+        // The copies reset to different values, or synthesis would make one register of all three.
         self.no_record.next = 0.into();
         if self.reset.val() {
             self.vertices_copy.d.next = self.no_record.val();

@@ -1,9 +1,12 @@
-//! The registered push port of the visit pipeline: takes the visits of whoever asks for some.
+//! The registered push port of the visit pipeline: passes on the visits of whichever block asks for some.
 //!
-//! 1. Who asks also may ask. Nobody starts in a clock in which a visit may ask, and only the insertion alone asks while it is at work.
-//!    So each bundle is chosen by what is known soonest.
+//! 1. Three sources ask: the completed visit, a context that starts, and a solo insertion. No context starts in a
+//!    clock in which the completed visit may ask, and a solo insertion asks only while no other context works. So at
+//!    most one source asks at a time.
+//! 2. The bundle is chosen by `may_ask` and `solo_is_at_work`, which are known sooner than `asks` and `valid`. The
+//!    long path of a verdict then ends at one bit instead of a whole bundle.
 //!
-//! Latency: 1 clock.
+//! Latency: 1 clock from a request to `push`.
 //! ```text
 //! asks            ___/^^\______________
 //! may_ask         ___/^^^^^\___________
@@ -25,13 +28,13 @@ use rust_hdl_widgets::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct PushPort {
     pub clock: Signal<In, Clock>,
-    /// Reset drops the visits.
+    /// Reset drops the visits in the port.
     pub reset: Signal<In, Bit>,
-    /// What follows a visit that completes.
+    /// The visits that follow a completed visit.
     pub follow: Signal<In, Follow>,
-    /// A context starts to walk.
+    /// A context that starts to walk.
     pub start: Signal<In, Start>,
-    /// An insertion alone is at work; the visit that it asks for.
+    /// A solo insertion is at work; `solo` is the visit that it asks for.
     pub solo_is_at_work: Signal<In, Bit>,
     pub solo: Signal<In, Push>,
     pub push: Signal<Out, Push>,
