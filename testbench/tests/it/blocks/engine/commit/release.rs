@@ -142,17 +142,16 @@ impl Attempts {
     fn drive(&mut self, random: &mut SplitMix64) -> Drive {
         let mut drive = Drive::default();
         let context = random.below(self.contexts.len() as u64) as usize;
-        let context = context as u64;
         if let Attempt::Logs(left, ids) = &mut self.contexts[context] {
             let id = random.below(self.last_id + 1);
-            drive.lock = Some((context, ids.len() as u64, id));
+            drive.lock = Some((context as u64, ids.len() as u64, id));
             ids.push(id);
             *left -= 1;
             if *left == 0 {
                 let ids = ids.clone();
                 let fails = random.below(2) == 0;
                 self.contexts[context] = if fails { Attempt::IsDue } else { Attempt::Commits(ids.clone()) };
-                drive.failure = fails.then_some((context, ids));
+                drive.failure = fails.then_some((context as u64, ids));
             }
         }
         let context = random.below(self.contexts.len() as u64) as usize;

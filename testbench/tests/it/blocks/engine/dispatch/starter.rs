@@ -370,7 +370,7 @@ fn jobs(name: &'static str, config: Config, jobs: &[(u64, u64)], is_batch: bool)
         job(&mut rig, &mut random, points, &mut tally);
         let mut vertices: Vec<u64> = tally.taken.iter().map(|(_, vertex)| *vertex).collect();
         for context in 0..contexts {
-            let own = tally.taken.iter().filter(|(context, _)| *context == context).map(|(_, vertex)| *vertex);
+            let own = tally.taken.iter().filter(|(taker, _)| *taker == context).map(|(_, vertex)| *vertex);
             let expected = rig.deal().dealt(context).take_while(|vertex| *vertex < points);
             assert!(own.eq(expected), "{contexts} contexts, context {context}");
         }
